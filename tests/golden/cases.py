@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import lzma
 import os
 from collections.abc import Callable, Iterable, Iterator
@@ -55,6 +56,7 @@ from solepath.calibration.records import (
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.recording import read_samples
 from solepath.session.heading_walk import heading_calibration, heading_walk
+from solepath.session.json_host import JsonHost
 
 PROTOCOL = Path(__file__).resolve().parents[2] / "protocol"
 G = 9.80665
@@ -159,6 +161,14 @@ def heading() -> Iterator[Any]:
     fits = heading_walk(given("there-and-back"))
     yield from fits
     yield heading_calibration(fits)
+
+
+def texts() -> Iterator[Any]:
+    """Yield the answers to the texts of an app with two insoles, with two SensorTags, and with odd messages."""
+    host = JsonHost()
+    with lzma.open(FOLDER / "inputs" / "texts.jsonl.xz", "rt") as lines:
+        for line in lines:
+            yield json.loads(host.receive(line.removesuffix("\n")))
 
 
 # --- the table --------------------------------------------------------------------------------------------------------
@@ -334,6 +344,7 @@ PLACES: tuple[Case, ...] = (
     Case("a building with a compass", of("compass", until=40.0), "default", planned),
     Case("floor plans", plans),
     Case("a heading walk", heading),
+    Case("texts of an app", texts),
 )
 
 LONGEST = 40.0

@@ -196,6 +196,8 @@ def shuffled(items: tuple[Any, ...]) -> list[Item]:
                 made.append(evolve(item, t=item.t - 0.05))
             case 53:
                 made.append(evolve(item, data=b""))
+            case 57:
+                made.append(evolve(item, device="x" * (256 + k % 2)))
             case _:
                 made.append(evolve(item, device="C0:FF:EE:00:00:01") if k > 900 and item.site is LEFT else item)
     return made

@@ -144,6 +144,8 @@ def said(case: Case) -> Iterator[dict[str, Any]]:
             session = Session.restore(snapshot, floorplan=plan, profiles=profiles)
         if fed < packed <= place:
             session = Session.unpack(session.pack(), recipe, floorplan=plan, profiles=profiles)
+        if not fed:
+            yield kept(session.snapshot())
         fed = place
     yield from map(plain, session.finish())
     yield answers(session)

@@ -375,7 +375,7 @@ def reported_again() -> Iterator[Any]:
 
 def asked(plan: FloorPlan, side: int) -> Iterator[Any]:
     """Yield what a plan says of itself, of a grid of so many points a side, and of ways between these."""
-    yield plan, find_warnings(plan, has_start=side % 2 == 0), plan.origin
+    yield plan, [find_warnings(plan, has_start=known) for known in (False, True)], plan.origin
     index = IndexedPlan(plan)
     for k, level in enumerate(plan.levels):
         ends = [end for wall in level.walls for end in (wall.start, wall.end)] + [

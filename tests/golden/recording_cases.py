@@ -19,7 +19,7 @@ from corpus import Case, given, plain
 from snooped import H1, MONITOR, Log, insoles_log
 
 from solepath import Foot, Packet, Session, Site
-from solepath.recording import PacketWriter, RecordingError, TableMapping, open_source, read_start_time
+from solepath.recording import PacketWriter, RecordingError, TableMapping, open_source, read_mapping, read_start_time
 from solepath.recording.bids.names import Entities  # what `solepath convert` calls, and the dataset it writes
 from solepath.recording.bids.writer import MotionWriter
 from solepath.recording.btsnoop import open_btsnoop
@@ -182,6 +182,8 @@ def tables() -> Iterator[Any]:
         dressed += [written(scaled(left, acc, by)), written(scaled(left, gyro, by))]
     for by, plus in ((1000.0, 0.0), (1e6, 0.0), (1.0, 1.79e9), (1000.0, 1.79e12), (-1.0, 0.0), (0.0, 3.0), (1e-3, 0.0)):
         dressed.append(written(scaled(left, [0], by, plus)))
+    counted = [[str(k), *row[1:]] for k, row in enumerate(left)]
+    dressed += [written(counted), written([*counted[:50], *counted[51:]])]
     for one, other in ((1, 2), (1, 4), (4, 6), (3, 6)):
         names = [*NAMES]
         names[one], names[other] = names[other], names[one]
@@ -261,7 +263,13 @@ def mapped() -> Iterator[Any]:
         except ValueError as error:
             yield str(error)
             continue
-        yield from each_fate([text], "walk.csv", mapping=mapping)
+        texts = [text, text.replace(b"(deg/s)", b"(g)"), text.replace(b"[ms]", b"[Hz]")]
+        yield from each_fate(texts, "walk.csv", mapping=mapping)
+    with TemporaryDirectory() as work:
+        path = Path(work) / "columns.toml"
+        for size in (1_000_000, 1_000_001):
+            path.write_text('format = "movella-dot"'.ljust(size))
+            yield fate(Path(work), lambda report: read_mapping(path))
 
 
 def exports() -> Iterator[Any]:

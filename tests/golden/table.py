@@ -9,6 +9,7 @@ from cases import DEVICES, FAULTS, PLACES, RECIPES, recorded
 from corpus import Case, Rows, read_table, rows_of, this_platform
 from kept import kept
 from paper_cases import PAPERS
+from part_cases import PARTS_ALONE
 from place_cases import MORE_PLACES
 from recording_cases import RECORDINGS
 
@@ -17,7 +18,7 @@ PARTS: dict[str, tuple[Case, ...]] = {
     "faults": FAULTS,
     "recipes": RECIPES,
     "papers": PAPERS,
-    "body": BODY,
+    "body": (*BODY, *PARTS_ALONE),
     "places": PLACES,
     "plans": MORE_PLACES,
     "recordings": RECORDINGS,
