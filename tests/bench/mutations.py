@@ -59,6 +59,8 @@ ORDERLESS = {
     "field",
     "print",
     "super",
+    "dot",
+    "_dot",
 }
 """Functions whose arguments nobody swaps, or that are the same when swapped."""
 SIDES = {

@@ -56,6 +56,14 @@ def stood(items: tuple[Any, ...], since: float) -> Iterator[Sample]:
         yield item
 
 
+def rested(items: tuple[Any, ...], by: float) -> list[Sample]:
+    """Let the wearer stand for 15 s at the end, and walk once more; the left gyroscope's bias changes meanwhile."""
+    end = items[-1].t
+    stood = [later(item, float(k)) for k in range(1, 16) for item in items if item.t > end - 1.0]
+    made = [*items, *stood, *(later(item, end + 15.02) for item in items if item.t < end)]
+    return [added(item, gyro=(0.0, 0.0, by)) if item.site is LEFT and item.t > end + 0.5 else item for item in made]
+
+
 def in_bursts(item: Sample) -> Sample:
     """Give a sample the time of the packet of 0.2 s that brings it, and a little more for each sample in it."""
     start = int(item.t / 0.2) * 0.2
@@ -146,6 +154,8 @@ BODY: tuple[Case, ...] = (
     Case("a calibration that turns the track far", of("there-and-back", until=45.0), "default",
          lambda: {"calibration": of_other_shoes(-0.05)}),
     Case("a sensor that comes loose", of("there-and-back", partial(loose, since=38.0)), "default"),
+    *(Case(f"a rest in which a bias changes by {by} rad/s", half(partial(rested, by=by)), "default")
+      for by in (0.0, 0.004)),
     Case("a foot that stands while the other walks on to the right",
          of("building-8", partial(stood, since=15.3), until=24.0), "default"),
     Case("named places", of("there-and-back", NAMED, until=58.0), "default"),

@@ -54,6 +54,7 @@ from solepath.calibration.records import (
     TriadCalibration,
 )
 from solepath.floorplan.importers.reading import parse_floorplan
+from solepath.floorplan.plan import Anchor
 from solepath.recording import read_samples
 from solepath.session.heading_walk import heading_calibration, heading_walk
 from solepath.session.json_host import JsonHost
@@ -111,7 +112,8 @@ WRONG_START, PLACE_ALONE = Start("0", (6.9, 4.9), 1.0, 2.0), Start("1", (22.9, 4
 @cache
 def building() -> IndexedPlan:
     """Return the plan of the building in which the walks `building-*` take place."""
-    return IndexedPlan(parse_floorplan(lzma.decompress((FOLDER / "inputs" / "building.geojson.xz").read_bytes())))
+    plan = parse_floorplan(lzma.decompress((FOLDER / "inputs" / "building.geojson.xz").read_bytes()))
+    return IndexedPlan(evolve(plan, anchor=Anchor(48.15, 11.57, 0.2)))
 
 
 def planned(start: Start | None = None) -> dict[str, Any]:

@@ -153,7 +153,7 @@ def said(case: Case) -> Iterator[dict[str, Any]]:
 
 
 def kept(snapshot: Any) -> dict[str, Any]:
-    """Return the numbers that a session keeps, in order of size, since a record may have another name or place.
+    """Return the numbers and flags that a session keeps, in order of size: a record may have another name or place.
 
     Evidence that leads to no event on a walk shows its faults here: of exchanged feet, of north, of drift."""
     numbers: list[float] = []
@@ -164,7 +164,7 @@ def kept(snapshot: Any) -> dict[str, Any]:
             left += value.values()
         elif isinstance(value, list):
             left += value
-        elif isinstance(value, int | float) and not isinstance(value, bool):
+        elif isinstance(value, int | float):
             numbers.append(float(value))
     return {"": "(kept)", "numbers": sorted(numbers)}
 

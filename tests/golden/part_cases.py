@@ -16,7 +16,7 @@ from changes import LEFT, RIGHT, draws
 from corpus import Case, given, kept, plain
 
 from solepath import Calibration, DefectFound, SampleGap, Session, Site, WearerMoved, recipes
-from solepath.body.part import Part
+from solepath.body.part import LayoutReported, Part
 from solepath.body.place.particles import Particles
 from solepath.events import Defect
 from solepath.foot.view import FootView
@@ -50,7 +50,9 @@ def noted(name: str, recipe: str, until: float) -> tuple[Any, ...]:
 
 
 def meddled(event: Any, draw: float) -> list[Any]:
-    """Return what becomes of an event."""
+    """Return what becomes of an event; a layout is reported twice."""
+    if isinstance(event, LayoutReported):
+        return [event, event]
     if draw < 0.1:
         return []
     when, site = {"t": event.t, "known_at": event.known_at}, (LEFT, RIGHT)[int(1e4 * draw) % 2]
@@ -67,11 +69,11 @@ def meddled(event: Any, draw: float) -> list[Any]:
         if isinstance(value, bool):
             changes[field] = not value
         elif isinstance(value, float) and draw > 0.9:
-            changes[field] = 1.7 * value
+            changes[field] = (1.7 if draw < 0.97 else 0.01) * value
         elif isinstance(value, tuple) and draw > 0.8:
             changes[field] = (value[0] + 2.0 * draw, value[1] - draw, *value[2:])
     if isinstance(event, WearerMoved):
-        changes["north"] = (7.0 * draw, 0.1)
+        changes["north"] = (7.0 * draw, 0.02)
     return [evolve(event, **changes)]
 
 
@@ -125,6 +127,6 @@ PARTS_ALONE: tuple[Case, ...] = tuple(
         ("stroll", "default", 33.0), ("ranged", "default", 20.0), ("compass", "default", 40.0),
         ("running", "default", 20.0), ("lifts", "default", 60.0), ("building-8", "default", 20.0),
         ("stroll", "kupt-dfpc", 20.0), ("stroll", "footstep-tracker", 20.0), ("stroll", "shoe-sensing", 20.0),
-        ("suit", "walking-modes", 20.0),
+        ("suit", "walking-modes", 20.0), ("insole", "walking-modes", 20.0),
     )
 )  # fmt: skip

@@ -356,6 +356,21 @@ def stairs_again() -> Iterator[Any]:
     yield from follow(part, one.received, plan)
 
 
+def hesitating() -> Iterator[Any]:
+    """Yield the events of a wearer who turns round on the stairs again and again."""
+    plan, place = buildings()[0][0], STAIRS["stairs south"]
+    part = Particles()
+    one = Pedestrian(5, "0", (20.0, 6.2)).known_to(part)
+    one.walk(beside(place), place)
+    for k in range(30):
+        one.emit(activity_changed(one.t, one.t, (Activity.STAIRS_UP, Activity.STAIRS_DOWN)[k % 2]))
+        for _ in range(1 + k % 3):
+            one.step(0.0, 0.28, 0.18 if k % 2 == 0 else -0.18)
+    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
+    one.walk(beside(place), (30.0, 6.2))
+    yield from follow(part, one.received, plan)
+
+
 def reported_again() -> Iterator[Any]:
     """Yield the events of a wearer who reports a wrong place twice, and whose track is revised in between."""
     part = Particles()
@@ -637,6 +652,7 @@ MORE_PLACES: tuple[Case, ...] = (
     Case("pedestrians, the Snake game", partial(told, range(36, 40), SnakeGame)),
     *[Case(f"floor plans of {kind}", partial(read, kind)) for kind in ("osm", "imdf", "geojson")],
     Case("stairs on a clock set back", stairs_again),
+    Case("a person who hesitates on the stairs", hesitating),
     Case("a wrong place twice", reported_again),
     Case("damaged floor plans", damaged),
     Case("the limits of floor plans", limits),
