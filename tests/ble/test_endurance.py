@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from airs import bumble, in_virtual_time, others
-from soak import soaked
+from soak import longer
 
 from solepath import Connected, Disconnected, PacketRejected, SampleGap, Session, StrideTaken
 from solepath.ble import DeviceConfig, Devices
@@ -38,7 +38,7 @@ def advertises(task: asyncio.Task[Any]) -> bool:
     return getattr(task.get_coro(), "__qualname__", "") == "Server._advertise"
 
 
-@pytest.mark.parametrize("cuts", [*soaked(40), pytest.param(200, marks=pytest.mark.long)])
+@pytest.mark.parametrize("cuts", longer(40, 200))
 def test_a_session_goes_on_through_any_number_of_disconnections_every_gap_is_an_event_and_nothing_is_left_behind(
     cuts: int,
 ) -> None:

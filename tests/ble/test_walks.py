@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import pytest
 from airs import bumble, collect, in_virtual_time, whole
 from attrs import evolve
-from soak import soaked
+from soak import longer
 from walks import run_session
 
 from solepath import PacketRejected, PacketsLost, SampleGap, StrideTaken
@@ -39,7 +39,7 @@ def receive(bench: Bench, configs: Sequence[DeviceConfig], seconds: float) -> tu
     return in_virtual_time(listen)
 
 
-@pytest.mark.parametrize("mtu", [247, *soaked(23)])
+@pytest.mark.parametrize("mtu", [247, *longer(23)])
 def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_the_walk_fed_directly(mtu: int) -> None:
     """Compared are, byte for byte, the frames that arrive with those of the emulator, and the delay of each; then the
     events of what arrived with the events of the emulator's own frames, stamped with the times at which they arrived

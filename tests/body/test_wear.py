@@ -103,6 +103,7 @@ def both_feet(route: Route) -> tuple[Sample, ...]:
 
 
 @pytest.mark.parametrize("foot", [LEFT, *soaked(RIGHT)])
+@pytest.mark.soak
 def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
     alone = tuple(silent(both_feet(FAR), foot, 12.0))
     for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
@@ -114,6 +115,7 @@ def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
 
 
 @pytest.mark.parametrize("foot", [LEFT, *soaked(RIGHT)])
+@pytest.mark.soak
 def test_a_foot_that_comes_back_is_set_beside_the_other(foot: Site) -> None:
     absent_samples = tuple(silent(both_feet(FAR), foot, 8.0, 20.0))
     for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):

@@ -34,7 +34,7 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Kept:
     return run("fleet-demo", *SMALL, "--kills", "2", "--out", out, "--json", out.with_suffix(".json"), "--keep"), out
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_killed_fleet_emits_the_same_events_as_one_that_is_not(kept: Kept) -> None:
     result, out = kept
     assert (result.returncode, result.stderr) == (0, "")

@@ -10,7 +10,7 @@ from functools import cache
 
 import pytest
 from attrs import evolve
-from soak import longer
+from soak import longer, soaked
 from walks import LEFT, RIGHT, insoles, of, samples
 
 from solepath import Packet, PacketRejected, PacketsLost, Sample, Session, Site, StrideTaken
@@ -80,7 +80,7 @@ def check(sizes: list[int], stride_counts: list[int]) -> None:
     assert min(stride_counts) >= 0.9 * max(stride_counts) > 30, "the walk did not go on"
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_session_of_two_insoles_is_as_large_after_three_minutes_as_after_one() -> None:
     check(*walk_on(Session(poses=True, pressures=True), 3))
 
@@ -90,7 +90,7 @@ def test_a_session_of_two_insoles_is_as_large_after_an_hour_as_after_a_minute() 
     check(*walk_on(Session(), 65))
 
 
-@pytest.mark.parametrize("seconds", [600.0, *longer(3600.0)])
+@pytest.mark.parametrize("seconds", [*soaked(600.0), *longer(3600.0)])
 def test_a_long_walk_in_samples_leaves_nothing_behind(seconds: float) -> None:
     fed = [sample for sample in samples(LOOP_ROUTE, cells=0, rate=25.0) if sample.site is LEFT]
     length = fed[-1].t + 0.04

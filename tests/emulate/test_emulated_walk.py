@@ -63,6 +63,7 @@ def check_all_found(one: Compared, least: int) -> None:
 
 
 @SEEDS
+@pytest.mark.soak
 def test_every_step_over_a_bad_radio_is_found_in_its_time_and_length_and_called_degraded(seed: int) -> None:
     events, feet = walked("long", seed=seed, device=Insole())
     check_all_found((events, feet), 25)
@@ -102,6 +103,7 @@ def test_slow_fast_halting_and_turning_walks_have_all_their_steps_which_add_up_t
         assert sums == pytest.approx(radians(turned), abs=radians(8))
 
 
+@pytest.mark.soak
 def test_standing_has_no_step_and_a_walk_over_a_clean_radio_none_that_is_degraded() -> None:
     events, feet = walked("standing")
     assert of(StrideTaken | HeelStrike | FootFlat | HeelOff | ToeOff, events) == []

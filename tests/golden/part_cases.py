@@ -116,17 +116,21 @@ def reset(part: Part, number: int, t: float) -> None:
 
 def numbers(part: Any) -> dict[str, Any]:
     """Return the numbers that a part keeps, and its name."""
-    if hasattr(part, "plan"):
-        part, part.plan = deepcopy(part), None
-    return {**kept({"state": plain(part)}), "part": type(part).__name__}
+    plan = getattr(part, "plan", None)
+    if plan is not None:
+        part.plan = None
+    found = {**kept({"state": plain(part)}), "part": type(part).__name__}
+    if plan is not None:
+        part.plan = plan
+    return found
 
 
 PARTS_ALONE: tuple[Case, ...] = tuple(
     Case(f"parts of {recipe} that are misled, {name}", partial(parts, name, recipe, until))
     for name, recipe, until in (
-        ("stroll", "default", 33.0), ("ranged", "default", 20.0), ("compass", "default", 40.0),
-        ("running", "default", 20.0), ("lifts", "default", 60.0), ("building-8", "default", 20.0),
-        ("stroll", "kupt-dfpc", 20.0), ("stroll", "footstep-tracker", 20.0), ("stroll", "shoe-sensing", 20.0),
-        ("suit", "walking-modes", 20.0), ("insole", "walking-modes", 20.0),
+        ("stroll", "default", 22.0), ("ranged", "default", 12.0), ("compass", "default", 30.0),
+        ("running", "default", 16.0), ("lifts", "default", 60.0), ("building-8", "default", 12.0),
+        ("stroll", "kupt-dfpc", 16.0), ("stroll", "footstep-tracker", 16.0), ("stroll", "shoe-sensing", 12.0),
+        ("suit", "walking-modes", 16.0), ("insole", "walking-modes", 14.0),
     )
 )  # fmt: skip

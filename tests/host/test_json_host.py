@@ -60,6 +60,7 @@ def test_two_insoles_walk_through_texts_alone_and_the_packets_replay_the_same_ev
     assert [{key: event[key] for key in event if key != "type"} for event in events] == replayed(one.messages)
 
 
+@pytest.mark.soak
 def test_a_lost_insole_comes_back_at_its_foot() -> None:
     one = walked("5 left_foot disconnect")
     left = [event["event"] for event in one.events("Connected", "Disconnected") if event["site"] == "left_foot"]
@@ -67,6 +68,7 @@ def test_a_lost_insole_comes_back_at_its_foot() -> None:
     assert [event["t"] for event in one.events("StrideTaken") if event["foot"] == "left"][-1] > 8.0
 
 
+@pytest.mark.soak
 def test_another_insole_at_the_same_foot_continues_the_walk() -> None:
     host = JsonHost(packets=True)
     for device, seed, now in (("A", 3, 0.0), ("B", 4, 10.0)):

@@ -97,7 +97,7 @@ def test_compiled_modules_give_the_same_events_and_states_bit_for_bit(compiled: 
     assert after == json.loads(json.dumps(back.snapshot()))
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_the_version_names_the_form_that_runs(compiled: Path) -> None:
     assert run(compiled, "-m", "solepath", "--version").rstrip().endswith(", compiled")
     assert run(ROOT / "src", "-m", "solepath", "--version").rstrip().endswith(", pure")

@@ -48,7 +48,7 @@ def there_and_back(stand: float, legs: int, length: float, end: float = 3.0) -> 
     return route.stop(end)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_the_walk_explains_most_of_what_its_legs_are_apart() -> None:
     fits = fits_of_walk()
     assert [fit.foot for fit in fits] == list(Foot)

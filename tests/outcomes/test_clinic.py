@@ -112,6 +112,7 @@ def test_the_page_of_documents_runs_and_names_the_columns() -> None:
     assert f"`{','.join(BOUT_COLUMNS)}`" in page and f"`{','.join(OUTCOME_COLUMNS)}`" in page
 
 
+@pytest.mark.soak
 def test_marks_that_are_not_within_the_recording_give_no_outcome(recording: Path, tmp_path: Path) -> None:
     files = ("--out", tmp_path / "out", "--report", tmp_path / "walk.html")
     result = run("track", recording, "--timed-up-and-go", "3,1000", *files)

@@ -31,6 +31,7 @@ async def test_the_page_shows_pitch_target_and_task_as_they_change(chromium: Bro
         assert target == "rotate(22.0 150,126)"
 
 
+@pytest.mark.soak
 async def test_a_walk_that_bends_shows_why_nothing_is_learnt(chromium: Browser) -> None:
     foot = ShownFoot(Foot.LEFT, 9, 11.0, why="the left foot turns by 1.2 rad: is the walk straight?")
     scene = Scene("A walk", "", guide=ShownToeOut("Walk.", None, (foot,)))

@@ -38,6 +38,7 @@ COUNTED = ["fragments", "orphe", *soaked("whole frames", "four samples a frame",
 """Devices that count their packets, so that one that comes twice is noticed."""
 FEW = ("whole frames", "fragments", "cc2541", "thingy", "walking-modes", "samples with pressure", "particles")
 """Sessions that differ most from each other."""
+OTHERS = ("footstep-tracker", "shoe-sensing", "walking-modes")
 PHASES = (HeelStrike, FootFlat, HeelOff, ToeOff)
 TURNING_POINTS = LayoutKnown | PacketsLost | SampleGap | ClockReset | StreamResumed
 """Events after which a session is saved, the first of each kind."""
@@ -143,7 +144,7 @@ def gait(events: list[Any], since: float) -> list[Any]:
 
 
 @pytest.mark.parametrize("how", ["samples", *soaked("clock", "device")])
-@pytest.mark.parametrize("recipe", ["default", "kupt-dfpc", "footstep-tracker", "shoe-sensing", "walking-modes"])
+@pytest.mark.parametrize("recipe", ["default", "kupt-dfpc", *soaked(*OTHERS)])
 def test_after_a_reset_a_walk_is_what_it_is_for_a_fresh_session(recipe: str, how: str) -> None:
     session, second = Session(recipes.by_name(recipe), calibration=CALIBRATION), worn(CLIMBING)
     session.feed(worn())

@@ -20,20 +20,6 @@ TO_THE_END = """(() => { const seek = document.getElementById('seek');
     seek.value = seek.max; seek.dispatchEvent(new Event('change')); })()"""
 
 
-async def test_the_demonstration_is_played_by_python_in_the_page(chromium: Browser, site: Path) -> None:
-    with serving(site) as url:
-        async with open_site(chromium, url) as view:
-            await ready(view)
-            await play_demonstration(view)
-            assert not view.complaints, view.complaints
-
-
-async def play_demonstration(view: Window) -> None:
-    await view.tab.locator("#demo").click()
-    await view.until("solepath.state.playback?.state === 'playing' && solepath.frames > 10")
-    await view.until("solepath.state.feet.left?.cells?.length === 96")
-
-
 @pytest.mark.soak
 async def test_without_its_server_the_demonstration_gives_the_strides_that_cpython_gives(
     chromium: Browser, site: Path
@@ -48,7 +34,9 @@ async def test_without_its_server_the_demonstration_gives_the_strides_that_cpyth
                 urlopen(url)
             await view.tab.reload()
             await ready(view)
-            await play_demonstration(view)
+            await view.tab.locator("#demo").click()
+            await view.until("solepath.state.playback?.state === 'playing' && solepath.frames > 10")
+            await view.until("solepath.state.feet.left?.cells?.length === 96")
             await view.tab.evaluate(TO_THE_END)
             await view.until("solepath.state.playback.state === 'ended'", patience=PATIENCE)
             shown = await view.tab.evaluate("({ feet: solepath.state.feet, tracks: solepath.state.tracks })")

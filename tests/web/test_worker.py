@@ -60,6 +60,7 @@ def test_a_walk_that_is_saved_and_continued_shows_what_an_uninterrupted_one_show
     assert shown(worker)["frame"]["feet"]["left"]["strides"] >= 5
 
 
+@pytest.mark.soak
 def test_a_time_without_packets_is_shown_as_a_gap_and_a_clock_that_was_set_back_as_a_reset(worker: Worker) -> None:
     worker.start_walk("a walk")
     walk(worker, PACKETS)

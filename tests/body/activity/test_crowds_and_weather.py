@@ -93,7 +93,7 @@ WEATHER = {
 }
 
 
-@pytest.mark.parametrize("weather", ["a storm", *longer("rising", "a front", "falling", "gusts")])
+@pytest.mark.parametrize("weather", [*soaked("a storm"), *longer("rising", "a front", "falling", "gusts")])
 def test_weather_makes_neither_stairs_nor_lifts_of_level_ways_and_standing(weather: str) -> None:
     found = outcome(LEVEL, "SensorTags", 1, WEATHER[weather])
     assert directions(found) == ([], [])

@@ -39,7 +39,7 @@ ROUTES = {
 }  # fmt: skip
 WEARERS = {1: Wearer(), 2: SUBJECTS[2], 3: SUBJECTS[3]}
 """Wearer of each seed: the default one, the smallest subject and the tallest one."""
-OFTEN = ("up", "sideways")
+OFTEN = ("up",)
 MARKS = ((), pytest.mark.soak, pytest.mark.long)
 """Marks of what is always walked, of the other walks of the default wearer, and of other wearers."""
 WALKED = [
@@ -92,6 +92,7 @@ def test_feet_that_turn_little_stride_all_the_same(name: str, seed: int, is_tag:
 
 
 @pytest.mark.parametrize("seed", [1, *soaked(2, 3)])
+@pytest.mark.soak
 def test_with_insoles_turning_on_the_spot_is_walking_or_standing(seed: int) -> None:
     reported = {reported for _, reported in confusion("on the spot", seed, False)}
     assert reported <= {Activity.UNKNOWN, Activity.STANDING, Activity.WALKING}

@@ -122,6 +122,7 @@ def rms(walks: list[Walked]) -> float:
 
 
 @pytest.mark.parametrize("disturbance", [20.0, *soaked(30.0)])
+@pytest.mark.soak
 def test_a_way_that_turns_keeps_its_heading_by_the_compass_and_the_filter_is_as_uncertain_as_it_is(
     disturbance: float,
 ) -> None:

@@ -55,7 +55,7 @@ def test_a_compass_makes_the_heading_of_arcs_more_certain_and_is_saved_with_the_
     assert sigma < 0.8 * without
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_wrong_unit_is_reported_once_for_each_foot_and_as_nothing_else() -> None:
     samples = [
         sample if sample.mag is None else evolve(sample, mag=tuple(1e6 * m for m in sample.mag))

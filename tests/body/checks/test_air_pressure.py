@@ -75,6 +75,7 @@ def height(one: Session) -> float:
 
 
 @pytest.mark.parametrize("route", [LIFT, *soaked(LEVEL, STAIRS)])
+@pytest.mark.soak
 def test_a_barometer_that_shows_the_height_is_not_reported(route: Route) -> None:
     assert not defects(session(route, true)[1])
 
@@ -99,6 +100,7 @@ def test_it_is_reported_once_for_each_foot_and_no_stride_is_degraded_by_it(route
     assert not any(event.degraded for event in events if isinstance(event, StrideTaken))
 
 
+@pytest.mark.soak
 def test_a_lift_is_as_high_as_its_pulses_when_the_barometer_drifts() -> None:
     one, events = session(LIFT, drifts)
     (ride,) = [event for event in events if isinstance(event, LiftRidden)]

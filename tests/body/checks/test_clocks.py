@@ -199,7 +199,7 @@ def test_a_treadmill_whose_light_barrier_shows_clocks_75_ms_apart_has_even_steps
         assert measured == pytest.approx(true, abs=0.02)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_ten_recorded_walkers_on_one_clock_are_not_reported(data_dir: Path) -> None:
     paths = sorted((data_dir / "ipol_10m_uturn").glob("*-4.npz"))
     assert len(paths) == 10

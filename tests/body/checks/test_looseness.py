@@ -58,17 +58,15 @@ def test_a_sensor_that_swings_is_noticed_and_its_strides_are_degraded() -> None:
     assert noticed >= 5
 
 
-@pytest.mark.parametrize("seed", [1])
 @pytest.mark.soak
-def test_a_fixed_sensor_has_not_come_loose(seed: int) -> None:
-    assert continued(seed, walk(seed).samples)[0] == []
+def test_a_fixed_sensor_has_not_come_loose() -> None:
+    assert continued(1, walk(1).samples)[0] == []
 
 
-@pytest.mark.parametrize(("seed", "duration"), [(2, 0.3), pytest.param(3, 0.5, marks=pytest.mark.soak)])
 @pytest.mark.soak
-def test_a_gap_in_the_samples_is_no_loose_sensor(seed: int, duration: float) -> None:
-    samples = sampled(ROUTE.turn(pi, 0.6).walk(60, 1.3).stop(2), seed=seed).samples
-    kept = [s for s in samples if s.site.foot is not Foot.LEFT or not 70.0 <= s.t < 70.0 + duration]
+def test_a_gap_in_the_samples_is_no_loose_sensor() -> None:
+    samples = sampled(ROUTE.turn(pi, 0.6).walk(60, 1.3).stop(2), seed=2).samples
+    kept = [s for s in samples if s.site.foot is not Foot.LEFT or not 70.0 <= s.t < 70.3]
     assert found(tuple(kept))[0] == []
 
 

@@ -45,6 +45,7 @@ def test_a_recording_of_packets_becomes_a_calibration_that_track_takes(tmp_path:
     assert run("track", file, "--calibration", out).returncode == 0
 
 
+@pytest.mark.soak
 def test_the_example_of_the_page_is_what_the_command_prints(tmp_path: Path) -> None:
     main(["--record", str(tmp_path / "turns.jsonl"), "--seed", "7"])
     printed = run("calibrate", "sensor", tmp_path / "turns.jsonl", "--out", tmp_path / "me.json").stdout

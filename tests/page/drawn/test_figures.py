@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
+import pytest
 from page_events import foot_moved
 from shown import frame, shown
 from walks import insoles
@@ -40,6 +41,7 @@ def test_the_activity_is_unknown_while_no_foot_sends() -> None:
     assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
 
 
+@pytest.mark.soak
 def test_the_pace_is_that_of_the_newest_strides() -> None:
     scene = scene_until(8.0)
     strides = [event for event in walk() if isinstance(event, GaitCycleMeasured) and event.known_at <= 8.0]

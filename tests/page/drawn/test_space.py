@@ -17,6 +17,7 @@ def moved(t: float, x: float, z: float) -> WearerMoved:
     return WearerMoved(t=t, known_at=t, position=(x, 0.3 * x, z), covariance=(0.01,) * 6)
 
 
+@pytest.mark.soak
 async def test_a_track_is_drawn_in_space_once_it_has_heights(chromium: Browser) -> None:
     scene = shown([moved(k, 0.7 * k, 0.05 * (k % 3)) for k in range(20)], Scene("a walk", "default", "live"))
     async with open_page(chromium, scene, width=360, height=740) as (view, _):

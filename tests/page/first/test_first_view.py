@@ -16,6 +16,7 @@ def text_is(name: str, words: str) -> str:
     return f"document.getElementById('{name}').textContent === {words!r}"
 
 
+@pytest.mark.soak
 async def test_a_recording_at_its_end_is_shown_as_finished_with_the_means_of_the_whole_walk(chromium: Browser) -> None:
     scene = scene_after(1e9)
     end = square_walk()[-1][0].t

@@ -92,6 +92,7 @@ def test_the_legs_at_a_touchdown_reach_down_and_as_far_apart_as_the_feet() -> No
     assert before is not None
 
 
+@pytest.mark.soak
 def test_the_position_is_midway_between_the_feet_and_has_a_covariance() -> None:
     (dx, dy), (xx, xy, _, yy, _, _) = end_error(Modes(settings=KNOWN_HEADING), suit_samples())
     assert hypot(dx, dy) < 0.15
