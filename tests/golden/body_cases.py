@@ -7,14 +7,20 @@ from functools import partial
 from typing import Any
 
 from attrs import evolve
-from cases import STARTS, half, here, known, live, of, planned
+from cases import STARTS, half, here, known, live, of, planned, sole
 from changes import LEFT, RIGHT, added, calls, cells, clipped, draws, each, later, ordered, restarted, swapped, without
-from corpus import Case, given
+from corpus import Case, given, kept
 
 from solepath import Calibration, Cell, Foot, Layout, Sample, Session
 from solepath.body.activity.early import printed_table
 from solepath.calibration.records import HeadingCalibration, InsoleCalibration
+from solepath.foot.navigate.dedrift import LinearDedrift
+from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.phase import describe
+from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance
+from solepath.foot.stance.pressure import MaximumPressure, TwoArea
+from solepath.papers.walking_modes.mode import regions
+from solepath.recipes import Recipe
 
 
 def of_other_shoes(drift: float) -> Calibration:
@@ -62,6 +68,11 @@ def rested(items: tuple[Any, ...], by: float) -> list[Sample]:
     stood = [later(item, float(k)) for k in range(1, 16) for item in items if item.t > end - 1.0]
     made = [*items, *stood, *(later(item, end + 15.02) for item in items if item.t < end)]
     return [added(item, gyro=(0.0, 0.0, by)) if item.site is LEFT and item.t > end + 0.5 else item for item in made]
+
+
+def fourfold(items: tuple[Any, ...]) -> list[Sample]:
+    """Give each sample four times, at four times the rate."""
+    return ordered(later(item, 0.0025 * k) for item in items for k in range(4))
 
 
 def in_bursts(item: Sample) -> Sample:
@@ -142,6 +153,17 @@ def figures() -> Iterator[Any]:
             yield [one.asymmetry(name) for name in ("swing_time", "step_time", "step_width", "stride_length")]
     yield describe()
     yield printed_table()
+    for foot in Foot:
+        yield [regions(sole(count, foot)) for count in (6, 7, 24, 48, 90)]
+
+
+def detectors() -> Iterator[Any]:
+    """Yield the events with each detector and corrector of the textbooks, and the numbers that they keep."""
+    for detector in (AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
+        for corrector in (ErrorStateFilter(), LinearDedrift()):
+            session = Session(Recipe("textbook", detector, corrector))
+            yield from session.feed(half(until=7.0)())
+            yield kept(session.snapshot())
 
 
 def wrong(count: int) -> dict[str, Any]:
@@ -181,6 +203,12 @@ BODY: tuple[Case, ...] = (
     Case("a gyroscope that is cut off about its long axis",
          half(each(lambda item: clipped(item, 1e9, 2.2, says=True)), until=9.0), "default"),
     Case("a device that restarts as it walks", of("cc2541", partial(restarted, at=12.0), until=24.0), "default"),
+    Case("a foot that stands while the other walks and is silent for a second",
+         of("building-8", partial(stood, since=15.3), each(swapped), each(lambda item: None, 19.0, 20.0, LEFT),
+            until=25.0), "default"),
+    Case("cut off at 400 samples a second",
+         of("stroll", fourfold, each(lambda item: clipped(item, 25.0, 5.0)), until=7.0), "default"),
+    Case("textbook detectors", detectors),
     Case("figures of a walk", figures),
 )  # fmt: skip
 """What joins the table of cases.py."""

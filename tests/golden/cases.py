@@ -229,7 +229,9 @@ DAY = of("insole")
 HALF_DAY = of("insole", until=46.0)
 TAG = of("cc2541")
 TICKS = calls(*((2.0 * k, Call("advance", (2.0 * k,))) for k in range(1, 20)))
-BOUND = calls((5.0, Call("bind", (LEFT, "C0:FF:EE:00:00:09"))), (9.0, Call("bind", (LEFT, ""))))
+NAMED = each(lambda item: evolve(item, device=("", "A", "B", "C")[int(item.t / 5.0)]))
+"""The devices of both feet are others from time to time."""
+BOUND = calls((8.0, Call("bind", (LEFT, "B"))), (12.0, Call("bind", (LEFT, ""))), (14.0, Call("bind", (RIGHT, "C"))))
 LONG_BURSTS = partial(bursts, period=15.0, length=8.0)
 STROLLS = ("insole-fragments", "insole-batches", "insole-cells-alone", "cc2541-10hz", "orphe", "dot", "thingy")
 
@@ -249,7 +251,7 @@ DEVICES: tuple[Case, ...] = (
     Case("a clock set back", of("insole", set_back, until=40.0), "default"),
     Case("a cc2650 on a clock set back", of("cc2650", set_back, until=40.0), "default"),
     Case("time that passes", of("insole", LONG_BURSTS, TICKS, until=40.0), "default"),
-    Case("a device bound anew", of("insole", BOUND, until=20.0), "default"),
+    Case("a device bound anew", of("insole", NAMED, BOUND, until=20.0), "default"),
 )
 
 FAULTS: tuple[Case, ...] = tuple(

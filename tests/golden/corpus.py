@@ -153,10 +153,11 @@ def said(case: Case) -> Iterator[dict[str, Any]]:
 
 
 def kept(snapshot: Any) -> dict[str, Any]:
-    """Return the numbers and flags that a session keeps, in order of size: a record may have another name or place.
+    """Return the numbers, flags and words that a session keeps, in order: a record may have another name or place.
 
     Evidence that leads to no event on a walk shows its faults here: of exchanged feet, of north, of drift."""
     numbers: list[float] = []
+    words: list[str] = []
     left = [snapshot["state"]]
     while left:
         value = left.pop()
@@ -166,7 +167,9 @@ def kept(snapshot: Any) -> dict[str, Any]:
             left += value
         elif isinstance(value, int | float):
             numbers.append(float(value))
-    return {"": "(kept)", "numbers": sorted(numbers)}
+        elif isinstance(value, str) and value[:1].islower():  # a class has another name
+            words.append(value)
+    return {"": "(kept)", "numbers": sorted(numbers), "words": sorted(words)}
 
 
 def answers(session: Session) -> dict[str, Any]:

@@ -94,8 +94,8 @@ def parts(name: str, recipe: str, until: float) -> Iterator[Any]:
             else:
                 for event in meddled(one, next(drawn)):
                     yield from map(plain, own.receive(event))
-            if k % 700 == 699:
-                reset(own, k // 700, one.t)
+            if k % 250 == 249:
+                reset(own, k // 250, one.t)
                 yield numbers(own)
         yield from map(plain, own.finish(stream[-1].t))
         yield numbers(own)
