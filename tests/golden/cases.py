@@ -305,7 +305,7 @@ FAULTS: tuple[Case, ...] = tuple(
 )
 
 WHOLE = ("kupt-dfpc", "pressure-contour", "footstep-tracker")
-"""Recipes that are fed the whole day; the others half of it."""
+"""Recipes that share least with the default one."""
 DAMAGED = (*WHOLE, "walking-modes", "shoe-sensing", "gyroscope", "walking-modes-printed")
 """Recipes that are fed losses: each part of a recipe is in one of them."""
 CALIBRATED = ("kupt-dfpc", "pressure-contour", "walking-modes", "walking-modes-printed", "footstep-tracker")
@@ -315,7 +315,7 @@ OF_LIMBS = ("walking-modes", "walking-modes-printed", "touchdown-height")
 OTHERS = tuple(name for name in recipes.NAMES if name not in ("default", *WHOLE))
 
 RECIPES: tuple[Case, ...] = (
-    *by_every(WHOLE, "a day", DAY, options=posed),
+    *by_every(WHOLE, "the half of a day", HALF_DAY, options=posed),
     *by_every(OTHERS, "the half of a day", HALF_DAY),
     *by_every(AT_20_HZ, "cc2541 at 20 Hz", TAG),
     *by_every(OF_LIMBS, "seven sites", of("suit")),
@@ -336,9 +336,9 @@ def walked(number: int, until: float = 1e9) -> Callable[[], Iterable[Item]]:
 
 
 PLACES: tuple[Case, ...] = (
-    Case("a building, walk 8", walked(8), "default", partial(planned, STARTS[8])),
+    Case("a building, walk 8", walked(8, 90.0), "default", partial(planned, STARTS[8])),
     Case("a building, walk 12", walked(12, 60.0), "default", partial(planned, STARTS[12])),
-    Case("a building, nobody knows where", walked(12), "default", planned),
+    Case("a building, nobody knows where", walked(12, 80.0), "default", planned),
     Case("a building, another start than said", walked(8, 40.0), "default", partial(planned, WRONG_START)),
     Case("a building, a start without a heading", walked(8, 60.0), "default", partial(planned, PLACE_ALONE)),
     Case("a building, reports of a person", of("building-3", REPORTS, until=80.0), "default", planned),
