@@ -48,6 +48,7 @@ def _apart(session: Session) -> float:
     return hypot(left[0] - right[0], left[1] - right[1])
 
 
+@pytest.mark.soak
 def test_feet_that_drift_apart_are_held_together() -> None:
     alone, _ = _walked("mean")
     both, _ = _walked("both")

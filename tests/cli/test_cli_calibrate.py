@@ -119,6 +119,7 @@ def test_each_kind_learns_from_its_walk_for_the_feet_that_wear_a_sensor(tmp_path
     assert set(getattr(calibrated(out), learnt)) == {site.foot for site in devices}
 
 
+@pytest.mark.soak
 def test_a_stand_with_seven_body_sensors_gives_limbs_and_a_walk_with_them_takes_a_heading(tmp_path):
     walk = emulate(straight(5.0, 1.1), devices=suit(Limbs(), 3), seed=2)
     stand, out = recorded(tmp_path / "stand.jsonl", walk.packets), tmp_path / "me.json"

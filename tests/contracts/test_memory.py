@@ -102,7 +102,7 @@ def test_a_long_walk_in_samples_leaves_nothing_behind(seconds: float) -> None:
     check(sizes, stride_counts)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_the_interpreter_holds_no_more_after_each_round() -> None:
     all_rounds = list(rounds(4, 400))  # each with the first steps of a round, after a pause
     session = Session()
@@ -119,6 +119,7 @@ def test_the_interpreter_holds_no_more_after_each_round() -> None:
     assert max(traced_sizes[1:]) - traced_sizes[1] < 30_000, traced_sizes
 
 
+@pytest.mark.soak
 def test_garbage_without_end_leaves_nothing_behind() -> None:
     session = Session()
     session.feed([packet for packet, _ in loop()[:500]])

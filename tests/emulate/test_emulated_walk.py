@@ -82,7 +82,7 @@ def test_every_step_over_a_bad_radio_is_found_in_its_time_and_length_and_called_
     [
         ("slow", 0),
         pytest.param("fast", 0, marks=SOAK),
-        ("left", 90),
+        pytest.param("left", 90, marks=SOAK),
         pytest.param("right", -90, marks=SOAK),
         pytest.param("about", 180, marks=SOAK),
         pytest.param("halts", 0, marks=SOAK),
@@ -129,7 +129,7 @@ def test_insoles_of_any_kind_find_every_step(device: Insole) -> None:
 @pytest.mark.parametrize(
     ("device", "seeds", "least", "length_error", "contacts"),
     [
-        (CC2650(), (1, 2, 3), 0.99, 0.20, 0.85),
+        pytest.param(CC2650(), (1, 2, 3), 0.99, 0.20, 0.85, marks=SOAK),
         pytest.param(CC2541(), (1, 2, 3), 0.97, 0.20, 0.0, marks=SOAK),
         pytest.param(CC2541(rate=20.0), (1,), 0.98, 0.15, 0.9, marks=SOAK),
     ],

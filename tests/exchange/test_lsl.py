@@ -214,6 +214,7 @@ def test_a_stream_of_another_program_is_read_in_its_units() -> None:
     assert sample.t == pytest.approx(2.0, abs=1e-3)
 
 
+@pytest.mark.soak
 def test_what_is_wrong_with_a_stream_is_one_sentence() -> None:
     outlets = [stream("bare", None, None), stream("unitless", LABELS, None)]
     with pytest.raises(LslError, match="has no acc_x, _y and _z; its channels are: 7 without labels"):

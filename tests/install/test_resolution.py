@@ -77,7 +77,7 @@ def resolve(wheels: Path, targets: list[tuple[str, str, list[str]]]) -> list[lis
     return found
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_two_packages_come_with_solepath_on_every_platform(wheels: Path) -> None:
     targets = [(platform, python, BASE) for platform in PLATFORMS.values() for python in PYTHONS]
     found = resolve(wheels, targets)

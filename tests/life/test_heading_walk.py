@@ -75,7 +75,7 @@ def test_recipes_that_follow_the_heading_in_different_ways_all_take_the_drift_of
     assert np.median(more) == pytest.approx(1.0, abs=0.15)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_turns_to_one_side_only_do_not_separate_turns_from_strides() -> None:
     route = Route().stand(5.0)
     for leg in range(8):
@@ -98,7 +98,7 @@ def test_another_walk_is_no_calibration_for_a_stated_reason(route: Route, reason
         heading_walk(walk_of(route))
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_rest_after_the_walk_takes_off_what_a_wandering_bias_has_turned() -> None:
     """The bias of the left foot grows by 0.03 degrees/s from the first rest to the last one."""
     samples = [one for one in walk_of(there_and_back(15.0, 6, 10.0, 15.0)) if one.site is Site.LEFT_FOOT]

@@ -89,6 +89,7 @@ def full_disk() -> Iterator[Callable[[int | None], None]]:
     resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
 
+@pytest.mark.soak
 def test_on_a_full_disk_the_walk_goes_on_and_its_packets_are_written_when_there_is_space(
     run: Run, full_disk: Callable[[int | None], None], capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -108,6 +108,7 @@ def agree(events: list[Event], read_indices: list[int], scene: Scene | None = No
 
 @settings(max_examples=8)
 @given(st.data())
+@pytest.mark.soak
 def test_the_changes_add_up_to_the_scene_of_a_late_watcher(data: st.DataObject) -> None:
     events = events_of_all_kinds()
     read_indices = data.draw(st.lists(st.integers(0, len(events) - 1), max_size=40))
@@ -127,7 +128,7 @@ def test_a_page_that_is_far_behind_gets_the_whole_scene_again() -> None:
     assert agree(events, [MAX_BEHIND // 2]).scene_count == 1
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
     many = FootMoved | FootPressed | PacketsLost | PacketRejected | SampleGap
     once = [event for event in events_of_all_kinds() if not isinstance(event, many)]

@@ -36,7 +36,7 @@ async def played(chromium: Browser, **given: Any) -> AsyncIterator[tuple[Window,
         yield view, player.playback
 
 
-@pytest.mark.soak
+@pytest.mark.long
 async def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(chromium: Browser) -> None:
     async with played(chromium) as (view, playback):
         for state, name in (("paused", "Play"), ("playing", "Pause"), ("paused", "Play")):

@@ -47,9 +47,14 @@ async def knock(page: Page, peer: str, sent: bytes) -> Connection | None:
     return None
 
 
+MORE_PEERS = ((PEERS, GET * 20), (("127.0.0.1",), handshake()))
+
+
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only 127.0.0.1 is this machine")
 @pytest.mark.parametrize(
-    ("peers", "sent"), [(PEERS[:1], b""), (PEERS, GET * 20), (("127.0.0.1",), handshake())], ids=["1", "4", "own"]
+    ("peers", "sent"),
+    [(PEERS[:1], b""), *(pytest.param(*one, marks=pytest.mark.soak) for one in MORE_PEERS)],
+    ids=["1", "4", "own"],
 )
 async def test_idle_connections_and_reconnections_keep_nobody_out(peers: tuple[str, ...], sent: bytes) -> None:
     async with served(host="0.0.0.0" if len(peers) > 1 else "127.0.0.1") as (page, _, _):

@@ -114,6 +114,7 @@ ACTIONS = st.one_of(
 
 @settings(max_examples=10)
 @given(actions=st.lists(ACTIONS, max_size=8), end=TIMES)
+@pytest.mark.soak
 def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(actions, end):
     player = make_player(spacing=0.7)  # a walk of four seconds has one moment otherwise
     for action in actions:

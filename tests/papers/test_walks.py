@@ -51,6 +51,7 @@ def test_a_walk_of_20_m_has_its_strides_and_its_length(recipe: str) -> None:
         assert hypot(*errors) < spread * len(errors) ** 0.5
 
 
+@pytest.mark.soak
 def test_strides_with_known_velocity_are_nearer_to_the_truth_than_with_zero_velocity_alone() -> None:
     errors = {}
     for name in ("kupt", "zupt"):

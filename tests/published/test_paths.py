@@ -45,7 +45,7 @@ def test_an_app_counts_saves_and_goes_on(here: Path) -> None:
     assert names["session"].position == names["session"].restore(names["saved"]["session"]).position
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_tables_of_a_lab_become_frames_and_a_report(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "argv", ["researcher.py", "lab"])
     runpy.run_path(str(EXAMPLES / "researcher.py"), run_name="__main__")

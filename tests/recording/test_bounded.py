@@ -62,7 +62,7 @@ def inflating(path: Path, claimed: tuple[int, ...], actual: int, descr: str = "<
     return path
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_what_inflates_to_a_gigabyte_is_rejected_before_that(tmp_path: Path) -> None:
     whole = inflating(tmp_path / "whole.npz", (40_000_000, 3), 960_000_000)
     assert whole.stat().st_size < 5_000_000

@@ -165,7 +165,7 @@ def test_any_events_in_any_order_make_a_page_without_a_number_that_is_none(seed:
             assert not any(NO_NUMBER.search(value) for value in coordinates.values())
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_memory_does_not_grow_with_the_time_walked() -> None:
     kinds = (GaitCycleMeasured, StrideTaken, WearerMoved)
     events = [event for kind in kinds for event in of(kind, walk_events())[-8:]]

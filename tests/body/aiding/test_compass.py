@@ -133,7 +133,7 @@ def test_a_way_that_turns_keeps_its_heading_by_the_compass_and_the_filter_is_as_
     assert 0.2 < np.mean(squares) < 2.5
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_without_any_disturbance_nothing_is_strange_and_no_iron_has_changed() -> None:
     walks = [Walked(turning, 3000.0, 0.0, seed=seed) for seed in SEEDS]
     assert rms(walks) < 3.0
@@ -197,7 +197,7 @@ def test_a_steel_floor_of_150_m_is_reported_and_its_field_is_not_used() -> None:
     assert rms(walks) < rms(undisturbed) + 6.0
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_the_steel_of_a_lift_does_not_turn_the_track() -> None:
     def lift(measured: np.ndarray, foot: int, s: float) -> np.ndarray:
         return measured + (np.array([-30.0, 25.0, 30.0]) if 700.0 < s < 708.0 else 0.0)

@@ -73,7 +73,7 @@ def test_a_place_that_is_20_m_off_is_rejected_with_a_reason_and_changes_nothing(
     assert session.position == saved
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_packet_of_the_receiver_does_the_same_and_a_saved_session_too() -> None:
     walk = loop()
     one, other = fed(walk, 60.0), fed(walk, 60.0)

@@ -52,7 +52,7 @@ def test_north_is_known_after_some_turns_within_three_standard_deviations(seed: 
     assert known[-1][1] < radians(8.0) and off(known[-1]) < radians(12.0)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_magnetometer_with_a_mirrored_axis_shows_no_north() -> None:
     mirrored = tuple(
         sample if sample.mag is None else evolve(sample, mag=(sample.mag[0], -sample.mag[1], sample.mag[2]))

@@ -30,7 +30,7 @@ def test_a_place_with_a_name_is_noted_and_corrects_the_track_when_the_wearer_is_
     assert error(walk, session) < 0.6 * error(walk, plain)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_named_place_where_the_wearer_cannot_be_is_rejected_by_its_name() -> None:
     walk, (first, _) = loop(), passing_times()
     session = fed(walk, first)

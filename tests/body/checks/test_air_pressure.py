@@ -80,7 +80,7 @@ def test_a_barometer_that_shows_the_height_is_not_reported(route: Route) -> None
     assert not defects(session(route, true)[1])
 
 
-@pytest.mark.parametrize("disturb", [drifts, *soaked(door)])
+@pytest.mark.parametrize("disturb", soaked(drifts, door))
 def test_pressure_alone_is_neither_a_ride_nor_stairs(disturb: Disturb) -> None:
     one, events = session(LEVEL, disturb)
     reported = {event.activity for event in events if isinstance(event, ActivityChanged)}
@@ -107,6 +107,7 @@ def test_a_lift_is_as_high_as_its_pulses_when_the_barometer_drifts() -> None:
     assert ride.height == pytest.approx(RIDE, abs=0.1 * RIDE) and height(one) == pytest.approx(RIDE, abs=0.1 * RIDE)
 
 
+@pytest.mark.soak
 def test_stairs_are_climbed_with_a_barometer_that_is_stuck() -> None:
     one, events = session(STAIRS, stuck)
     (flight,) = [event for event in events if isinstance(event, FlightClimbed)]

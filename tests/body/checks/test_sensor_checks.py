@@ -137,7 +137,7 @@ RECORDED = ("openshoe_loops/m02", "xio_closed_walks/straightLine", "tripod_tread
 
 
 @pytest.mark.parametrize("name", RECORDED)
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_recording_is_silent_and_with_a_mirrored_axis_it_is_not(name: str, data_dir: Path) -> None:
     samples = [sample for sample in read_samples(data_dir / f"{name}.npz") if sample.t < 60.0]
     assert [event for event in run(samples)[0] if event.defect is not Defect.CLOCKS] == []

@@ -33,6 +33,7 @@ def test_a_column_of_a_file_has_its_unit_at_the_end_or_is_a_name_a_count_or_a_sh
     assert [name for name in columns if not name.endswith(UNITS) and name not in WITHOUT_UNIT] == []
 
 
+@pytest.mark.soak
 def test_angles_of_the_files_are_in_the_degrees_of_the_summary(walk: Path, tmp_path: Path) -> None:
     done = run("track", walk, "--out", tmp_path)
     steady = [row for row in rows_in(tmp_path / "gait_cycles.csv") if row["steady"] == "1" and row["foot"] == "left"]

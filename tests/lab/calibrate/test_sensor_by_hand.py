@@ -48,6 +48,7 @@ def test_a_clumsy_hand_finds_scale_to_a_fifth_of_a_percent_and_axes_to_a_fifth_o
     assert np.diag(one.gyro_sigma).max() < 0.002
 
 
+@pytest.mark.soak
 def test_gravity_and_ways_fit_better_with_the_calibration_than_without(samples: list[Sample]) -> None:
     (found,) = fit_sensors(samples)
     assert found.foot is Foot.RIGHT and found.pauses >= 12 and found.turned == (5, 5) and not found.notes
@@ -55,6 +56,7 @@ def test_gravity_and_ways_fit_better_with_the_calibration_than_without(samples: 
     assert sensor_calibration([found]).sensors == {Foot.RIGHT: found.calibration}
 
 
+@pytest.mark.soak
 def test_a_rest_that_is_missing_is_named() -> None:
     """All rests with z within 25 degrees of up, and turns that keep it there."""
     tilts = [radians(25.0) * k / 12 for k in range(1, 13)]

@@ -68,7 +68,7 @@ def near(at: tuple[float, float], position: PositionFrame) -> bool:
     return hypot(position.position[0] - at[0], position.position[1] - at[1]) < 0.3
 
 
-@pytest.mark.soak
+@pytest.mark.long
 async def test_a_click_on_the_plan_reports_a_place_on_the_level_that_is_shown_and_one_on_the_track_in_its_frame(
     chromium: Browser,
 ) -> None:
@@ -95,7 +95,7 @@ async def test_a_click_on_the_plan_reports_a_place_on_the_level_that_is_shown_an
         assert reports == []
 
 
-@pytest.mark.soak
+@pytest.mark.long
 async def test_without_a_mouse_the_place_below_the_cross_is_reported_and_escape_reports_nothing(
     chromium: Browser,
 ) -> None:

@@ -64,7 +64,7 @@ def test_a_heel_without_20_kilopascal_has_no_contour_and_does_not_stand_however_
         assert stance.sigma == inf and stance.statistic == 100.0
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_the_heel_is_slower_at_the_zero_velocities_of_pressure_than_at_those_of_the_gyroscope() -> None:
     gyroscope, ours, printed = (
         stance_velocities(walked(name), lap().truth, RIGHT)

@@ -22,7 +22,7 @@ def strides_of(recipe: Recipe, file: Path, calibration: Calibration) -> list[Str
     return of(StrideTaken, run_session(load_samples(file), recipe, calibration=calibration))
 
 
-@pytest.mark.soak
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["shape_C1", "both_20241113_105919"])
 @pytest.mark.parametrize("recipe", [GYROSCOPE, PRESSURE_CONTOUR], ids=["gyroscope", "contours"])
 @pytest.mark.parametrize("with_layout", [True], ids=["cells known"])

@@ -124,7 +124,7 @@ def by_tracks(how: str) -> float:
     return run_walk(TRACKS_RECIPE, SUITS[how][0]())[0][0]
 
 
-@pytest.mark.parametrize("how", [[*SUITS][0], *soaked(*[*SUITS][1:])])
+@pytest.mark.parametrize("how", soaked(*SUITS))
 def test_a_lost_chain_is_replaced_by_the_tracks_and_reported_once(how: str) -> None:
     samples, named = SUITS[how]
     (x, y), events = run_walk("walking-modes", samples())
