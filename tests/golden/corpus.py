@@ -169,7 +169,12 @@ def kept(snapshot: Any) -> dict[str, Any]:
             numbers.append(float(value))
         elif isinstance(value, str) and value[:1].islower():  # a class has another name
             words.append(value)
-    return {"": "(kept)", "numbers": sorted(numbers), "words": sorted(words)}
+    return {"": "(kept)", "numbers": sorted(numbers, key=_with_sign), "words": sorted(words)}
+
+
+def _with_sign(number: float) -> tuple[float, float]:
+    """Return what puts -0.0 before 0.0."""
+    return number, math.copysign(1.0, number)
 
 
 def answers(session: Session) -> dict[str, Any]:

@@ -1,12 +1,13 @@
 """Results that take long and that many tests share: computed once a run, by one of the workers, and kept for the next.
 
 A result is a file below `.pytest_cache/kept`, named by a hash of all on which it can depend: solepath, the helpers and
-the golden corpus, `protocol/`, Python and numpy. So it is never that of other code. Workers that want the same result
-wait for the first."""
+the golden corpus, `protocol/`, Python and its packages. So it is never that of other code. Workers that want the same
+result wait for the first."""
 
 from __future__ import annotations
 
 import pickle
+import platform
 import sys
 from collections.abc import Callable
 from functools import cache, wraps
@@ -15,6 +16,7 @@ from importlib.metadata import version
 from pathlib import Path
 from shutil import rmtree
 from typing import ParamSpec, TypeVar
+from zlib import ZLIB_RUNTIME_VERSION
 
 import solepath
 
@@ -33,15 +35,31 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 
-@cache
-def code() -> str:
-    """Return a hash of all on which a result can depend."""
-    digest = sha256(f"{sys.version} {version('numpy')}".encode())
-    for folder in (Path(solepath.__file__).parent, *map(ROOT.joinpath, ("tests/helpers", "tests/golden", "protocol"))):
-        for path in sorted(folder.rglob("*")):
-            if path.is_file() and path.suffix != ".pyc":
-                digest.update(path.read_bytes())
+def files() -> list[Path]:
+    """Return the files on which a result can depend."""
+    folders = (Path(solepath.__file__).parent, *map(ROOT.joinpath, ("tests/helpers", "tests/golden", "protocol")))
+    return [
+        path for folder in folders for path in sorted(folder.rglob("*")) if path.suffix != ".pyc" and path.is_file()
+    ]
+
+
+def hashed() -> str:
+    """Return a hash of all on which a result can depend: names and contents of files, and versions."""
+    versions = [version(name) for name in ("attrs", "construct", "numpy")]
+    digest = sha256(f"{sys.version} {platform.platform()} {ZLIB_RUNTIME_VERSION} {versions}".encode())
+    for path in files():
+        data = path.read_bytes()
+        digest.update(f"{path.parts[-4:]} {len(data)} ".encode() + data)
     return digest.hexdigest()[:16]
+
+
+def written() -> list[int]:
+    """Return when each of the files was written."""
+    return [path.stat().st_mtime_ns for path in files()]
+
+
+CODE, WRITTEN = hashed(), written()
+"""Hash of what this process has loaded, or will, and when that was written."""
 
 
 @cache
@@ -49,7 +67,7 @@ def clean() -> None:
     """Delete what is kept of other code."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     for folder in FOLDER.iterdir():
-        if folder.name != code():
+        if folder.name != CODE:
             rmtree(folder, ignore_errors=True)
 
 
@@ -61,12 +79,15 @@ def kept(compute: Callable[P, T]) -> Callable[P, T]:
     def found(*arguments: P.args, **named: P.kwargs) -> T:
         clean()
         name = sha256(repr((compute.__module__, compute.__qualname__, arguments, named)).encode()).hexdigest()[:24]
-        path = FOLDER / code() / name
+        path = FOLDER / CODE / name
         path.parent.mkdir(parents=True, exist_ok=True)
         with path.with_suffix(".lock").open("w") as lock:
             flock(lock, LOCK_EX)
             if not path.exists():
-                path.with_suffix(".new").write_bytes(pickle.dumps(compute(*arguments, **named)))
+                computed = compute(*arguments, **named)
+                if written() != WRITTEN:  # a file has changed meanwhile, and nobody knows which side was computed
+                    return computed
+                path.with_suffix(".new").write_bytes(pickle.dumps(computed))
                 path.with_suffix(".new").rename(path)
         result: T = pickle.loads(path.read_bytes())
         return result

@@ -11,7 +11,7 @@ attitude error over T, the error equations dp' = dv, dv' = -[f]x dt (Sola 2017, 
     dp(T) = dp + T dv + M2 dt,  M2 = -[D]x      dv(T) = dv + M1 dt,  M1 = -[S]x      dt(T) = dt
 
 The lines below are the blocks of P <- F P F' + Q and of the Kalman update by a measured velocity, H = [0 I 0].
-tests/foot/test_covariance.py compares them with the matrix form."""
+tests/foot/navigate/test_covariance.py compares them with the matrix form."""
 
 from __future__ import annotations
 
