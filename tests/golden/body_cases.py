@@ -162,7 +162,7 @@ def detectors() -> Iterator[Any]:
     for detector in (AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
         for corrector in (ErrorStateFilter(), LinearDedrift()):
             session = Session(Recipe("textbook", detector, corrector))
-            yield from session.feed(half(until=7.0)())
+            yield from session.feed(half(until=6.0)())
             yield kept(session.snapshot())
 
 
@@ -207,7 +207,7 @@ BODY: tuple[Case, ...] = (
          of("building-8", partial(stood, since=15.3), each(swapped), each(lambda item: None, 19.0, 20.0, LEFT),
             until=25.0), "default"),
     Case("cut off at 400 samples a second",
-         of("stroll", fourfold, each(lambda item: clipped(item, 25.0, 5.0)), until=7.0), "default"),
+         of("stroll", fourfold, each(lambda item: clipped(item, 25.0, 5.0)), until=5.0), "default"),
     Case("textbook detectors", detectors),
     Case("figures of a walk", figures),
 )  # fmt: skip

@@ -225,9 +225,9 @@ def every_tenth(items: tuple[Any, ...]) -> list[Item]:
     return ordered(item for k, item in enumerate(items) if k // 2 % 10 == 0)
 
 
-DAY = of("insole")
-HALF_DAY = of("insole", until=46.0)
-TAG = of("cc2541")
+DAY = of("insole", until=70.0)
+MORNING = of("insole", until=32.0)
+TAG = of("cc2541", until=50.0)
 TICKS = calls(*((2.0 * k, Call("advance", (2.0 * k,))) for k in range(1, 20)))
 NAMED = each(lambda item: evolve(item, device=("", "A", "B", "C")[int(item.t / 5.0)]))
 """The devices of both feet are others from time to time."""
@@ -237,7 +237,7 @@ STROLLS = ("insole-fragments", "insole-batches", "insole-cells-alone", "cc2541-1
 
 DEVICES: tuple[Case, ...] = (
     Case("insole of 16 cells, a day", DAY, "default", live),
-    *(Case(f"{name}, its stroll", of(name, until=24.0), "default", live) for name in STROLLS),
+    *(Case(f"{name}, its stroll", of(name, until=18.0), "default", live) for name in STROLLS),
     Case("cc2650, a day", of("cc2650"), "default", live),
     Case("cc2541 at 20 Hz, a day", of("cc2541", until=70.0), "default", live),
     Case("insoles and a DOT at the pelvis", of("dot-orientation", until=24.0), "default", live),
@@ -315,8 +315,8 @@ OF_LIMBS = ("walking-modes", "walking-modes-printed", "touchdown-height")
 OTHERS = tuple(name for name in recipes.NAMES if name not in ("default", *WHOLE))
 
 RECIPES: tuple[Case, ...] = (
-    *by_every(WHOLE, "the half of a day", HALF_DAY, options=posed),
-    *by_every(OTHERS, "the half of a day", HALF_DAY),
+    *by_every(WHOLE, "a morning", MORNING, options=posed),
+    *by_every(OTHERS, "a morning", MORNING),
     *by_every(AT_20_HZ, "cc2541 at 20 Hz", TAG),
     *by_every(OF_LIMBS, "seven sites", of("suit")),
     *by_every(DAMAGED, "losses in bursts", half(bursts)),
@@ -336,7 +336,7 @@ def walked(number: int, until: float = 1e9) -> Callable[[], Iterable[Item]]:
 
 
 PLACES: tuple[Case, ...] = (
-    Case("a building, walk 8", walked(8, 90.0), "default", partial(planned, STARTS[8])),
+    Case("a building, walk 8", walked(8, 70.0), "default", partial(planned, STARTS[8])),
     Case("a building, walk 12", walked(12, 60.0), "default", partial(planned, STARTS[12])),
     Case("a building, nobody knows where", walked(12, 80.0), "default", planned),
     Case("a building, another start than said", walked(8, 40.0), "default", partial(planned, WRONG_START)),

@@ -392,7 +392,7 @@ def datasets() -> Iterator[Any]:
             if path.parent != motion.parent or "events" in path.name:
                 continue
             lines = (small if path == motion else text).splitlines(keepends=True)
-            for k in range(0, len(lines), 1 + len(lines) // 6):
+            for k in range(0, len(lines), 1 + len(lines) // 5):
                 line = lines[k]
                 for changed in ("", line.replace("acc", "acx").replace("m/s^2", "furlong"), line.replace("1", "x", 1)):
                     path.write_text("".join([*lines[:k], changed, *lines[k + 1 :]]))
