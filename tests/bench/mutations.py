@@ -8,7 +8,8 @@ the suite makes when they are missing or of another code (`.mutations/`, never c
 
 A bug that no test notices survives, also when it cannot change what anybody sees; those that were looked at are in
 `survivors.txt` with the reason, by function and change. A limit on a measured number is turned round, not moved by its
-edge, because a measured number never meets its limit; one on a count is moved by its edge."""
+edge, because a measured number hardly ever meets its limit; one on a count is moved by its edge. So a wrong edge at the
+full scale of raw counts is not among the bugs."""
 
 from __future__ import annotations
 

@@ -30,6 +30,7 @@ class Notes(Part):
 
     needs_samples = needs_position = True
     noted: ClassVar[list[Any]] = []
+    """Of the class, since a session works with a copy of the part."""
 
     def feed(self, view: FootView) -> tuple[()]:
         self.noted.append(view)
