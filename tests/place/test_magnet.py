@@ -8,7 +8,7 @@ from math import atan2, pi, radians
 import pytest
 from attrs import evolve
 
-from solepath import ActivityChanged, DefectFound, Event, LiftRidden, Session, Start
+from solepath import ActivityChanged, DefectFound, Event, LiftRidden, Placed, Session, Start
 from solepath.emulate import Insole, sampled
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.ways import case_study
@@ -18,6 +18,7 @@ from solepath.emulate.walk import SampledWalk
 from solepath.events import Defect
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor
+from solepath.lab.emulated.place import is_near, is_on_floor
 from solepath.types import SITE_OF_FOOT, Foot, Site, Vec3
 
 PLAN, WAY = IndexedPlan(BUILDING), case_study()
@@ -56,6 +57,18 @@ def events(magnet: Vec3 | None, by_north: bool = False) -> list[Event]:
 def activities(found: list[Event]) -> list[tuple[str, float]]:
     """Return activities and rides with their times, as they were reported."""
     return [(str(event), event.t) for event in found if isinstance(event, ActivityChanged | LiftRidden)]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("magnet", "by_north"), [(NEAR_MAGNET, True), (AT_SENSOR, False)])
+def test_the_place_stays_right_and_the_activities_are_the_same(magnet: Vec3, by_north: bool) -> None:
+    plain, disturbed = events(None), events(magnet, by_north)
+    assert activities(plain) == activities(disturbed) != []
+    late = [one for one in disturbed if isinstance(one, Placed) and one.t > CAME and is_on_floor(walk().truth, one.t)]
+    assert len(late) > 50
+    for one in late:
+        ((level, x, y),) = WAY.places(walk().walker, one.t)
+        assert any(is_near(candidate, level, x, y) for candidate in one.candidates)
 
 
 @pytest.mark.long
