@@ -173,7 +173,7 @@ def kept(snapshot: Any) -> dict[str, Any]:
 
 
 def _with_sign(number: float) -> tuple[float, float]:
-    """Return what puts -0.0 before 0.0."""
+    """Return a key that sorts -0.0 before 0.0."""
     return number, math.copysign(1.0, number)
 
 
