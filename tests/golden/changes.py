@@ -79,12 +79,11 @@ def left_handed(item: Sample) -> Sample:
     return evolve(item, acc=(x, -y, z))
 
 
-def clipped(item: Sample, acc: float, gyro: float, says: bool = False) -> Sample:
+def clipped(item: Sample, acc: float, gyro: float) -> Sample:
     def cut(values: Any, most: float) -> Any:
         return tuple(max(-most, min(most, value)) for value in values)
 
-    made = evolve(item, acc=cut(item.acc, acc), gyro=cut(item.gyro, gyro))
-    return evolve(made, saturated=says and made != item)
+    return evolve(item, acc=cut(item.acc, acc), gyro=cut(item.gyro, gyro))
 
 
 def later(item: Any, by: float = 0.0, rate: float = 1.0) -> Any:
@@ -127,11 +126,6 @@ def smooth(items: tuple[Any, ...], count: int = 8) -> list[Any]:
             ]
             made.append(evolve(own[k], acc=means[0], gyro=means[1]))
     return ordered(made)
-
-
-def lost(items: tuple[Any, ...], share: float, seed: int = 5) -> Iterator[Any]:
-    drawn = draws(seed)
-    return (item for item in items if next(drawn) >= share)
 
 
 def bursts(items: tuple[Any, ...], period: float = 7.0, length: float = 1.1) -> Iterator[Any]:

@@ -7,12 +7,12 @@ from functools import partial
 from typing import Any
 
 from attrs import evolve
-from cases import STARTS, calibrated, live, of, planned, sole, walked
+from cases import STARTS, calibrated, of, planned, sole, walked
 from changes import LEFT, RIGHT, Change, added, each, halved, later, ordered, set_back, turned, without
 from corpus import Call, Case, Item, given
 
-from solepath import Calibration, Cell, Foot, Layout, Sample, Site, WalkingMode
-from solepath.calibration import CalibrationError, InsoleCalibration
+from solepath import Calibration, Foot, Sample, Site, WalkingMode
+from solepath.calibration import CalibrationError
 from solepath.papers.footstep_tracker.toe_out import ToeOutWalk, toe_out_calibration
 from solepath.papers.walking_modes.calibrate import ModeMark, mean_errors, step_errors, touchdowns
 from solepath.papers.walking_modes.limbs.standing import check_standing
@@ -173,16 +173,6 @@ def stood() -> Iterator[Any]:
             yield {"error": str(error)}
 
 
-def two_cells() -> dict[str, Any]:
-    """Return the options of a wearer whose insoles have two cells, at heel and toe, as nobody's insoles have."""
-    made = {foot: Layout(3, foot, (Cell(0.22, 0.0), Cell(0.04, 0.0)), 0.4, 1.0, 400.0) for foot in Foot}
-    return {"calibration": Calibration(insoles={foot: InsoleCalibration(made[foot]) for foot in Foot}), **live()}
-
-
-def first_and_last(items: tuple[Any, ...]) -> Iterator[Sample]:
-    return (evolve(item, pressure=(sum(item.pressure[6:]), sum(item.pressure[:6]))) for item in items)
-
-
 def at_50_hz(*changes: Change, until: float = 1e9) -> Callable[[], Iterable[Item]]:
     return of("stroll", lambda items: ordered(halved(items)), *changes, until=until)
 
@@ -202,7 +192,6 @@ PAPERS: tuple[Case, ...] = (
         Case(f"loads that come and go, {name}", at_50_hz(unloaded, until=20.0), name, calibrated)
         for name in ("kupt-dfpc", "pressure-contour-printed")
     ),
-    Case("insoles of two cells, kupt-dfpc", at_50_hz(first_and_last, until=20.0), "kupt-dfpc", two_cells),
     Case("cells alone, footstep-tracker", at_50_hz(without("acc", "gyro"), until=20.0), "footstep-tracker", calibrated),
     Case("cells alone, kupt-dfpc", at_50_hz(without("acc", "gyro"), until=12.0), "kupt-dfpc", calibrated),
     *(

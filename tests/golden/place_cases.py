@@ -648,7 +648,7 @@ def without_rooms() -> Iterator[Any]:
 
 
 MORE_PLACES: tuple[Case, ...] = (
-    *[Case(f"pedestrians from {k} on", partial(told, range(k, k + 9))) for k in (0, 9)],
+    *[Case(f"pedestrians from {k} on", partial(told, range(k, k + 7))) for k in (0, 7)],
     Case("pedestrians, the Snake game", partial(told, range(36, 40), SnakeGame)),
     *[Case(f"floor plans of {kind}", partial(read, kind)) for kind in ("osm", "imdf", "geojson")],
     Case("stairs on a clock set back", stairs_again),
