@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
-from walks import LEFT, PACKET_NAMES, RIGHT, machines, of, often, samples
+from walks import DEVICE_NAMES, LEFT, RIGHT, machines, of, often, samples
 
 from solepath import Foot, Sample, Session, StreamResumed, StreamStale, StrideTaken, recipes
 from solepath.emulate.routes.route import Route
@@ -18,7 +18,7 @@ from solepath.emulate.wearers.walker import Walker
 TIMES = ("t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike")
 
 
-@pytest.mark.parametrize("name", often(name for name in PACKET_NAMES if name.startswith("session")))
+@pytest.mark.parametrize("name", DEVICE_NAMES)
 def test_silence_becomes_an_event_when_time_passes(name: str) -> None:
     machine = machines()[name]
     middle = len(machine.items) // 2

@@ -19,7 +19,7 @@ from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, S
 from solepath.foot.pressure.cells import enclosed
 from solepath.types import Foot, Sample
 
-WALK = Route().stand(1.5).walk(30.0, 1.3).stop(1.0)
+WALK = Route().stand(1.5).walk(20.0, 1.3).stop(1.0)
 COUNTS = (24, 35, 96, 99)
 Fault = Callable[[float, tuple[float, ...], int], tuple[float | None, ...]]
 """Function of time, cells and the index of the failing cell that returns the changed cells."""
@@ -27,7 +27,7 @@ Fault = Callable[[float, tuple[float, ...], int], tuple[float | None, ...]]
 
 @cache
 def walk(cells: int = 96) -> tuple[Sample, ...]:
-    """Return a walk of about 26 s at 50 Hz, with cells clipped like those of a device."""
+    """Return a walk of about 18 s at 50 Hz, with cells clipped like those of a device."""
     return tuple(
         evolve(s, pressure=tuple([min(value, FULL_SCALE) for value in s.pressure]))
         for s in samples(WALK, cells=cells, rate=50.0)

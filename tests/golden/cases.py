@@ -185,7 +185,7 @@ def of(name: str, *changes: Change, until: float = 1e9) -> Callable[[], Iterable
     return make
 
 
-def half(*changes: Change, until: float = 1e9) -> Callable[[], Iterable[Item]]:
+def half(*changes: Change, until: float = 24.0) -> Callable[[], Iterable[Item]]:
     """Return a function that makes the stroll at 50 Hz, changed in this order."""
     return of("stroll", lambda items: ordered(halved(items)), *changes, until=until)
 
@@ -230,7 +230,7 @@ STROLLS = ("insole-fragments", "insole-batches", "insole-cells-alone", "cc2541-1
 
 DEVICES: tuple[Case, ...] = (
     Case("insole of 16 cells, a day", DAY, "default", posed),
-    *(Case(f"{name}, its stroll", of(name, until=18.0), "default", live) for name in STROLLS),
+    *(Case(f"{name}, its stroll", of(name, until=13.0), "default", live) for name in STROLLS),
     Case("cc2650, a day", of("cc2650"), "default", live),
     Case("cc2541 at 20 Hz, a day", of("cc2541", until=56.0), "default", live),
     Case("insoles and a DOT at the pelvis", of("dot-orientation", until=24.0), "default", live),

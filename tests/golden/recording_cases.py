@@ -376,7 +376,7 @@ def datasets() -> Iterator[Any]:
             writer = MotionWriter(root, Entities("01", "walk", visit), header)
             posed = PosedSession(Session(poses=True))
             for item in given("insole"):
-                if item.t < 6.0:
+                if item.t < 5.0:
                     events = posed.session.feed(item)
                     writer.add(posed.take(), events)
             writer.write()

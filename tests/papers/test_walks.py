@@ -16,7 +16,7 @@ from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, FootFlat, HeelOff, HeelStrike, ToeOff
 
-LAYOUTS = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
+LAYOUTS = Calibration(insoles={foot: InsoleCalibration(layout=layout(24, foot)) for foot in Foot})
 BOUNDS = {
     "kupt-dfpc": (0.01, 0.015), "kupt-dfpc-printed": (0.02, 0.03), "kupt": (0.01, 0.015), "zupt": (0.02, 0.03),
     "pressure-contour": (0.02, 0.03), "gyroscope": (0.02, 0.03), "walking-modes": (0.02, 0.03),
@@ -35,7 +35,7 @@ def walker() -> Walker:
 
 @cache
 def events_of(recipe: str) -> list[Event]:
-    samples = both_feet(walker(), 100.0, LSM6DSOX, 96)
+    samples = both_feet(walker(), 100.0, LSM6DSOX, 24)
     return run_session(samples, recipes.by_name(recipe), calibration=LAYOUTS)
 
 

@@ -54,7 +54,7 @@ def test_what_compares_the_feet_is_left_out_once_one_foot_has_walked_alone() -> 
         THERE,
         Route().stand(3.0).turn(12.0, radius=0.3).stop(3.0),
         Route().stand(3.0).stairs(16, True, 0.16, 0.30).stop(2.0).stairs(16, False, 0.16, 0.30).stop(3.0),
-        Route().stand(3.0).jog(40.0, 2.8).stop(3.0),
+        Route().stand(3.0).jog(25.0, 2.8).stop(3.0),
         Route().stand(3.0).walk(3.0, 0.5).stop(2.0).walk(3.0, 1.8).stop(2.0),
     ],
     ids=["a walk", "a turn on the spot", "stairs", "a run", "short walks"],

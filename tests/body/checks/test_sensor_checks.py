@@ -21,8 +21,8 @@ from solepath.recording import read_samples
 from solepath.types import Vec3
 from solepath.types.vector import GRAVITY, normalise, rotate
 
-WALK = Walker(Route().stand(1.5).walk(30.0, 1.3).stop(1.0), seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
-"""A walk of 30 m with an inertial sensor that has no defect."""
+WALK = Walker(Route().stand(1.5).walk(22.0, 1.3).stop(1.0), seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
+"""A walk of 22 m with an inertial sensor that has no defect."""
 
 
 DAMAGES: dict[str, tuple[Defect, Change]] = {
