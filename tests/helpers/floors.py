@@ -6,6 +6,7 @@ heading in the plan is unknown.
 
 from __future__ import annotations
 
+from functools import cache
 from math import cos, hypot, pi, radians, sin
 from random import Random
 
@@ -114,7 +115,11 @@ def office(anchor: Anchor | None = None) -> FloorPlan:
     return FloorPlan("office", levels, tuple(connectors), anchor)
 
 
-OFFICE = IndexedPlan(office())
+@cache
+def indexed_office() -> IndexedPlan:
+    return IndexedPlan(office())
+
+
 METHODS = (Particles, SnakeGame)
 Method = Particles | SnakeGame
 """A part that estimates the place of a wearer on a plan."""
@@ -240,9 +245,9 @@ def activity_changed(t: float, known_at: float, activity: Activity) -> ActivityC
     return ActivityChanged(t=t, known_at=max(t, known_at), activity=activity, probability=None)
 
 
-def follow(part: Method, received: list[FloorEvents], plan: IndexedPlan = OFFICE) -> list[Event]:
+def follow(part: Method, received: list[FloorEvents], plan: IndexedPlan | None = None) -> list[Event]:
     """Return all events of the part."""
-    return [event for step in received for event in part.follow(plan, step.events, step.here)]
+    return [event for step in received for event in part.follow(plan or indexed_office(), step.events, step.here)]
 
 
 def placed(events: list[Event]) -> list[Placed]:

@@ -126,9 +126,14 @@ def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Ma
     return Machine(f"session, {name}", items, start, Session.restore)
 
 
+@cache
+def indexed_building() -> IndexedPlan:
+    return IndexedPlan(BUILDING)
+
+
 def _placed(name: str, items: tuple[Item, ...], recipe: Recipe) -> Machine:
     """Return a session in a building with a known start without a heading."""
-    building = IndexedPlan(BUILDING)
+    building = indexed_building()
     first_place = Start("0", (COLUMNS[0], 12.0))
 
     def start() -> Session:

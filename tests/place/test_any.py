@@ -12,13 +12,13 @@ from floors import (
     LIFTS,
     LOW,
     METHODS,
-    OFFICE,
     RIGHT,
     Method,
     Pedestrian,
     activity_changed,
     beside,
     follow,
+    indexed_office,
     lost,
     office,
     stepped,
@@ -100,7 +100,7 @@ def test_any_events_and_any_track_give_sound_events_and_no_exception(method, sta
         part.set_out(start)
     for events, t, position in updates:
         here = Position(t, position, (0.0,) * 6)  # type: ignore[arg-type]
-        received = part.follow(OFFICE, events, here)
+        received = part.follow(indexed_office(), events, here)
         assert not received or part.place == (received[-1] if isinstance(received[-1], Placed) else None)
         for event in received:
             assert isinstance(event, Placed | PlaceLost | PlanContradicted) and event.known_at >= event.t
@@ -130,7 +130,7 @@ def test_the_state_is_small_and_does_not_grow(part: Method) -> None:
         )
     decided_sizes = []
     for received in pedestrian.received:
-        part.follow(OFFICE, received.events, received.here)
+        part.follow(indexed_office(), received.events, received.here)
         sizes.append(packed_size(part))
         if part.place is not None and len(part.place.candidates) == 1:
             decided_sizes.append(sizes[-1])

@@ -19,9 +19,6 @@ from solepath.lab.emulated import place as emulated_place
 from solepath.lab.emulated.place import PlaceScore
 from solepath.types import SITE_OF_FOOT
 
-PLAN = IndexedPlan(BUILDING)
-
-
 HEADING_ERROR = 0.1
 """Standard deviation of a first heading that is given, rad: 6 degrees, as a phone's compass may have."""
 
@@ -36,7 +33,7 @@ def score_walk(recipe: str, seed: int, with_heading: bool = False) -> PlaceScore
     walk = emulate(planned_walk.route, devices=devices, seed=seed)
     heading = (planned_walk.start.heading or 0.0) + float(np.random.default_rng(seed).normal(0.0, HEADING_ERROR))
     start = Start(heading=heading) if with_heading else None
-    session = Session(recipes.by_name(recipe), floorplan=PLAN, start=start)
+    session = Session(recipes.by_name(recipe), floorplan=IndexedPlan(BUILDING), start=start)
     return emulated_place.score(planned_walk, walk.walker, walk.truth, session.feed(walk.packets) + session.finish())
 
 

@@ -21,7 +21,7 @@ from solepath.floorplan.plan import Anchor
 from solepath.lab.emulated.place import is_near, is_on_floor
 from solepath.types import SITE_OF_FOOT, Foot, Site, Vec3
 
-PLAN, WAY = IndexedPlan(BUILDING), case_study()
+WAY = case_study()
 CAME = 60.0
 """Time at which the magnet comes, s."""
 NEAR_MAGNET, AT_SENSOR = (60e-6, 30e-6, 20e-6), (600e-6, 300e-6, 200e-6)
@@ -34,7 +34,7 @@ def walk() -> SampledWalk:
     return sampled(WAY.route, insoles=insoles, field=MagneticField(radians(20.0), seed=4), seed=3)
 
 
-NORTHERN = IndexedPlan(evolve(BUILDING, anchor=Anchor(48.0, 11.0, atan2(EARTH[1], EARTH[0]) - 0.5 * pi)))
+NORTHERN = evolve(BUILDING, anchor=Anchor(48.0, 11.0, atan2(EARTH[1], EARTH[0]) - 0.5 * pi))
 """The building with its north: the walk's first heading is the plan's x axis."""
 
 
@@ -50,7 +50,7 @@ def events(magnet: Vec3 | None, by_north: bool = False) -> list[Event]:
             mag = (mag[0] + magnet[0], mag[1] + magnet[1], mag[2] + magnet[2])
         samples.append(evolve(sample, mag=mag))
     start = None if by_north else Start(heading=WAY.start.heading)
-    session = Session(floorplan=NORTHERN if by_north else PLAN, start=start)
+    session = Session(floorplan=IndexedPlan(NORTHERN if by_north else BUILDING), start=start)
     return session.feed(samples) + session.finish()
 
 

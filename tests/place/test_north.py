@@ -17,9 +17,13 @@ from solepath.floorplan.plan import Anchor, FloorPlan
 SEEDS = range(1, 5)
 BEARING = 0.6
 """Bearing of the office in these tests, rad, clockwise from north."""
-PLAN = IndexedPlan(office(Anchor(48.0, 11.0, BEARING)))
 PROVEN_AFTER = 20
 """Number of events after which the compass knows where north is."""
+
+
+@cache
+def anchored() -> IndexedPlan:
+    return IndexedPlan(office(Anchor(48.0, 11.0, BEARING)))
 
 
 def with_north(received: list[FloorEvents], turned: float, sigma: float = 0.1) -> list[FloorEvents]:
@@ -35,12 +39,12 @@ def with_north(received: list[FloorEvents], turned: float, sigma: float = 0.1) -
 def misled(method: type[Method], seed: int) -> tuple[Method, list[Event]]:
     """Return a part whose compass is wrong by a right angle, after a tour, and its events."""
     part, pedestrian = method(), tour(seed)
-    return part, follow(part, with_north(pedestrian.received, pedestrian.turned + 0.5 * pi), PLAN)
+    return part, follow(part, with_north(pedestrian.received, pedestrian.turned + 0.5 * pi), anchored())
 
 
-def decided(part: Method, received: list[FloorEvents], plan: IndexedPlan = PLAN) -> int:
+def decided(part: Method, received: list[FloorEvents], plan: IndexedPlan | None = None) -> int:
     """Return the number of places until one candidate had nine tenths of the weight."""
-    places = placed(follow(part, received, plan))
+    places = placed(follow(part, received, plan or anchored()))
     return next((k for k, place in enumerate(places) if place.candidates[0].weight >= 0.9), len(places))
 
 
@@ -78,7 +82,7 @@ def test_walls_that_contradict_the_compass_are_reported_once_and_it_is_used_no_l
 def test_a_compass_that_is_right_is_not_contradicted(part: Method) -> None:
     for seed in SEEDS:
         pedestrian = tour(seed)
-        events = follow(type(part)(), with_north(pedestrian.received, pedestrian.turned + 0.15), PLAN)
+        events = follow(type(part)(), with_north(pedestrian.received, pedestrian.turned + 0.15), anchored())
         assert not any(isinstance(event, PlanContradicted) for event in events)
 
 

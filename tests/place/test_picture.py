@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 from commands import run, run_failing
-from floors import OFFICE, Pedestrian, follow, office, tour
+from floors import Pedestrian, follow, indexed_office, office, tour
 from recordings import recorded
 from walks import insoles
 
@@ -56,7 +56,7 @@ def test_the_picture_has_a_panel_for_every_level_a_scale_and_where_the_wearer_wa
 def test_the_summary_has_the_time_at_which_the_wearer_was_found_and_the_levels() -> None:
     part, places = Particles(), PlaceCounts()
     for received in tour(7).received:
-        for event in [*received.events, *part.follow(OFFICE, received.events, received.here)]:
+        for event in [*received.events, *part.follow(indexed_office(), received.events, received.here)]:
             places.add(event)
     assert places.last is not None and places.last.level == "1"
     lines = place_lines(places)

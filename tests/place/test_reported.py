@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import cos, dist, hypot, inf, sin
 
 import pytest
-from floors import HIGH, LOW, OFFICE, RIGHT, Method, Pedestrian, follow, lost, placed
+from floors import HIGH, LOW, RIGHT, Method, Pedestrian, follow, indexed_office, lost, placed
 
 from solepath import Session, Site
 from solepath.emulate.routes.building import BUILDING
@@ -24,7 +24,7 @@ def off(part: Method, place: Point) -> float:
 
 
 def test_a_report_finds_a_wearer_without_a_start(part: Method) -> None:
-    part.plan = OFFICE
+    part.plan = indexed_office()
     pedestrian = Pedestrian(3, "0", (12.0, LOW))
     assert not part.receive(reported(0.0, pedestrian.place))
     pedestrian.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
@@ -35,7 +35,7 @@ def test_a_report_finds_a_wearer_without_a_start(part: Method) -> None:
 
 def test_a_report_decides_between_places_that_walls_cannot(part: Method) -> None:
     pedestrian = Pedestrian(4, "0", (12.0, LOW))
-    part.plan = OFFICE
+    part.plan = indexed_office()
     part.set_out(Start("0", (14.0, LOW), None, 6.0))
     pedestrian.walk((16.0, LOW))
     follow(part, pedestrian.received)
@@ -49,7 +49,7 @@ def test_a_report_decides_between_places_that_walls_cannot(part: Method) -> None
 
 def test_a_place_where_the_track_cannot_have_led_is_rejected_and_a_second_one_is_used(part: Method) -> None:
     pedestrian = Pedestrian(5, "0", (12.0, LOW)).known_to(part)
-    part.plan = OFFICE
+    part.plan = indexed_office()
     pedestrian.walk((20.0, LOW))
     follow(part, pedestrian.received)
     (rejected,) = part.receive(reported(pedestrian.t, (20.0, HIGH)))
@@ -72,14 +72,14 @@ def test_a_place_where_the_track_cannot_have_led_is_rejected_and_a_second_one_is
 def test_a_place_that_is_not_on_the_plan_is_rejected_with_the_reason(
     part: Method, level: str, place: Point, word: str
 ) -> None:
-    part.plan = OFFICE
+    part.plan = indexed_office()
     (rejected,) = part.receive(reported(1.0, place, level=level))
     assert isinstance(rejected, PositionRejected) and word in rejected.what and not part.rows
 
 
 def test_a_revision_of_the_track_moves_nobody_on_the_plan(part: Method) -> None:
     pedestrian = Pedestrian(6, "0", (12.0, LOW)).known_to(part)
-    part.plan = OFFICE
+    part.plan = indexed_office()
     pedestrian.walk((20.0, LOW))
     follow(part, pedestrian.received)
     by, turn = (-9.0, 14.0), 0.7

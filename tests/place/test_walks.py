@@ -12,7 +12,6 @@ from floors import (
     LIFTS,
     LOW,
     METHODS,
-    OFFICE,
     RIGHT,
     STAIRS,
     STOREY,
@@ -21,6 +20,7 @@ from floors import (
     Pedestrian,
     activity_changed,
     beside,
+    indexed_office,
     lost,
     placed,
     round_to,
@@ -55,7 +55,7 @@ class Followed:
 def follow_and_score(part: Method, received: list[FloorEvents]) -> Followed:
     result = Followed()
     for k, update in enumerate(received):
-        result.events += part.follow(OFFICE, update.events, update.here)
+        result.events += part.follow(indexed_office(), update.events, update.here)
         place = part.place
         if update.place is None or update.level is None:
             continue

@@ -11,7 +11,6 @@ from floors import (
     LEFT,
     LIFTS,
     LOW,
-    OFFICE,
     RIGHT,
     STAIRS,
     FloorEvents,
@@ -20,6 +19,7 @@ from floors import (
     activity_changed,
     beside,
     follow,
+    indexed_office,
     office,
     placed,
 )
@@ -38,7 +38,7 @@ def weight_near(part: Method, level: str, place: tuple[float, float]) -> float:
 
 def assert_truth_is_kept(part: Method, received: list[FloorEvents]) -> None:
     for update in received:
-        part.follow(OFFICE, update.events, update.here)
+        part.follow(indexed_office(), update.events, update.here)
         assert update.level is None or update.place is None or weight_near(part, update.level, update.place) > 0.0
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import atan, hypot, pi, radians, tan
 
 import pytest
-from floors import OFFICE
+from floors import indexed_office
 from walks import of, run_session
 
 from solepath.body.place.rows.rows import Row as PlaceRow
@@ -97,12 +97,12 @@ def test_as_printed_a_wall_drops_a_candidate_and_changes_no_weight() -> None:
     # two candidates in the corridor at the bottom of the office: one walks along it, the other into a room's wall
     along: PlaceRow = (10.0, 6.2, 1.0, 0.0, 0.25, 0, 0, 0)
     across: PlaceRow = (10.0, 6.2, 0.0, 1.0, 0.75, 0, 0, 0)
-    kept = moved_rows(OFFICE, [along, across], (2.0, 0.0))
+    kept = moved_rows(indexed_office(), [along, across], (2.0, 0.0))
     assert kept == [(12.0, 6.2, 1.0, 0.0, 0.25, 0, 0, 0)]
     game = PrintedSnake()
-    assert game.extend(OFFICE, [along, across], (2.0, 0.0), 1.0, 0.0) == kept
+    assert game.extend(indexed_office(), [along, across], (2.0, 0.0), 1.0, 0.0) == kept
     assert game.thin([along, across], 1) == [along, across]
-    assert len(SnakeGame().extend(OFFICE, [along], (2.0, 0.0), 1.0, pi)) == 1
+    assert len(SnakeGame().extend(indexed_office(), [along], (2.0, 0.0), 1.0, pi)) == 1
 
 
 LOW_PASSED = TriadErrors(density=1e-6, bias=0.0, drift=0.0, scale=0.0, cross=0.0, bandwidth=10.0)

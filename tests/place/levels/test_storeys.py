@@ -6,7 +6,7 @@ from math import dist
 
 import pytest
 from attrs import evolve
-from floors import LOW, OFFICE, STAIRS, Method, Pedestrian, activity_changed, beside, office, placed
+from floors import LOW, STAIRS, Method, Pedestrian, activity_changed, beside, indexed_office, office, placed
 
 from solepath import Activity, FlightClimbed
 from solepath.floorplan.index import IndexedPlan
@@ -84,7 +84,7 @@ def test_a_wearer_climbs_from_floor_to_floor_with_a_rest_on_the_landing(
 @pytest.mark.parametrize("up", [True, False])
 def test_a_rest_half_way_is_no_arrival_and_the_second_half_is_one(part: Method, up: bool) -> None:
     start, end, height = ("0", "1", 1.8) if up else ("1", "0", -1.8)
-    assert climbed(part, OFFICE.plan, start, end, (height, height), 30.0)[-1] == end
+    assert climbed(part, indexed_office().plan, start, end, (height, height), 30.0)[-1] == end
 
 
 def test_a_wearer_who_turns_back_on_the_landing_is_on_the_floor_where_they_started(part: Method) -> None:
