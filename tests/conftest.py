@@ -81,6 +81,11 @@ def chromium(browser: Browsing) -> Browser:
     return browser.browser
 
 
+def pytest_xdist_auto_num_workers() -> int:
+    """Return one worker more than there are processors, because tests over Bluetooth wait for seconds."""
+    return (os.cpu_count() or 1) + 1
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """Begin each worker of xdist with other folders, so that it finds compiled what another one has collected."""
     number = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))

@@ -42,8 +42,8 @@ from solepath.types import Foot, Packet, Sample, Site
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ROUGH = Radio(loss=0.05, duplicate=0.02, corrupt=0.02, truncate=0.02, latency=0.01, jitter=0.04)
 """A poor radio connection that a session must tolerate: lost, repeated, damaged and late packets."""
-SHORT = Route().stand(1.5).walk(3.0, 1.3).turn(radians(60), radius=1.5).walk(2.0).stop(1.0)
-"""A walk of about 8 s, three or four strides of each foot."""
+SHORT = Route().stand(1.5).walk(3.0, 1.3).turn(radians(60), radius=1.5).walk(1.2).stop(0.8)
+"""A walk of about 7 s, three or four strides of each foot."""
 
 Item = Packet | Sample
 
