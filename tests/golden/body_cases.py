@@ -162,7 +162,7 @@ def detectors() -> Iterator[Any]:
     for detector in (AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
         for corrector in (ErrorStateFilter(), LinearDedrift()):
             session = Session(Recipe("textbook", detector, corrector))
-            yield from session.feed(half(until=6.0)())
+            yield from session.feed(half(until=5.0)())
             yield kept(session.snapshot())
 
 

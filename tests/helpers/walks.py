@@ -55,7 +55,7 @@ def insoles(route: Route = SHORT, radio: Radio = CLEAN, seed: int = 1, cells: in
 
 
 @kept
-def samples(route: Route = SHORT, cells: int = 24, rate: float = 100.0, seed: int = 1) -> tuple[Sample, ...]:
+def samples(route: Route = SHORT, cells: int = 24, rate: float = 50.0, seed: int = 1) -> tuple[Sample, ...]:
     """Return the samples of both feet in the order of time, with the errors of an LSM6DSOX; without a radio."""
     return both_feet(Walker(route, seed=seed), rate, LSM6DSOX, cells)
 

@@ -51,7 +51,7 @@ UNUSABLE = ("in mg", "raw counts of the accelerometer", "mdeg/s", "ms", "ms sinc
 @pytest.mark.parametrize("name", DAMAGES)
 def test_a_damaged_sensor_is_named_and_the_strides_after_that_are_degraded(name: str) -> None:
     defect, change = DAMAGES[name]
-    fed = WALK[:1000] if name in UNUSABLE else WALK
+    fed = WALK[:600] if name in UNUSABLE else WALK
     found, strides = run([change(sample) for sample in fed])
     (event,) = [event for event in found if event.defect is defect]
     assert event.site is Site.LEFT_FOOT and event.spoils and event.what
