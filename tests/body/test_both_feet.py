@@ -28,7 +28,7 @@ CHEAP = evolve(LSM6DSOX, gyro=evolve(LSM6DSOX.gyro, scale=0.03, cross=0.02))
 @cache
 def _samples(seed: int) -> tuple[Sample, ...]:
     walker = Walker(LONG, seed=seed)
-    both = [sample for foot in Foot for sample in walker.samples(foot, 100.0, CHEAP)]
+    both = [sample for foot in Foot for sample in walker.samples(foot, 50.0, CHEAP)]
     return tuple(sorted(both, key=lambda sample: sample.t))
 
 

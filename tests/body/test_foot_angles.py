@@ -29,7 +29,7 @@ def steady_cycles(samples: Iterable[Sample]) -> list[GaitCycleMeasured]:
 @pytest.mark.parametrize("mounting", [ON_HEEL, TILTED])
 def test_angles_at_contact_are_the_true_pitch_at_any_mounting(mounting: Mounting) -> None:
     walker = Walker(Route().stand(1.5).walk(20.0, 1.3).stop(1.0), seed=7)
-    samples = walker.samples(Foot.LEFT, 100.0, LSM6DSOX, mounting=mounting)
+    samples = walker.samples(Foot.LEFT, 50.0, LSM6DSOX, mounting=mounting)
     pitch = walker.motions[Foot.LEFT].pitch
     measured = steady_cycles(samples)
     assert len(measured) >= 8

@@ -21,7 +21,7 @@ WALK = Route().stand(2.0).walk(25.0, 1.3).stop(1.0)
 
 @cache
 def walk() -> tuple[Sample, ...]:
-    return samples(WALK, cells=0, rate=100.0, seed=2)
+    return samples(WALK, cells=0, rate=50.0, seed=2)
 
 
 @cache

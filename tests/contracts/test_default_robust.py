@@ -30,7 +30,7 @@ ROUTE = Route().stand(2.0).walk(14.0, 1.3).stop(1.5)
 
 @cache
 def walk() -> tuple[Sample, ...]:
-    return tuple(Walker(ROUTE, seed=101).samples(Foot.LEFT, 100.0, LSM6DSOX))
+    return tuple(Walker(ROUTE, seed=101).samples(Foot.LEFT, 50.0, LSM6DSOX))
 
 
 def tracked(samples: Iterable[Sample], recover: bool = True) -> tuple[FootTracker, list[StrideTaken]]:

@@ -19,7 +19,7 @@ from solepath.types import Layout, Quat, Vec3
 from solepath.types.vector import IDENTITY, ZERO
 
 CELLS = layout(24, Foot.LEFT)
-WALKED = tuple(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0, layout=CELLS))
+WALKED = tuple(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 50.0, layout=CELLS))
 
 
 @define

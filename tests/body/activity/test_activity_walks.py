@@ -74,13 +74,13 @@ def test_standing_walking_running_stairs_and_lifts_are_reported(route: Route, ra
 
 
 def test_one_foot_is_enough() -> None:
-    left = tuple(sample for sample in samples(HOUSE, 100.0) if sample.site is Site.LEFT_FOOT)
+    left = tuple(sample for sample in samples(HOUSE, 50.0) if sample.site is Site.LEFT_FOOT)
     _, timeline = run(left)
     assert correct_share(timeline, HOUSE) >= CORRECT_SHARE - 0.05
 
 
 def test_feet_without_gyroscopes_still_show_standing_moving_and_lifts() -> None:
-    events, timeline = run(tuple(attrs.evolve(sample, gyro=None) for sample in samples(HOUSE, 100.0)))
+    events, timeline = run(tuple(attrs.evolve(sample, gyro=None) for sample in samples(HOUSE, 50.0)))
     truth = walker(HOUSE).truth()
     still = (Activity.STANDING, Activity.ELEVATOR_DOWN)
     times = [0.1 * k for k in range(int(10.0 * (truth.duration - 2.0)))]
@@ -91,7 +91,7 @@ def test_feet_without_gyroscopes_still_show_standing_moving_and_lifts() -> None:
 
 @pytest.mark.soak
 def test_a_ride_is_reported_with_its_times_and_its_height() -> None:
-    events, _ = run(samples(HOUSE, 100.0))
+    events, _ = run(samples(HOUSE, 50.0))
     (ride,) = [event for event in events if isinstance(event, LiftRidden)]
     (true,) = walker(HOUSE).truth().rides
     assert not ride.up
@@ -108,14 +108,14 @@ def test_a_barometer_measures_the_ride() -> None:
 
 
 def test_flights_are_reported_with_their_direction() -> None:
-    events, _ = run(samples(HOUSE, 100.0))
+    events, _ = run(samples(HOUSE, 50.0))
     assert [event.up for event in events if isinstance(event, FlightClimbed)] == [True, True]
 
 
 @pytest.mark.soak
 def test_everything_is_reported_within_a_few_seconds_of_its_start() -> None:
     first: dict[Activity, float] = {}
-    for event in run(samples(HOUSE, 100.0))[0]:
+    for event in run(samples(HOUSE, 50.0))[0]:
         if isinstance(event, ActivityChanged):
             first.setdefault(event.activity, event.known_at - event.t)
     walked = {Activity.WALKING, Activity.STAIRS_UP, Activity.RUNNING}
@@ -127,7 +127,7 @@ def test_a_runner_runs_at_every_stride() -> None:
     running = [span for span in walker(route).truth().activities if span[2] is Activity.RUNNING][0]
     known = [
         event.activity
-        for event in run(samples(route, 100.0))[0]
+        for event in run(samples(route, 50.0))[0]
         if isinstance(event, ActivityChanged) and running[0] + 2.0 < event.known_at < running[1] - 1.0
     ]
     assert Activity.WALKING not in known, "a level stride is no walk: it may be run as well"

@@ -25,7 +25,7 @@ MOST_PER_CELL = 1e5
 @cache
 def walk() -> tuple[Sample, ...]:
     """Return a walk with an insole of 96 cells, whose values are forces in N."""
-    return tuple(WALKER.samples(Foot.LEFT, 100.0, LSM6DSOX, layout=layout(96, Foot.LEFT)))
+    return tuple(WALKER.samples(Foot.LEFT, 50.0, LSM6DSOX, layout=layout(96, Foot.LEFT)))
 
 
 def reported_with(factor: float) -> tuple[list[DefectFound], list[StrideTaken]]:

@@ -51,7 +51,7 @@ def test_no_two_strides_merge_after_a_swing_with_a_wrong_velocity(speed: float, 
 def forty_metres() -> tuple[tuple[Sample, ...], tuple[TrueStride, ...]]:
     """Return the samples of the left foot, and its true strides."""
     walker = Walker(Route().stand(2.0).walk(40.0, 1.3).stop(2.0), seed=4)
-    return tuple(walker.samples(Foot.LEFT, 100.0, LSM6DSOX)), walker.truth().strides(Foot.LEFT)
+    return tuple(walker.samples(Foot.LEFT, 50.0, LSM6DSOX)), walker.truth().strides(Foot.LEFT)
 
 
 @pytest.mark.parametrize("scale", [1.0, 1.05])

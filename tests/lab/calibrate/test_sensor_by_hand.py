@@ -69,7 +69,7 @@ def test_a_rest_that_is_missing_is_named() -> None:
 
 def handled_with(hand: Handling) -> list[Sample]:
     """Return the samples of a hand's motion, without errors of a chip."""
-    return hand.samples(Foot.LEFT, 100.0, LSM6DSOX)
+    return hand.samples(Foot.LEFT, 50.0, LSM6DSOX)
 
 
 def test_too_few_times_at_rest_are_counted() -> None:
