@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from attrs import evolve
-from cases import STARTS, half, here, known, live, of, planned, sole
+from cases import STARTS, calibrated, half, here, known, live, of, planned, sole
 from changes import LEFT, RIGHT, added, calls, cells, clipped, draws, each, later, ordered, swapped, without
 from corpus import Case, given, kept
 
@@ -108,9 +108,11 @@ def in_unit(name: str, by: float) -> Any:
 
 
 def broken(values: tuple[float, ...], t: float) -> tuple[Any, ...]:
-    """Return cells of which one loads all the time, one hangs from 8 s to 20 s, one has no number for a while."""
+    """Return cells of which one loads all the time, two die, one hangs from 8 s to 20 s, one has no number for a while."""
     made: list[Any] = [*values]
     made[3] = 400.0
+    if t > 12.0:
+        made[0] = made[11] = 0.0
     made[6] = 40.0 if 8.0 < t < 20.0 else made[6]
     made[8] = None if 6.0 < t < 9.0 else made[8]
     return tuple(made)
@@ -193,7 +195,7 @@ BODY: tuple[Case, ...] = (
     Case("cells and inertial sensors apart", half(apart, until=8.0), "default", live),
     Case("insoles on the wrong feet, cells alone", half(without("acc", "gyro"), each(swapped)), "default"),
     Case("layouts of the other foot", half(until=12.0), "default", crossed),
-    Case("cells that fail in turn", half(cells(broken), until=22.0), "default"),
+    Case("cells that fail in turn", half(cells(broken), until=33.0), "default", calibrated),
     Case("no number from any cell", half(cells(of_no_number, RIGHT), until=10.0), "default", live),
     Case("an insole that shows nothing", half(cells(lambda values, t: (0.0,) * 12, LEFT), until=20.0), "default"),
     Case("a calibration of another insole", half(until=12.0), "default", partial(wrong, 8)),

@@ -229,7 +229,7 @@ class Cc2541Link(DeviceLink):
 
     def _set_acc_config(self, code: int) -> None:
         self.acc_on = code != 0
-        if code and code != self.code:
+        if code:
             self.code = code
 
     def _set_period(self, clock: PeriodicClock, period: float) -> None:
