@@ -108,7 +108,7 @@ def in_unit(name: str, by: float) -> Any:
 
 
 def broken(values: tuple[float, ...], t: float) -> tuple[Any, ...]:
-    """Return cells of which one loads all the time, two die, one hangs from 8 s to 20 s, one has no number for a while."""
+    """Return cells of which one always loads, two die, one hangs from 8 s to 20 s, one has no number for a while."""
     made: list[Any] = [*values]
     made[3] = 400.0
     if t > 12.0:
