@@ -41,6 +41,13 @@ def crossed() -> dict[str, Any]:
     }
 
 
+def mirrored() -> dict[str, Any]:
+    """Return layouts that are mirror images of each other."""
+    right = sole(12, Foot.RIGHT)
+    left = evolve(right, foot=Foot.LEFT, cells=tuple([evolve(cell, y=-cell.y) for cell in right.cells]))
+    return {"calibration": Calibration(insoles={one.foot: InsoleCalibration(one) for one in (left, right)})}
+
+
 def loose(items: tuple[Any, ...], since: float) -> Iterator[Sample]:
     """Let the left sensor swing to and fro in the shoe from a time on."""
     drawn = draws(9)
@@ -193,7 +200,7 @@ BODY: tuple[Case, ...] = (
     Case("milli-g alone", half(in_unit("acc", 1000.0 / 9.80665), until=3.0), "default"),
     Case("thousandths of a degree alone", half(in_unit("gyro", 57295.78), until=3.0), "default"),
     Case("cells and inertial sensors apart", half(apart, until=8.0), "default", live),
-    Case("insoles on the wrong feet, cells alone", half(without("acc", "gyro"), each(swapped)), "default"),
+    Case("insoles on the wrong feet, cells alone", half(without("acc", "gyro"), each(swapped)), "default", mirrored),
     Case("layouts of the other foot", half(until=12.0), "default", crossed),
     Case("cells that fail in turn", half(cells(broken), until=33.0), "default", calibrated),
     Case("no number from any cell", half(cells(of_no_number, RIGHT), until=10.0), "default", live),
