@@ -22,7 +22,7 @@ ROUTES = {
 @cache
 def events_of(name: str) -> tuple[Event, ...]:
     """Return all events of a session with motion sensors on an emulated route."""
-    return tuple(run_session(samples(ROUTES[name], cells=0), poses=True, pressures=True))
+    return tuple(run_session(samples(ROUTES[name], cells=0, rate=100.0), poses=True, pressures=True))
 
 
 @cache
