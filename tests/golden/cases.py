@@ -186,7 +186,7 @@ def of(name: str, *changes: Change, until: float = 1e9) -> Callable[[], Iterable
 
 
 def half(*changes: Change, until: float = 24.0) -> Callable[[], Iterable[Item]]:
-    """Return a function that makes the stroll at 50 Hz, changed in this order."""
+    """Return a function that makes the stroll at 50 Hz up to a time, s, changed in this order."""
     return of("stroll", lambda items: ordered(halved(items)), *changes, until=until)
 
 
@@ -266,7 +266,12 @@ FAULTS: tuple[Case, ...] = tuple(
         "a loose sensor": half(partial(noisy, acc=40.0, share=0.1)),
         "a strong low pass": half(smooth),
         "samples that no sensor sends": half(strange),
+        "no gyroscope": half(without("gyro"), until=22.0),
+        "no accelerometer": half(without("acc"), until=22.0),
+        "no cells": half(without("pressure"), until=22.0),
         "cells alone": half(without("acc", "gyro"), until=22.0),
+        "one foot alone": half(each(lambda item: None, site=RIGHT)),
+        "somebody who stands": half(until=1.9),
         "a cell that sticks": half(cells(lambda values, t: (333.0, *values[1:])), until=22.0),
         "cells without a number": half(cells(lambda values, t: (None, *values[1:-1], float("nan")), RIGHT, 9.0)),
         "another number of cells": half(cells(lambda values, t: values[:8], LEFT, 12.0)),
@@ -286,7 +291,7 @@ FAULTS: tuple[Case, ...] = tuple(
 WHOLE = ("kupt-dfpc", "pressure-contour", "footstep-tracker")
 """Recipes that share least with the default one."""
 CALIBRATED = ("pressure-contour", "walking-modes", "walking-modes-printed", "footstep-tracker")
-"""Recipes that use all that can be calibrated."""
+"""Recipes that are given all that can be calibrated; kupt-dfpc is given it with loads that come and go."""
 AT_20_HZ = ("footstep-tracker", "footstep-tracker-printed", "shoe-sensing", "shoe-sensing-printed")
 OF_LIMBS = ("walking-modes-printed", "touchdown-height")
 OTHERS = tuple(name for name in recipes.NAMES if name not in ("default", *WHOLE))

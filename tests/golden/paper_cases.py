@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
 from attrs import evolve
-from cases import STARTS, calibrated, of, planned, sole, walked
-from changes import LEFT, RIGHT, Change, added, each, halved, later, ordered, set_back, turned, without
+from cases import STARTS, calibrated, half, of, planned, sole, walked
+from changes import LEFT, RIGHT, Change, added, each, later, ordered, set_back, turned, without
 from corpus import Call, Case, Item, given
 
 from solepath import Calibration, Foot, Sample, Site, WalkingMode
@@ -173,34 +173,30 @@ def stood() -> Iterator[Any]:
             yield {"error": str(error)}
 
 
-def at_50_hz(*changes: Change, until: float = 1e9) -> Callable[[], Iterable[Item]]:
-    return of("stroll", lambda items: ordered(halved(items)), *changes, until=until)
-
-
 SUIT = partial(of, "suit")
 
 PAPERS: tuple[Case, ...] = (
     Case("rides in lifts, footstep-tracker-printed", rides, "footstep-tracker-printed"),
     *(
         Case(f"another device {shift:g} s ahead, shoe-sensing",
-             at_50_hz(partial(exchanged, at=9.0, shift=shift), until=26.0), "shoe-sensing-printed")
+             half(partial(exchanged, at=9.0, shift=shift), until=26.0), "shoe-sensing-printed")
         for shift in (-40.0, 3.0)
     ),
     Case("another device and silence, shoe-sensing",
-         at_50_hz(partial(exchanged, at=9.0, shift=-40.0, silent=RIGHT)), "shoe-sensing-printed"),
+         half(partial(exchanged, at=9.0, shift=-40.0, silent=RIGHT), until=40.0), "shoe-sensing-printed"),
     *(
-        Case(f"loads that come and go, {name}", at_50_hz(unloaded, until=20.0), name, calibrated)
+        Case(f"loads that come and go, {name}", half(unloaded, until=20.0), name, calibrated)
         for name in ("kupt-dfpc", "pressure-contour-printed")
     ),
-    Case("cells alone, footstep-tracker", at_50_hz(without("acc", "gyro"), until=20.0), "footstep-tracker", calibrated),
-    Case("cells alone, kupt-dfpc", at_50_hz(without("acc", "gyro"), until=12.0), "kupt-dfpc", calibrated),
+    Case("cells alone, footstep-tracker", half(without("acc", "gyro"), until=20.0), "footstep-tracker", calibrated),
+    Case("cells alone, kupt-dfpc", half(without("acc", "gyro"), until=12.0), "kupt-dfpc", calibrated),
     *(
         Case(f"a sensor that slips on the foot, {name}",
-             at_50_hz(each(lambda item: turned(item, 1.8), 10.0, site=LEFT), until=24.0), name)
+             half(each(lambda item: turned(item, 1.8), 10.0, site=LEFT), until=24.0), name)
         for name in ("kupt-dfpc-printed", "footstep-tracker")
     ),
     Case("a foot that turns all the time, gyroscope",
-         at_50_hz(each(lambda item: added(item, gyro=(0.0, 1.5, 0.0)), 6.0, 16.0, LEFT), until=20.0), "gyroscope"),
+         half(each(lambda item: added(item, gyro=(0.0, 1.5, 0.0)), 6.0, 16.0, LEFT), until=20.0), "gyroscope"),
     Case("attitudes of the device, pressure-contour", SUIT(set_back, until=26.0), "pressure-contour", calibrated),
     Case("a building, footstep-tracker-printed", walked(8, 25.0), "footstep-tracker-printed",
          partial(planned, STARTS[8])),
