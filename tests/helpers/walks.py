@@ -242,8 +242,9 @@ RECIPES = (
 @kept
 def suited() -> tuple[Sample, ...]:
     """Return samples of pelvis, thighs, shanks and both feet, with insoles of 99 cells, in the order of time."""
+    route = Route().stand(1.5).walk(3.0, 1.3).turn(radians(60), radius=1.5).walk(2.0).stop(1.0)
     layouts = {LEFT: layout(99, Foot.LEFT), RIGHT: layout(99, Foot.RIGHT)}
-    return tuple(limb_samples(Walker(SHORT, seed=3), 25.0, layouts=layouts))
+    return tuple(limb_samples(Walker(route, seed=3), 25.0, layouts=layouts))
 
 
 _STREAMS = (

@@ -92,7 +92,7 @@ def test_ticks_show_that_the_rate_is_another(true_rate: float) -> None:
 MILLISECONDS = evolve(BASE, tick_rate=1000.0, tick_modulus=1 << 32)
 
 
-@pytest.mark.parametrize("true_rate", [300.0, 400.0, 420.0, 500.0])
+@pytest.mark.parametrize("true_rate", [300.0, 380.0, 400.0, 420.0, 450.0, 500.0])
 @pytest.mark.parametrize("count", [1, 4])
 def test_a_clock_of_few_ticks_a_sample_reports_no_false_losses(true_rate: float, count: int) -> None:
     driver = evolve(MILLISECONDS, profile=evolve(PROFILE, nominal_rate=min(500.0, max(333.0, round(true_rate, -2)))))

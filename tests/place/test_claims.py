@@ -6,15 +6,14 @@ from statistics import median
 
 import numpy as np
 import pytest
+from walks import indexed_building
 
 from solepath import Foot, Session, Start, recipes
-from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.ways import wandering
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.shoe import IN_SOLE
-from solepath.floorplan.index import IndexedPlan
 from solepath.lab.emulated import place as emulated_place
 from solepath.lab.emulated.place import PlaceScore
 from solepath.types import SITE_OF_FOOT
@@ -33,7 +32,7 @@ def score_walk(recipe: str, seed: int, with_heading: bool = False) -> PlaceScore
     walk = emulate(planned_walk.route, devices=devices, seed=seed)
     heading = (planned_walk.start.heading or 0.0) + float(np.random.default_rng(seed).normal(0.0, HEADING_ERROR))
     start = Start(heading=heading) if with_heading else None
-    session = Session(recipes.by_name(recipe), floorplan=IndexedPlan(BUILDING), start=start)
+    session = Session(recipes.by_name(recipe), floorplan=indexed_building(), start=start)
     return emulated_place.score(planned_walk, walk.walker, walk.truth, session.feed(walk.packets) + session.finish())
 
 

@@ -116,7 +116,7 @@ RELATIONS = {
 
 CASES = [
     *(("feet", recipe) for recipe in recipes.NAMES),
-    *(("stairs", recipe) for recipe in ("default", "footstep-tracker")),
+    *(("stairs", recipe) for recipe in ("default", "footstep-tracker", "shoe-sensing")),
     *(("suit", recipe) for recipe in WALKING_MODES),
 ]
 HEADED_AT = 3.2

@@ -80,7 +80,7 @@ LoneFoot.restart: is_known newest stood_since
 Looseness.reset: apart
 LowerLimbs.reset: aligned facing segments* turn
 MeanOfFeet.reset: apart
-Modes.reset: limb_sensors* places* recognition* reference signs touchdowns limb_sensors.reset()
+Modes.reset: limb_sensors* pending places* recognition* reference signs touchdowns limb_sensors.reset()
   recognition.reset()
 PossibleMotion.reset: apart
 PressureHeight.restart: blocks compared newest noise walked
