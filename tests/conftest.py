@@ -30,6 +30,8 @@ WAITING = {TESTS / name for name in ("ble", "cli", "life", "page", "web")}
 # Each worker has a processor at most: threads that share the small products of the emulator would wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read when numpy is imported; programs that tests start inherit it
 
+gc.disable()  # what is collected stays until the end; pytest_collection_finish enables it
+
 settings.register_profile("unhurried", deadline=None)  # the time of a case depends on the machine
 settings.load_profile("unhurried")
 
@@ -81,6 +83,7 @@ def chromium(browser: Browsing) -> Browser:
     return browser.browser
 
 
+@pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
     """Return one worker more than there are processors, because tests over Bluetooth wait for seconds."""
     return (os.cpu_count() or 1) + 1
@@ -112,7 +115,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 def pytest_collection_finish() -> None:
     """Leave modules and tests out of garbage collection, and collect less often: walks that tests share are kept."""
-    gc.collect()
+    gc.enable()
     gc.freeze()
     gc.set_threshold(20_000, 20, 20)
 
