@@ -10,7 +10,7 @@ import pytest
 from attrs import evolve
 from soak import soaked
 from spoiled import silent
-from walks import LEFT, RIGHT, of, samples
+from walks import LEFT, RIGHT, insoles, of, samples
 
 from solepath import Recipe, Session, recipes
 from solepath.body.fuse.position import MeanOfFeet
@@ -19,7 +19,6 @@ from solepath.body.worn.sides import RunningAverage
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
-from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import FeetSwapped, FootResumed, FootSilent, StrideTaken
 from solepath.types import Foot, Sample, Site
@@ -158,7 +157,7 @@ def test_feet_that_are_worn_as_they_should_be_are_not_taken_for_exchanged() -> N
 
 def test_devices_that_report_the_right_feet_are_trusted() -> None:
     session = Session()
-    events = session.feed(emulate(WALK, seed=1).packets)
+    events = session.feed(insoles(WALK, cells=96).packets)
     assert of(FeetSwapped, events) == []
     sides = session._state.wearer.find_attribute("sides")
     assert sides.left.declared and sides.right.declared

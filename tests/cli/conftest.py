@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import walks
 from programs import emulator
 from recordings import recorded
 
 from solepath.emulate.routes.route import Route
-from solepath.emulate.walk import emulate
 
 
 @pytest.fixture(autouse=True)
@@ -37,5 +37,5 @@ def insoles() -> Iterator[str]:
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a recording of some steps with two insoles."""
-    walk = emulate(Route().stand(0.5).walk(2.5, speed=1.3).stop(0.5), seed=4)
+    walk = walks.insoles(Route().stand(0.5).walk(2.5, speed=1.3).stop(0.5), seed=4)
     return recorded(tmp_path_factory.mktemp("short") / "walk.jsonl", walk.packets)

@@ -25,7 +25,6 @@ from solepath import (
     StrideTaken,
     ToeOff,
 )
-from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.route import Route
 from solepath.link.decoder import Decoder
 
@@ -100,7 +99,7 @@ def test_at_100_hz_heel_strike_and_toe_off_are_known_within_60_ms_and_a_step_60_
     cells: int,
 ) -> None:
     machine_events = Session().feed(
-        insoles(LONG_ROUTE, CLEAN, cells=cells).packets if cells else samples(LONG_ROUTE, cells=0, rate=100.0)
+        insoles(LONG_ROUTE, cells=cells, rate=100.0).packets if cells else samples(LONG_ROUTE, cells=0, rate=100.0)
     )
     for kind in (HeelStrike, ToeOff, FootFlat, StrideTaken):
         assert len(latencies(kind, machine_events)) >= 18

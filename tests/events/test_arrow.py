@@ -6,15 +6,16 @@ import gc
 from typing import Any
 
 import pytest
+from walks import insoles
 
 from solepath import Session, to_frame
-from solepath.emulate import Route, emulate
+from solepath.emulate import Route
 from solepath.events.frames.arrow import _ALIVE
 from solepath.events.frames.columns import ColumnTable
 
 pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
 polars = pytest.importorskip("polars", reason="polars is not installed")
-WALK = emulate(Route().stand(2).walk(8).stop(2), seed=1)
+WALK = insoles(Route().stand(2).walk(8).stop(2))
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,7 @@ def test_an_insole_without_an_inertial_sensor_still_gives_the_phases() -> None:
     walker = Walker(Route().stand(1.0).walk(12.0, 1.3).stop(1.0), seed=2)
     shape = layout(96, Foot.LEFT)
     session = Session()
-    events = session.feed(insoles(SHORT).packets[:1])  # INFO, so that the layout is known
+    events = session.feed(insoles(cells=96).packets[:1])  # INFO, so that the layout is known
     pressed = [
         Sample(s.t, LEFT, pressure=s.pressure) for s in walker.samples(Foot.LEFT, 100.0, layout=shape) if s.t > 0.1
     ]

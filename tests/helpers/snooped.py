@@ -131,12 +131,12 @@ def insoles_log(packets: Iterable[Packet], log: Log | None = None) -> Log:
 
 @cache
 def frames(site: Site = Site.LEFT_FOOT) -> tuple[bytes, ...]:
-    return tuple(p.data for p in walks.insoles().packets if p.site is site and p.channel == "insole/frame")
+    return tuple(p.data for p in walks.insoles(cells=96).packets if p.site is site and p.channel == "insole/frame")
 
 
 @cache
 def info(site: Site = Site.LEFT_FOOT) -> bytes:
-    return next(p.data for p in walks.insoles().packets if p.site is site and p.channel == "insole/info")
+    return next(p.data for p in walks.insoles(cells=96).packets if p.site is site and p.channel == "insole/info")
 
 
 def read(log: Log, tmp_path: Path, **wishes: Any) -> tuple[list[tuple[str, str, str, bytes]], list[str]]:

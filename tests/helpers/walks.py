@@ -49,9 +49,12 @@ Item = Packet | Sample
 
 
 @cache
-def insoles(route: Route = SHORT, radio: Radio = CLEAN, seed: int = 1, cells: int = 96) -> EmulatedWalk:
+def insoles(
+    route: Route = SHORT, radio: Radio = CLEAN, seed: int = 1, cells: int = 24, rate: float = 50.0
+) -> EmulatedWalk:
     """Return a walk with an insole in each shoe."""
-    return emulate(route, devices={LEFT: Insole(cells=cells), RIGHT: Insole(cells=cells)}, radio=radio, seed=seed)
+    devices = {site: Insole(cells=cells, rate=rate) for site in (LEFT, RIGHT)}
+    return emulate(route, devices=devices, radio=radio, seed=seed)
 
 
 @kept

@@ -16,10 +16,11 @@ from here import EXAMPLES, PROTOCOL
 from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same, run_page
 from recordings import recorded
 from snooped import insoles_log
+from walks import insoles
 
 from solepath import LiftRidden
 from solepath.cli.main import parser
-from solepath.emulate import Route, emulate
+from solepath.emulate import Route
 from solepath.fleet import Sent, sent_line
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.recipes import PARTS, part_class
@@ -27,7 +28,7 @@ from solepath.show.output import STRIDE_COLUMNS, TRACK_COLUMNS
 from solepath.types import Foot
 
 MARKDOWN = {**PAGES, **{f"protocol/{path.name}": path.read_text() for path in (PROTOCOL).glob("*.md")}}
-WALK = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), seed=1)
+WALK = insoles(Route().stand(2).walk(6, speed=1.3).stop(2))
 
 
 @pytest.fixture
@@ -63,7 +64,7 @@ def test_activities_of_the_wearer_are_reported(here):
 def test_gait_parameters_are_printed(here):
     _, names = run_page("docs/gait.md")
     with redirect_stdout(io.StringIO()) as out:
-        for event in names["session"].feed(emulate(Route().stand(2).walk(15).stop(2), seed=1).packets):
+        for event in names["session"].feed(insoles(Route().stand(2).walk(15).stop(2)).packets):
             names["measured"](event)
     assert out.getvalue().splitlines()[0].split()[0] in ("left", "right")
 
@@ -77,7 +78,7 @@ def test_a_session_with_a_floor_plan_reports_the_place(here):
 def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(here):
     pytest.importorskip("bytewax", reason="bytewax has no release for this Python")
     testing, parquet = import_module("bytewax.testing"), import_module("pyarrow.parquet")
-    walk = emulate(Route().stand(2).walk(3).stop(1), seed=1)
+    walk = insoles(Route().stand(2).walk(3).stop(1))
     recorded(here / "walk.jsonl", walk.packets)
     (here / "sent").mkdir()
     lines = [sent_line(Sent("w-17", number, packet)) for number, packet in enumerate(walk.packets)]

@@ -9,6 +9,7 @@ from unittest.mock import patch
 import pytest
 from here import EXAMPLES
 from recordings import recorded
+from walks import insoles
 
 from solepath.emulate import Radio, Route, Walker, emulate
 from solepath.types import Foot
@@ -48,7 +49,7 @@ def test_emulated_insoles_are_received_over_bluetooth():
 
 
 def test_the_loop_prints_the_strides_of_a_recording(tmp_path):
-    walk = emulate(ROUTE, radio=Radio(corrupt=0.02), seed=2)
+    walk = insoles(ROUTE, Radio(corrupt=0.02), seed=2)
     lines_out = run("own_loop", recorded(tmp_path / "walk.jsonl", walk.packets))
     for foot in Foot:
         assert lines_out.count(f"{foot.value:5}  stride ") == len(walk.truth.strides(foot))

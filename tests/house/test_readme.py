@@ -9,9 +9,10 @@ import pytest
 from commands import run
 from quoted import NUMBER, PAGES, below, run_page
 from recordings import recorded
+from walks import insoles
 
 from solepath import Event
-from solepath.emulate import Radio, Route, emulate
+from solepath.emulate import Radio, Route
 from solepath.recipes import NAMES
 from solepath.types import Foot
 
@@ -22,7 +23,7 @@ def first_cells(table: list[str]) -> list[str]:
 
 def test_its_loop_gets_every_stride_of_a_walk(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    walk = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), radio=Radio(corrupt=0.02), seed=1)
+    walk = insoles(Route().stand(2).walk(6, speed=1.3).stop(2), Radio(corrupt=0.02))
     recorded(Path("walk.jsonl"), walk.packets)
     (out,), _ = run_page("README.md")
     for foot in Foot:

@@ -11,14 +11,15 @@ from typing import Any
 
 import pytest
 from here import EXAMPLES, ROOT
+from walks import insoles
 
 from solepath import Packet
-from solepath.emulate import Route, emulate
+from solepath.emulate import Route
 
 pytest.importorskip("toga", reason="toga-core is not installed (extra: test)")
 pytest.importorskip("toga_dummy", reason="toga-dummy is not installed (extra: test)")
 
-WALK = emulate(Route().stand(2).walk(10, speed=1.3).stop(2), seed=1)
+WALK = insoles(Route().stand(2).walk(10, speed=1.3).stop(2))
 PATH = EXAMPLES / "toga" / "gait_app" / "__main__.py"
 
 

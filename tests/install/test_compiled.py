@@ -17,10 +17,10 @@ from typing import Any
 
 import pytest
 from here import ROOT
+from walks import insoles
 
 from solepath import Packet, Session
 from solepath.emulate.routes.route import Route
-from solepath.emulate.walk import emulate
 
 MODULES = (
     "types/plain.py", "types/records.py", "types/vector.py", "foot/settings.py", "foot/phase.py", "foot/view.py",
@@ -28,7 +28,7 @@ MODULES = (
     "foot/navigate/strapdown.py", "session/wearer.py", "body/part.py",
 )  # fmt: skip
 """Modules of classes that derive from protocols, are frozen, are made at every sample, or hold the state of others."""
-PACKETS = emulate(Route().stand(2.0).walk(15.0, 1.3).stop(2.0), seed=4).packets
+PACKETS = insoles(Route().stand(2.0).walk(15.0, 1.3).stop(2.0), seed=4).packets
 CONTINUE = """
 import json, sys
 from pathlib import Path

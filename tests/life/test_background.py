@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from attrs import evolve
 from quoted import PAGES, blocks
-from walks import CLEAN, LEFT, RIGHT, of
+from walks import LEFT, RIGHT, insoles, of
 
 from solepath import (
     ClockReset,
@@ -23,7 +23,7 @@ from solepath import (
     StreamStale,
     StrideTaken,
 )
-from solepath.emulate import Insole, Route, emulate
+from solepath.emulate import Route
 
 CUT, TORN, FULL, BACKGROUND, *_ = blocks(PAGES["docs/app_life.md"], "python")
 AWAY = 10.22
@@ -34,7 +34,7 @@ AWAY = 10.22
 def walk() -> tuple[Packet, ...]:
     """Return the packets of a walk of 38 s."""
     route = Route().stand(2.0).walk(44.0, 1.3).stop(2.0)
-    return emulate(route, devices={site: Insole() for site in (LEFT, RIGHT)}, radio=CLEAN, seed=1).packets
+    return insoles(route).packets
 
 
 @cache

@@ -83,6 +83,7 @@ async def beats(client: BleakClient, count: int = 50) -> list[int]:
     return numbers
 
 
+@pytest.mark.soak
 @really
 async def test_another_processs_devices_are_found_and_stream_until_it_is_killed_and_again_when_it_is_back() -> None:
     async with program("strap.py", "0") as server:

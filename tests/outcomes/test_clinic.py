@@ -11,10 +11,9 @@ import pytest
 from commands import run, run_failing
 from quoted import PAGES, run_page
 from recordings import recorded
-from walks import run_session
+from walks import insoles, run_session
 
 from solepath.emulate.routes.route import Route
-from solepath.emulate.walk import emulate
 from solepath.recording import read_packets
 from solepath.show.outcomes import Person, Sex, mobility_outcomes, variability, walking_bouts
 from solepath.show.outcomes.clinic import LABEL
@@ -26,7 +25,7 @@ ROUTE = Route().stand(2.0).walk(3.0, speed=1.0).turn(pi, radius=0.5).walk(3.0).s
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return recorded(tmp_path_factory.mktemp("clinic") / "walk.jsonl", emulate(ROUTE, seed=3).packets)
+    return recorded(tmp_path_factory.mktemp("clinic") / "walk.jsonl", insoles(ROUTE, seed=3).packets)
 
 
 @pytest.fixture(scope="module")

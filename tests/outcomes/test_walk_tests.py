@@ -6,11 +6,10 @@ from math import pi
 
 import pytest
 from strides import cycle, stride
-from walks import run_session
+from walks import insoles, run_session
 
 from solepath import TurnMade
 from solepath.emulate.routes.route import Route
-from solepath.emulate.walk import emulate
 from solepath.events import Event
 from solepath.show.outcomes import six_minute_walk, timed_up_and_go
 from solepath.types import Foot, Turn
@@ -118,7 +117,7 @@ def there_and_back(crossings: int) -> Route:
 
 @pytest.mark.long
 def test_an_emulated_six_minute_walk_there_and_back() -> None:
-    walked = emulate(there_and_back(16), seed=11)
+    walked = insoles(there_and_back(16), seed=11)
     six = six_minute_walk(run_session(walked.packets))
     assert six is not None and six.complete and six.stops == 0
     first = min(walked.truth.feet[foot].toe_offs[0] for foot in Foot)

@@ -47,6 +47,7 @@ async def test_a_walk_is_drawn_while_it_goes_on_and_its_figures_are_those_of_the
             assert words is not None and words.startswith(f"{foot.value.capitalize()} sole: ") and " newton" in words
 
 
+@pytest.mark.soak
 async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong_candidates(chromium: Browser) -> None:
     ground, upper = (level.id for level in BUILDING.levels[:2])
 

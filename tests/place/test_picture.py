@@ -17,7 +17,7 @@ from walks import insoles
 from solepath.body.place.particles import Particles
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
-from solepath.emulate import Route, emulate
+from solepath.emulate import Route
 from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall, with_rooms
 from solepath.show.places import PlaceCounts
@@ -128,7 +128,7 @@ def test_a_start_is_read_with_and_without_heading_and_commas_in_the_name_of_a_le
 @pytest.mark.soak
 def test_the_direction_of_walking_on_the_plan_is_that_of_the_last_stride(hall: Path, tmp_path: Path) -> None:
     route = Route().stand(2.0).walk(8.0).turn(radians(90.0)).walk(8.0).stop(2.0)
-    walk = recorded(tmp_path / "turned.jsonl", emulate(route, seed=3).packets)
+    walk = recorded(tmp_path / "turned.jsonl", insoles(route, seed=3).packets)
     done = run("track", walk, "--floorplan", hall, "--start", "0,15,3,30", "--out", tmp_path / "out")
     assert done.returncode == 0
     with (tmp_path / "out" / "places.csv").open() as file:

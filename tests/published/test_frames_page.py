@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 from quoted import run_page
 from recordings import recorded
+from walks import insoles
 
-from solepath.emulate import Route, emulate
+from solepath.emulate import Route
 
 for package in ("pandas", "polars", "pyarrow"):
     pytest.importorskip(package, reason=f"{package} is not installed")
@@ -16,7 +17,7 @@ for package in ("pandas", "polars", "pyarrow"):
 
 def test_the_lines_of_the_page_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    recorded(tmp_path / "walk.jsonl", emulate(Route().stand(2).walk(10).stop(2), seed=1).packets)
+    recorded(tmp_path / "walk.jsonl", insoles(Route().stand(2).walk(10).stop(2)).packets)
     (cycles, samples, arrow), names = run_page("docs/frames.md")
     assert cycles.rstrip().endswith(" s") and "left" in cycles
     assert "gyro_y" in samples and len(names["samples"]) > 500

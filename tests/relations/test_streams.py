@@ -190,7 +190,7 @@ def test_a_longer_silence_changes_nothing_but_its_own_length(recipe: str) -> Non
 def test_every_sample_that_was_taken_is_used_or_rejected_or_missing(name: str) -> None:
     """Some packets are lost, some cut short, some come twice; each frame of the insole has one sample."""
     fate, session = Random(3), Session(recipes.by_name(name), poses=True)
-    packets = insoles().packets
+    packets = insoles(rate=100.0).packets
     taken, spoilt, events = {LEFT: 0, RIGHT: 0}, {LEFT: 0, RIGHT: 0}, []
     for k, packet in enumerate(packets):
         if packet.channel != "insole/frame":

@@ -49,7 +49,8 @@ def made(name: str) -> Report:
     return report_of(events_of(name), before=report_of(events_of("slow")) if name == "run" else None)
 
 
-@pytest.mark.parametrize(("name", "length"), [("run", 2), pytest.param("standing", 1, marks=pytest.mark.soak)])
+@pytest.mark.soak
+@pytest.mark.parametrize(("name", "length"), [("run", 2), ("standing", 1)])
 async def test_a_report_ends_on_two_pages_of_paper_or_on_one_without_gait_and_nothing_is_cut(
     chromium: Browser, name: str, length: int, tmp_path: Path
 ) -> None:
