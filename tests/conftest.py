@@ -30,7 +30,8 @@ WAITING = {TESTS / name for name in ("ble", "cli", "life", "page", "web")}
 # Each worker has a processor at most: threads that share the small products of the emulator would wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read when numpy is imported; programs that tests start inherit it
 
-gc.disable()  # what is collected stays until the end; pytest_collection_finish enables it
+if "PYTEST_XDIST_WORKER" in os.environ:
+    gc.disable()  # what is collected stays until the end; pytest_collection_finish enables it
 
 settings.register_profile("unhurried", deadline=None)  # the time of a case depends on the machine
 settings.load_profile("unhurried")

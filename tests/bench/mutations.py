@@ -448,6 +448,8 @@ def judge(bug: Bug, tests: list[str], folder: Path) -> tuple[str, str]:
     if status == 0:
         return "survived", f"{len(tests)} tests"
     if status < 0:
+        if run_tests(folder, *command, timeout=PATIENCE, MUTATIONS_ORDER=str(listed))[0] < 0:
+            return "survived", "the tests do not end without the bug either"
         return "killed", "a test that does not end, or a crash"
     failed = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - |$)", output, re.MULTILINE)
     if failed is not None and failed.group(1) in tests and failed.group(1) not in SOUND:

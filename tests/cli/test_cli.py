@@ -37,7 +37,6 @@ def without_numpy(*arguments: object) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
-@pytest.mark.soak
 def test_packets_need_no_numpy_and_the_commands_that_do_give_the_line_that_installs_it(demo, folder):
     done = without_numpy("track", folder / "demo.jsonl", "--out", folder / "bare", "--report", folder / "bare.html")
     assert done.returncode == 0 and "strides" in done.stdout and (folder / "bare.html").exists(), done.stderr

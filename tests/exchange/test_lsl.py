@@ -164,7 +164,6 @@ EVENTS = [
 ]
 
 
-@pytest.mark.soak
 def test_events_markers_samples_and_poses_go_out_with_their_own_times() -> None:
     """They are received by plain pylsl, as a recorder of the lab would."""
     name, offset = f"walk {uuid.uuid4().hex[:8]}", pylsl.local_clock()

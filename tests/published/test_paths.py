@@ -57,7 +57,6 @@ def test_tables_of_a_lab_become_frames_and_a_report(here: Path, monkeypatch: pyt
     assert (first < 1.0).all(), "the first stride contains the standing, as the page says"
 
 
-@pytest.mark.soak
 def test_a_plan_of_ones_own_is_walked_on_and_gives_the_room(here: Path) -> None:
     (_, walked, places, *_), names = run_page("docs/indoor.md")
     assert "packets" in walked

@@ -186,7 +186,7 @@ def test_a_longer_silence_changes_nothing_but_its_own_length(recipe: str) -> Non
     assert differences(map(Change(later=5940.0).event, found[0]), found[1], loose) == []
 
 
-@pytest.mark.parametrize("name", ["default", "kupt"])
+@pytest.mark.parametrize("name", often(recipes.NAMES))
 def test_every_sample_that_was_taken_is_used_or_rejected_or_missing(name: str) -> None:
     """Some packets are lost, some cut short, some come twice; each frame of the insole has one sample."""
     fate, session = Random(3), Session(recipes.by_name(name), poses=True)

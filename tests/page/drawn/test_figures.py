@@ -53,7 +53,6 @@ def test_the_pace_is_that_of_the_newest_strides() -> None:
     assert abs(frame(scene)["pace"]["speed"] - 1.3) < 0.1
 
 
-@pytest.mark.soak
 def test_a_wearer_who_stands_or_whose_sensors_are_silent_has_no_pace() -> None:
     assert frame(scene_until(1.2))["pace"] is None
     assert frame(shown(walk()))["pace"] is None
