@@ -35,6 +35,7 @@ def test_a_frame_is_of_the_library_that_is_there(library: str, monkeypatch: pyte
     assert frame["event"].to_list() == ["HeelStrike", "StrideTaken"] and frame["foot"].to_list() == ["right", "left"]
     assert [list(point) for point in [*frame["features_cop"]][1]] == [[0.25, 0.0], [0.5, 0.0]]
     only, empty = to_frame([STRIKE, STRIDE], StrideTaken), to_frame([], StrideTaken)
+    assert str(only["number"].dtype) == {"pandas": "int64", "polars": "Int64"}[library]
     assert len(only) == 1 and len(to_frame([])) == len(empty) == 0 and list(only.columns) == list(empty.columns)
 
 
