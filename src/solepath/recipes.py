@@ -86,14 +86,14 @@ class Recipe:
         parts = tuple([part for part in replaced if part is not None])
         return evolve(self, name=self.name if name is None else name, parts=parts)
 
-    def headed(self, heading: float) -> Recipe:
+    def with_heading(self, heading: float) -> Recipe:
         """Return the recipe for a wearer who starts with this heading, rad, left positive, in the world of all sensors.
 
         LookupError is raised when no part has a use for it, TypeError or ValueError for a heading that is no angle."""
         heading = float(heading)
         if not abs(heading) <= 2.0 * pi:
             raise ValueError(f"a heading is an angle from -2 pi to 2 pi, not {heading:g} rad")
-        found = [part.headed(heading) for part in self.parts]
+        found = [part.with_heading(heading) for part in self.parts]
         if all([part is None for part in found]):
             raise LookupError(f"recipe {self.name} finds the first heading by itself and takes none")
         parts = [part if new is None else new for part, new in zip(self.parts, found, strict=True)]

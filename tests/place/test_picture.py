@@ -12,8 +12,10 @@ import pytest
 from commands import run, run_failing
 from floors import Pedestrian, follow, indexed_office, office, tour
 from recordings import recorded
+from views import told
 from walks import insoles
 
+from solepath.body.part import StartGiven
 from solepath.body.place.particles import Particles
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
@@ -30,7 +32,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 def pictured(plan: FloorPlan, one: Pedestrian, start: Start | None = None) -> ElementTree.Element:
     part, picture = Particles(), PlanPicture(plan)
     if start is not None:
-        part.set_out(start)
+        told(part, StartGiven(start))
     for event in follow(part, one.received):
         picture.add(event)
     return ElementTree.fromstring(ElementTree.tostring(picture.drawn("a tour <of two> floors & a lift")))

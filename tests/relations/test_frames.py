@@ -156,7 +156,7 @@ def started(events: Iterable[Any]) -> Iterator[Any]:
 @pytest.mark.parametrize("recipe", WALKING_MODES)
 def test_the_world_of_devices_may_be_turned_if_the_first_heading_in_it_is_given(recipe: str) -> None:
     walk, usual = WALKS["suit"](), recipes.by_name(recipe)
-    events = [run(usual.headed(heading), map(Change(yaw=heading).sample, walk)) for heading in (0.3, 1.0)]
+    events = [run(usual.with_heading(heading), map(Change(yaw=heading).sample, walk)) for heading in (0.3, 1.0)]
     before, after = ([one for one in each if isinstance(one, TouchedDown | WearerMoved)] for each in events)
     assert len(after) > 10 and differences(before, after, {"": 1e-6}) == []
 

@@ -70,9 +70,7 @@ class Session:
         with_poses, with_pressures = flag("poses", poses), flag("pressures", pressures)
         wearer = WearerParts(WearerSettings(own(recipe), own_calibration, with_poses, with_pressures, plan))
         if start is not None:
-            checked = check_start(start, self._plan)
-            for part in wearer.parts:
-                part.set_out(checked)
+            wearer.set_start(check_start(start, self._plan))
         wearer.set_plan(self._plan)
         self._state = SessionState(wearer)
         for site, device in (devices or {}).items():

@@ -8,13 +8,17 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..body.part import (
     MOVEMENTS,
+    ClockUnsettled,
     HeightShift,
     LayoutReported,
+    LimbSampled,
+    Notice,
     Part,
     PartOutput,
     Position,
     Replacement,
     Shift,
+    StartGiven,
     TrackPart,
 )
 from ..calibration import Calibration
@@ -30,6 +34,7 @@ from ..types.attrs import MADE_AGAIN, NOT_SAVED, define, evolve, field, frozen
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
+    from ..floorplan.plan import Start
 
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
@@ -78,7 +83,6 @@ class WearerParts:
     def set_plan(self, plan: IndexedPlan | None) -> None:
         """Set the floor plan, which is never saved, of a new or restored wearer."""
         for part in self.parts:
-            part.ready()
             if hasattr(part, "plan"):
                 part.plan = plan
         self._choose_sampled()
@@ -111,9 +115,9 @@ class WearerParts:
         if tracker.viewed_at is None or t > tracker.viewed_at:
             tracker.viewed_at = t
         if not events and sample.air_pressure is None and sample.range is None:  # nearly always
-            view = tracker.view(sample, known_at, (), False, None)
+            view = tracker.view(sample, known_at, False, False, None)
             for part in self.sampled:
-                if not part.idle and (output := part.feed(view)):  # it may be idle since the sample before
+                if not part.idle and (output := part.feed((), view)):  # it may be idle since the sample before
                     self._apply(output, events)
                     number = next(number for number, one in enumerate(self.parts) if one is part)
                     self._run_parts(events, view, known_at, number + 1)
@@ -121,7 +125,8 @@ class WearerParts:
         else:
             stride = any([isinstance(event, StrideTaken) for event in events])
             other = self.feet.get(OTHER[foot])
-            view = tracker.view(sample, known_at, tuple(events), stride, None if other is None else other.viewed_at)
+            other_t = None if other is None else other.viewed_at
+            view = tracker.view(sample, known_at, bool(events), stride, other_t)
             moved = self._run_parts(events, view, known_at)
             if moved is not None and self.settings.poses and stride:
                 events.append(moved)
@@ -142,8 +147,7 @@ class WearerParts:
             tracker = self._tracker(foot)
             tracker.set_layout(event.layout)
             self._add_tracker(tracker)
-            for part in self.parts:
-                part.receive(LayoutReported(site, event.layout))
+            self._tell(LayoutReported(site, event.layout))
         elif foot is not None and isinstance(event, ClockReset):
             self._tracker(foot).reset()
         events = [event]
@@ -153,8 +157,15 @@ class WearerParts:
     def unsettle(self, site: Site, until: float | None) -> None:
         """Mark the times of a site's samples up to `until`, s, as not comparable with another site's."""
         self.unsettled[site] = until
+        self._tell(ClockUnsettled(site, until))
+
+    def set_start(self, start: Start) -> None:
+        """Tell the parts the wearer's first place on the floor plan."""
+        self._tell(StartGiven(start))
+
+    def _tell(self, notice: Notice) -> None:
         for part in self.parts:
-            part.unsettle(site, until)
+            part.feed((notice,), None)
 
     def reset(self, site: Site) -> None:
         """Reset the parts and the foot of a site where another device is worn from now on."""
@@ -177,17 +188,13 @@ class WearerParts:
         Returns the wearer's new position, if a part or the app needs it."""
         moved = None
         for part in self.parts[first:]:
-            received = tuple(events)
+            received: Sequence[Event] = tuple(events)
             if part.needs_position and moved is None and any([isinstance(event, MOVEMENTS) for event in received]):
                 moved = self._make_moved(known_at)
-            if view is not None and part.needs_samples and (output := part.feed(view)):
-                self._apply(output, events)
-            if type(part).receive is not Part.receive:
-                for event in received:
-                    if output := part.receive(event):
-                        self._apply(output, events)
             if moved is not None and part.needs_position:
-                self._apply(part.receive(moved), events)
+                received = (*received, moved)
+            if received or (view is not None and part.needs_samples):
+                self._apply(part.feed(received, view), events)
             if finishing:
                 self._apply(part.finish(known_at), events)
         self._choose_sampled()
@@ -230,7 +237,7 @@ class WearerParts:
         events: list[Event] = []
         parts = [part for part in self.parts if site in part.sites]
         for part in parts:
-            self._apply(part.feed_limb(sample), events)
+            self._apply(part.feed((LimbSampled(sample),), None), events)
         if not parts and site not in self.unused:
             self.unused.append(site)
             text = f"recipe {self.settings.recipe.name} has no use for a sensor at the {site.value}"

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 from soak import soaked
+from views import told
 from walks import RIGHT, of, samples
 
 from solepath import Foot, GaitCycleMeasured, HeelStrike, Sample, Session, ToeOff
@@ -75,7 +76,7 @@ def steps(
 
 def of_steps(events: Iterator[Event], part: FootClocks | None = None) -> list[DefectFound]:
     part = FootClocks() if part is None else part
-    return [output for event in events for output in part.receive(event) if isinstance(output, DefectFound)]
+    return [output for event in events for output in told(part, event) if isinstance(output, DefectFound)]
 
 
 @pytest.mark.parametrize("delay", [-0.4, *soaked(0.05)])

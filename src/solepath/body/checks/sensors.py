@@ -98,8 +98,12 @@ class SensorChecks(Part):
     left: SensorCheck = field(factory=SensorCheck, init=False)
     right: SensorCheck = field(factory=SensorCheck, init=False)
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add a sample; return the defects that its block shows."""
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        """Add a sample and events; return the defects that they show."""
+        outputs = () if view is None else self._add_sample(view)
+        return [*outputs, *[output for event in events for output in self._receive(event)]] if events else outputs
+
+    def _add_sample(self, view: FootView) -> Sequence[PartOutput]:
         sample = view.sample
         acc, gyro = sample.acc, sample.gyro
         if acc is None or gyro is None:
@@ -114,7 +118,7 @@ class SensorChecks(Part):
         check.in_newtons = pressed is not None and pressed.in_newtons
         return self._report(view.foot, view.t, view.known_at, self._examine(check, rows, view.gyro_bias))
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive contacts and strides, which an insole or a stuck sensor may contradict, and rejected samples."""
         if isinstance(event, HeelStrike):
             self._check(event.foot).loads.new_contacts += 1

@@ -8,11 +8,10 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from ...events import Defect, DefectFound, FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
-from ...events.gait_cycle import GaitCycleMeasured
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
-from ..part import Part, PartInput, PartOutput
+from ..part import ClockUnsettled, Part, PartInput, PartOutput
 from .footfalls import Footfalls
 from .means import GaitMeans, GaitParameters
 from .measuring import measure_cycle
@@ -59,15 +58,27 @@ class GaitCycles(Part):
         """Running means of walking or of running, by the newest cycle in the means; None before any."""
         return self.means.parameters
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a sample of a foot with its events and return the cycles that are complete."""
+        outputs = () if view is None else self._add_sample(view, events)
+        for event in events:
+            if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
+                self.clocks_apart = True
+                self.means.separate_feet()
+            elif isinstance(event, ClockUnsettled) and event.site is Site.LEFT_FOOT:
+                self.left_unsettled = event.until
+            elif isinstance(event, ClockUnsettled) and event.site is Site.RIGHT_FOOT:
+                self.right_unsettled = event.until
+        return outputs
+
+    def _add_sample(self, view: FootView, events: Sequence[PartInput]) -> Sequence[PartOutput]:
         if self.between is None and view.sample.range is not None:
             from ..width.between_feet import BetweenFeet
 
             self.between = BetweenFeet()
         if self.between is not None and self.left_unsettled is self.right_unsettled is None and not self.clocks_apart:
-            self.between.feed(view)
-        elif self.idle and not view.events:
+            self.between.feed(events, view)
+        elif self.idle and view.after is None:
             return ()
         is_left = view.foot is Foot.LEFT
         progress, other = self.left_progress, self.right_progress
@@ -75,11 +86,11 @@ class GaitCycles(Part):
             progress, other = other, progress
         if progress.t is None or view.t > progress.t:
             progress.t = view.t
-        if view.events:
+        if view.after is not None:
             other.t = view.after.other_t
         progress.tracked = view.levelled
         this = self.left if is_left else self.right
-        for event in view.events:
+        for event in events:
             if isinstance(event, HeelStrike):
                 this.add_contact(event.t, event.inferred)
             elif isinstance(event, FootFlat):
@@ -107,20 +118,6 @@ class GaitCycles(Part):
         self.idle = self.between is None
         counts = (len(self.left.waiting_cycles), len(self.right.waiting_cycles))
         return [*self._measure(Foot.LEFT, now, counts[0]), *self._measure(Foot.RIGHT, now, counts[1])]
-
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Store that the clocks of both feet cannot be compared."""
-        if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
-            self.clocks_apart = True
-            self.means.separate_feet()
-        return ()
-
-    def unsettle(self, site: Site, until: float | None) -> None:
-        """Store up to which time a foot's clock cannot be compared with the other foot's."""
-        if site is Site.LEFT_FOOT:
-            self.left_unsettled = until
-        elif site is Site.RIGHT_FOOT:
-            self.right_unsettled = until
 
     def reset(self, site: Site) -> None:
         """Discard the cycles and the times of a foot whose clock restarts."""
@@ -165,8 +162,8 @@ class GaitCycles(Part):
             comparable = not (self.clocks_apart or is_unsettled)
             previous = self.means.left if is_left else self.means.right
             measured = measure_cycle(foot, falls.count, cycle, previous, other, tracked, comparable, known_at)
-            for one in (measured,) if self.between is None or not comparable else self.between.receive(measured):
-                if isinstance(one, GaitCycleMeasured):
-                    self.means.add(one)
-                outputs.append(one)
+            if self.between is not None and comparable:
+                measured = self.between.complete(measured)  # type: ignore[attr-defined]
+            self.means.add(measured)
+            outputs.append(measured)
         return outputs

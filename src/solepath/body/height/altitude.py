@@ -107,8 +107,12 @@ class Altitude(Part):
     faulty: list[bool] = field(factory=lambda: [False, False], init=False)
     """Flags of the left and the right barometer: it was reported as wrong, and is not used."""
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add the reading of a foot's barometer, if the sample has one."""
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        """Add the reading of a foot's barometer, if the sample has one, and strides and rides."""
+        outputs = () if view is None else self._add_reading(view)
+        return [*outputs, *[output for event in events for output in self._receive(event)]] if events else outputs
+
+    def _add_reading(self, view: FootView) -> Sequence[PartOutput]:
         pressure = view.sample.air_pressure
         if pressure is None:
             return ()
@@ -133,7 +137,7 @@ class Altitude(Part):
         side.read_at, side.total, side.count, side.previous_height = t, 0.0, 0, height
         return self._add_input((t, source, height, self.noise))
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Add a stride's variance to that of the correction, or replace a ride by one with its likeliest height."""
         if isinstance(event, StrideTaken):
             return self._add_stride(event)

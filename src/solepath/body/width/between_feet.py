@@ -58,14 +58,16 @@ class BetweenFeet(Part):
     usual_width: float = field(default=FIRST_WIDTH, init=False)
     """Mean width of the newest strides, m."""
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a sample of a foot, with its range and its strides; returns no output."""
+        if view is None:
+            return ()
         sample, track = view.sample, self.left if view.foot is Foot.LEFT else self.right
         if sample.range is not None and 0.0 < sample.range < MAX_RANGE:
             self.pending = [*self.pending[1 - MAX_PENDING :], (view.t, sample.range)]
         if view.levelled and view.moved_at == view.t:
             track.add_sample(view)
-        for event in view.events:
+        for event in events:
             if isinstance(event, StrideTaken):
                 self._add_stride(track, event, view)
             elif isinstance(event, SampleGap) and event.site is SITE_OF_FOOT[view.foot]:
@@ -77,25 +79,20 @@ class BetweenFeet(Part):
             self._propagate(self._common_time())
         return ()
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+    def complete(self, event: GaitCycleMeasured) -> GaitCycleMeasured:
         """Return a measured gait cycle with step length and step width, if they are known."""
-        if not isinstance(event, GaitCycleMeasured):
-            return ()
         is_left = event.foot is Foot.LEFT
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
         stride = next((one for one in this.strides if one.contact == event.t), None)
         standing = None if stride is None else _standing(stride, other)
         if stride is None or standing is None or self.estimate is None or not stride.usable:
-            return (event,)
+            return event
         length, width, sigmas = _placement(self.estimate, stride, standing, is_left)
         if not (sigmas[0] < MAX_SIGMA and sigmas[1] < MAX_SIGMA):
-            return (event,)
-        return (
-            evolve(
-                event, step_length=length, step_width=width,
-                step_length_sigma=sigmas[0], step_width_sigma=sigmas[1],
-            ),
-        )  # fmt: skip
+            return event
+        return evolve(
+            event, step_length=length, step_width=width, step_length_sigma=sigmas[0], step_width_sigma=sigmas[1]
+        )
 
     def reset(self, site: Site) -> None:
         """Forget a foot whose clock or device has changed."""

@@ -23,6 +23,7 @@ motion is mirrored and a left foot looks like a right foot. That wrong data is a
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Sequence
 from math import fsum, hypot, sqrt
 
 from ...events import StrideTaken, ToeOff
@@ -123,15 +124,13 @@ class Sides:
     left: SwapEvidence = field(factory=SwapEvidence, init=False)
     right: SwapEvidence = field(factory=SwapEvidence, init=False)
 
-    def update(self, view: FootView) -> bool:
-        """Add one sample of a foot and return whether both feet now look exchanged."""
+    def update(self, view: FootView, events: Sequence[object]) -> bool:
+        """Add one sample of a foot with its events and return whether both feet now look exchanged."""
         is_left = view.foot is Foot.LEFT
         side = self.left if is_left else self.right
         self.add_sample(side, view)
-        if not view.events:
-            return False
         evidence_changed = False
-        for event in view.events:
+        for event in events:
             if isinstance(event, StrideTaken):
                 evidence_changed = True
                 _add_landing(side, event, rotate_back(view.attitude, UPWARDS))
@@ -139,7 +138,7 @@ class Sides:
             elif isinstance(event, ToeOff) and side.centre_ys:
                 evidence_changed = True
                 _add_stance(side, is_left)
-        if not evidence_changed:
+        if not evidence_changed or view.after is None:
             return False
         layout = view.after.layout
         side.mirrored = layout is not None and layout.foot is not view.foot

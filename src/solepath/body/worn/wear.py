@@ -57,16 +57,14 @@ class Wear(Part):
     swapped: bool = field(default=False, init=False)
     """Flag: exchanged feet were reported."""
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive a notice that the device on a foot has reported its layout."""
-        if isinstance(event, LayoutReported) and event.site.foot is not None:
-            self.sides.set_layout(event.site.foot, event.layout)
-        return ()
-
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add one sample of a foot; return events of a silent foot, a resumed foot or exchanged feet."""
-        t, events = view.t, view.events
-        is_left = view.foot is LEFT
+        for event in events:
+            if isinstance(event, LayoutReported) and event.site.foot is not None:
+                self.sides.set_layout(event.site.foot, event.layout)
+        if view is None:
+            return ()
+        t, is_left = view.t, view.foot is LEFT
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
         if not (events or this.silent or other.strides_since):
             this.t, this.strides_since = t, 0
@@ -80,7 +78,7 @@ class Wear(Part):
             outputs.append(FootResumed(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
         this.t = t
         this.strides_since = 0
-        if view.after.covariance is not None:  # a stride has ended
+        if view.after is not None and view.after.covariance is not None:  # a stride has ended
             other.strides_since += 1
         if other.strides_since and other.t is not None and not other.silent:
             if t < other.t:
@@ -89,7 +87,7 @@ class Wear(Part):
                 other.silent = True
                 silent_foot = Foot.RIGHT if is_left else LEFT
                 outputs.append(FootSilent(t=t, known_at=view.known_at, foot=silent_foot, silent_for=t - other.t))
-        if not self.swapped and self.sides.update(view):
+        if not self.swapped and self.sides.update(view, events):
             self.swapped = True
             self.sides.reset()
             outputs.append(FeetSwapped(t=t, known_at=view.known_at))

@@ -80,7 +80,7 @@ def _headed(recipe: Recipe, options: argparse.Namespace) -> Recipe:
     if options.heading is None:
         return recipe
     try:
-        return recipe.headed(options.heading)
+        return recipe.with_heading(options.heading)
     except (LookupError, ValueError) as error:
         raise Failure(f"--heading: {error}") from None
 

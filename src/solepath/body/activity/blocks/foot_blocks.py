@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Sequence
 from math import sqrt
 
-from ....events import Event, FootFlat, HeelStrike, StrideTaken
+from ....events import FootFlat, HeelStrike, StrideTaken
 from ....types import Vec3
 from ....types.attrs import define, field
 from ....types.vector import ZERO
@@ -115,7 +115,7 @@ class FootBlocks:
         elif height < self.bottom:
             self.bottom = height
 
-    def add_events(self, events: Sequence[Event], height: float) -> None:
+    def add_events(self, events: Sequence[object], height: float) -> None:
         """Add the events of a sample; `height` is the foot's, navigation frame, m."""
         for event in events:
             if isinstance(event, StrideTaken):

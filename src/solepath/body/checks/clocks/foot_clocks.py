@@ -21,7 +21,7 @@ from ....events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, Sam
 from ....foot.view import FootView
 from ....types import Foot, Site
 from ....types.attrs import define, field, frozen
-from ...part import Part, PartInput, PartOutput
+from ...part import ClockUnsettled, Part, PartInput, PartOutput
 from .lone_strides import LoneStrides
 from .offset import Comparison, Offset, find_offset
 
@@ -106,18 +106,20 @@ class FootClocks(Part):
     lone_sentences: str | None = field(default=None, init=False)
     """Sentences on this for the next sample, because a defect of the same sample may be the reason; None mostly."""
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Take the state of the foot; return DefectFound if a foot has walked while the other one stood."""
-        self.lone.see(view)
-        self.idle = self.lone.requested is None
-        return self._report_lone(view.t, view.known_at)
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        """Add events; return DefectFound with the one that shows that the clocks are apart."""
+        outputs: Sequence[PartOutput] = ()
+        if view is not None:
+            self.lone.see(view)
+            self.idle = self.lone.requested is None
+            outputs = self._report_lone(view.t, view.known_at)
+        return [*outputs, *[output for event in events for output in self._receive(event)]] if events else outputs
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return DefectFound if the newest stride was the last sample."""
         return self._report_lone(now, now)
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive an event or a notice; return DefectFound with the event that shows that the clocks are apart."""
+    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         if isinstance(event, GaitEvent):
             if self.left.spoiled or self.right.spoiled or self.lone_reported:
                 return ()
@@ -143,12 +145,9 @@ class FootClocks(Part):
         elif isinstance(event, DefectFound) and event.site.foot is not None and is_spoiling(event):
             self._foot(event.site.foot).spoiled = True
             self._forget()
+        elif isinstance(event, ClockUnsettled) and event.site.foot is not None:
+            self._foot(event.site.foot).unsettled = event.until
         return ()
-
-    def unsettle(self, site: Site, until: float | None) -> None:
-        """Store up to which time a foot's clock cannot be compared with the other foot's."""
-        if site.foot is not None:
-            self._foot(site.foot).unsettled = until
 
     def reset(self, site: Site) -> None:
         """Discard everything when the clock or the device of a foot has changed."""

@@ -67,7 +67,7 @@ class LoneStrides:
             self.set_standing(foot, view.t if view.phase in (Phase.STATIONARY, Phase.LOADING) else None)
         if self.requested is foot:
             self.requested = None
-        if view.events:
+        if view.after is not None:
             self.set_newest(foot, view.t, view.after.other_t)
             if not other.is_known and other.newest is not None:
                 self.requested = OTHER[foot]
