@@ -15,8 +15,9 @@ from math import pi
 from typing import Any
 
 from .body.activity.activities import Activities
+from .body.altitude import Altitude
 from .body.checks.air_pressure import AirPressure
-from .body.checks.clocks.foot_clocks import FootClocks
+from .body.checks.foot_clocks import FootClocks
 from .body.checks.looseness import Looseness
 from .body.checks.motion import PossibleMotion
 from .body.checks.sensors import SensorChecks
@@ -24,9 +25,8 @@ from .body.fuse.both_feet import BothFeet
 from .body.fuse.position import MeanOfFeet
 from .body.gait.cycles import GaitCycles
 from .body.gait.turns import Turns
-from .body.height.altitude import Altitude
 from .body.part import ActivityPart, Part, TrackPart
-from .body.worn.wear import Wear
+from .body.wear import Wear
 from .foot.cues.cues import Cues
 from .foot.cues.gait_cues import GaitCues
 from .foot.navigate.corrector import Corrector
@@ -163,13 +163,13 @@ PARTS: dict[str, str] = {
     "PossibleMotion": _BODY + "checks.motion",
     "Looseness": _BODY + "checks.looseness",
     "AirPressure": _BODY + "checks.air_pressure",
-    "Wear": _BODY + "worn.wear",
+    "Wear": _BODY + "wear",
     "MeanOfFeet": _BODY + "fuse.position",
     "BothFeet": _BODY + "fuse.both_feet",
     "Activities": _BODY + "activity.activities",
     "Turns": _BODY + "gait.turns",
-    "Altitude": _BODY + "height.altitude",
-    "FootClocks": _BODY + "checks.clocks.foot_clocks",
+    "Altitude": _BODY + "altitude",
+    "FootClocks": _BODY + "checks.foot_clocks",
     "GaitCycles": _BODY + "gait.cycles",
     "Particles": _BODY + "place.particles",
     "KnownVelocity": _KUPT + "known_velocity",

@@ -11,8 +11,7 @@ from attrs import evolve
 from walks import samples
 
 from solepath import ClockReset, Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
-from solepath.body.height.altitude import Altitude
-from solepath.body.height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE
+from solepath.body.altitude import SCALE_HEIGHT, STANDARD_PRESSURE, Altitude
 from solepath.body.part import HeightShift, Replacement
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole

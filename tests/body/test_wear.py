@@ -15,7 +15,7 @@ from walks import LEFT, RIGHT, insoles, of, samples
 from solepath import Recipe, Session, recipes
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
-from solepath.body.worn.sides import RunningAverage
+from solepath.body.wear import RunningAverage
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout

@@ -15,8 +15,7 @@ from views import told
 from walks import RIGHT, of, samples
 
 from solepath import Foot, GaitCycleMeasured, HeelStrike, Sample, Session, ToeOff
-from solepath.body.checks.clocks.foot_clocks import FootClocks
-from solepath.body.checks.clocks.offset import MIN_COMPARISONS
+from solepath.body.checks.foot_clocks import MIN_COMPARISONS, FootClocks
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX

@@ -25,16 +25,12 @@ from ...types import Activity, Foot, Site, Vec3
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartInput, PartOutput
-from .activity_report import ActivityReport
-from .blocks.features import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, WINDOW_REACH
-from .blocks.foot_blocks import MAX_STRIDE_TIME, FootBlocks
-from .blocks.motion import MotionModel, load_released_model
-from .blocks.stride_slope import slope_evidence
-from .blocks.votes import block_force, motion_votes
-from .early import ActivityCue, BlockSigns, EarlyActivities, cue_of_stride
+from .early import ActivityCue, ActivityReport, BlockSigns, EarlyActivities, cue_of_stride
 from .elevator_evidence import BlockForce, ElevatorEvidence
 from .flights import Flights
+from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, FootBlocks
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
+from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
 from .pressure_height import BLOCKS_BEFORE, NO_EVIDENCE, PressureHeight
 
 LEFT: Final = Foot.LEFT
