@@ -80,6 +80,7 @@ def parts(name: str, recipe: str, until: float) -> Iterator[Any]:
     places = (Particles(), SnakeGame()) if name.startswith("building") else ()
     for part in (*recipes.by_name(recipe).parts, *places):
         own, drawn = deepcopy(part).calibrated(Calibration()), draws(17)
+        own.ready()
         if hasattr(own, "plan"):
             own.plan = building()
             own.feed((StartGiven(STARTS[8]),), None)

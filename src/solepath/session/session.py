@@ -10,7 +10,7 @@ from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
 from ..body.gait.means import GaitParameters
-from ..body.part import Position
+from ..body.part import Position, StartGiven
 from ..calibration import Calibration
 from ..events import Event, Placed
 from ..foot.phase import SUPPORT
@@ -70,7 +70,7 @@ class Session:
         with_poses, with_pressures = flag("poses", poses), flag("pressures", pressures)
         wearer = WearerParts(WearerSettings(own(recipe), own_calibration, with_poses, with_pressures, plan))
         if start is not None:
-            wearer.set_start(check_start(start, self._plan))
+            wearer.notify(StartGiven(check_start(start, self._plan)))
         wearer.set_plan(self._plan)
         self._state = SessionState(wearer)
         for site, device in (devices or {}).items():

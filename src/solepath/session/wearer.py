@@ -18,7 +18,6 @@ from ..body.part import (
     Position,
     Replacement,
     Shift,
-    StartGiven,
     TrackPart,
 )
 from ..calibration import Calibration
@@ -34,7 +33,6 @@ from ..types.attrs import MADE_AGAIN, NOT_SAVED, define, evolve, field, frozen
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
-    from ..floorplan.plan import Start
 
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
@@ -83,6 +81,7 @@ class WearerParts:
     def set_plan(self, plan: IndexedPlan | None) -> None:
         """Set the floor plan, which is never saved, of a new or restored wearer."""
         for part in self.parts:
+            part.ready()
             if hasattr(part, "plan"):
                 part.plan = plan
         self._choose_sampled()
@@ -147,7 +146,7 @@ class WearerParts:
             tracker = self._tracker(foot)
             tracker.set_layout(event.layout)
             self._add_tracker(tracker)
-            self._tell(LayoutReported(site, event.layout))
+            self.notify(LayoutReported(site, event.layout))
         elif foot is not None and isinstance(event, ClockReset):
             self._tracker(foot).reset()
         events = [event]
@@ -157,13 +156,10 @@ class WearerParts:
     def unsettle(self, site: Site, until: float | None) -> None:
         """Mark the times of a site's samples up to `until`, s, as not comparable with another site's."""
         self.unsettled[site] = until
-        self._tell(ClockUnsettled(site, until))
+        self.notify(ClockUnsettled(site, until))
 
-    def set_start(self, start: Start) -> None:
-        """Tell the parts the wearer's first place on the floor plan."""
-        self._tell(StartGiven(start))
-
-    def _tell(self, notice: Notice) -> None:
+    def notify(self, notice: Notice) -> None:
+        """Tell the parts what no app is told."""
         for part in self.parts:
             part.feed((notice,), None)
 

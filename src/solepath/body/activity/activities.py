@@ -18,7 +18,6 @@ from collections.abc import Sequence
 from math import floor
 from typing import ClassVar, Final
 
-from ...calibration import Calibration
 from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Site, Vec3
@@ -89,11 +88,10 @@ class Activities(ActivityPart):
         """The newest activity that was reported, final or not."""
         return self.report.activity
 
-    def calibrated(self, calibration: Calibration) -> Activities:
+    def ready(self) -> None:
         """Read the motion model of this release, unless the settings have one."""
         if self.settings.model is None:
             load_released_model()
-        return self
 
     def reset(self, site: Site) -> None:
         """Discard the blocks of a foot whose clock restarts, the waiting strides and the flight under way."""
