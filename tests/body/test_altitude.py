@@ -90,7 +90,7 @@ def ride_with_new_clock(
             sample = evolve(sample, air_pressure=sample.air_pressure * exp(-off / SCALE_HEIGHT))
         while waiting and sample.t >= t:
             site = waiting.pop(0)
-            session._state.wearer.receive(site, ClockReset(t=sample.t, known_at=sample.t, site=site, restarted=True))
+            session._state.report(site, ClockReset(t=sample.t, known_at=sample.t, site=site, restarted=True))
         fed_sample = sample if sample.site in read else evolve(sample, air_pressure=None)
         rides += [event for event in session.feed(fed_sample) if isinstance(event, LiftRidden)]
     rides += [event for event in session.finish() if isinstance(event, LiftRidden)]

@@ -67,7 +67,7 @@ def with_part(part: Part) -> Session:
 
 
 def last_part(session: Session) -> Part:
-    return session._state.wearer.parts[-1]
+    return session._state.parts[-1]
 
 
 def report_position(session: Session) -> None:

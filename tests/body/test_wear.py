@@ -159,7 +159,7 @@ def test_devices_that_report_the_right_feet_are_trusted() -> None:
     session = Session()
     events = session.feed(insoles(WALK, cells=96).packets)
     assert of(FeetSwapped, events) == []
-    sides = session._state.wearer.find_attribute("sides")
+    sides = session._state.find_attribute("sides")
     assert sides.left.declared and sides.right.declared
     assert not sides.left.turn_integral.instants and not sides.right.turn_integral.instants, (
         "what their feet do need not be remembered"

@@ -93,7 +93,8 @@ Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping 
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
 SensorChecks.reset: apart
-SessionState.restart_clock: decoders* now* wearer*
+SessionState.reset: decoders feet* height now parts* sampled* unsettled
+SessionState.restart_clock: decoders* feet* height now* parts* sampled* unsettled
 SharedEvidence.reset: compass* measured_at path straight_ways* compass.reset() straight_ways.reset()
 Sides.reset:
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
@@ -115,7 +116,6 @@ TurnDetector.reset: left* pause right* t_end apart
 Turns.reset: detector* detector.reset()
 TwoSecondWindows.reset: limitation_reported moving_windows
 WalkScale.reset: drift_deviation force stance_deviation strides
-WearerParts.reset: feet* height parts* sampled* unsettled
 """
 """For each class and method the fields that stay, with a * if they change; the resets of its parts that it makes, with
 (); and `apart` where the reset of one foot leaves the other's fields alone.
