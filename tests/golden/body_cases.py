@@ -158,9 +158,9 @@ def figures() -> Iterator[Any]:
                 continue
             yield [one.cadence, one.coordination]
             for figure in (one.both, *one.feet.values()):
-                yield [figure.share("stance_time"), figure.share("step_width"), figure.double_support]
+                yield [figure.share("stance_time"), figure.double_support]
                 yield evolve(figure, stride_time=None).share("stance_time")
-            yield [one.asymmetry(name) for name in ("swing_time", "step_time", "step_width", "stride_length")]
+            yield [one.asymmetry(name) for name in ("swing_time", "step_time", "stride_length")]
     yield describe()
     yield printed_table()
     for foot in Foot:

@@ -120,7 +120,7 @@ def numbers(part: Any) -> dict[str, Any]:
 PARTS_ALONE: tuple[Case, ...] = tuple(
     Case(f"parts of {recipe} that are misled, {name}", partial(parts, name, recipe, until))
     for name, recipe, until in (
-        ("ranged", "default", 12.0), ("compass", "default", 16.0),
+        ("stroll", "default", 12.0), ("compass", "default", 16.0),
         ("lifts", "default", 60.0), ("building-8", "default", 12.0),
         ("stroll", "kupt-dfpc", 12.0), ("stroll", "footstep-tracker", 12.0), ("stroll", "shoe-sensing", 10.0),
         ("suit", "walking-modes", 16.0), ("insole", "walking-modes", 14.0),

@@ -35,7 +35,6 @@ Activities.reset: left* right* apart flights.reset() left.restart() pressure_hei
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now* inputs_kept.clear()
 AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* flights.reset()
-BetweenFeet.reset: usual_width apart
 BiasFilter.forget: before bias* noise rate
 BiasFilter.reset: before bias* noise rate
 BothFeet._restart: common directions distance divergence errors* evidence* left* placements right started width
@@ -65,8 +64,8 @@ Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
 GaitCues.reset: inertial* sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
-GaitCycles.reset: between* idle left* left_progress* left_unsettled right_progress* right_unsettled apart
-  between.reset() means.reset()
+GaitCycles.reset: idle left* left_progress* left_unsettled right_progress* right_unsettled apart
+  means.reset()
 GaitMeans.reset: running walking_means apart
 InertialCues.reset: axis force impact landing_at lowest_rate moving_since not_turning_at peak_rate sagittal
   swing_start turn

@@ -273,7 +273,7 @@ class SessionState:
         known_at: float = sample.known_at if sample.known_at > t else t
         if tracker.viewed_at is None or t > tracker.viewed_at:
             tracker.viewed_at = t
-        if not events and sample.air_pressure is None and sample.range is None:  # nearly always
+        if not events and sample.air_pressure is None:  # nearly always
             view = tracker.view(sample, known_at, False, False, None)
             for part in self.sampled:
                 if not part.idle and (output := part.feed((), view)):  # it may be idle since the sample before

@@ -53,8 +53,6 @@ def has_floats(sample: Sample) -> bool:
         return False
     if sample.air_pressure is not None and type(sample.air_pressure) is not float:
         return False
-    if sample.range is not None and type(sample.range) is not float:
-        return False
     return type(sample.t) is type(sample.known_at) is float and type(sample.saturated) is bool
 
 
@@ -73,7 +71,6 @@ def with_floats(sample: Sample) -> Sample:
         pressure=_cells(sample.pressure),
         air_pressure=None if sample.air_pressure is None else number("air_pressure of a sample", sample.air_pressure),
         saturated=flag("saturated of a sample", sample.saturated),
-        range=None if sample.range is None else number("range of a sample", sample.range),
     )
 
 
