@@ -64,8 +64,7 @@ Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
 GaitCues.reset: inertial* sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
-GaitCycles.reset: idle left* left_progress* left_unsettled right_progress* right_unsettled apart
-  means.reset()
+GaitCycles.reset: left* left_progress* left_unsettled right_progress* right_unsettled apart means.reset()
 GaitMeans.reset: running walking_means apart
 InertialCues.reset: axis force impact landing_at lowest_rate moving_since not_turning_at peak_rate sagittal
   swing_start turn
