@@ -151,11 +151,6 @@ LINKS: dict[str, str] = {
 PARTS: dict[str, str] = {
     "Cycle": _FOOT + "stance.cycle",
     "ShoeDetector": _FOOT + "stance.shoe",
-    "AngularRate": _FOOT + "stance.classic",
-    "MovingVariance": _FOOT + "stance.classic",
-    "Graph": _FOOT + "stance.classic",
-    "TwoArea": _FOOT + "stance.pressure",
-    "MaximumPressure": _FOOT + "stance.pressure",
     "ErrorStateFilter": _FOOT + "navigate.error_state",
     "LinearDedrift": _FOOT + "navigate.dedrift",
     "GaitCues": _FOOT + "cues.gait_cues",
