@@ -9,10 +9,10 @@ import pytest
 from attrs import evolve
 from floorplans import FILES, archive
 from floors import METHODS, Method, Pedestrian, follow, placed
+from plan_files import format_floorplan
 
 from solepath.emulate.routes.building import BUILDING
 from solepath.floorplan.checks import find_fault
-from solepath.floorplan.importers.geojson import format_floorplan
 from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.outlines import Ring

@@ -13,6 +13,7 @@ from typing import Any
 import declared
 from attrs import evolve
 from corpus import FOLDER
+from plan_files import format_floorplan
 
 from solepath import Foot, Packet, Sample, Site
 from solepath.emulate import CC2541, CC2650, Insole, Route, Walker, emulate, sampled
@@ -24,7 +25,6 @@ from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.magnetic_field import MagneticField
 from solepath.emulate.sensors.parts import AK8963, LSM6DSOX
 from solepath.emulate.sensors.suit import limb_samples
-from solepath.floorplan.importers.geojson import format_floorplan
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ROUGH = Radio(loss=0.03, duplicate=0.01, corrupt=0.01, truncate=0.01, latency=0.01, jitter=0.04)

@@ -29,6 +29,7 @@ from floors import (
     office,
     round_to,
 )
+from plan_files import format_floorplan
 
 from solepath import (
     Activity,
@@ -46,7 +47,6 @@ from solepath import (
 from solepath.body.part import StartGiven
 from solepath.body.place.particles import Particles  # a track with known errors is given to it, without a session
 from solepath.floorplan.checks import find_fault, find_warnings
-from solepath.floorplan.importers.geojson import format_floorplan
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlanError, Level, Wall
 from solepath.floorplan.records import find_start_fault
