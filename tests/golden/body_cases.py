@@ -12,7 +12,6 @@ from changes import LEFT, RIGHT, added, calls, cells, clipped, draws, each, late
 from corpus import Case, given, kept
 
 from solepath import Calibration, Cell, Foot, Layout, Sample, Session
-from solepath.body.activity.early import printed_table
 from solepath.calibration.records import HeadingCalibration, InsoleCalibration
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.navigate.error_state import ErrorStateFilter
@@ -146,7 +145,7 @@ ASIDE = each(lambda item: added(item, gyro=(0.0, 0.0, 3.0)), 3.0, 3.4, RIGHT)
 
 
 def figures() -> Iterator[Any]:
-    """Yield what the means of a walk and of a run say, the table of phases, and that of activities."""
+    """Yield what the means of a walk and of a run say, and the table of phases."""
     for name in ("stroll", "running"):
         session = Session()
         session.feed(list(given(name)[:3000]))
@@ -161,7 +160,6 @@ def figures() -> Iterator[Any]:
                 yield evolve(figure, stride_time=None).share("stance_time")
             yield [one.asymmetry(name) for name in ("swing_time", "step_time", "stride_length")]
     yield describe()
-    yield printed_table()
     for foot in Foot:
         yield [regions(sole(count, foot)) for count in (6, 7, 24, 48, 90)]
 
