@@ -181,15 +181,6 @@ STATE_OF_ACTIVITY = {activity: ACTIVITIES.index(activity) for activity in Activi
 """First state of each activity in the chain (chain.py): that in which it begins."""
 
 
-def printed_table() -> str:
-    """Return `NEXT_ACTIVITY` as text, with a line for each activity and a column for each cue."""
-    names = ["", *[cue.value for cue in ActivityCue]]
-    rows = [[before.value, *[row[cue].value for cue in ActivityCue]] for before, row in NEXT_ACTIVITY.items()]
-    widths = [max([len(row[k]) for row in (names, *rows)]) for k in range(len(names))]
-    lines = [[text.ljust(width) for text, width in zip(row, widths, strict=True)] for row in (names, *rows)]
-    return "\n".join(["  ".join(line).rstrip() for line in lines])
-
-
 BlockSigns = tuple[tuple[float, ...], ElevatorEvidence]
 """Signs of activity in a block: the log-likelihoods of `MOTIONS` and of an unknown one, and the forces on both feet."""
 
