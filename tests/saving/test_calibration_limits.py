@@ -15,7 +15,7 @@ from solepath import Calibration, Foot
 from solepath.calibration.limits import (
     find_fault,  # internal: a file or a session would take much longer for each value
 )
-from solepath.calibration.merging import merged
+from solepath.calibration.records import merged
 from solepath.saving.codec import load
 
 LIMITS = """

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ...calibration import Calibration
-from ...calibration.merging import merged
+from ...calibration.records import merged
 from ...recording import printable
 from ...saving.files import identity
 from ..common.failure import Failure

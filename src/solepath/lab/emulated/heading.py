@@ -21,7 +21,7 @@ import numpy as np
 from attrs import define, evolve, field, frozen
 
 from ...body.fuse.both_feet import BothFeet
-from ...calibration.merging import merged
+from ...calibration.records import merged
 from ...emulate.sensors.magnetic_field import UNDISTURBED, MagneticField
 from ...emulate.sensors.parts import AK8963
 from ...emulate.walk import SampledWalk, sampled
