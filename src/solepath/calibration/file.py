@@ -15,7 +15,7 @@ from pathlib import Path
 from ..saving.codec import SnapshotError, load, save
 from ..saving.files import BeforeMove, FileTooLarge, accept_any, read_bounded, write_whole
 from ..types.attrs import frozen
-from .limits import find_fault
+from ..types.checking import find_fault
 from .records import Calibration, CalibrationError
 
 FORMAT = "solepath-calibration"
@@ -56,9 +56,9 @@ def read_calibration(path: Path | str) -> Calibration:
     except SnapshotError as error:
         content = str(error).removeprefix("not a snapshot of Calibration: ")
         raise CalibrationError(f"{path}: is not a calibration ({content})") from None
-    reason = find_fault(calibration)
-    if reason is not None:
-        raise CalibrationError(f"{path}: {reason}")
+    fault = find_fault(calibration, Calibration)
+    if fault is not None:
+        raise CalibrationError(f"{path}: {fault}")
     return calibration
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ...types.attrs import evolve
-from ..checks import MAX_BEARING, MAX_LATITUDE
+from ...types.checking import find_fault
 from ..doors import cut_doors
 from ..outlines import Ring, find_inner_point, join_holes, without_repeats
 from ..plan import (
@@ -65,11 +65,9 @@ def _anchor(raw_anchor: object) -> Anchor:
     values = [parse_number(raw_anchor.get(key, 0.0 if key == "bearing" else None), f"the anchor's {key}")
               for key in ("latitude", "longitude", "bearing")]  # fmt: skip
     anchor = Anchor(*values)
-    if not (
-        abs(anchor.latitude) <= MAX_LATITUDE and abs(anchor.longitude) <= 180.0 and abs(anchor.bearing) <= MAX_BEARING
-    ):
-        raise FloorPlanError(f"its anchor is at latitude {anchor.latitude:g}, longitude {anchor.longitude:g}, "
-                             f"bearing {anchor.bearing:g} rad")  # fmt: skip
+    fault = find_fault(anchor, Anchor)
+    if fault is not None:
+        raise FloorPlanError(f"its anchor's {fault}")
     return anchor
 
 
