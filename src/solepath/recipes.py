@@ -8,7 +8,6 @@ this module."""
 
 from __future__ import annotations
 
-from copy import deepcopy
 from functools import cached_property
 from importlib import import_module
 from math import pi
@@ -35,7 +34,7 @@ from .foot.pressure.insole import InsoleLoads
 from .foot.stance.cycle import Cycle
 from .foot.stance.stance import Detector
 from .types.attrs import evolve, field, frozen
-from .types.plain import make_plain
+from .types.plain import plain_copy
 
 
 def usual_parts(
@@ -234,11 +233,11 @@ def own(recipe: Recipe) -> Recipe:
         copies = tuple([copy for copy in copies if copy.text is not None])
         text = _Copy(recipe, extra_state).text
         if text is None:
-            return make_plain(deepcopy(recipe))
+            return plain_copy(recipe)
         for copy in copies:
             if copy.text == text:
                 return copy.recipe
-    new_copy = _Copy(make_plain(deepcopy(recipe)), extra_state)
+    new_copy = _Copy(plain_copy(recipe), extra_state)
     _copies = (new_copy, *copies[: _MAX_COPIES - 1])
     return new_copy.recipe
 

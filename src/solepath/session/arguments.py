@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from copy import deepcopy
 from math import isfinite
 from typing import TYPE_CHECKING, TypeVar
 
 from ..calibration import Calibration, CalibrationError
 from ..events import Event
-from ..types.plain import make_plain, number
+from ..types.plain import number, plain_copy
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -66,7 +65,7 @@ def _checked(record: _Record, cls: type[_Record], error: type[Exception]) -> _Re
     """Return a copy of the record with plain numbers; raise `error` for impossible values."""
     from ..types.checking import find_fault  # a session without a calibration and a start needs no check
 
-    own_record = make_plain(deepcopy(record))
+    own_record = plain_copy(record)
     fault = find_fault(own_record, cls)
     if fault is not None:
         raise error(f"{cls.__name__.lower()}: {fault}")

@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from enum import Enum
 from functools import cache
+from math import inf
 from types import NoneType
 from typing import Any, NoReturn, get_args, get_origin, get_type_hints
 
@@ -57,73 +58,57 @@ which is the name of a field, an index or a key; None for the record itself."""
 
 
 @cache
-def _check_of(hint: Any, exact: bool, limits: Any = None) -> Check:
+def _check_of(hint: Any, exact: bool, limits: Any = None, count: Any = (0, inf)) -> Check:
+    """Return the check of values with this annotation."""
     kind, arguments = get_origin(hint) or hint, get_args(hint)
-    if kind is tuple:
-        check_item = _check_of(arguments[0], exact, limits)
-        return _check_of_items(tuple, None, check_item, None if ... in arguments else len(arguments))
-    if arguments:
-        return _check_of_items(kind, arguments[0], _check_of(arguments[1], exact, limits), None)
     if kind in (float, int):
-        return _check_of_number(kind, exact and kind is float, limits)
-    if attrs.has(kind):
-        return _check_of_record(kind, exact, limits)
-    return lambda value, way: None if isinstance(value, kind) else _reject(value, kind, way)
+        allowed, excluded = (int, ()) if exact and kind is float else ((kind, int), bool)
+        least, most, unit = limits or (None, None, "")
 
+        def check(value: Any, way: Any) -> None:
+            if type(value) is not kind and (not isinstance(value, allowed) or isinstance(value, excluded)):
+                _reject(value, kind, way)
+            if limits is not None and not least <= value <= most:
+                raise Fault(way, f" is {describe(value)}; it can be {least:g} to {most:g} {unit}".rstrip(), value, True)
 
-def _check_of_number(kind: type, exact: bool, limits: Any) -> Check:
-    allowed, excluded = (int, ()) if exact else ((kind, int), bool)
-    bounds: Any = limits or (0.0, 0.0, "")
-    least, most, unit = bounds
+    elif arguments:
+        key_kind = None if kind is tuple else arguments[0]
+        check_item = _check_of(arguments[key_kind is not None], exact, limits)
+        fewest, largest = count if key_kind is not None or ... in arguments else (len(arguments),) * 2
 
-    def check(value: Any, way: Any) -> None:
-        if type(value) is not kind and (not isinstance(value, allowed) or isinstance(value, excluded)):
-            _reject(value, kind, way)
-        if limits is not None and not least <= value <= most:
-            raise Fault(way, f" is {describe(value)}; it can be {least:g} to {most:g} {unit}".rstrip(), value, True)
+        def check(value: Any, way: Any) -> None:
+            if not isinstance(value, kind):
+                _reject(value, kind, way)
+            if not fewest <= len(value) <= largest:
+                allowed = f"; it can have {fewest} to {largest}" if fewest < largest else f", not {largest}"
+                raise Fault(way, f" has {len(value)} values{allowed}", value, fewest < largest)
+            for step, item in enumerate(value) if key_kind is None else value.items():
+                if key_kind is not None and not isinstance(step, key_kind):
+                    raise Fault(way, f" has the key {describe(step)}, not of type {key_kind.__name__}", step)
+                check_item(item, (way, step))
 
-    return check
+    else:
+        hints, contradiction = get_type_hints(kind), getattr(kind, "contradiction", None)
+        fields = []
+        for one in attrs.fields(kind) if attrs.has(kind) else ():
+            field_hint = hints[one.name]
+            is_optional = NoneType in get_args(field_hint)
+            if is_optional:
+                (field_hint,) = set(get_args(field_hint)) - {NoneType}
+            own = one.metadata.get(LIMITS) if limits is None or field_hint is int else limits
+            check_field = _check_of(field_hint, exact, own, one.metadata.get(COUNT, (0, inf)))
+            fields.append((one.name, is_optional, check_field))
 
-
-def _check_of_items(kind: Any, key_kind: Any, check_item: Check, count: int | None) -> Check:
-    def check(value: Any, way: Any) -> None:
-        if not isinstance(value, kind):
-            _reject(value, kind, way)
-        if count is not None and len(value) != count:
-            raise Fault(way, f" has {len(value)} values, not {count}", value)
-        for step, item in enumerate(value) if key_kind is None else value.items():
-            if key_kind is not None and not isinstance(step, key_kind):
-                raise Fault(way, f" has the key {describe(step)}, not of type {key_kind.__name__}", step)
-            check_item(item, (way, step))
-
-    return check
-
-
-def _check_of_record(cls: type, exact: bool, limits: Any) -> Check:
-    hints = get_type_hints(cls)
-    fields = []
-    for one in attrs.fields(cls):
-        hint, is_optional = hints[one.name], NoneType in get_args(hints[one.name])
-        if is_optional:
-            (hint,) = set(get_args(hint)) - {NoneType}
-        own = one.metadata.get(LIMITS) if limits is None or hint is int else limits
-        fields.append((one.name, is_optional, _check_of(hint, exact, own), one.metadata.get(COUNT)))
-    contradiction = getattr(cls, "contradiction", lambda value: None)
-
-    def check(value: Any, way: Any) -> None:
-        if not isinstance(value, cls):
-            _reject(value, cls, way)
-        for name, is_optional, check_field, count in fields:
-            item = getattr(value, name)
-            if item is None and is_optional:
-                continue
-            check_field(item, (way, name))
-            if count is not None and not count[0] <= len(item) <= count[1]:
-                allowed = f"{count[0]} to {count[1]}" if count[0] < count[1] else count[0]
-                raise Fault((way, name), f" has {len(item)} values; it can have {allowed}", item, True)
-        wrong = contradiction(value)
-        if wrong is not None:
-            raise Fault(way, wrong, value, True)
+        def check(value: Any, way: Any) -> None:
+            if not isinstance(value, kind):
+                _reject(value, kind, way)
+            for name, is_optional, check_field in fields:
+                item = getattr(value, name)
+                if item is not None or not is_optional:
+                    check_field(item, (way, name))
+            wrong = None if contradiction is None else contradiction(value)
+            if wrong is not None:
+                raise Fault(way, wrong, value, True)
 
     return check
 
