@@ -4,7 +4,7 @@ All of it is optional: a session without a calibration uses defaults and what it
 
 from __future__ import annotations
 
-from typing import Any, TypeVar
+from typing import Any
 
 from ..types import Foot, Layout, Sample, Vec3, WalkingMode
 from ..types.attrs import COUNT, evolve, field, fields, frozen, limits
@@ -238,42 +238,31 @@ class Calibration:
         return self.insoles.get(foot, InsoleCalibration())
 
 
-BY_FOOT = ("drift", "toe_out", "headings", "rest", "sensors")
-"""Fields of a calibration that have a value for each foot, insoles apart."""
-
-
 def merged(known: Calibration, newer: Calibration) -> Calibration:
     """Return `known` with its values replaced by those that `newer` has, field by field and insole by insole.
 
     Known noise is discarded when `newer` changes the conversion to newtons, because it was measured in another unit. So
     are a foot's heading and drift when its sensor is corrected otherwise, because they are what its errors caused."""
-    insoles = dict(known.insoles)
-    for foot, insole in newer.insoles.items():
-        old_insole = insoles.get(foot, InsoleCalibration())
-        if insole.newtons is not None and insole.newtons != old_insole.newtons:
-            old_insole = evolve(old_insole, noise=())
-        insoles[foot] = _replace_values(old_insole, insole)
     stale = stale_feet(known, newer)
-    known = evolve(
-        known,
-        headings={foot: one for foot, one in known.headings.items() if foot not in stale},
-        drift={foot: one for foot, one in known.drift.items() if foot not in stale},
-    )
-    by_foot: dict[str, dict[Foot, Any]] = {"insoles": insoles} | {
-        name: getattr(known, name) | getattr(newer, name) for name in BY_FOOT
-    }
-    ordered: dict[str, Any] = {name: {foot: one[foot] for foot in Foot if foot in one} for name, one in by_foot.items()}
-    return evolve(_replace_values(known, newer), **ordered)
+    values: dict[str, Any] = {}
+    for one in fields(Calibration):
+        old, new = getattr(known, one.name), getattr(newer, one.name)
+        if one.name == "insoles":
+            new = {foot: _merged_insoles(known.insole(foot), insole) for foot, insole in new.items()}
+        if one.name in ("headings", "drift"):
+            old = {foot: value for foot, value in old.items() if foot not in stale}
+        if one.default is None:
+            values[one.name] = new or old
+        else:  # values by foot
+            values[one.name] = {foot: (old | new)[foot] for foot in Foot if foot in old | new}
+    return Calibration(**values)
+
+
+def _merged_insoles(known: InsoleCalibration, newer: InsoleCalibration) -> InsoleCalibration:
+    noise = known.noise if newer.newtons in (None, known.newtons) else ()
+    return InsoleCalibration(newer.layout or known.layout, newer.newtons or known.newtons, newer.noise or noise)
 
 
 def stale_feet(known: Calibration, newer: Calibration) -> list[Foot]:
     """Return the feet whose sensor `newer` corrects otherwise than `known`."""
     return [foot for foot, sensor in newer.sensors.items() if known.sensors.get(foot) != sensor]
-
-
-_Known = TypeVar("_Known", Calibration, InsoleCalibration)
-
-
-def _replace_values(known: _Known, newer: _Known) -> _Known:
-    replaced = {f.name: getattr(newer, f.name) for f in fields(type(newer)) if getattr(newer, f.name)}
-    return evolve(known, **replaced)
