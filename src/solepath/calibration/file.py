@@ -9,7 +9,7 @@ import csv
 import json
 from collections.abc import Collection
 from io import StringIO
-from math import inf, isfinite
+from math import inf, isfinite, nan
 from pathlib import Path
 
 from ..saving.codec import SnapshotError, load, save
@@ -96,9 +96,9 @@ class TableRow:
         try:
             value = float(text)
         except ValueError:
-            raise CalibrationError(f"{self.where}: {column} is {text!r}, not a number") from None
+            value = nan
         if not isfinite(value):
-            raise CalibrationError(f"{self.where}: {column} is {text!r}, not a finite number")
+            raise CalibrationError(f"{self.where}: {column} is {text!r}, not a number that is finite")
         if not low <= value <= high:
             between = f"between {low:g} and {high:g} {unit}"
             raise CalibrationError(f"{self.where}: {column} is {text}, which is not {between}")
