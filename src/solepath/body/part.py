@@ -131,6 +131,8 @@ class Part(Protocol):
     It is either always true, or a field that changes only in `feed` and `reset`."""
     sites: ClassVar[tuple[Site, ...]] = ()
     """Sites of limbs whose samples the part needs, each as a `LimbSampled`."""
+    notices: ClassVar[tuple[type[Notice], ...]] = ()
+    """Kinds of notices that the part needs; a `LimbSampled` comes for its `sites`."""
     needs_position: ClassVar[bool] = False
     """Flag: WearerMoved with the wearer's position comes after the events, if one of `MOVEMENTS` is among them."""
 

@@ -14,7 +14,7 @@ from ..foot.view import FootView
 from ..types import Foot, Layout, Vec3
 from ..types.attrs import ROW_SIZE, define, field, frozen
 from ..types.vector import ZERO, rotate_back
-from .part import LayoutReported, Part, PartInput, PartOutput
+from .part import LayoutReported, Notice, Part, PartInput, PartOutput
 
 # Integral of a foot's angular rate over the last second or two, which sides.py uses.
 
@@ -362,6 +362,7 @@ class Wear(Part):
     feet."""
 
     needs_samples: ClassVar[bool] = True
+    notices: ClassVar[tuple[type[Notice], ...]] = (LayoutReported,)
 
     settings: WearSettings = WearSettings()
     sides: Sides = field(factory=Sides, init=False)

@@ -200,9 +200,10 @@ class SessionState:
         return events
 
     def notify(self, notice: Notice) -> None:
-        """Tell the parts what no app is told."""
+        """Tell the parts that ask for notices of this kind."""
         for part in self.parts:
-            part.feed((notice,), None)
+            if type(notice) in part.notices:
+                part.feed((notice,), None)
 
     def report(self, site: Site, event: Event) -> list[Event]:
         """Use an event of a link; return it and the events that follow from it."""
@@ -327,8 +328,8 @@ class SessionState:
                 moved = self._make_moved(known_at)
             if moved is not None and part.needs_position:
                 received = (*received, moved)
-            if received or (view is not None and part.needs_samples):
-                self._apply(part.feed(received, view), events)
+            if (received or (view is not None and part.needs_samples)) and (output := part.feed(received, view)):
+                self._apply(output, events)
             if finishing:
                 self._apply(part.finish(known_at), events)
         self._choose_sampled()

@@ -22,7 +22,7 @@ from ...events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, Samp
 from ...foot.view import FootView
 from ...types import OTHER, Foot, Phase, Site
 from ...types.attrs import define, field, frozen
-from ..part import ClockUnsettled, Part, PartInput, PartOutput
+from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
 
 # The offset between the clocks of the feet, from comparisons of the stances of each foot with the other's swings.
 #
@@ -307,6 +307,7 @@ class FootClocks(Part):
     with another defect that spoils its events is not compared."""
 
     needs_samples: ClassVar[bool] = True
+    notices: ClassVar[tuple[type[Notice], ...]] = (ClockUnsettled,)
 
     idle: bool = field(default=True, init=False)
     """Flag: only samples with events are needed."""

@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 from math import atan2, cos, hypot, sin
+from typing import ClassVar
 
 from ...calibration import Calibration
 from ...events import DefectFound, PositionReported, SampleGap, StrideTaken
@@ -26,7 +27,7 @@ from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
-from ..part import PartInput, PartOutput, Position, Shift, StartGiven
+from ..part import Notice, PartInput, PartOutput, Position, Shift, StartGiven
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import WIDTH, Pair, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
 from .learnt_bias import has_rested
@@ -72,6 +73,8 @@ class BothFeet(MeanOfFeet):
     """The mean position of two feet whose headings and positions correct each other, or the position of a foot alone.
 
     Latency: none; a foot itself is corrected at its next foot-flat, if its corrector accepts shifts."""
+
+    notices: ClassVar[tuple[type[Notice], ...]] = (StartGiven,)
 
     settings: BothFeetSettings = BothFeetSettings()
     errors: TrackErrorFilter = field(factory=TrackErrorFilter, init=False)

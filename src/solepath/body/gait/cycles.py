@@ -11,7 +11,7 @@ from ...events import Defect, DefectFound, FootFlat, HeelOff, HeelStrike, Sample
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
-from ..part import ClockUnsettled, Part, PartInput, PartOutput
+from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
 from .footfalls import Footfalls
 from .means import GaitMeans, GaitParameters
 from .measuring import measure_cycle
@@ -35,6 +35,7 @@ class GaitCycles(Part):
     """Measures gait cycles from the events of both feet and returns GaitCycleMeasured; `means` has running means."""
 
     needs_samples: ClassVar[bool] = True
+    notices: ClassVar[tuple[type[Notice], ...]] = (ClockUnsettled,)
 
     left: Footfalls = field(factory=Footfalls, init=False)
     right: Footfalls = field(factory=Footfalls, init=False)
