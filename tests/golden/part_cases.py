@@ -16,7 +16,7 @@ from changes import LEFT, RIGHT, draws
 from corpus import Case, given, kept, plain
 
 from solepath import Calibration, DefectFound, SampleGap, Session, Site, WearerMoved, recipes
-from solepath.body.part import ClockUnsettled, Notice, Part, PartInput, StartGiven
+from solepath.body.part import ClockUnsettled, LayoutReported, Notice, Part, PartInput, StartGiven
 from solepath.body.place.particles import Particles
 from solepath.events import Defect
 from solepath.foot.view import FootView
@@ -29,6 +29,7 @@ class Notes(Part):
     """The last part of a recipe, which notes what reaches it."""
 
     needs_samples = needs_position = True
+    notices = (LayoutReported, ClockUnsettled)
     noted: ClassVar[list[tuple[Sequence[PartInput], FootView | None]]] = []
     """Of the class, since a session works with a copy of the part."""
 
