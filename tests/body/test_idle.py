@@ -88,7 +88,7 @@ def test_parts_receive_events_in_the_order_that_a_recipe_prints_each_those_of_th
     ]  # fmt: skip
     session = with_part(HeardPart())
     session.feed(WALK_SAMPLES)
-    assert "FootFlat StrideTaken ActivityChanged" in last_part(session).heard, "of the foot, then of Activities"
+    assert "FootFlat StrideTaken GaitCycleMeasured" in last_part(session).heard, "of the foot, then of GaitCycles"
 
 
 def report_position(session: Session) -> None:
