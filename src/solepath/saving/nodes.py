@@ -1,27 +1,123 @@
-"""Nodes of a schema: a class for each kind of value that a field may have (schema.py)."""
+"""The kinds of values that a field may have, and how each is saved. A schema is a tree of these nodes (schema.py).
+
+Each node has all forms of its values. `save` returns a value as JSON, and `load` checks and reads it. `write` appends a
+value to streams of floats, ints, flags and bytes, and `read` takes it from them (protocol/snapshot.md has both forms).
+A value that does not fit raises SnapshotError, or another exception that the callers turn into SnapshotError.
+
+`read` gets `made`, the value as the holder of a part made it again, whose settings are taken from it, or None."""
 
 from __future__ import annotations
 
-from enum import Enum
+import json
+from base64 import b64decode, b64encode
+from binascii import crc32
+from collections import deque
+from collections.abc import Callable, Iterable
+from enum import Enum, EnumMeta
+from functools import cache, cached_property
+from itertools import islice, repeat
+from math import isfinite
 from typing import Any
 
-from ..types.attrs import frozen
+from ..types.attrs import define, field, frozen
+from .limits import MAX_VALUES, Classes, Json, SnapshotError, shorten
+from .streams import Lists, Streams
 
 
 @frozen(eq=False)
-class ScalarNode:
-    """A float, int, bool, str or bytes."""
+class NumberNode:
+    """A float, int or bool (`kind`)."""
+
+    kind: type
+    stream: int
+    """Place in `Lists` and `Streams` of the stream that has such numbers."""
+
+    def save(self, value: Any) -> Any:
+        if self.kind is not float:
+            return _exact(self.kind, value)
+        number = float(value)
+        if not isfinite(number):
+            raise SnapshotError(f"{number}")
+        return number
+
+    def load(self, value: Any, classes: Classes) -> Any:
+        return float(value) if self.kind is float and type(value) is int else _exact(self.kind, value)
+
+    def write(self, value: Any, lists: Lists) -> None:
+        lists[self.stream].append(value)
+
+    def read(self, made: Any, streams: Streams) -> Any:
+        return next(streams[self.stream])
+
+    def describe(self, schema: Description) -> Any:
+        return self.kind.__name__
+
+
+@frozen(eq=False)
+class DataNode:
+    """A str or bytes (`kind`)."""
 
     kind: type
     row_size: int = 1
     """Size of the rows, in bytes, of which bytes hold a whole number."""
+
+    def save(self, value: Any) -> Json:
+        return b64encode(value).decode() if self.kind is bytes else _exact(str, value)
+
+    def load(self, value: Any, classes: Classes) -> Any:
+        text = _exact(str, value)
+        return self._checked(b64decode(text, validate=True)) if self.kind is bytes else text
+
+    def write(self, value: Any, lists: Lists) -> None:
+        data = value.encode() if self.kind is str else value
+        lists.ints.append(len(data))
+        lists.data.append(data)
+
+    def read(self, made: Any, streams: Streams) -> Any:
+        count = next(streams.ints)
+        data = streams.data.read(count)
+        if len(data) != count:
+            raise SnapshotError("it was cut short")
+        return data.decode() if self.kind is str else self._checked(data)
+
+    def _checked(self, data: bytes) -> bytes:
+        if len(data) % self.row_size:
+            raise SnapshotError(f"{len(data)} bytes are no whole rows of {self.row_size}")
+        return data
+
+    def describe(self, schema: Description) -> Any:
+        return self.kind.__name__
 
 
 @frozen(eq=False)
 class EnumNode:
     """A member of an enum."""
 
-    cls: type[Enum]
+    cls: EnumMeta
+    members: tuple[Enum, ...]
+
+    def save(self, value: Any) -> Any:
+        return value.value
+
+    def load(self, value: Any, classes: Classes) -> Any:
+        try:
+            return self.cls(value)
+        except (TypeError, ValueError):
+            raise SnapshotError(f"{shorten(value)} is no {self.cls.__name__}") from None
+
+    def write(self, value: Any, lists: Lists) -> None:
+        lists.ints.append(self.members.index(value))
+
+    def read(self, made: Any, streams: Streams) -> Any:
+        place = next(streams.ints)
+        if place < 0:
+            raise SnapshotError("a word that is none")
+        return self.members[place]
+
+    def describe(self, schema: Description) -> Any:
+        name = schema.name(self.cls)
+        schema.enums[name] = [str(word.value) for word in self.members]
+        return {"enum": name}
 
 
 @frozen(eq=False)
@@ -29,47 +125,191 @@ class MaybeNode:
     """None, or a value of the node `of`."""
 
     of: Node
+    made: bool = False
+    """True if the holder makes the value again, or None."""
+
+    def save(self, value: Any) -> Json:
+        return None if value is None else self.of.save(value)
+
+    def load(self, value: Any, classes: Classes) -> Any:
+        return None if value is None else self.of.load(value, classes)
+
+    def write(self, value: Any, lists: Lists) -> None:
+        lists.flags.append(value is not None)
+        if value is not None:
+            self.of.write(value, lists)
+
+    def read(self, made: Any, streams: Streams) -> Any:
+        exists = next(streams.flags)
+        if self.made and exists is (made is None):
+            raise SnapshotError("packed with a part that this recipe does not have, or without one that it has")
+        return self.of.read(made, streams) if exists else None
+
+    def describe(self, schema: Description) -> Any:
+        return {"maybe": self.of.describe(schema)}
+
+
+_LIMIT = MaybeNode(NumberNode(int, 1))
+"""Node of the maxlen of a deque."""
 
 
 @frozen(eq=False)
-class TupleNode:
-    """A tuple with one node for each item."""
+class RowNode:
+    """A tuple, list or deque (`kind`).
 
-    items: tuple[Node, ...]
-
-
-@frozen(eq=False)
-class SequenceNode:
-    """A tuple, list or deque (`kind`) of any length, whose items have the node `of`."""
+    A deque with a maxlen, which annotations cannot declare, is an object with the keys "maxlen" and "is" as JSON."""
 
     kind: type
-    of: Node
+    nodes: Iterable[Node]
+    """Node of each item: `itertools.repeat` for any number of items of one kind."""
+    count: int | None
+    """Number of items of a tuple that is declared so; None for any number."""
+    stream: int | None
+    """Stream of the items, if they are numbers of one kind."""
+    made: bool
+    """True if the holder makes the items again."""
+
+    def save(self, value: Any) -> Json:
+        items: list[Json] = [node.save(item) for node, item in zip(self.nodes, self._checked(value), strict=False)]
+        max_length = getattr(value, "maxlen", None)
+        return items if max_length is None else {"maxlen": max_length, "is": items}
+
+    def load(self, value: Any, classes: Classes) -> Any:
+        max_length = None
+        if self.kind is deque and isinstance(value, dict):
+            max_length, value = _exact(int, value["maxlen"]), value["is"]
+        rows = zip(self.nodes, self._checked(_exact(list, value)), strict=False)
+        return self._make([node.load(item, classes) for node, item in rows], max_length)
+
+    def write(self, value: Any, lists: Lists) -> None:
+        count = len(self._checked(value))
+        if self.kind is deque:
+            _LIMIT.write(value.maxlen, lists)
+        if self.count is None:
+            lists.ints.append(count)
+        if self.stream is not None:
+            lists[self.stream].extend(value)
+        else:
+            for node, item in zip(self.nodes, value, strict=False):
+                node.write(item, lists)
+
+    def read(self, made: Any, streams: Streams) -> Any:
+        max_length = _LIMIT.read(None, streams) if self.kind is deque else None
+        count = _read_count(streams) if self.count is None else self.count
+        if self.made and count != len(made):
+            raise SnapshotError(f"packed with {count} parts, and this recipe has {len(made)}")
+        if self.stream is None:
+            rows = zip(self.nodes, made if self.made else repeat(None, count), strict=False)
+            return self._make([node.read(part, streams) for node, part in rows], max_length)
+        numbers = list(islice(streams[self.stream], count))
+        if len(numbers) != count:
+            raise SnapshotError("it was cut short")
+        return self._make(numbers, max_length)
+
+    def _checked(self, items: Any) -> Any:
+        if self.count not in (None, len(items)):
+            raise SnapshotError(f"expected {self.count} items, found {len(items)}")
+        return items
+
+    def _make(self, items: list[Any], max_length: int | None) -> Any:
+        if max_length is not None and max_length < len(items):
+            raise SnapshotError("a deque does not have the length that it may have")
+        return self.kind(items) if max_length is None else deque(items, max_length)
+
+    def describe(self, schema: Description) -> Any:
+        if self.count is not None:
+            return {"tuple": [node.describe(schema) for node in self.nodes]}
+        return {"row" if self.kind is tuple else self.kind.__name__: next(iter(self.nodes)).describe(schema)}
 
 
 @frozen(eq=False)
 class DictNode:
-    """A dict or Counter (`kind`); keys have the node `key`, values the node `of`."""
+    """A dict or Counter (`kind`); keys have the node `key`, values the node `of`.
 
+    As JSON it is an object if the keys become strings, and a list of pairs otherwise."""
+
+    kind: type
     key: Node
     of: Node
-    kind: type = dict
+    has_text_keys: bool
 
-    @property
-    def has_text_keys(self) -> bool:
-        """True if the keys become strings, so that the dict becomes an object of JSON."""
-        return isinstance(self.key, EnumNode) or (isinstance(self.key, ScalarNode) and self.key.kind is str)
+    def save(self, value: Any) -> Json:
+        pairs: Any = [[self.key.save(key), self.of.save(item)] for key, item in value.items()]
+        return dict(pairs) if self.has_text_keys else pairs
+
+    def load(self, value: Any, classes: Classes) -> Any:
+        pairs = _exact(dict, value).items() if self.has_text_keys else _exact(list, value)
+        return self.kind({self.key.load(key, classes): self.of.load(item, classes) for key, item in pairs})
+
+    def write(self, value: Any, lists: Lists) -> None:
+        lists.ints.append(len(value))
+        for key, item in value.items():
+            self.key.write(key, lists)
+            self.of.write(item, lists)
+
+    def read(self, made: Any, streams: Streams) -> Any:
+        items = {}
+        for _ in range(_read_count(streams)):
+            key = self.key.read(None, streams)
+            items[key] = self.of.read(made and made[key], streams)
+        return self.kind(items)
+
+    def describe(self, schema: Description) -> Any:
+        return {"dict": [self.key.describe(schema), self.of.describe(schema)]}
 
 
 @frozen(eq=False)
 class OpenNode:
-    """A record of one of several classes."""
+    """A record of one of the classes `known`; if there are none, of any class.
+
+    The record is saved with the name of its class, and packed with the checksum of its schema too. Unless the class is
+    known, the caller of `load` or `read` passes a function that returns it."""
 
     known: dict[str, type]
     """Classes by name."""
-    others: bool
-    """True if records of other classes are allowed too."""
     made: bool
-    """True as in `RecordNode`; even then, a record of another class without state is saved with all fields."""
+    """True as in `RecordNode`; even then, a record without state is saved with all fields."""
+    record_of: Callable[[type, bool], RecordNode]
+    """Function that returns the schema of a record, or if True is passed and it has state, that of its state."""
+
+    def record(self, cls: type) -> RecordNode:
+        """Return the schema of a record of this class; raise TypeError when it may not be saved here."""
+        if self.known and self.known.get(cls.__name__) is not cls:
+            raise TypeError(f"a {cls.__name__} where {' or '.join(self.known)} is known")
+        return self.record_of(cls, self.made)
+
+    def _find(self, name: Any, classes: Classes) -> type:
+        cls = self.known.get(name) if self.known else classes(_exact(str, name))
+        if cls is None:
+            raise SnapshotError(f"a snapshot of a part {shorten(name)} that is not known here")
+        return cls
+
+    def save(self, value: Any) -> Json:
+        return {"kind": type(value).__name__, "is": self.record(type(value)).save(value)}
+
+    def load(self, value: Any, classes: Classes) -> Any:
+        return self.record(self._find(value["kind"], classes)).load(value["is"], classes)
+
+    def write(self, value: Any, lists: Lists) -> None:
+        record = self.record(type(value))
+        _TEXT.write(identify_record(record), lists)
+        record.write(value, lists)
+
+    def read(self, made: Any, streams: Streams) -> Any:
+        identity = _TEXT.read(None, streams)
+        name = identity.partition(" ")[0]
+        if self.made and name != type(made).__name__:
+            raise SnapshotError(f"packed with {name:.80}, and this recipe has {type(made).__name__}")
+        record = self.record(type(made) if self.made else self._find(name, streams.classes))
+        if identity != identify_record(record):
+            raise SnapshotError(f"packed with a part {shorten(name)} that had other fields")
+        return record.read(made, streams)
+
+    def describe(self, schema: Description) -> Any:
+        return {"one of": [self.record(cls).name_in(schema) for cls in self.known.values()]}
+
+
+_TEXT = DataNode(str)
 
 
 @frozen(eq=False)
@@ -84,5 +324,134 @@ class RecordNode:
     defaults: dict[str, Any]
     """Defaults of the fields that are not saved; unused for a record that is made again, which has its own values."""
 
+    def save(self, record: Any) -> Json:
+        saved: dict[str, Json] = {}
+        for name, node in self.fields.items():
+            try:
+                saved[name] = node.save(getattr(record, name))
+            except (TypeError, ValueError) as error:
+                kind = TypeError if isinstance(error, TypeError) else SnapshotError
+                raise kind(locate_error(error, self.cls, name)) from error
+        return saved
 
-Node = ScalarNode | EnumNode | MaybeNode | TupleNode | SequenceNode | DictNode | OpenNode | RecordNode
+    def load(self, value: Any, classes: Classes) -> Any:
+        saved = _exact(dict, value)
+        for name in saved | self.fields:
+            if name not in saved or name not in self.fields:
+                lacks = "no" if name in saved else "not the"
+                raise SnapshotError(f"{self.cls.__name__} has {lacks} field {shorten(name)}")
+        loaded = {name: node.load(saved[name], classes) for name, node in self.fields.items()}
+        record = self._functions["new"](self.cls)
+        for name, item in (loaded | self.defaults).items():
+            object.__setattr__(record, name, item)
+        return record
+
+    @cached_property
+    def write(self) -> Callable[[Any, Lists], None]:
+        write: Callable[[Any, Lists], None] = self._functions["write"]
+        return write
+
+    @cached_property
+    def read(self) -> Callable[[Any, Streams], Any]:
+        read: Callable[[Any, Streams], Any] = self._functions["read"]
+        return read
+
+    @cached_property
+    def _functions(self) -> dict[str, Any]:
+        """Return generated functions by name; a loop over the fields would take twice as long.
+
+        def write(o, s):                          def read(t, s):
+            F, N, M, B = s                            F, N, M, B, C = s
+            F.append(o.rate)                          o = new(cls)
+            w_sole(o.sole, s)                         o.rate = next(F)
+                                                      o.sole = r_sole(t.sole, s)
+                                                      o.limit = t.limit
+                                                      return o
+        """
+        new: Any = self.cls.__new__  # object's own makes no compiled classes
+        names = {"new": new, "cls": self.cls, "put": object.__setattr__}
+        form = "put(o, {!r}, {})" if self.cls.__setattr__ is not names["put"] else "o.{} = {}"
+        write, read = ["def write(o, s):", "F, N, M, B = s"], ["def read(t, s):", "F, N, M, B, C = s", "o = new(cls)"]
+        for name, node in self.fields.items():
+            if isinstance(node, NumberNode):
+                stream = "FNM"[node.stream]
+                write.append(f"{stream}.append(o.{name})")
+                read.append(form.format(name, f"next({stream})"))
+            else:
+                names["w_" + name], names["r_" + name] = node.write, node.read
+                write.append(f"w_{name}(o.{name}, s)")
+                read.append(form.format(name, f"r_{name}({f't.{name}' if self.made else None}, s)"))
+        for name, default in self.defaults.items():
+            names["d_" + name] = default
+            read.append(form.format(name, f"t.{name}" if self.made else f"d_{name}"))
+        for lines in (write, [*read, "return o"]):
+            exec("\n    ".join(lines), names)
+        return names
+
+    def describe(self, schema: Description) -> Any:
+        return {"record": self.name_in(schema)}
+
+    def name_in(self, schema: Description) -> str:
+        """Return the name of this record in a description, and describe it there if that was not done before."""
+        name = f"state of {schema.name(self.cls)}" if self.made else schema.name(self.cls)
+        if name not in schema.records:
+            schema.records[name] = {}
+            schema.records[name] = {field: node.describe(schema) for field, node in self.fields.items()}
+        return name
+
+
+Node = NumberNode | DataNode | EnumNode | MaybeNode | RowNode | DictNode | OpenNode | RecordNode
+
+
+@define
+class Description:
+    """A schema as plain data (protocol/snapshot.md)."""
+
+    records: dict[str, Any] = field(factory=dict)
+    enums: dict[str, list[str]] = field(factory=dict)
+    _numbers: dict[type, int] = field(factory=dict)
+    """Number of each class among those of its name, from 1."""
+
+    def name(self, cls: type) -> str:
+        """Return the name of a class, with its number if it is not the first of this name."""
+        number = self._numbers.setdefault(cls, 1 + sum([known.__name__ == cls.__name__ for known in self._numbers]))
+        return f"{cls.__name__} {number}" if number > 1 else cls.__name__
+
+
+def describe(*roots: RecordNode) -> dict[str, Any]:
+    """Return the schema of these records as plain data (protocol/snapshot.md)."""
+    schema = Description()
+    return {"roots": [root.name_in(schema) for root in roots], "records": schema.records, "enums": schema.enums}
+
+
+def schema_checksum(description: dict[str, Any]) -> int:
+    """Return the CRC-32 of a schema in the form of `describe`."""
+    return crc32(json.dumps(description, separators=(",", ":")).encode())
+
+
+@cache
+def identify_record(record: RecordNode) -> str:
+    """Return the identity of an open record: the name of its class and the checksum of its schema."""
+    return f"{record.cls.__name__} {schema_checksum(describe(record)):08x}"
+
+
+_CANNOT = "a snapshot cannot hold "
+
+
+def locate_error(error: Exception, cls: type, name: str) -> str:
+    """Return the error's text with class and field of the innermost record."""
+    return str(error) if str(error).startswith(_CANNOT) else f"{_CANNOT}{cls.__name__}.{name}: {error}"
+
+
+def _exact(kind: type, value: Any) -> Any:
+    if type(value) is not kind:
+        raise SnapshotError(f"expected {kind.__name__}, found {shorten(value)}")
+    return value
+
+
+def _read_count(streams: Streams) -> int:
+    """Return the number of items that follow; raise SnapshotError if no state has as many."""
+    count = next(streams.ints)
+    if not 0 <= count <= MAX_VALUES:
+        raise SnapshotError(f"a list of {count}")
+    return count

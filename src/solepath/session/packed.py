@@ -11,23 +11,23 @@ from __future__ import annotations
 from binascii import crc32
 from collections.abc import Iterable
 from functools import lru_cache
-from struct import Struct
+from struct import Struct, error
 from typing import Any
 
 from ..calibration import Calibration
 from ..recipes import Recipe, own
-from ..saving.codec import Classes, SnapshotError
+from ..saving.codec import SnapshotError
 from ..saving.limits import MAX_SIZE, shorten
-from ..saving.packed import Lists, Streams, read, write
-from ..saving.schema import describe, record_of, schema_checksum
-from ..saving.streams import from_bytes, to_bytes
+from ..saving.nodes import describe, schema_checksum
+from ..saving.schema import record_of
+from ..saving.streams import Lists, Streams, from_bytes, to_bytes
 from ..types import Foot, shared
 from ..types.attrs import define
 from .snapshot import check_names, make_class_lookup
 from .state import VERSION, SessionSettings, SessionState
 
 MAGIC = b"sole"
-FORM = 3
+FORM = 4
 HEADER = Struct("<4sHHII")
 
 MAX_TEMPLATES = 16
@@ -70,13 +70,13 @@ def pack(state: SessionState) -> bytes:
     settings = state.settings
     check_names(settings.recipe)
     head = Head(settings.recipe.name, settings.calibration, settings.poses, settings.pressures, settings.plan)
-    lists: Lists = ([], [], [], [])
+    lists = Lists([], [], [], [])
     try:
-        write(HEAD, head, lists)
-        write(STATE, state, lists)
-        body = to_bytes(*lists)
-    except (ValueError, KeyError, OverflowError) as error:
-        raise SnapshotError(f"a packed session cannot hold this: {error}") from error
+        HEAD.write(head, lists)
+        STATE.write(state, lists)
+        body = to_bytes(lists)
+    except (ValueError, OverflowError, error) as fault:
+        raise SnapshotError(f"a packed session cannot hold this: {fault}") from fault
     if HEADER.size + len(body) > MAX_SIZE:
         raise SnapshotError(f"a packed session cannot have more than {MAX_SIZE} bytes")
     start = HEADER.pack(MAGIC, FORM, VERSION, _schema_check(), 0)
@@ -92,7 +92,7 @@ def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> SessionStat
     classes = make_class_lookup(parts)
     body = _check_header(data)
     try:
-        return _read_state(Streams(*from_bytes(body)), own_recipe, classes)
+        return _read_state(from_bytes(body, classes), own_recipe)
     except (SnapshotError, MemoryError, RecursionError):  # when memory runs out, the bytes may still be sound
         raise
     except StopIteration:
@@ -125,14 +125,14 @@ def _check_header(data: Any) -> memoryview:
 _templates: tuple[tuple[Recipe, Head, SessionState], ...] = ()
 
 
-def _read_state(streams: Streams, recipe: Recipe, classes: Classes) -> SessionState:
+def _read_state(streams: Streams, recipe: Recipe) -> SessionState:
     """Return the state that the streams hold; `recipe` is a copy that nobody changes (recipes.own).
 
     Raises SnapshotError when the state was packed with another recipe."""
-    head: Head = read(HEAD, streams, classes)
+    head: Head = HEAD.read(None, streams)
     if head.recipe != recipe.name:
         raise SnapshotError(f"packed with the recipe {shorten(head.recipe)}, and this is {recipe.name!r}")
-    state: SessionState = read(STATE, streams, classes, _make_initial_state(recipe, head))
+    state: SessionState = STATE.read(_make_initial_state(recipe, head), streams)
     streams.end()
     for foot in state.feet.values():
         layout = foot.sole.insole.layout

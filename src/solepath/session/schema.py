@@ -6,8 +6,8 @@ import json
 from typing import Any
 
 from ..recipes import AIDS, LINKS, PARTS, part_class
-from ..saving.packed import identify_record
-from ..saving.schema import describe, has_state, record_of
+from ..saving.nodes import describe, identify_record
+from ..saving.schema import has_state, record_of
 from .packed import schema
 from .state import VERSION
 
