@@ -8,7 +8,6 @@ A value that does not fit raises SnapshotError, or another exception that the ca
 
 from __future__ import annotations
 
-import json
 from base64 import b64decode, b64encode
 from binascii import crc32
 from collections import deque
@@ -19,7 +18,7 @@ from itertools import islice, repeat
 from math import isfinite
 from typing import Any
 
-from ..types.attrs import define, field, frozen
+from ..types.attrs import field, frozen
 from .limits import MAX_VALUES, Classes, Json, SnapshotError, shorten
 from .streams import Lists, Streams
 
@@ -48,9 +47,6 @@ class NumberNode:
 
     def read(self, made: Any, streams: Streams) -> Any:
         return next(streams[self.stream])
-
-    def describe(self, schema: Description) -> Any:
-        return self.kind.__name__
 
 
 @frozen(eq=False)
@@ -85,15 +81,12 @@ class DataNode:
             raise SnapshotError(f"{len(data)} bytes are no whole rows of {self.row_size}")
         return data
 
-    def describe(self, schema: Description) -> Any:
-        return self.kind.__name__
-
 
 @frozen(eq=False)
 class EnumNode:
     """A member of an enum."""
 
-    cls: EnumMeta
+    cls: EnumMeta = field(repr=False)
     members: tuple[Enum, ...]
 
     def save(self, value: Any) -> Any:
@@ -113,11 +106,6 @@ class EnumNode:
         if place < 0:
             raise SnapshotError("a word that is none")
         return self.members[place]
-
-    def describe(self, schema: Description) -> Any:
-        name = schema.name(self.cls)
-        schema.enums[name] = [str(word.value) for word in self.members]
-        return {"enum": name}
 
 
 @frozen(eq=False)
@@ -144,9 +132,6 @@ class MaybeNode:
         if self.made and exists is (made is None):
             raise SnapshotError("packed with a part that this recipe does not have, or without one that it has")
         return self.of.read(made, streams) if exists else None
-
-    def describe(self, schema: Description) -> Any:
-        return {"maybe": self.of.describe(schema)}
 
 
 _LIMIT = MaybeNode(NumberNode(int, 1))
@@ -216,11 +201,6 @@ class RowNode:
             raise SnapshotError("a deque does not have the length that it may have")
         return self.kind(items) if max_length is None else deque(items, max_length)
 
-    def describe(self, schema: Description) -> Any:
-        if self.count is not None:
-            return {"tuple": [node.describe(schema) for node in self.nodes]}
-        return {"row" if self.kind is tuple else self.kind.__name__: next(iter(self.nodes)).describe(schema)}
-
 
 @frozen(eq=False)
 class DictNode:
@@ -254,9 +234,6 @@ class DictNode:
             items[key] = self.of.read(made and made[key], streams)
         return self.kind(items)
 
-    def describe(self, schema: Description) -> Any:
-        return {"dict": [self.key.describe(schema), self.of.describe(schema)]}
-
 
 @frozen(eq=False)
 class OpenNode:
@@ -265,11 +242,11 @@ class OpenNode:
     The record is saved with the name of its class, and packed with the checksum of its schema too. Unless the class is
     known, the caller of `load` or `read` passes a function that returns it."""
 
-    known: dict[str, type]
+    known: dict[str, type] = field(repr=" ".join)
     """Classes by name."""
     made: bool
     """True as in `RecordNode`; even then, a record without state is saved with all fields."""
-    record_of: Callable[[type, bool], RecordNode]
+    record_of: Callable[[type, bool], RecordNode] = field(repr=False)
     """Function that returns the schema of a record, or if True is passed and it has state, that of its state."""
 
     def record(self, cls: type) -> RecordNode:
@@ -305,9 +282,6 @@ class OpenNode:
             raise SnapshotError(f"packed with a part {shorten(name)} that had other fields")
         return record.read(made, streams)
 
-    def describe(self, schema: Description) -> Any:
-        return {"one of": [self.record(cls).name_in(schema) for cls in self.known.values()]}
-
 
 _TEXT = DataNode(str)
 
@@ -316,12 +290,12 @@ _TEXT = DataNode(str)
 class RecordNode:
     """A record of one class."""
 
-    cls: type
+    cls: type = field(repr=lambda cls: cls.__name__)
     made: bool
     """True if the holder makes the record again with the same settings, so that `fields` has only the state."""
     fields: dict[str, Node]
     """Nodes of the saved fields, in the order of the class."""
-    defaults: dict[str, Any]
+    defaults: dict[str, Any] = field(repr=False)
     """Defaults of the fields that are not saved; unused for a record that is made again, which has its own values."""
 
     def save(self, record: Any) -> Json:
@@ -388,51 +362,19 @@ class RecordNode:
             exec("\n    ".join(lines), names)
         return names
 
-    def describe(self, schema: Description) -> Any:
-        return {"record": self.name_in(schema)}
-
-    def name_in(self, schema: Description) -> str:
-        """Return the name of this record in a description, and describe it there if that was not done before."""
-        name = f"state of {schema.name(self.cls)}" if self.made else schema.name(self.cls)
-        if name not in schema.records:
-            schema.records[name] = {}
-            schema.records[name] = {field: node.describe(schema) for field, node in self.fields.items()}
-        return name
-
 
 Node = NumberNode | DataNode | EnumNode | MaybeNode | RowNode | DictNode | OpenNode | RecordNode
 
 
-@define
-class Description:
-    """A schema as plain data (protocol/snapshot.md)."""
-
-    records: dict[str, Any] = field(factory=dict)
-    enums: dict[str, list[str]] = field(factory=dict)
-    _numbers: dict[type, int] = field(factory=dict)
-    """Number of each class among those of its name, from 1."""
-
-    def name(self, cls: type) -> str:
-        """Return the name of a class, with its number if it is not the first of this name."""
-        number = self._numbers.setdefault(cls, 1 + sum([known.__name__ == cls.__name__ for known in self._numbers]))
-        return f"{cls.__name__} {number}" if number > 1 else cls.__name__
-
-
-def describe(*roots: RecordNode) -> dict[str, Any]:
-    """Return the schema of these records as plain data (protocol/snapshot.md)."""
-    schema = Description()
-    return {"roots": [root.name_in(schema) for root in roots], "records": schema.records, "enums": schema.enums}
-
-
-def schema_checksum(description: dict[str, Any]) -> int:
-    """Return the CRC-32 of a schema in the form of `describe`."""
-    return crc32(json.dumps(description, separators=(",", ":")).encode())
+def schema_check(*records: RecordNode) -> int:
+    """Return a checksum of schemas, which is another one when a record has another name, or other fields."""
+    return crc32(repr(records).encode())
 
 
 @cache
 def identify_record(record: RecordNode) -> str:
     """Return the identity of an open record: the name of its class and the checksum of its schema."""
-    return f"{record.cls.__name__} {schema_checksum(describe(record)):08x}"
+    return f"{record.cls.__name__} {schema_check(record):08x}"
 
 
 _CANNOT = "a snapshot cannot hold "
