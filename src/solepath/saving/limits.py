@@ -15,7 +15,7 @@ Classes = Callable[[str], type | None]
 MAX_VALUES = 1 << 20
 """Largest number of values (numbers, flags, texts, lists and objects) of a saved state."""
 MAX_SIZE = 1 << 24
-"""Largest number of bytes of a packed state, and of characters of all texts of a snapshot."""
+"""Largest number of characters of all texts of a snapshot, and of bytes that a packed state has beside its numbers."""
 MAX_DEPTH = 64
 """Largest number of lists and objects of a snapshot that are within each other; a session has about 15."""
 MAX_DIGITS = 309

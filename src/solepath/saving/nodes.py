@@ -315,7 +315,8 @@ class RecordNode:
                 lacks = "no" if name in saved else "not the"
                 raise SnapshotError(f"{self.cls.__name__} has {lacks} field {shorten(name)}")
         loaded = {name: node.load(saved[name], classes) for name, node in self.fields.items()}
-        record = self._functions["new"](self.cls)
+        new: Any = self.cls.__new__  # object's own makes no compiled classes
+        record = new(self.cls)
         for name, item in (loaded | self.defaults).items():
             object.__setattr__(record, name, item)
         return record
@@ -342,8 +343,7 @@ class RecordNode:
                                                       o.limit = t.limit
                                                       return o
         """
-        new: Any = self.cls.__new__  # object's own makes no compiled classes
-        names = {"new": new, "cls": self.cls, "put": object.__setattr__}
+        names: dict[str, Any] = {"new": self.cls.__new__, "cls": self.cls, "put": object.__setattr__}
         form = "put(o, {!r}, {})" if self.cls.__setattr__ is not names["put"] else "o.{} = {}"
         write, read = ["def write(o, s):", "F, N, M, B = s"], ["def read(t, s):", "F, N, M, B, C = s", "o = new(cls)"]
         for name, node in self.fields.items():

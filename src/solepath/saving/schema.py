@@ -71,7 +71,7 @@ def _record_of(cls: Any, made: bool) -> RecordNode:
     try:
         for one, hint in _fields(cls):
             try:
-                node = None if one.metadata.get("saving") == NOT_SAVED["saving"] else _field(one, hint, made)
+                node = _field(one, hint, made)
             except TypeError as error:
                 raise TypeError(locate_error(error, plain, one.name)) from error
             if node is None:
@@ -96,11 +96,9 @@ def is_part(cls: Any) -> bool:
 @cache
 def has_state(hint: Any) -> bool:
     """Return whether a value with this annotation is a part, or has a part in a setting."""
-    if is_open(hint) or is_part(hint):
-        return True
     if is_record(hint):
-        return not _is_frozen(hint) and any([has_state(inner) for _, inner in _fields(hint)])
-    return any([has_state(argument) for argument in typing.get_args(hint)])
+        return is_part(hint) or (not _is_frozen(hint) and any([has_state(inner) for _, inner in _fields(hint)]))
+    return is_open(hint) or any([has_state(argument) for argument in typing.get_args(hint)])
 
 
 def _is_frozen(cls: Any) -> bool:
@@ -135,13 +133,14 @@ def _substituted(hint: Any, arguments: dict[Any, Any]) -> Any:
 
 
 def _field(one: Any, hint: Any, made: bool) -> Node | None:
-    """Return the node of a field; None for a setting without parts of a record that is made again."""
+    """Return the node of a field; None if it is not saved, as a setting without parts of a record made again."""
+    mark = one.metadata.get("saving")
+    if mark == NOT_SAVED["saving"] or (made and one.init and not has_state(hint)):
+        return None
     if ROW_SIZE in one.metadata:
         return DataNode(bytes, one.metadata[ROW_SIZE])
-    if not made or one.metadata.get("saving") == MADE_AGAIN["saving"]:
+    if not made or one.init or mark == MADE_AGAIN["saving"]:
         return _node(hint, made)
-    if one.init:
-        return _node(hint, True) if has_state(hint) else None
     kinds = _kinds(hint)
     exists_from_start = one.default is not None and all([is_record(kind) or is_open(kind) for kind in kinds])
     return _node(hint, exists_from_start and any([is_part(kind) or is_open(kind) for kind in kinds]))
