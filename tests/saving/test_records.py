@@ -6,7 +6,6 @@ import json
 from collections import deque
 from collections.abc import Iterator
 from functools import cache
-from itertools import islice
 from typing import Any, get_args
 
 import attrs
@@ -53,7 +52,7 @@ def told(value: Any) -> Any:
 def inside(node: Any) -> Iterator[Any]:
     """Yield a node and all nodes in it."""
     yield node
-    inner = [*islice(getattr(node, "nodes", ()), 9), getattr(node, "of", None), getattr(node, "key", None)]
+    inner = [*getattr(node, "items", ()), getattr(node, "of", None), getattr(node, "key", None)]
     for one in [one for one in inner if one is not None]:
         yield from inside(one)
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from base64 import b64decode, b64encode
 from binascii import crc32
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from enum import Enum, EnumMeta
 from functools import cache, cached_property
 from itertools import islice, repeat
@@ -140,22 +140,17 @@ _LIMIT = MaybeNode(NumberNode(int, 1))
 
 @frozen(eq=False)
 class RowNode:
-    """A tuple, list or deque (`kind`).
+    """A tuple, list or deque (`kind`) of any length, whose items have the node `of`.
 
     A deque with a maxlen, which annotations cannot declare, is an object with the keys "maxlen" and "is" as JSON."""
 
     kind: type
-    nodes: Iterable[Node]
-    """Node of each item: `itertools.repeat` for any number of items of one kind."""
-    count: int | None
-    """Number of items of a tuple that is declared so; None for any number."""
-    stream: int | None
-    """Stream of the items, if they are numbers of one kind."""
-    made: bool
+    of: Node
+    made: bool = False
     """True if the holder makes the items again."""
 
     def save(self, value: Any) -> Json:
-        items: list[Json] = [node.save(item) for node, item in zip(self.nodes, self._checked(value), strict=False)]
+        items = [self.of.save(item) for item in value]
         max_length = getattr(value, "maxlen", None)
         return items if max_length is None else {"maxlen": max_length, "is": items}
 
@@ -163,43 +158,101 @@ class RowNode:
         max_length = None
         if self.kind is deque and isinstance(value, dict):
             max_length, value = _exact(int, value["maxlen"]), value["is"]
-        rows = zip(self.nodes, self._checked(_exact(list, value)), strict=False)
-        return self._make([node.load(item, classes) for node, item in rows], max_length)
+        return self._make([self.of.load(item, classes) for item in _exact(list, value)], max_length)
 
     def write(self, value: Any, lists: Lists) -> None:
-        count = len(self._checked(value))
         if self.kind is deque:
             _LIMIT.write(value.maxlen, lists)
-        if self.count is None:
-            lists.ints.append(count)
-        if self.stream is not None:
-            lists[self.stream].extend(value)
+        lists.ints.append(len(value))
+        if isinstance(self.of, NumberNode):
+            lists[self.of.stream].extend(value)
         else:
-            for node, item in zip(self.nodes, value, strict=False):
-                node.write(item, lists)
+            for item in value:
+                self.of.write(item, lists)
 
     def read(self, made: Any, streams: Streams) -> Any:
         max_length = _LIMIT.read(None, streams) if self.kind is deque else None
-        count = _read_count(streams) if self.count is None else self.count
+        count = _read_count(streams)
         if self.made and count != len(made):
             raise SnapshotError(f"packed with {count} parts, and this recipe has {len(made)}")
-        if self.stream is None:
-            rows = zip(self.nodes, made if self.made else repeat(None, count), strict=False)
-            return self._make([node.read(part, streams) for node, part in rows], max_length)
-        numbers = list(islice(streams[self.stream], count))
+        if not isinstance(self.of, NumberNode):
+            parts = made if self.made else repeat(None, count)
+            return self._make([self.of.read(part, streams) for part in parts], max_length)
+        numbers = list(islice(streams[self.of.stream], count))
         if len(numbers) != count:
             raise SnapshotError("it was cut short")
         return self._make(numbers, max_length)
-
-    def _checked(self, items: Any) -> Any:
-        if self.count not in (None, len(items)):
-            raise SnapshotError(f"expected {self.count} items, found {len(items)}")
-        return items
 
     def _make(self, items: list[Any], max_length: int | None) -> Any:
         if max_length is not None and max_length < len(items):
             raise SnapshotError("a deque does not have the length that it may have")
         return self.kind(items) if max_length is None else deque(items, max_length)
+
+
+Code = tuple[list[str], list[str], dict[str, Any]]
+"""The lines of two generated functions, `write` and `read`, and the objects that they name."""
+
+
+@frozen(eq=False)
+class GeneratedNode:
+    """A node of several values, with generated functions: a loop would take twice as long.
+
+    def write(o, s):                                  def read(t, s):
+        F, N, M, B = s                                    F, N, M, B, C = s
+        F.append(o.rate)                                  o = new(cls)
+        w1(o.sole, s)                                     o.rate = next(F)
+                                                          o.sole = r1(t.sole, s)
+                                                          return o
+    """
+
+    def _functions(self) -> Code:
+        raise NotImplementedError
+
+    @cached_property
+    def _compiled(self) -> dict[str, Any]:
+        write, read, names = self._functions()
+        for lines in (["def write(o, s):", "F, N, M, B = s", *write], ["def read(t, s):", "F, N, M, B, C = s", *read]):
+            exec("\n    ".join(lines), names)
+        return names
+
+    @cached_property
+    def write(self) -> Any:
+        return self._compiled["write"]
+
+    @cached_property
+    def read(self) -> Any:
+        return self._compiled["read"]
+
+
+def _code(node: Node, value: str, made: str, names: dict[str, Any]) -> tuple[str, str]:
+    """Return the line that writes the expression `value`, and the expression that reads it."""
+    if isinstance(node, NumberNode):
+        stream = "FNM"[node.stream]
+        return f"{stream}.append({value})", f"next({stream})"
+    k = len(names)
+    names[f"w{k}"], names[f"r{k}"] = node.write, node.read
+    return f"w{k}({value}, s)", f"r{k}({made}, s)"
+
+
+@frozen(eq=False)
+class TupleNode(GeneratedNode):
+    """A tuple with one node for each item."""
+
+    items: tuple[Node, ...]
+
+    def save(self, value: Any) -> Json:
+        return [node.save(item) for node, item in zip(self.items, value, strict=True)]
+
+    def load(self, value: Any, classes: Classes) -> Any:
+        if len(_exact(list, value)) != len(self.items):
+            raise SnapshotError(f"expected {len(self.items)} items, found {len(value)}")
+        return tuple([node.load(item, classes) for node, item in zip(self.items, value, strict=True)])
+
+    def _functions(self) -> Code:
+        names: dict[str, Any] = {}
+        code = [_code(node, f"x{k}", f"t and t[{k}]", names) for k, node in enumerate(self.items)]
+        start = f"[{', '.join([f'x{k}' for k, _ in enumerate(code)])}] = o"
+        return [start, *[line for line, _ in code]], [f"return ({''.join([f'{one}, ' for _, one in code])})"], names
 
 
 @frozen(eq=False)
@@ -287,7 +340,7 @@ _TEXT = DataNode(str)
 
 
 @frozen(eq=False)
-class RecordNode:
+class RecordNode(GeneratedNode):
     """A record of one class."""
 
     cls: type = field(repr=lambda cls: cls.__name__)
@@ -321,49 +374,21 @@ class RecordNode:
             object.__setattr__(record, name, item)
         return record
 
-    @cached_property
-    def write(self) -> Callable[[Any, Lists], None]:
-        write: Callable[[Any, Lists], None] = self._functions["write"]
-        return write
-
-    @cached_property
-    def read(self) -> Callable[[Any, Streams], Any]:
-        read: Callable[[Any, Streams], Any] = self._functions["read"]
-        return read
-
-    @cached_property
-    def _functions(self) -> dict[str, Any]:
-        """Return generated functions by name; a loop over the fields would take twice as long.
-
-        def write(o, s):                          def read(t, s):
-            F, N, M, B = s                            F, N, M, B, C = s
-            F.append(o.rate)                          o = new(cls)
-            w_sole(o.sole, s)                         o.rate = next(F)
-                                                      o.sole = r_sole(t.sole, s)
-                                                      o.limit = t.limit
-                                                      return o
-        """
+    def _functions(self) -> Code:
         names: dict[str, Any] = {"new": self.cls.__new__, "cls": self.cls, "put": object.__setattr__}
         form = "put(o, {!r}, {})" if self.cls.__setattr__ is not names["put"] else "o.{} = {}"
-        write, read = ["def write(o, s):", "F, N, M, B = s"], ["def read(t, s):", "F, N, M, B, C = s", "o = new(cls)"]
+        write, read = [], ["o = new(cls)"]
         for name, node in self.fields.items():
-            if isinstance(node, NumberNode):
-                stream = "FNM"[node.stream]
-                write.append(f"{stream}.append(o.{name})")
-                read.append(form.format(name, f"next({stream})"))
-            else:
-                names["w_" + name], names["r_" + name] = node.write, node.read
-                write.append(f"w_{name}(o.{name}, s)")
-                read.append(form.format(name, f"r_{name}({f't.{name}' if self.made else None}, s)"))
+            line, value = _code(node, f"o.{name}", f"t.{name}" if self.made else "None", names)
+            write.append(line)
+            read.append(form.format(name, value))
         for name, default in self.defaults.items():
             names["d_" + name] = default
             read.append(form.format(name, f"t.{name}" if self.made else f"d_{name}"))
-        for lines in (write, [*read, "return o"]):
-            exec("\n    ".join(lines), names)
-        return names
+        return write, [*read, "return o"], names
 
 
-Node = NumberNode | DataNode | EnumNode | MaybeNode | RowNode | DictNode | OpenNode | RecordNode
+Node = NumberNode | DataNode | EnumNode | MaybeNode | RowNode | TupleNode | DictNode | OpenNode | RecordNode
 
 
 def schema_check(*records: RecordNode) -> int:

@@ -26,7 +26,6 @@ from collections import Counter, deque
 from contextvars import ContextVar
 from enum import EnumMeta
 from functools import cache
-from itertools import repeat
 from typing import Any
 
 import attrs
@@ -42,6 +41,7 @@ from .nodes import (
     OpenNode,
     RecordNode,
     RowNode,
+    TupleNode,
     locate_error,
 )
 
@@ -158,17 +158,10 @@ def _node(hint: Any, made: bool) -> Node:
         return _union(hint, made)
     if is_record(hint):
         return record_of(hint, made)
+    if origin is tuple and arguments[1:] != (...,):
+        return TupleNode(tuple([_node(argument, made) for argument in arguments]))
     if origin in (tuple, list, deque):
-        any_number = origin is not tuple or arguments[1:] == (...,)
-        items = [_node(kind, made) for kind in (arguments[:1] if any_number else arguments)]
-        streams = {item.stream if isinstance(item, NumberNode) else None for item in items}
-        return RowNode(
-            origin,
-            repeat(items[0]) if any_number else tuple(items),
-            None if any_number else len(items),
-            streams.pop() if len(streams) == 1 else None,
-            made,
-        )
+        return RowNode(origin, _node(arguments[0], made), made)
     if origin in (dict, Counter):
         has_text_keys = arguments[0] is str or isinstance(arguments[0], EnumMeta)
         return DictNode(origin, _node(arguments[0], made), _node([*arguments, int][1], made), has_text_keys)

@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 from collections import deque
-from itertools import count, islice
+from itertools import count
 from random import Random
 from typing import Any
 
 from solepath.recipes import AIDS, LINKS, PARTS, part_class
 
 # internal: the schema of a record, which lists its fields and what they hold
-from solepath.saving.nodes import DataNode, DictNode, EnumNode, MaybeNode, NumberNode, OpenNode, RecordNode, RowNode
+from solepath.saving.nodes import (
+    DataNode,
+    DictNode,
+    EnumNode,
+    MaybeNode,
+    NumberNode,
+    OpenNode,
+    RecordNode,
+    RowNode,
+    TupleNode,
+)
 from solepath.saving.schema import record_of
 
 NAMES = (*PARTS, *AIDS, *LINKS)
@@ -56,8 +66,10 @@ class Maker:
                 return self.words.choice([*cls])
             case MaybeNode(of):
                 return self.value(of) if self.shape.random() < 0.6 else None
-            case RowNode(kind, nodes, size):
-                items = [self.value(of) for of in islice(nodes, self.shape.randrange(3) if size is None else size)]
+            case TupleNode(items):
+                return tuple([self.value(item) for item in items])
+            case RowNode(kind, of):
+                items = [self.value(of) for _ in range(self.shape.randrange(3))]
                 return deque(items, self.shape.choice([None, 5])) if kind is deque else kind(items)
             case DictNode(kind, key, of):
                 keys = [Maker(k + self.shape.randrange(9), 7 * k).value(key) for k in range(2)]
