@@ -33,7 +33,7 @@ HOT = (
     "link/clock.py",
     "link/counters.py",
     "link/decoder.py",
-    "link/device_link.py",
+    "link/kinds.py",
     "link/periodic.py",
     "link/devices/insole.py",
     "link/devices/reassembly.py",

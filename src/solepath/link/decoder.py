@@ -22,8 +22,7 @@ from ..events import BatteryLevel, ClockReset, Connected, PacketRejected, Reject
 from ..types import Packet, Site
 from ..types.attrs import NOT_SAVED, define, field, fields
 from ..wire.error import WireError
-from .device_link import DeviceLink, Output
-from .kinds import BUILT_IN_KINDS, DeviceKinds
+from .kinds import BUILT_IN_KINDS, DeviceKinds, DeviceLink, Output
 
 SET_BACK_PACKETS = 20
 """Number of packets in a row with earlier arrivals that shows that the receiver's clock was set back."""
@@ -150,7 +149,8 @@ class Decoder:
             raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
         link = self.link
         if link is None:
-            link = kind.make_link(self.site, self.firmware)
+            link = kind.make_link(self.site)
+            link.set_firmware(self.firmware)
         elif link.name != prefix:
             detail = f"{packet.channel!r} at a site whose device is {link.name}"
             raise WireError(Rejection.UNKNOWN_CHANNEL, detail)

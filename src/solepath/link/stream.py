@@ -18,8 +18,8 @@ from ..wire.error import WireError
 from ..wire.fields import malformed
 from .clock import MIN_INCREMENT
 from .counters import PacketPosition, PacketRun, SampleTimes, signed_difference
-from .device_link import DeviceLink, Output
 from .driver import MIN_SAMPLE_TICKS, Driver, DriverSignature, Reading, TimeAxis
+from .kinds import DeviceLink, Output
 from .periodic import PeriodicClock, make_periodic_clock
 from .reading_check import MIN_RATE, MOST_KNOWN, check_reading
 
@@ -49,13 +49,13 @@ UNUSED_TICKS = "the ticks of this device are not used, because its driver has no
 class StreamLink(DeviceLink):
     """The link of one declared device at one site, without latency."""
 
-    site: Site
     name: str
     """Name of the driver."""
     signature: DriverSignature
     """Numbers of the driver that the link was made with."""
     rate: float
     """Nominal rate, samples a second."""
+    site: Site
     known: dict[str, float] = field(factory=dict)
     """Numbers from earlier values that are passed to the readers of later values."""
     may_be_silent: bool = False
@@ -105,9 +105,6 @@ class StreamLink(DeviceLink):
     def handle_reconnection(self) -> None:
         """Take counters that go back in the next packet as restarted: no packet is overtaken across two connections."""
         self.packet_run.after_reconnection = True
-
-    def flush(self, known_at: float) -> Output:
-        return []
 
     def _check(self, driver: Driver, channel: str, reading: Reading) -> None:
         """Raise WireError when a reading cannot be used."""
@@ -287,8 +284,3 @@ class StreamLink(DeviceLink):
             t = self.last_t + MIN_INCREMENT
         self.last_t = t
         return t
-
-
-def make_stream_link(driver: Driver, built_in: bool, site: Site, firmware: str) -> StreamLink:
-    """Return a fresh link of this kind of device at `site`."""
-    return StreamLink(site, driver.name, driver.signature(built_in), driver.profile.nominal_rate)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from ..recipes import AIDS, LINKS, PARTS, part_class
+from ..recipes import part_class
 from ..saving.packed import identify_record
 from ..saving.schema import describe, has_state, record_of
+from ..types.registry import TABLE
 from .packed import schema
 from .state import VERSION
 
@@ -15,9 +16,9 @@ from .state import VERSION
 def make_schemas() -> dict[str, Any]:
     """Return the version, the schema of a session, and the schemas of links and parts by their packed identity."""
     parts = {}
-    for name in (*LINKS, *AIDS, *PARTS):
+    for name in (*TABLE["link"], *TABLE["aid"], *TABLE["part"]):
         cls = part_class(name)
-        record = record_of(cls, made=name in PARTS and has_state(cls))
+        record = record_of(cls, made=name in TABLE["part"] and has_state(cls))
         parts[identify_record(record)] = describe(record)
     return {"version": VERSION, "session": schema(), "parts": parts}
 

@@ -6,12 +6,13 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ..link.kinds import DeviceKinds
-from ..recipes import PARTS, Recipe, own, part_class
+from ..recipes import Recipe, own, part_class
 from ..saving.codec import Classes, Json, SnapshotError, checksum, load, save
 from ..saving.limits import check_size, shorten
 from ..saving.schema import is_record
 from ..types import Foot, Site
 from ..types.attrs import evolve
+from ..types.registry import TABLE
 from .state import VERSION, SessionState
 from .wearer import sort_by_key
 
@@ -51,7 +52,7 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
 def own_classes(state: SessionState) -> tuple[type, ...]:
     """Return the classes of the parts of a session that are those of an app."""
     classes = dict.fromkeys([type(part) for part in _parts(state.wearer.settings.recipe)])
-    return tuple([cls for cls in classes if cls.__name__ not in PARTS])
+    return tuple([cls for cls in classes if cls.__name__ not in TABLE["part"]])
 
 
 def _parts(recipe: Recipe) -> list[Any]:
@@ -63,7 +64,7 @@ def check_names(recipe: Recipe) -> None:
     """Raise TypeError for an app's part that has the name of a part of solepath: it would be restored as that."""
     for part in _parts(recipe):
         name = type(part).__name__
-        if name in PARTS and part_class(name) is not type(part):
+        if name in TABLE["part"] and part_class(name) is not type(part):
             raise TypeError(f"it could not tell this {name} from solepath's own: give it another name")
 
 

@@ -50,7 +50,7 @@ class GaitCycles(Part):
     """Time up to which the right foot's clock cannot be compared with the left one's, s; None: it can."""
 
     between: Part | None = field(default=None, init=False)
-    """Measurement of steps by ranges between the feet (`recipes.AIDS`); None until a sample has a range."""
+    """Measurement of steps by ranges between the feet (types/registry.py); None until a sample has a range."""
     clocks_apart: bool = field(default=False, init=False)
     """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 

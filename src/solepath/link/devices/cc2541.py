@@ -16,7 +16,7 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD
-from ..device_link import DeviceLink, Output
+from ..kinds import DeviceKind, DeviceLink, Output
 from ..periodic import PeriodicClock, make_periodic_clock
 from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
 from .assembler import Assembler
@@ -221,9 +221,6 @@ class Cc2541Link(DeviceLink):
         )
         self.assembler = Assembler(self.site)
 
-    def handle_reconnection(self) -> None:
-        """Do nothing, because the device has no counters."""
-
     def flush(self, known_at: float) -> Output:
         return [*self.assembler.flush(known_at)]
 
@@ -274,12 +271,8 @@ def _scale(counts: tuple[int, int, int], scale: float) -> Vec3:
     return (x * scale, y * scale, z * scale)
 
 
-def make_cc2541_link(site: Site, firmware: str) -> Cc2541Link:
-    """Return a fresh link of a tag at `site`."""
-    link = Cc2541Link(site, Assembler(site))
-    link.set_firmware(firmware)
-    return link
+def _make_link(site: Site) -> Cc2541Link:
+    return Cc2541Link(site, Assembler(site))
 
 
-LINK = make_cc2541_link, Cc2541Link.feed
-"""Function that makes a link, and function that feeds it (kinds.DeviceKind)."""
+KIND = DeviceKind(PROFILE, _make_link, Cc2541Link.feed)

@@ -20,8 +20,8 @@ from ...wire.insole import InsoleFrame, parse_frame
 from ...wire.insole_control import parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
 from ..counters import PacketPosition, PacketRun
-from ..device_link import DeviceLink, Output
 from ..driver import FULL_SCALE_COUNTS
+from ..kinds import DeviceKind, DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
 from .reassembly import Reassembly
 
@@ -124,9 +124,6 @@ class InsoleLink(DeviceLink):
         """Discard an incomplete frame, and prepare for counters that restarted."""
         self.reassembly.drop()
         self.packet_run.after_reconnection = True
-
-    def flush(self, known_at: float) -> Output:
-        return []
 
     def _read_fragment(self, data: bytes, arrival: float) -> Output:
         frame_data, drop_reason = self.reassembly.feed(parse_fragment(data))
@@ -257,10 +254,4 @@ def _check_scales(info: InsoleInfo) -> None:
         )
 
 
-def make_insole_link(site: Site, firmware: str) -> InsoleLink:
-    """Return a fresh link of an insole at `site`."""
-    return InsoleLink(site)
-
-
-LINK = make_insole_link, InsoleLink.feed
-"""Function that makes a link, and function that feeds it (kinds.DeviceKind)."""
+KIND = DeviceKind(PROFILE, InsoleLink, InsoleLink.feed)
