@@ -36,7 +36,6 @@ HOT = (
     "link/kinds.py",
     "link/periodic.py",
     "link/devices/insole.py",
-    "link/devices/reassembly.py",
     "wire/cells.py",
     "wire/envelope.py",
     "wire/insole.py",

@@ -15,7 +15,7 @@ from ...types.attrs import define, field
 from ...types.vector import GRAVITY, unit
 from ...wire.envelope import MAGIC
 from ...wire.error import WireError
-from ...wire.fragment import is_fragment, parse_fragment
+from ...wire.fragment import Reassembly, is_fragment, parse_fragment
 from ...wire.insole import InsoleFrame, parse_frame
 from ...wire.insole_control import parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
@@ -23,7 +23,6 @@ from ..counters import PacketPosition, PacketRun
 from ..driver import FULL_SCALE_COUNTS
 from ..kinds import DeviceKind, DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
-from .reassembly import Reassembly
 
 ASSUMED_ACC_SCALE = 16.0 * GRAVITY / FULL_SCALE_COUNTS
 """Accelerometer scale before INFO comes, m/s^2 per count: 16 g full scale."""
