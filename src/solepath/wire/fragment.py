@@ -66,42 +66,46 @@ def split(frame: bytes, payload: int, frame_id: int) -> list[bytes]:
 class Reassembly:
     """Joins the fragments of one frame of at most 512 bytes; a fragment out of order drops the frame."""
 
+    frame_id: int = 0
+    """Id of the newest frame."""
+    next_index: int = 0
+    """Index of the next fragment; 0 when no frame is incomplete."""
+    skipping: bool = False
+    """True if the frame `frame_id` was dropped; its further fragments are then skipped without an event."""
     body: bytes = b""
-    """Bytes of the incomplete frame; empty when there is none."""
+    """Bytes of the incomplete frame."""
     newest_fragment: Fragment | None = None
     """Fragment that was joined last; None after a packet of another kind."""
-    skipped_id: int | None = None
-    """Id of a frame that was dropped, whose further fragments are skipped without an event; None for none."""
 
     def drop(self) -> str | None:
         """Drop the incomplete frame, and return a description of the loss; None when there is no incomplete frame."""
-        newest, body, self.newest_fragment, self.body = self.newest_fragment, self.body, None, b""
-        return f"frame dropped: its fragment {newest.index + 1} never came" if newest is not None and body else None
+        expected, self.next_index, self.body, self.newest_fragment = self.next_index, 0, b"", None
+        return f"frame dropped: its fragment {expected} never came" if expected else None
 
     def feed(self, fragment: Fragment) -> tuple[bytes | None, str | None]:
         """Return the frame that this fragment completes, or None, and a description of a dropped frame, or None.
 
         The newest fragment again, with the same body, raises WireError and changes nothing."""
-        newest, index, drop_reason = self.newest_fragment, fragment.index, None
-        if fragment == newest:
+        index, drop_reason = fragment.index, None
+        if fragment == self.newest_fragment:
             raise WireError(Rejection.DUPLICATE, f"fragment {index} again")
-        if fragment.frame_id == self.skipped_id and index > 0:
+        same_frame = fragment.frame_id == self.frame_id
+        if same_frame and self.skipping and index > 0:
             return None, None
-        same_frame = newest is not None and self.body != b"" and fragment.frame_id == newest.frame_id
-        after = index - newest.index if newest is not None and same_frame else None
-        if after != 1:
+        behind = self.next_index - index if same_frame and self.next_index else None
+        if behind != 0:
             drop_reason = self.drop()
-            if after == 0:
+            if behind == 1:
                 drop_reason = f"frame dropped: its fragment {index} came twice, not the same"
-            self.skipped_id = fragment.frame_id if index > 0 else None
-            if index > 0:
+            self.frame_id, self.skipping = fragment.frame_id, index > 0
+            if self.skipping:
                 return None, drop_reason or f"frame dropped: its fragment 0 never came, {index} did"
         if len(self.body) + len(fragment.body) > LONGEST_VALUE:
             self.drop()
-            self.skipped_id = fragment.frame_id
+            self.skipping = True
             return None, f"frame dropped: longer than {LONGEST_VALUE} bytes"
-        self.body, self.newest_fragment = self.body + fragment.body, fragment
+        self.body, self.newest_fragment, self.next_index = self.body + fragment.body, fragment, index + 1
         if not fragment.last:
             return None, drop_reason
-        frame_data, self.body = self.body, b""
+        frame_data, self.body, self.next_index = self.body, b"", 0
         return frame_data, drop_reason
