@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
-from ..events import LinkEvent
+from ..events import Limitation, LinkEvent
 from ..types import Sample, Site
 from ..types.attrs import field, frozen
 from ..types.registry import TABLE, load
@@ -24,6 +24,10 @@ Output = list[Sample | LinkEvent]
 
 class DeviceLink(Protocol):
     """A plain record that turns the values of one device's channels into samples on one clock."""
+
+    site: Site
+    limitation_reported: bool
+    """True if a Limitation of the device was reported."""
 
     @property
     def name(self) -> str:
@@ -51,6 +55,13 @@ class DeviceLink(Protocol):
     def set_firmware(self, firmware: str) -> None:
         """Set the firmware revision that the device reported, which most links ignore."""
         return
+
+    def report_limitation(self, what: str, arrival: float) -> Output:
+        """Return the Limitation of the device, in words, but only once; "" is none."""
+        if not what or self.limitation_reported:
+            return []
+        self.limitation_reported = True
+        return [Limitation(t=arrival, known_at=arrival, site=self.site, what=what)]
 
     def driver_signature(self) -> Any:
         """Return the signature of the driver that the link was made with; None for devices without a driver."""

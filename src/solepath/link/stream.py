@@ -10,7 +10,7 @@ Times come from the best source that the device has, by the rules of protocol/cl
 
 from __future__ import annotations
 
-from ..events import BatteryLevel, KeysChanged, LayoutKnown, Limitation, Rejection
+from ..events import BatteryLevel, KeysChanged, LayoutKnown, Rejection
 from ..types import Sample, Site, Vec3
 from ..types.attrs import define, field
 from ..types.vector import unit
@@ -184,11 +184,9 @@ class StreamLink(DeviceLink):
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
         out: Output = [*sample_times.make_events(self.site, channel, arrival)]
-        unused = UNUSED_TICKS if reading.ticks is not None and not driver.tick_rate else ""
-        if (driver.limitation or unused) and not self.limitation_reported:
-            self.limitation_reported = True
-            what = "; ".join(filter(None, (driver.limitation, unused)))
-            out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
+        if not self.limitation_reported:
+            unused = UNUSED_TICKS if reading.ticks is not None and not driver.tick_rate else ""
+            out += self.report_limitation("; ".join(filter(None, (driver.limitation, unused))), arrival)
         self.newest_arrival = arrival
         for raw, assigned_t in zip(reading.samples, sample_times.times, strict=True):
             t = self._make_increasing(assigned_t)
@@ -210,12 +208,10 @@ class StreamLink(DeviceLink):
         if reading.ticks is None or (driver.sequence and reading.sequence is None):
             raise malformed("no device time or no sequence number, which this device has")
         interval = driver.tick_rate / rate if reading.interval is None else reading.interval
-        ticks = signed_difference(reading.ticks - run.ticks, driver.tick_modulus)
         if reading.sequence is not None and driver.sequence:
-            difference, packets = run.count_packets(reading.sequence, driver.sequence, ticks / run.packet_ticks)
-            return PacketPosition(
-                int(reading.sequence), int(reading.ticks), interval, count, difference, packets, ticks
-            )
+            counters = reading.sequence, driver.sequence, reading.ticks, driver.tick_modulus
+            return run.locate(*counters, interval, count)
+        ticks = signed_difference(reading.ticks - run.ticks, driver.tick_modulus)
         if ticks > 0:  # ticks were cut to whole ones: the true distance may be up to one tick less
             packets = max(1, round(ticks / run.packet_ticks)) if ticks - 1 >= MIN_LOSS_GAP * run.packet_ticks else 1
         else:

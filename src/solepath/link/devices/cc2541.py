@@ -10,7 +10,7 @@ from typing import ClassVar
 
 from construct import Array, BitsInteger, BitsSwapped, BitStruct, Const, Flag, Int8ul, Int16sl, Int16ul, OneOf, Struct
 
-from ...events import KeysChanged, Limitation
+from ...events import KeysChanged
 from ...types import Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY
@@ -251,11 +251,7 @@ class Cc2541Link(DeviceLink):
 
     def _read_barometer(self, temperature: int, raw: int, arrival: float) -> Output:
         if self.calibration is None:
-            if self.limitation_reported:
-                return []
-            self.limitation_reported = True
-            what = "no barometer calibration (AA43) from the CC2541: no air pressure"
-            return [Limitation(t=arrival, known_at=arrival, site=self.site, what=what)]
+            return self.report_limitation("no barometer calibration (AA43) from the CC2541: no air pressure", arrival)
         pressure = self.calibration.pascal(temperature, raw)
         if any(
             clock.newest_arrival is not None and arrival - clock.newest_arrival <= MAX_PRESSURE_WAIT
