@@ -96,7 +96,7 @@ TABLE: dict[str, dict[str, str]] = {
         "cc2541": "solepath.link.devices.cc2541:KIND",
         "orphe": "solepath.link.devices.orphe:DRIVER",
         "dot": "solepath.link.devices.dot:DRIVER",
-        "dot-orientation": "solepath.link.devices.dot_orientation:DRIVER",
+        "dot-orientation": "solepath.link.devices.dot:ORIENTATION_DRIVER",
         "thingy": "solepath.link.devices.thingy:DRIVER",
     },
     # experiments of papers that `solepath reproduce` repeats

@@ -11,14 +11,15 @@ from typing import ClassVar
 from construct import Array, BitsInteger, BitsSwapped, BitStruct, Const, Flag, Int8ul, Int16sl, Int16ul, OneOf, Struct
 
 from ...events import KeysChanged
-from ...types import Site, Vec3
+from ...types import Site
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD
+from ..driver import scaled
 from ..kinds import DeviceKind, DeviceLink, Output
 from ..periodic import PeriodicClock, make_periodic_clock
-from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
+from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_sensor, ti_uuid
 from .assembler import Assembler
 
 STOCK_PERIOD = 0.1
@@ -37,19 +38,11 @@ def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
         names=("SensorTag", "TI BLE Sensor Tag"),
         services=(),
         channels=(
-            Channel("cc2541/accelerometer", ti_uuid(0xAA10), ti_uuid(0xAA11), Access.NOTIFY),
-            Channel("cc2541/accelerometer-config", ti_uuid(0xAA10), ti_uuid(0xAA12), Access.WRITE),
-            Channel("cc2541/accelerometer-period", ti_uuid(0xAA10), ti_uuid(0xAA13), Access.WRITE),
-            Channel("cc2541/magnetometer", ti_uuid(0xAA30), ti_uuid(0xAA31), Access.NOTIFY),
-            Channel("cc2541/magnetometer-config", ti_uuid(0xAA30), ti_uuid(0xAA32), Access.WRITE),
-            Channel("cc2541/magnetometer-period", ti_uuid(0xAA30), ti_uuid(0xAA33), Access.WRITE),
-            Channel("cc2541/barometer", ti_uuid(0xAA40), ti_uuid(0xAA41), Access.NOTIFY),
-            Channel("cc2541/barometer-config", ti_uuid(0xAA40), ti_uuid(0xAA42), Access.WRITE),
+            *ti_sensor("cc2541", "accelerometer", 0xAA10),
+            *ti_sensor("cc2541", "magnetometer", 0xAA30),
+            *ti_sensor("cc2541", "barometer", 0xAA40, period=4),
             Channel("cc2541/barometer-calibration", ti_uuid(0xAA40), ti_uuid(0xAA43), Access.READ),
-            Channel("cc2541/barometer-period", ti_uuid(0xAA40), ti_uuid(0xAA44), Access.WRITE),
-            Channel("cc2541/gyroscope", ti_uuid(0xAA50), ti_uuid(0xAA51), Access.NOTIFY),
-            Channel("cc2541/gyroscope-config", ti_uuid(0xAA50), ti_uuid(0xAA52), Access.WRITE),
-            Channel("cc2541/gyroscope-period", ti_uuid(0xAA50), ti_uuid(0xAA53), Access.WRITE),
+            *ti_sensor("cc2541", "gyroscope", 0xAA50),
             Channel("cc2541/keys", standard_uuid(0xFFE0), standard_uuid(0xFFE1), Access.NOTIFY),
             FIRMWARE,
         ),
@@ -191,7 +184,7 @@ class Cc2541Link(DeviceLink):
             case "cc2541/gyroscope":
                 return self._read_gyro(value.gyro, arrival)
             case "cc2541/magnetometer":
-                self.assembler.mag = _scale(value.mag, MAG_SCALE)
+                self.assembler.mag = scaled(value.mag, MAG_SCALE)
             case "cc2541/barometer":
                 return self._read_barometer(value.temperature, value.pressure, arrival)
             case "cc2541/barometer-calibration":
@@ -235,7 +228,7 @@ class Cc2541Link(DeviceLink):
 
     def _read_acc(self, counts: tuple[int, int, int], arrival: float) -> Output:
         per_g = counts_per_g(self.firmware, self.code)
-        acc = _scale(counts, GRAVITY / per_g)
+        acc = scaled(counts, GRAVITY / per_g)
         sample_times = self.acc_clock.add_packet(arrival)
         (t,) = sample_times.times
         out: Output = [*sample_times.make_events(self.site, "cc2541/accelerometer", arrival)]
@@ -246,7 +239,7 @@ class Cc2541Link(DeviceLink):
         sample_times = self.gyro_clock.add_packet(arrival)
         (t,) = sample_times.times
         out: Output = [*sample_times.make_events(self.site, "cc2541/gyroscope", arrival)]
-        out += self.assembler.add_gyro(t, _scale(counts, GYRO_SCALE), self.gyro_clock.period, arrival)
+        out += self.assembler.add_gyro(t, scaled(counts, GYRO_SCALE), self.gyro_clock.period, arrival)
         return out
 
     def _read_barometer(self, temperature: int, raw: int, arrival: float) -> Output:
@@ -260,11 +253,6 @@ class Cc2541Link(DeviceLink):
             self.assembler.air_pressure = pressure
             return []
         return [*self.assembler.add_pressure_alone(arrival, pressure)]
-
-
-def _scale(counts: tuple[int, int, int], scale: float) -> Vec3:
-    x, y, z = counts
-    return (x * scale, y * scale, z * scale)
 
 
 def _make_link(site: Site) -> Cc2541Link:
