@@ -110,6 +110,16 @@ A reader holds no state. It raises ValueError, LookupError, ArithmeticError or s
 used. Any other exception is a bug of the reader and is passed on. reading_check.py checks the Reading."""
 
 
+def _reject_errors(read: Callable[..., Any], *values: Any) -> Any:
+    """Return what `read` makes of the values; WireError for an error of an adapter, a validator or a reader."""
+    try:
+        return read(*values)
+    except WireError:
+        raise
+    except READING_ERRORS as error:
+        raise malformed(str(error) or type(error).__name__) from error
+
+
 class TimeAxis(Enum):
     """The source of sample times; the first that the device has in sufficient resolution is used."""
 
@@ -207,22 +217,12 @@ class Driver:
 
     def parse(self, channel: str, data: bytes) -> Any:
         """Return the value that the channel's construct reads from `data`; WireError when `data` does not fit it."""
-        try:
-            return parse_whole(self.formats[channel], data)
-        except WireError:
-            raise
-        except READING_ERRORS as error:  # raised by an adapter, a validator, or an expression of an app's construct
-            raise malformed(str(error) or type(error).__name__) from error
+        return _reject_errors(parse_whole, self.formats[channel], data)
 
     def read(self, channel: str, data: bytes, known: Known) -> Reading:
         """Return the content of `data`; WireError when it cannot be read."""
         parsed, reader = self.parse(channel, data), self.readers.get(channel)
-        try:
-            return Reading() if reader is None else reader(parsed, MappingProxyType(known))
-        except WireError:
-            raise
-        except READING_ERRORS as error:
-            raise malformed(str(error) or type(error).__name__) from error
+        return Reading() if reader is None else _reject_errors(reader, parsed, MappingProxyType(known))
 
     def write(self, channel: str, value: Any) -> bytes:
         """Return the bytes of a value that the channel's construct accepts; ValueError when it does not fit."""

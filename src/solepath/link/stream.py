@@ -135,8 +135,7 @@ class StreamLink(DeviceLink):
         if reading.period is not None:
             if self.periodic is None:
                 self.periodic = make_periodic_clock(reading.period)
-            elif reading.period != self.periodic.period:
-                self.periodic.set_period(reading.period)
+            self.periodic.set_period(reading.period)
 
     def _set_rate(self, rate: float) -> None:
         if rate != self.rate:

@@ -5,13 +5,14 @@ assembler.py combines, and because the accelerometer's scale depends on the firm
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import radians
 from typing import ClassVar
 
 from construct import Array, BitsInteger, BitsSwapped, BitStruct, Const, Flag, Int8ul, Int16sl, Int16ul, OneOf, Struct
 
 from ...events import KeysChanged
-from ...types import Site
+from ...types import Sample, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
@@ -103,8 +104,6 @@ COUNTS_PER_G = {
     ("", 2): 32,
     ("", 3): 16,
 }
-FULL_SCALE_ACC_COUNTS = 128.0
-"""Counts that are the full scale of the accelerometer, which has 8 bits."""
 WRITTEN_ACC_CODE = 3
 """Value of AA12 (accelerometer configuration) that the profile writes."""
 
@@ -127,10 +126,6 @@ class BarometerCalibration:
     c7: int
     c8: int
 
-    def celsius(self, temperature: int) -> float:
-        """Return the temperature in degrees Celsius for the raw value t: c1 t / 2^24 + c2 / 2^10."""
-        return self.c1 * temperature / 2**24 + self.c2 / 2**10
-
     def pascal(self, temperature: int, pressure: int) -> float:
         """Return the air pressure in Pa for the raw values t and p: (S p + O) / 2^14.
 
@@ -139,6 +134,10 @@ class BarometerCalibration:
         sensitivity = self.c3 + self.c4 * t / 2**17 + self.c5 * t * t / 2**34
         offset = self.c6 * 2**14 + self.c7 * t / 2**3 + self.c8 * t * t / 2**19
         return (sensitivity * pressure + offset) / 2**14
+
+
+Add = Callable[[float, Vec3, float, float], list[Sample]]
+"""`Assembler.add_acc` or `Assembler.add_gyro`."""
 
 
 @define
@@ -180,9 +179,11 @@ class Cc2541Link(DeviceLink):
         value = parse_whole(FORMATS[channel], data)
         match channel:
             case "cc2541/accelerometer":
-                return self._read_acc(value.acc, arrival)
+                acc = scaled(value.acc, GRAVITY / counts_per_g(self.firmware, self.code))
+                return self._add(channel, self.acc_clock, self.assembler.add_acc, acc, arrival)
             case "cc2541/gyroscope":
-                return self._read_gyro(value.gyro, arrival)
+                gyro = scaled(value.gyro, GYRO_SCALE)
+                return self._add(channel, self.gyro_clock, self.assembler.add_gyro, gyro, arrival)
             case "cc2541/magnetometer":
                 self.assembler.mag = scaled(value.mag, MAG_SCALE)
             case "cc2541/barometer":
@@ -190,13 +191,14 @@ class Cc2541Link(DeviceLink):
             case "cc2541/barometer-calibration":
                 self.calibration = BarometerCalibration(*[value[f"c{n}"] for n in range(1, 9)])
             case "cc2541/accelerometer-config":
-                self._set_acc_config(value.code)
+                self.acc_on = value.code != 0
+                self.code = value.code or self.code
             case "cc2541/gyroscope-config":
                 self.gyro_on = any(value.axes)
             case "cc2541/accelerometer-period":
-                self._set_period(self.acc_clock, value.period)
+                self.acc_clock.set_period(value.period)
             case "cc2541/gyroscope-period":
-                self._set_period(self.gyro_clock, value.period)
+                self.gyro_clock.set_period(value.period)
             case "cc2541/keys":
                 down = tuple([name for name in ("left", "right", "side") if value[name]])
                 return [KeysChanged(t=arrival, known_at=arrival, site=self.site, down=down)]
@@ -217,30 +219,11 @@ class Cc2541Link(DeviceLink):
     def flush(self, known_at: float) -> Output:
         return [*self.assembler.flush(known_at)]
 
-    def _set_acc_config(self, code: int) -> None:
-        self.acc_on = code != 0
-        if code:
-            self.code = code
-
-    def _set_period(self, clock: PeriodicClock, period: float) -> None:
-        if period != clock.period:
-            clock.set_period(period)
-
-    def _read_acc(self, counts: tuple[int, int, int], arrival: float) -> Output:
-        per_g = counts_per_g(self.firmware, self.code)
-        acc = scaled(counts, GRAVITY / per_g)
-        sample_times = self.acc_clock.add_packet(arrival)
+    def _add(self, channel: str, clock: PeriodicClock, add: Add, value: Vec3, arrival: float) -> Output:
+        sample_times = clock.add_packet(arrival)
         (t,) = sample_times.times
-        out: Output = [*sample_times.make_events(self.site, "cc2541/accelerometer", arrival)]
-        out += self.assembler.add_acc(t, acc, self.acc_clock.period, arrival)
-        return out
-
-    def _read_gyro(self, counts: tuple[int, int, int], arrival: float) -> Output:
-        sample_times = self.gyro_clock.add_packet(arrival)
-        (t,) = sample_times.times
-        out: Output = [*sample_times.make_events(self.site, "cc2541/gyroscope", arrival)]
-        out += self.assembler.add_gyro(t, scaled(counts, GYRO_SCALE), self.gyro_clock.period, arrival)
-        return out
+        out: Output = [*sample_times.make_events(self.site, channel, arrival)]
+        return out + [*add(t, value, clock.period, arrival)]
 
     def _read_barometer(self, temperature: int, raw: int, arrival: float) -> Output:
         if self.calibration is None:
