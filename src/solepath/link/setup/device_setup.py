@@ -224,7 +224,7 @@ class DeviceSetup:
                 self.end = f"{channel} is frozen"
             else:
                 self._tries, self._set_up_at = self._tries + 1, now
-                self._queue.extend([*self._writes(before_subscribing=True), *self._writes(before_subscribing=False)])
+                self._queue += self._writes(before_subscribing=True) + self._writes(before_subscribing=False)
                 self._advance(now)
         elif all([self._last_t.get(stream, self._set_up_at) > self._set_up_at for stream in self._watched]):
             self._tries = 0
@@ -267,11 +267,10 @@ class DeviceSetup:
         self._values.append(
             ("receiver/connected", build_connected(ConnectionFrame(shorten(self.name, MAX_NAME_SIZE), self.signal)))
         )
-        subscribed = (one for one in self.profile.channels if one.access is Access.NOTIFY and self._can_notify(one))
-        self._queue.extend(self._reads(self.profile.reads))
-        self._queue.extend(self._writes(before_subscribing=True))
-        self._queue.extend(Request(Operation.SUBSCRIBE, channel) for channel in subscribed)
-        self._queue.extend(self._writes(before_subscribing=False))
+        notifying = [one for one in self.profile.channels if one.access is Access.NOTIFY and self._can_notify(one)]
+        self._queue += self._reads(self.profile.reads) + self._writes(before_subscribing=True)
+        self._queue += [Request(Operation.SUBSCRIBE, channel) for channel in notifying]
+        self._queue += self._writes(before_subscribing=False)
         self._advance(now)
 
     def _advance(self, now: float) -> None:
@@ -321,9 +320,7 @@ class DeviceSetup:
         ]
 
     def _has(self, channel: Channel) -> bool:
-        return any(
-            one.service == channel.service and one.uuid == channel.characteristic for one in self.characteristics
-        )
+        return (channel.service, channel.characteristic) in {(one.service, one.uuid) for one in self.characteristics}
 
     def _can_notify(self, channel: Channel) -> bool:
         return GattCharacteristic(channel.service, channel.characteristic, True) in self.characteristics
