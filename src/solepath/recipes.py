@@ -7,14 +7,14 @@ imported when their recipe is requested (types/registry.py)."""
 
 from __future__ import annotations
 
-from copy import deepcopy
 from functools import cached_property
 from math import pi
 from typing import Any
 
 from .body.activity.activities import Activities
+from .body.altitude import Altitude
 from .body.checks.air_pressure import AirPressure
-from .body.checks.clocks.foot_clocks import FootClocks
+from .body.checks.foot_clocks import FootClocks
 from .body.checks.looseness import Looseness
 from .body.checks.motion import PossibleMotion
 from .body.checks.sensors import SensorChecks
@@ -22,9 +22,8 @@ from .body.fuse.both_feet import BothFeet
 from .body.fuse.position import MeanOfFeet
 from .body.gait.cycles import GaitCycles
 from .body.gait.turns import Turns
-from .body.height.altitude import Altitude
 from .body.part import ActivityPart, Part, TrackPart
-from .body.worn.wear import Wear
+from .body.wear import Wear
 from .foot.cues.cues import Cues
 from .foot.cues.gait_cues import GaitCues
 from .foot.navigate.corrector import Corrector
@@ -33,7 +32,7 @@ from .foot.pressure.insole import InsoleLoads
 from .foot.stance.cycle import Cycle
 from .foot.stance.stance import Detector
 from .types.attrs import evolve, field, frozen
-from .types.plain import make_plain
+from .types.plain import plain_copy
 from .types.registry import TABLE, load
 
 
@@ -85,14 +84,14 @@ class Recipe:
         parts = tuple([part for part in replaced if part is not None])
         return evolve(self, name=self.name if name is None else name, parts=parts)
 
-    def headed(self, heading: float) -> Recipe:
+    def with_heading(self, heading: float) -> Recipe:
         """Return the recipe for a wearer who starts with this heading, rad, left positive, in the world of all sensors.
 
         LookupError is raised when no part has a use for it, TypeError or ValueError for a heading that is no angle."""
         heading = float(heading)
         if not abs(heading) <= 2.0 * pi:
             raise ValueError(f"a heading is an angle from -2 pi to 2 pi, not {heading:g} rad")
-        found = [part.headed(heading) for part in self.parts]
+        found = [part.with_heading(heading) for part in self.parts]
         if all([part is None for part in found]):
             raise LookupError(f"recipe {self.name} finds the first heading by itself and takes none")
         parts = [part if new is None else new for part, new in zip(self.parts, found, strict=True)]
@@ -151,11 +150,11 @@ def own(recipe: Recipe) -> Recipe:
         copies = tuple([copy for copy in copies if copy.text is not None])
         text = _Copy(recipe, extra_state).text
         if text is None:
-            return make_plain(deepcopy(recipe))
+            return plain_copy(recipe)
         for copy in copies:
             if copy.text == text:
                 return copy.recipe
-    new_copy = _Copy(make_plain(deepcopy(recipe)), extra_state)
+    new_copy = _Copy(plain_copy(recipe), extra_state)
     _copies = (new_copy, *copies[: _MAX_COPIES - 1])
     return new_copy.recipe
 

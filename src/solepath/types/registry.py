@@ -34,11 +34,6 @@ TABLE: dict[str, dict[str, str]] = {
     "part": {
         "Cycle": "solepath.foot.stance.cycle:Cycle",
         "ShoeDetector": "solepath.foot.stance.shoe:ShoeDetector",
-        "AngularRate": "solepath.foot.stance.classic:AngularRate",
-        "MovingVariance": "solepath.foot.stance.classic:MovingVariance",
-        "Graph": "solepath.foot.stance.classic:Graph",
-        "TwoArea": "solepath.foot.stance.pressure:TwoArea",
-        "MaximumPressure": "solepath.foot.stance.pressure:MaximumPressure",
         "ErrorStateFilter": "solepath.foot.navigate.error_state:ErrorStateFilter",
         "LinearDedrift": "solepath.foot.navigate.dedrift:LinearDedrift",
         "GaitCues": "solepath.foot.cues.gait_cues:GaitCues",
@@ -46,13 +41,13 @@ TABLE: dict[str, dict[str, str]] = {
         "PossibleMotion": "solepath.body.checks.motion:PossibleMotion",
         "Looseness": "solepath.body.checks.looseness:Looseness",
         "AirPressure": "solepath.body.checks.air_pressure:AirPressure",
-        "Wear": "solepath.body.worn.wear:Wear",
+        "Wear": "solepath.body.wear:Wear",
         "MeanOfFeet": "solepath.body.fuse.position:MeanOfFeet",
         "BothFeet": "solepath.body.fuse.both_feet:BothFeet",
         "Activities": "solepath.body.activity.activities:Activities",
         "Turns": "solepath.body.gait.turns:Turns",
-        "Altitude": "solepath.body.height.altitude:Altitude",
-        "FootClocks": "solepath.body.checks.clocks.foot_clocks:FootClocks",
+        "Altitude": "solepath.body.altitude:Altitude",
+        "FootClocks": "solepath.body.checks.foot_clocks:FootClocks",
         "GaitCycles": "solepath.body.gait.cycles:GaitCycles",
         "Particles": "solepath.body.place.particles:Particles",
         "KnownVelocity": "solepath.papers.kupt_dfpc.known_velocity:KnownVelocity",
@@ -79,10 +74,7 @@ TABLE: dict[str, dict[str, str]] = {
         "AnglePerMetre": "solepath.papers.shoe_sensing.walking_state:AnglePerMetre",
     },
     # classes that a part loads when the first sample needs them
-    "aid": {
-        "Compass": "solepath.body.aiding.compass:Compass",
-        "BetweenFeet": "solepath.body.width.between_feet:BetweenFeet",
-    },
+    "aid": {"Compass": "solepath.body.aiding.compass:Compass"},
     # classes of links
     "link": {
         "InsoleLink": "solepath.link.devices.insole:InsoleLink",
