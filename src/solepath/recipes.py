@@ -1,15 +1,13 @@
-"""Recipes, which are the parts that a session is made of, and tables of recipes and parts by their names.
+"""Recipes, which are the parts that a session is made of, by their names.
 
     Session(recipes.DEFAULT)        Session(recipes.by_name("kupt-dfpc"))
 
 A part in a recipe has never received a sample, because a session uses copies. The published systems (papers/) are
-imported when their recipe is requested. A name from a saved state or a command line is looked up only in the tables of
-this module."""
+imported when their recipe is requested (types/registry.py)."""
 
 from __future__ import annotations
 
 from functools import cached_property
-from importlib import import_module
 from math import pi
 from typing import Any
 
@@ -35,6 +33,7 @@ from .foot.stance.cycle import Cycle
 from .foot.stance.stance import Detector
 from .types.attrs import evolve, field, frozen
 from .types.plain import plain_copy
+from .types.registry import TABLE, load
 
 
 def usual_parts(
@@ -111,109 +110,27 @@ class Recipe:
 DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), parts=usual_parts(BothFeet(), altitude=Altitude()))
 """Recipe with a stance threshold from each gait cycle, a nine-state error-state filter, and both feet in one frame."""
 
-RECIPES: dict[str, str] = {
-    "default": "recipes:DEFAULT",
-    "kupt-dfpc": "papers.kupt_dfpc.recipe:KUPT_DFPC",
-    "kupt-dfpc-printed": "papers.kupt_dfpc.recipe:KUPT_DFPC_PRINTED",
-    "kupt": "papers.kupt_dfpc.recipe:KUPT",
-    "zupt": "papers.kupt_dfpc.recipe:ZUPT",
-    "pressure-contour": "papers.pressure_contour.recipe:PRESSURE_CONTOUR",
-    "pressure-contour-printed": "papers.pressure_contour.recipe:PRESSURE_CONTOUR_PRINTED",
-    "gyroscope": "papers.pressure_contour.recipe:GYROSCOPE",
-    "walking-modes": "papers.walking_modes.recipe:WALKING_MODES",
-    "walking-modes-printed": "papers.walking_modes.recipe:WALKING_MODES_PRINTED",
-    "touchdown-height": "papers.walking_modes.recipe:TOUCHDOWN_HEIGHT",
-    "touchdown-acceleration": "papers.walking_modes.recipe:TOUCHDOWN_ACCELERATION",
-    "touchdown-pressure": "papers.walking_modes.recipe:TOUCHDOWN_PRESSURE",
-    "footstep-tracker": "papers.footstep_tracker.recipe:FOOTSTEP_TRACKER",
-    "footstep-tracker-printed": "papers.footstep_tracker.recipe:FOOTSTEP_TRACKER_PRINTED",
-    "shoe-sensing": "papers.shoe_sensing.recipe:SHOE_SENSING",
-    "shoe-sensing-printed": "papers.shoe_sensing.recipe:SHOE_SENSING_PRINTED",
-    "acceleration-magnitude": "papers.shoe_sensing.recipe:SHOE_MAGNITUDE",
-}
-"""Module below solepath of each recipe by its name and, after the colon, the constant in that module."""
-
-NAMES = tuple(RECIPES)
+NAMES = tuple(TABLE["recipe"])
 """Names of all recipes, the default first."""
-
-_FOOT, _BODY, _KUPT = "foot.", "body.", "papers.kupt_dfpc."
-_CONTOUR, _MODES, _TRACKER = "papers.pressure_contour.", "papers.walking_modes.", "papers.footstep_tracker."
-_SHOE = "papers.shoe_sensing."
-
-LINKS: dict[str, str] = {
-    "InsoleLink": "link.devices.insole",
-    "Cc2541Link": "link.devices.cc2541",
-    "StreamLink": "link.stream",
-}
-"""Module below solepath of each class of links by its name."""
-
-PARTS: dict[str, str] = {
-    "Cycle": _FOOT + "stance.cycle",
-    "ShoeDetector": _FOOT + "stance.shoe",
-    "ErrorStateFilter": _FOOT + "navigate.error_state",
-    "LinearDedrift": _FOOT + "navigate.dedrift",
-    "GaitCues": _FOOT + "cues.gait_cues",
-    "SensorChecks": _BODY + "checks.sensors",
-    "PossibleMotion": _BODY + "checks.motion",
-    "Looseness": _BODY + "checks.looseness",
-    "AirPressure": _BODY + "checks.air_pressure",
-    "Wear": _BODY + "wear",
-    "MeanOfFeet": _BODY + "fuse.position",
-    "BothFeet": _BODY + "fuse.both_feet",
-    "Activities": _BODY + "activity.activities",
-    "Turns": _BODY + "gait.turns",
-    "Altitude": _BODY + "altitude",
-    "FootClocks": _BODY + "checks.foot_clocks",
-    "GaitCycles": _BODY + "gait.cycles",
-    "Particles": _BODY + "place.particles",
-    "KnownVelocity": _KUPT + "known_velocity",
-    "SwingDedrift": _KUPT + "swing.dedrift",
-    "SoftSwing": _KUPT + "swing.soft",
-    "CopCues": _KUPT + "cop_cues",
-    "DoubleFoot": _KUPT + "fusion",
-    "ContourVelocity": _CONTOUR + "contour_stance",
-    "PrintedContour": _CONTOUR + "printed",
-    "GyroscopeMagnitude": _CONTOUR + "contour_stance",
-    "BiasZupt": _CONTOUR + "bias_zupt",
-    "Modes": _MODES + "modes",
-    "StaticZones": _TRACKER + "static_zones",
-    "Projection": _TRACKER + "projection",
-    "CriticalCues": _TRACKER + "critical_cues",
-    "Footsteps": _TRACKER + "footsteps",
-    "TwoSecondWindows": _TRACKER + "activity.two_second_windows",
-    "SnakeGame": _TRACKER + "snake",
-    "PrintedSnake": _TRACKER + "snake",
-    "ShortTimeEnergy": _SHOE + "short_time_energy",
-    "AccelerationMagnitude": _SHOE + "short_time_energy",
-    "GatedTilt": _SHOE + "printed",
-    "ShoeSensing": _SHOE + "gated_tilt",
-    "AnglePerMetre": _SHOE + "walking_state",
-}
-"""Module below solepath of each class of parts by its name; a saved state names only these and those of an app."""
-
-AIDS: dict[str, str] = {"Compass": _BODY + "aiding.compass"}
-"""Module below solepath of each class that a part loads when the first sample needs it."""
 
 
 def by_name(name: str) -> Recipe:
     """Return the recipe of this name. Raise ValueError, which lists NAMES, for any other name."""
-    location = RECIPES.get(name)
-    if location is None:
+    if name not in NAMES:
         raise ValueError(f"there is no recipe {name!r}; there are: {', '.join(NAMES)}")
-    module, _, constant = location.partition(":")
-    recipe: Recipe = getattr(import_module(f"{__package__}.{module}"), constant)
+    recipe: Recipe = load("recipe", name)
     return recipe
 
 
 def part_class(name: str) -> type[Any]:
-    """Return the class of this name from PARTS, AIDS or LINKS. Raise SnapshotError for any other name."""
-    module = PARTS.get(name) or AIDS.get(name) or LINKS.get(name)
-    if module is None:
-        from .saving.codec import SnapshotError
+    """Return the class of a part, an aid or a link. Raise SnapshotError for any other name."""
+    for kind in ("part", "aid", "link"):
+        if name in TABLE[kind]:
+            cls: type[Any] = load(kind, name)
+            return cls
+    from .saving.codec import SnapshotError
 
-        raise SnapshotError(f"a snapshot of a part {name!r:.80} that is not known here")
-    cls: type[Any] = getattr(import_module(f"{__package__}.{module}"), name)
-    return cls
+    raise SnapshotError(f"a snapshot of a part {name!r:.80} that is not known here")
 
 
 def own(recipe: Recipe) -> Recipe:

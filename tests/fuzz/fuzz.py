@@ -29,7 +29,7 @@ import walks  # noqa: E402
 from attrs import evolve, fields, has  # noqa: E402
 
 from solepath import Sample, Session, Site, SnapshotError, recipes  # noqa: E402
-from solepath.link.devices import cc2650, dot, dot_orientation, orphe, thingy  # noqa: E402 - the fields of their frames
+from solepath.link.devices import cc2650, dot, orphe, thingy  # noqa: E402 - the fields of their frames
 from solepath.saving.codec import checksum  # noqa: E402 - a state with a right checksum
 from solepath.wire.fields import build_whole, parse_whole  # noqa: E402
 from solepath.wire.insole import build_frame, parse_frame  # noqa: E402
@@ -45,8 +45,8 @@ MOST_PACKED = 150_000
 """Largest size of a packed session of two feet, bytes."""
 FORMATS = {
     channel: (lambda data, of=form: parse_whole(of, data), lambda value, of=form: build_whole(of, value))
-    for module in (cc2650, dot, dot_orientation, orphe, thingy)
-    for channel, form in module.DRIVER.formats.items()
+    for driver in (cc2650.DRIVER, dot.DRIVER, dot.ORIENTATION_DRIVER, orphe.DRIVER, thingy.DRIVER)
+    for channel, form in driver.formats.items()
 } | {"insole/frame": (parse_frame, build_frame), "insole/info": (parse_info, build_info)}
 """How the values of each channel are read and written."""
 snapshots = cache(lambda: [one for machine in list(walks.machines().values())[:3] for one in _snapshots(machine)])

@@ -23,9 +23,9 @@ from solepath.cli.main import parser
 from solepath.emulate import Route
 from solepath.fleet import Sent, sent_line
 from solepath.foot.pressure.insole import InsoleLoads
-from solepath.recipes import PARTS, part_class
 from solepath.show.output import STRIDE_COLUMNS, TRACK_COLUMNS
 from solepath.types import Foot
+from solepath.types.registry import TABLE, load
 
 MARKDOWN = {**PAGES, **{f"protocol/{path.name}": path.read_text() for path in (PROTOCOL).glob("*.md")}}
 WALK = insoles(Route().stand(2).walk(6, speed=1.3).stop(2))
@@ -183,7 +183,7 @@ def test_the_table_of_parts_has_them_all():
     emitted = {
         getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)
     }
-    assert emitted == {InsoleLoads, *map(part_class, PARTS)}
+    assert emitted == {InsoleLoads, *[load("part", name) for name in TABLE["part"]]}
 
 
 @pytest.mark.long

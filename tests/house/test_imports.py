@@ -1,4 +1,4 @@
-"""Allowed imports between the rooms, no circle, names without private words, and what `import solepath` loads."""
+"""Allowed imports between the rooms, no circle, names without private words, what loads by name, and when."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from quoted import below
 from walks import insoles, packets
 
 import solepath
+from solepath import recipes
+from solepath.types.registry import TABLE, load
 
 ROOT = Path(solepath.__file__).parent
 
@@ -113,6 +115,32 @@ def test_no_name_holds_a_private_word() -> None:
     words = {one: {word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", one)} for one in used}
     assert len(private) > 50
     assert sorted(one for one, parts in words.items() if parts & private) == [], "docs/words.txt has other words"
+
+
+MAY_NAME_MODULES = {"types.registry", "__init__", "show.web.rehearsal"}
+"""The registry, the package, whose names test_surface.py reads, and the rehearsal, which names what it leaves out."""
+
+
+def test_every_row_loads_and_a_class_is_called_as_its_row() -> None:
+    assert len(TABLE) == 6
+    for kind, rows in TABLE.items():
+        for name in rows:
+            assert load(kind, name).__name__ == name if kind in ("part", "aid", "link") else load(kind, name), name
+
+
+def test_every_part_of_a_recipe_is_in_it() -> None:
+    for recipe in map(recipes.by_name, recipes.NAMES):
+        for part in (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place):
+            assert part is None or load("part", type(part).__name__) is type(part), recipe
+
+
+def test_no_other_module_that_imports_by_name_holds_the_name_of_a_module() -> None:
+    for name in MODULES.keys() - MAY_NAME_MODULES:
+        nodes = [*ast.walk(ast.parse(MODULES[name].read_text("utf-8")))]
+        if any(getattr(node, "id", getattr(node, "attr", None)) in ("import_module", "__import__") for node in nodes):
+            texts = [node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)]
+            named = [one for one in texts if one.partition(":")[0].strip(".").removeprefix("solepath.") in MODULES]
+            assert named == [] and not any("solepath." in one for one in texts[1:]), name
 
 
 LISTEN_PROGRAM = """

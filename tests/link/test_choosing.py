@@ -6,11 +6,11 @@ from math import nextafter
 
 import pytest
 
+from solepath.ble.candidates import Advertisement, Candidates
 from solepath.link.devices.cc2650 import PROFILE as TAG
 from solepath.link.devices.insole import PROFILE as INSOLE
-from solepath.link.setup.candidates import Advertisement, Candidates
 from solepath.link.setup.config import DeviceConfig, check_configs, identify, scan_filters
-from solepath.link.setup.troubles import RecentTroubles, shorten, trouble
+from solepath.link.setup.device_setup import RecentTroubles, shorten, trouble
 from solepath.types import Site
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT

@@ -1,7 +1,7 @@
 """Connections to Bluetooth devices through bleak: search, connect, set up, and receive packets."""
 
-from ..link.setup.candidates import Advertisement
 from ..link.setup.config import DeviceConfig
+from .candidates import Advertisement
 from .connection import Connection, ConnectionState
 from .devices import Devices
 from .record import record

@@ -12,11 +12,11 @@ from bleak.exc import BleakDeviceNotFoundError
 from bleak_retry_connector import establish_connection
 
 from ..link.profile import Profile
-from ..link.setup.candidates import PRESENCE_TIME, Advertisement, Candidates
 from ..link.setup.config import DeviceConfig, identify
 from ..link.setup.device_setup import DeviceSetup
 from ..link.setup.roster import Member, Roster
 from ..types import Site
+from .candidates import PRESENCE_TIME, Advertisement, Candidates
 from .client import Client, list_characteristics
 from .inbox import Emitter
 from .scanning import WEAKEST_SIGNAL, Backend, Scanner

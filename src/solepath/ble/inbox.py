@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable
 
 from attrs import define, field
 
+from ..link.setup.device_setup import RecentTroubles, Value, trouble
 from ..link.setup.roster import Member
-from ..link.setup.troubles import RecentTroubles, Value, trouble
 from ..types import Packet, Site
 from ..wire.receiver import build_dropped, parse_dropped
 

@@ -12,7 +12,7 @@ from bleak.backends.client import BaseBleakClient
 from bleak.backends.device import BLEDevice
 from bleak.backends.scanner import AdvertisementData, BaseBleakScanner
 
-from ..link.setup.candidates import Advertisement
+from .candidates import Advertisement
 from .trouble import FAILURES, BluetoothError, describe_error
 
 

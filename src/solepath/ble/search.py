@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 
-from ..link.setup.candidates import CHOICE_INTERVAL, Advertisement, Candidates
+from .candidates import CHOICE_INTERVAL, Advertisement, Candidates
 from .scanning import Scanner
 
 

@@ -6,19 +6,19 @@ import argparse
 import os
 import sys
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from ..recording import printable
 from ..saving.files import replace_whole
+from ..types.registry import TABLE, load
 from .common.closest import unknown
 from .common.failure import Failure, parse_count, parse_whole_number, require
 from .common.files import EXPERIMENT, FIGURE, OutputFile, add_force, check_outputs, check_writable, write_json
 from .completion import complete_with
 
-NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
-"""Names of the experiments; each has a module in lab.reproduce."""
+NAMES = tuple(TABLE["experiment"])
+"""Names of the experiments."""
 
 
 def add_to(commands: Any) -> None:
@@ -89,12 +89,11 @@ def run(options: argparse.Namespace) -> int:
 
     done_jobs = None if options.resume is None else DoneJobs(options.resume, options.name)
     runner = Runner(options.processes, partial(print, file=sys.stderr, flush=True), done_jobs)
-    module = import_module(f"solepath.lab.reproduce.{options.name.replace('-', '_')}")
     seeds = range(options.seed, options.seed + options.seeds)
     try:
         if done_jobs is not None:
             done_jobs.open_file()
-        experiment = reproduce_seeds(module.reproduce, options.walks, seeds, runner)
+        experiment = reproduce_seeds(load("experiment", options.name), options.walks, seeds, runner)
     except DoneJobsError as error:
         raise Failure(f"{printable(str(options.resume))}: {error}") from None
     print(comparison_with_paper(experiment))

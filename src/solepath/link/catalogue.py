@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from .devices import cc2541, cc2650, dot, dot_orientation, insole, orphe, thingy
+from ..types.registry import TABLE, load
+from .devices.cc2541 import PROFILE_20HZ
 from .driver import Driver
+from .profile import Profile
 
-DECLARED: tuple[Driver, ...] = (cc2650.DRIVER, orphe.DRIVER, dot.DRIVER, dot_orientation.DRIVER, thingy.DRIVER)
+_DEVICES = [load("device", name) for name in TABLE["device"]]
+DECLARED: tuple[Driver, ...] = tuple([device for device in _DEVICES if isinstance(device, Driver)])
 """Drivers of the devices that are declared by data alone (driver.py)."""
-PROFILES = (
-    insole.PROFILE,
-    cc2650.PROFILE,
-    cc2541.PROFILE,
-    cc2541.PROFILE_20HZ,
-    orphe.PROFILE,
-    dot.PROFILE,
-    dot_orientation.PROFILE,
-    thingy.PROFILE,
-)
+PROFILES: tuple[Profile, ...] = (*[device.profile for device in _DEVICES], PROFILE_20HZ)
 BY_NAME = {profile.name: profile for profile in PROFILES}

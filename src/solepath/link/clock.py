@@ -21,6 +21,7 @@ between the radio's connection events are nearly equal, this delay may for long 
 from __future__ import annotations
 
 from copy import copy
+from itertools import pairwise
 from math import fsum
 
 from ..types.attrs import define, field
@@ -66,10 +67,8 @@ class Clock:
     """Arrival of the first packet, s; residuals are relative to it, so that they keep all their digits."""
     first_tick: float = 0.0
     """Ticks of the first packet."""
-    window_times: list[float] = field(factory=list)
-    """Time of each window's earliest arrival, device seconds since the first packet."""
-    window_residuals: list[float] = field(factory=list)
-    """Residual of each window's earliest arrival: arrival minus device time, s."""
+    windows: list[tuple[float, float]] = field(factory=list)
+    """Earliest arrival of each window: its device seconds since the first packet, and arrival minus device time, s."""
     window_length: float = FIRST_WINDOW_LENGTH
     """Length of a window now, device seconds."""
     window_start: float = 0.0
@@ -93,48 +92,48 @@ class Clock:
 
     def fit_time(self, ticks: float) -> float:
         """Return the time of `ticks` on the fitted line, s, without slewing; a later packet may change it."""
-        x = (ticks - self.first_tick) / self.rate
+        return self._fit_at((ticks - self.first_tick) / self.rate)
+
+    def _fit_at(self, x: float) -> float:
         return self.origin + self.offset + x * (1.0 + self.drift)
 
     def contradicts(self, ticks: float, arrival: float, held_back: bool = False) -> bool:
         """Return whether a packet measured at `ticks` that arrived at `arrival` (s) belongs to another clock.
 
         `held_back`: the device's counters go on without a break, so the receiver may have held the packet back."""
-        if not self.window_times:
+        if not self.windows:
             return False
         x = (ticks - self.first_tick) / self.rate
-        delay = arrival - (self.origin + self.offset + x * (1.0 + self.drift))
+        delay = arrival - self._fit_at(x)
         if delay < 0.0:
-            return delay < -(MAX_EARLY_ARRIVAL + EARLY_ARRIVAL_GROWTH * max(0.0, x - self.window_times[-1]))
-        if delay > JUMP_DELAY and not held_back:
-            return True
-        return (
-            delay > STOPPED_DELAY and self.behind_since is not None and arrival - self.behind_since > STOPPED_DURATION
-        )
+            return delay < -(MAX_EARLY_ARRIVAL + EARLY_ARRIVAL_GROWTH * max(0.0, x - self.windows[-1][0]))
+        has_jumped = delay > JUMP_DELAY and not held_back
+        behind_since = arrival if self.behind_since is None else self.behind_since
+        return has_jumped or (delay > STOPPED_DELAY and arrival - behind_since > STOPPED_DURATION)
 
     def observe(self, ticks: float, arrival: float) -> None:
         """Update the fit with a packet whose last sample was measured at `ticks` and that arrived at `arrival` (s)."""
-        if not self.window_times:
+        if not self.windows:
             self.origin, self.first_tick = arrival, float(ticks)  # saved as a float; a 64-bit count would be rounded
-            self.window_times, self.window_residuals = [0.0], [0.0]
+            self.windows = [(0.0, 0.0)]
             return
         x = (ticks - self.first_tick) / self.rate
         r = arrival - self.origin - x
         height = r - self.offset - self.drift * x
-        if height > STOPPED_DELAY:
-            if self.behind_since is None:
-                self.behind_since = arrival
-        else:
+        if height <= STOPPED_DELAY:
             self.behind_since = None
+        elif self.behind_since is None:
+            self.behind_since = arrival
         if x >= self.window_start + self.window_length:
             self.window_start = x
-            self.window_times.append(x)
-            self.window_residuals.append(r)
-            if len(self.window_times) > MAX_WINDOWS:
+            self.windows.append((x, r))
+            if len(self.windows) > MAX_WINDOWS:
                 self._merge_windows()
             self._fit()
-        elif height < self.window_residuals[-1] - self.offset - self.drift * self.window_times[-1]:
-            self.window_times[-1], self.window_residuals[-1] = x, r
+            return
+        lowest_x, lowest_r = self.windows[-1]
+        if height < lowest_r - self.offset - self.drift * lowest_x:
+            self.windows[-1] = (x, r)
             if height < 0.0:
                 self._fit()
 
@@ -144,6 +143,7 @@ class Clock:
         fitted = self.origin + self.offset + x * (1.0 + self.drift)
         if self.last_device_time is None:
             t = fitted if self.t_min is None else max(fitted, self.t_min)
+            self.last_off_line_time = x
         else:
             dx = x - self.last_device_time
             t_unslewed = self.last_t + dx * (1.0 + self.drift)
@@ -153,8 +153,8 @@ class Clock:
             t = t_unslewed + max(-max_slew, min(max_slew, slew))
             if t <= self.last_t:  # the difference is below float resolution, or the ticks stand still
                 t = self.last_t + MIN_INCREMENT
-        if self.last_device_time is None or not -SETTLED_ERROR <= fitted - t <= SETTLED_ERROR:
-            self.last_off_line_time = x
+            if not -SETTLED_ERROR <= fitted - t <= SETTLED_ERROR:
+                self.last_off_line_time = x
         if x - self.last_off_line_time < SETTLING_TIME:
             self.unsettled_until = t
         self.last_device_time, self.last_t = x, t
@@ -164,52 +164,45 @@ class Clock:
         """Return the time that `assign_time(ticks)` would assign, s, without assigning it."""
         return copy(self).assign_time(ticks)
 
+    def _heights(self, drift: float) -> list[float]:
+        return [r - drift * x for x, r in self.windows]
+
     def _merge_windows(self) -> None:
         """Merge the windows in pairs, or drop the oldest window when windows have their largest length."""
         if self.window_length >= LAST_WINDOW_LENGTH:
-            del self.window_times[0], self.window_residuals[0]
+            del self.windows[0]
             return
         self.window_length *= 2.0
-        heights = [r - self.drift * x for x, r in zip(self.window_times, self.window_residuals, strict=True)]
-        lowest = [i if heights[i] <= heights[i + 1] else i + 1 for i in range(0, len(heights) - 1, 2)]
-        if len(heights) % 2:
-            lowest.append(len(heights) - 1)
-        self.window_times = [self.window_times[i] for i in lowest]
-        self.window_residuals = [self.window_residuals[i] for i in lowest]
+        windows, heights = self.windows, self._heights(self.drift)
+        pairs = [range(len(heights))[i : i + 2] for i in range(0, len(heights), 2)]
+        self.windows = [windows[min(pair, key=heights.__getitem__)] for pair in pairs]
 
     def _fit(self) -> None:
-        times, residuals = self.window_times, self.window_residuals
-        span = times[-1] - times[0]
-        drift = max(-MAX_DRIFT, min(MAX_DRIFT, _support_slope(times, residuals)))
-        heights = [r - drift * x for x, r in zip(times, residuals, strict=True)]
+        drift = max(-MAX_DRIFT, min(MAX_DRIFT, _support_slope(self.windows)))
         # The uncertainty of the slope is four times the points' mean height above the line, divided by the span of
         # their times. Few points always lie close to a line, so `spare_points` enlarge it. A drift below its
         # uncertainty is reduced towards 0; a drift of 4 % is followed within about two seconds.
-        spare_points = len(times) - 4
-        drift_error = (
-            4.0 * (fsum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / spare_points)
-            if spare_points > 0
-            else 0.0
-        )
-        drift *= (
-            drift * drift / (drift * drift + drift_error * drift_error) if spare_points > 0 and drift != 0.0 else 0.0
-        )
-        heights = [r - drift * x for x, r in zip(times, residuals, strict=True)]
-        self.drift, self.offset = drift, min(heights)
+        spare_points, share = len(self.windows) - 4, 0.0
+        if spare_points > 0 and drift != 0.0:
+            heights, span = self._heights(drift), self.windows[-1][0] - self.windows[0][0]
+            error = 4.0 * (fsum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / spare_points)
+            share = drift * drift / (drift * drift + error * error)
+        drift *= share
+        self.drift, self.offset = drift, min(self._heights(drift))
 
 
-def _support_slope(times: list[float], residuals: list[float]) -> float:
-    """Return the slope of the edge of the points' lower convex hull that spans their mean time; `times` increase."""
-    hull: list[int] = []
-    for i, (x, r) in enumerate(zip(times, residuals, strict=True)):
+def _support_slope(points: list[tuple[float, float]]) -> float:
+    """Return the slope of the edge of the points' lower convex hull that spans their mean time; times increase."""
+    hull: list[tuple[float, float]] = []
+    for x, r in points:
         while len(hull) >= 2:
-            a, b = hull[-2], hull[-1]
-            if (residuals[b] - residuals[a]) * (x - times[a]) < (r - residuals[a]) * (times[b] - times[a]):
+            (x_a, r_a), (x_b, r_b) = hull[-2:]
+            if (r_b - r_a) * (x - x_a) < (r - r_a) * (x_b - x_a):
                 break
             hull.pop()
-        hull.append(i)
-    middle = fsum(times) / len(times)
-    for a, b in zip(hull, hull[1:], strict=False):
-        if times[b] >= middle:
-            return (residuals[b] - residuals[a]) / (times[b] - times[a])
+        hull.append((x, r))
+    middle = fsum([x for x, _ in points]) / len(points)
+    for (x_a, r_a), (x_b, r_b) in pairwise(hull):
+        if x_b >= middle:
+            return (r_b - r_a) / (x_b - x_a)
     return 0.0

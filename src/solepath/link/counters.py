@@ -97,9 +97,16 @@ class PacketRun:
 
         The counter wraps at `modulus`, so the number may include whole rounds: it is the possible value that is nearest
         to `expected`, the number of packets that the time difference suggests."""
-        half = modulus // 2
-        difference = (sequence - self.sequence + half) % modulus - half
+        difference = signed_difference(sequence - self.sequence, modulus)
         return difference, difference + modulus * round((expected - difference) / modulus)
+
+    def locate(
+        self, sequence: int, modulus: int, ticks: int, tick_modulus: int, interval: float, samples: int
+    ) -> PacketPosition:
+        """Return the position of a packet that has a sequence number and ticks, which wrap at these moduli."""
+        ticks_after = signed_difference(ticks - self.ticks, tick_modulus)
+        difference, packets = self.count_packets(sequence, modulus, ticks_after / self.packet_ticks)
+        return PacketPosition(int(sequence), int(ticks), interval, samples, difference, packets, ticks_after)
 
     def accept(self, position: PacketPosition, rate: float, arrival: float, new_fit: bool = False) -> SampleTimes:
         """Accept a packet that arrived at `arrival`, s, from a device with `rate` ticks a second.
@@ -132,9 +139,7 @@ class PacketRun:
         self.after_reconnection = False
         self.sequence, self.interval, self.packet_ticks = position.sequence, float(position.interval), packet_ticks
         clock.observe(self.ticks + packet_ticks - position.interval, arrival)
-        times = []
-        for j in range(position.samples):
-            times.append(clock.assign_time(self.ticks + j * self.interval))
+        times = [clock.assign_time(self.ticks + j * self.interval) for j in range(position.samples)]
         return SampleTimes(times, lost_count, t_missing, restarted)
 
     def _start_clock(self, ticks: int, rate: float, t_min: float | None) -> Clock:

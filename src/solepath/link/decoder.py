@@ -22,8 +22,7 @@ from ..events import BatteryLevel, ClockReset, Connected, PacketRejected, Reject
 from ..types import Packet, Site
 from ..types.attrs import NOT_SAVED, define, field, fields
 from ..wire.error import WireError
-from .device_link import DeviceLink, Output
-from .kinds import BUILT_IN_KINDS, DeviceKinds
+from .kinds import BUILT_IN_KINDS, DeviceKinds, DeviceLink, Output
 
 SET_BACK_PACKETS = 20
 """Number of packets in a row with earlier arrivals that shows that the receiver's clock was set back."""
@@ -68,48 +67,51 @@ class Decoder:
 
     def feed(self, packet: Packet, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:
         """Return the samples and events of one packet, in the order in which they become known."""
-        t, self.used = packet.t, False
-        if not isfinite(t):
-            return self._reject(packet, Rejection.NOT_FINITE, f"arrival time {t}")
-        if not -MAX_ARRIVAL_TIME <= t <= MAX_ARRIVAL_TIME:
-            return self._reject(packet, Rejection.ABSURD, f"arrival time {t:g} s")
-        if packet.site is not self.site:
-            return self._reject(packet, Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
-        if packet.device != self.device:
-            if not is_address(packet.device):
-                return self._reject(packet, Rejection.MALFORMED, f"device {packet.device!r:.80} is no address")
-            if self._is_other_device(packet):
-                detail = f"of {packet.device or 'nobody'}, not {self.device}; Session.bind lets another device send"
-                return self._reject(packet, Rejection.WRONG_DEVICE, detail)
-        if self.newest_arrival is not None and t < self.newest_arrival:
-            if self.backward_packets + 1 < SET_BACK_PACKETS:
-                self.backward_packets += 1
-                return self._reject(
-                    packet, Rejection.TIME_BACKWARDS, f"{self.newest_arrival - t:.6g} s before the newest"
-                )
-            return self._restart(packet, kinds)
+        self.used = False
         try:
-            return self._use_packet(packet, kinds)
+            self._check(packet)
+            if self.newest_arrival is None or packet.t >= self.newest_arrival:
+                return self._use_packet(packet, kinds)
+            if self.backward_packets + 1 >= SET_BACK_PACKETS:
+                return self._restart(packet, kinds)
+            self.backward_packets += 1
+            detail = f"{self.newest_arrival - packet.t:.6g} s before the newest"
+            raise WireError(Rejection.TIME_BACKWARDS, detail)
         except WireError as error:
             return [*error.earlier, *self._reject(packet, error.reason, error.detail)]
 
+    def _check(self, packet: Packet) -> None:
+        """Raise WireError for a packet of another site or device, or at an impossible time."""
+        if not isfinite(packet.t):
+            raise WireError(Rejection.NOT_FINITE, f"arrival time {packet.t}")
+        if not -MAX_ARRIVAL_TIME <= packet.t <= MAX_ARRIVAL_TIME:
+            raise WireError(Rejection.ABSURD, f"arrival time {packet.t:g} s")
+        if packet.site is not self.site:
+            raise WireError(Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
+        if packet.device == self.device:
+            return
+        if not is_address(packet.device):
+            raise WireError(Rejection.MALFORMED, f"device {packet.device!r:.80} is no address")
+        speaks_for_itself = packet.device != "" or packet.channel.partition("/")[0] != "receiver"
+        if self.device and speaks_for_itself and not self.is_bound_to(packet.device):
+            detail = f"of {packet.device or 'nobody'}, not {self.device}; Session.bind lets another device send"
+            raise WireError(Rejection.WRONG_DEVICE, detail)
+
     def advance(self, now: float, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:
         """Return the events of time that passes until `now`, s, without packets; ignore a time that is not finite."""
-        link, newest_stream_arrival = self.link, self.newest_stream_arrival
-        if link is None or newest_stream_arrival is None or self.stale or link.may_be_silent or not isfinite(now):
+        if self.link is None or self.stale or self.link.may_be_silent or not isfinite(now):
             return []
-        kind = kinds.loaded.get(link.name) or kinds.get(link.name)
-        if kind is None or now - newest_stream_arrival <= kind.profile.stale_after:
-            return []
-        limit = kind.profile.stale_after
+        kind = kinds.loaded.get(self.link.name) or kinds.get(self.link.name)
+        silence = None if kind is None else self._make_stale(now, kind.profile.stale_after)
+        return [] if silence is None else [*self.link.flush(now), silence]
+
+    def _make_stale(self, now: float, limit: float) -> StreamStale | None:
+        """Return StreamStale if no stream packet came for more than `limit` s before `now`, and note that."""
+        t = self.newest_stream_arrival
+        if t is None or now - t <= limit:
+            return None
         self.stale = True
-        out = link.flush(now)
-        out.append(
-            StreamStale(
-                t=newest_stream_arrival + limit, known_at=now, site=self.site, silent_for=now - newest_stream_arrival
-            )
-        )
-        return out
+        return StreamStale(t=t + limit, known_at=now, site=self.site, silent_for=now - t)
 
     def finish(self) -> Output:
         """Return the samples that still wait for other data; call it at the end of all data."""
@@ -132,40 +134,42 @@ class Decoder:
         """Return whether the site is bound to this address, in upper or lower case; for "", whether it is not bound."""
         return device == self.device or device.upper() == self.device.upper()
 
-    def _is_other_device(self, packet: Packet) -> bool:
-        if self.device == "" or self.is_bound_to(packet.device):
-            return False
-        return packet.device != "" or packet.channel.partition("/")[0] != "receiver"
-
     def _use_packet(self, packet: Packet, kinds: DeviceKinds) -> Output:
         """Return the samples and events of a packet; one that cannot be used raises WireError and changes nothing."""
-        prefix = packet.channel.partition("/")[0]
+        prefix, t = packet.channel.partition("/")[0], packet.t
         if prefix == "device" or prefix == "receiver":
             out = self._read_standard(packet) if prefix == "device" else self._read_receiver(packet)
-            self.device = self.device or packet.device
-            self.newest_arrival, self.backward_packets, self.used = packet.t, 0, True
-            return self.advance(packet.t, kinds) + out
+            self._note_use(packet)
+            return self.advance(t, kinds) + out
         kind = kinds.loaded.get(prefix) or kinds.get(prefix)
         if kind is None or packet.channel not in kind.profile.channel_names:
             raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
         link = self.link
         if link is None:
-            link = kind.make_link(self.site, self.firmware)
+            link = kind.make_link(self.site)
+            link.set_firmware(self.firmware)
         elif link.name != prefix:
             detail = f"{packet.channel!r} at a site whose device is {link.name}"
             raise WireError(Rejection.UNKNOWN_CHANNEL, detail)
-        out = kind.feed(link, packet.channel, packet.data, packet.t)
+        out = kind.feed(link, packet.channel, packet.data, t)
         self.link = link
+        self._note_use(packet)
+        if packet.channel not in kind.profile.streams:
+            return self.advance(t, kinds) + out
+        newest, limit = self.newest_stream_arrival, kind.profile.stale_after
+        if newest is not None and (self.stale or t - newest > limit):
+            silence = None if self.stale or link.may_be_silent else self._make_stale(t, limit)
+            if self.stale:
+                out.insert(0, StreamResumed(t=t, known_at=t, site=self.site, silent_for=t - newest))
+            if silence is not None:
+                out.insert(0, silence)
+            self.stale = False
+        self.newest_stream_arrival = t
+        return out
+
+    def _note_use(self, packet: Packet) -> None:
         self.device = self.device or packet.device
         self.newest_arrival, self.backward_packets, self.used = packet.t, 0, True
-        if packet.channel not in kind.profile.streams:
-            return self.advance(packet.t, kinds) + out
-        if self.stale or (
-            self.newest_stream_arrival is not None and packet.t - self.newest_stream_arrival > kind.profile.stale_after
-        ):
-            out = self._end_silence(packet.t, kind.profile.stale_after) + out
-        self.newest_stream_arrival = packet.t
-        return out
 
     def _read_receiver(self, packet: Packet) -> Output:
         from .receiver import parse_receiver_event
@@ -188,29 +192,14 @@ class Decoder:
             self.link.set_firmware(self.firmware)
         return []
 
-    def _end_silence(self, t: float, limit: float) -> Output:
-        """Return the events for a stream packet that arrived at `t` after more than `limit` s without any."""
-        out: Output = []
-        if self.newest_stream_arrival is None or self.link is None:
-            return out
-        silent_for = t - self.newest_stream_arrival
-        if not self.stale and not self.link.may_be_silent:
-            self.stale = True
-            t_stale = self.newest_stream_arrival + limit
-            out.append(StreamStale(t=t_stale, known_at=t, site=self.site, silent_for=silent_for))
-        if self.stale:
-            self.stale = False
-            out.append(StreamResumed(t=t, known_at=t, site=self.site, silent_for=silent_for))
-        return out
-
     def _restart(self, packet: Packet, kinds: DeviceKinds) -> Output:
-        """Restart times with this packet, because the receiver's clock was set back, unless the packet is unusable."""
+        """Restart times with this packet, because the receiver's clock was set back; WireError if it is unusable."""
         trial = deepcopy(self)
         out = trial.restart_clock(packet.t)
         try:
-            out = out + trial._use_packet(packet, kinds)
-        except WireError as error:
-            return self._reject(packet, error.reason, error.detail)
+            out += trial._use_packet(packet, kinds)
+        except WireError as error:  # what the packet made known before it is not kept either
+            raise WireError(error.reason, error.detail) from None
         for attribute in fields(Decoder):
             setattr(self, attribute.name, getattr(trial, attribute.name))
         return out

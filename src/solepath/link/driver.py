@@ -26,7 +26,7 @@ from ..types.attrs import COUNT, field, frozen, limits
 from ..types.checking import find_fault
 from ..wire.error import WireError
 from ..wire.fields import LONGEST_VALUE, Definition, build_whole, malformed, parse_whole
-from .profile import Profile, Write
+from .profile import Profile
 
 FULL_SCALE_COUNTS = 32768
 """Counts that are the full scale of a sensor with 16 bits."""
@@ -117,6 +117,12 @@ class Reading:
         return None if scale > 0.0 else f".known.acc_range is {scale:g} g; it is above 0"
 
 
+def scaled(counts: Vec3, scale: float) -> Vec3:
+    """Return three counts times the value of one."""
+    x, y, z = counts
+    return (x * scale, y * scale, z * scale)
+
+
 Known = Mapping[str, float]
 """Numbers from earlier values of a device (`Reading.known`), by name."""
 Reader = Callable[[Any, Known], Reading]
@@ -124,6 +130,16 @@ Reader = Callable[[Any, Known], Reading]
 
 A reader holds no state. It raises ValueError, LookupError, ArithmeticError or struct.error for a value that cannot be
 used. Any other exception is a bug of the reader and is passed on. `Driver.read` checks the Reading."""
+
+
+def _reject_errors(read: Callable[..., Any], *values: Any) -> Any:
+    """Return what `read` makes of the values; WireError for an error of an adapter, a validator or a reader."""
+    try:
+        return read(*values)
+    except WireError:
+        raise
+    except READING_ERRORS as error:
+        raise malformed(str(error) or type(error).__name__) from error
 
 
 class TimeAxis(Enum):
@@ -181,26 +197,27 @@ class Driver:
     def __attrs_post_init__(self) -> None:
         channel_names = {c.name for c in self.profile.channels if not c.name.startswith("device/")}
         mismatched = sorted(channel_names ^ self.formats.keys() | self.readers.keys() - channel_names)
-        if mismatched:
-            raise ValueError(f"{self.name}: without a channel, or a channel without a format: {mismatched}")
         foreign_names = sorted(name for name in channel_names if not name.startswith(f"{self.name}/"))
-        if foreign_names:
-            raise ValueError(f"{self.name}: its channels begin with its name, not as {foreign_names}")
-        if len(self.profile.streams) != 1:
-            raise ValueError(f"{self.name}: one channel carries the samples, not {self.profile.streams}")
-        if (self.tick_rate > 0.0) is not (self.tick_modulus > 0) or not 0.0 <= self.tick_rate < inf:
-            raise ValueError(f"{self.name}: ticks have a rate and a modulus, both above 0")
-        if self.sequence == 1 or not (0 <= self.sequence <= MAX_COUNTER and 0 <= self.tick_modulus <= MAX_COUNTER):
-            raise ValueError(f"{self.name}: counters wrap at 2 to 2**64")
+        streams, counters = self.profile.streams, (self.sequence, self.tick_modulus)
+        has_rate = 0.0 < self.tick_rate < inf
+        ticks_fit = (has_rate or self.tick_rate == 0.0) and has_rate is (self.tick_modulus > 0)
+        counters_fit = self.sequence != 1 and 0 <= min(counters) <= max(counters) <= MAX_COUNTER
+        for is_wrong, what in (
+            (mismatched, f"without a channel, or a channel without a format: {mismatched}"),
+            (foreign_names, f"its channels begin with its name, not as {foreign_names}"),
+            (len(streams) != 1, f"one channel carries the samples, not {streams}"),
+            (not ticks_fit, "ticks have a rate and a modulus, both above 0"),
+            (not counters_fit, "counters wrap at 2 to 2**64"),
+        ):
+            if is_wrong:
+                raise ValueError(f"{self.name}: {what}")
         for write in self.profile.setup:
-            if write.channel in self.formats:
-                self._check_setup(write)
-
-    def _check_setup(self, write: Write) -> None:
-        try:
-            self.parse(write.channel, write.value)
-        except WireError as error:
-            raise ValueError(f"{self.name}: setup writes {write.value.hex()} to {write.channel}: {error}") from error
+            try:
+                if write.channel in self.formats:
+                    self.parse(write.channel, write.value)
+            except WireError as error:
+                what = f"setup writes {write.value.hex()} to {write.channel}: {error}"
+                raise ValueError(f"{self.name}: {what}") from error
 
     @property
     def name(self) -> str:
@@ -222,25 +239,14 @@ class Driver:
 
     def parse(self, channel: str, data: bytes) -> Any:
         """Return the value that the channel's construct reads from `data`; WireError when `data` does not fit it."""
-        try:
-            return parse_whole(self.formats[channel], data)
-        except WireError:
-            raise
-        except READING_ERRORS as error:  # raised by an adapter, a validator, or an expression of an app's construct
-            raise malformed(str(error) or type(error).__name__) from error
+        return _reject_errors(parse_whole, self.formats[channel], data)
 
     def read(self, channel: str, data: bytes, known: Known) -> Reading:
         """Return the content of `data`; WireError when it cannot be read, or cannot be."""
         parsed, reader = self.parse(channel, data), self.readers.get(channel)
         if reader is None:
             return Reading()
-        try:
-            reading = reader(parsed, MappingProxyType(known))
-        except WireError:
-            raise
-        except READING_ERRORS as error:
-            raise malformed(str(error) or type(error).__name__) from error
-        return check_reading(reading)
+        return check_reading(_reject_errors(reader, parsed, MappingProxyType(known)))
 
     def write(self, channel: str, value: Any) -> bytes:
         """Return the bytes of a value that the channel's construct accepts; ValueError when it does not fit."""

@@ -1,4 +1,4 @@
-"""The kinds of devices that a session knows, by the prefix of their channels.
+"""The kinds of devices that a session knows, by the prefix of their channels, and the interface of their links.
 
 A module of devices/ is imported when the first packet of its device arrives, so that a session loads only what it uses.
 An app may add kinds. The table holds functions, so it is never part of a saved state."""
@@ -7,28 +7,77 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import partial
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
-from ..types import Site
+from ..events import Limitation, LinkEvent
+from ..types import Sample, Site
 from ..types.attrs import field, frozen
-from .device_link import DeviceLink, Output
+from ..types.registry import TABLE, load
 
 if TYPE_CHECKING:  # imported at run time only with a device that needs them
     from .driver import Driver, DriverSignature
     from .profile import Profile
+
+Output = list[Sample | LinkEvent]
+"""Samples and link events in the order in which they are returned."""
+
+
+class DeviceLink(Protocol):
+    """A plain record that turns the values of one device's channels into samples on one clock."""
+
+    site: Site
+    limitation_reported: bool
+    """True if a Limitation of the device was reported."""
+
+    @property
+    def name(self) -> str:
+        """Name of the device, as in its channels."""
+
+    @property
+    def may_be_silent(self) -> bool:
+        """True if the device may send nothing for a long time, which is then no StreamStale."""
+
+    @property
+    def unsettled_until(self) -> float | None:
+        """Time up to which sample times are not comparable with another device's, s; None when all are comparable."""
+
+    def flush(self, known_at: float) -> Output:
+        """Return the samples that still wait for other data, as known at `known_at`, s."""
+        return []
+
+    def restart_clock(self) -> None:
+        """Discard the clock fit, because the receiver's clock restarted."""
+
+    def handle_reconnection(self) -> None:
+        """Prepare for counters that may have restarted, because the device was connected again."""
+        return
+
+    def set_firmware(self, firmware: str) -> None:
+        """Set the firmware revision that the device reported, which most links ignore."""
+        return
+
+    def report_limitation(self, what: str, arrival: float) -> Output:
+        """Return the Limitation of the device, in words, but only once; "" is none."""
+        if not what or self.limitation_reported:
+            return []
+        self.limitation_reported = True
+        return [Limitation(t=arrival, known_at=arrival, site=self.site, what=what)]
+
+    def driver_signature(self) -> Any:
+        """Return the signature of the driver that the link was made with; None for devices without a driver."""
+        return None
 
 
 @frozen
 class DeviceKind:
     """One kind of device: its profile and the functions that make and feed its links.
 
-    `make_link(site, firmware)` returns a fresh link; `firmware` is "" when it is not known. `feed(link, channel, data,
-    arrival)` returns the samples and events of a value, and raises WireError for a value that cannot be used.
-    `signature`: driver numbers on which the state of the links depends; None for a device that is not declared."""
+    `make_link(site)` returns a fresh link. `feed(link, channel, data, arrival)` returns the samples and events of a
+    value, and raises WireError for a value that cannot be used. `signature`: driver numbers on which the state of the
+    links depends; None for a device that is not declared."""
 
     profile: Profile
-    make_link: Callable[[Site, str], DeviceLink]
+    make_link: Callable[[Site], DeviceLink]
     feed: Callable[[Any, str, bytes, float], Output]
     signature: DriverSignature | None = None
 
@@ -38,24 +87,9 @@ class DeviceKind:
 
 
 def _declared_kind(driver: Driver, built_in: bool) -> DeviceKind:
-    from .stream import StreamLink, make_stream_link
-
-    make_link = partial(make_stream_link, driver, built_in)
-    return DeviceKind(driver.profile, make_link, partial(StreamLink.feed, driver=driver), driver.signature(built_in))
-
-
-_DEVICE_MODULES = {
-    "insole": "insole",
-    "cc2541": "cc2541",
-    "cc2650": "cc2650",
-    "dot": "dot",
-    "dot-orientation": "dot_orientation",
-    "orphe": "orphe",
-    "thingy": "thingy",
-}
-"""Module in devices/ of each device, by the device's name."""
-_RESERVED_NAMES = {"insole", "cc2541", "device", "receiver"}
-"""Names that an app's device cannot have."""
+    link, signature = load("link", "StreamLink"), driver.signature(built_in)
+    make_link = partial(link, driver.name, signature, driver.profile.nominal_rate)
+    return DeviceKind(driver.profile, make_link, partial(link.feed, driver=driver), signature)
 
 
 @frozen
@@ -69,13 +103,14 @@ class DeviceKinds:
 
     def get(self, name: str) -> DeviceKind | None:
         """Return the kind of this name; None when there is none."""
-        if name in _DEVICE_MODULES and name not in self.loaded:
-            module = import_module(f"{__package__}.devices.{_DEVICE_MODULES[name]}")
-            own_kind: DeviceKind | None = None
-            if hasattr(module, "LINK"):  # the device is not declared
-                own_kind = DeviceKind(module.PROFILE, *module.LINK)
-            self.loaded[name] = own_kind or _declared_kind(module.DRIVER, built_in=True)
+        if name in TABLE["device"] and name not in self.loaded:
+            found: DeviceKind | Driver = load("device", name)
+            self.loaded[name] = found if isinstance(found, DeviceKind) else _declared_kind(found, built_in=True)
         return self.loaded.get(name)
+
+
+_RESERVED_NAMES = {"insole", "cc2541", "device", "receiver"}
+"""Names that an app's device cannot have."""
 
 
 def make_kinds(drivers: Iterable[Driver] = ()) -> DeviceKinds:
@@ -83,15 +118,13 @@ def make_kinds(drivers: Iterable[Driver] = ()) -> DeviceKinds:
 
     TypeError for an object that is no Driver, ValueError for a reserved name or a name that two drivers have."""
     table = DeviceKinds()
-    added_names: set[str] = set()
     for driver in drivers:
         from .driver import Driver
 
         if not isinstance(driver, Driver):
             raise TypeError(f"a device is added by its Driver, not by a {type(driver).__name__}")
-        if driver.name in _RESERVED_NAMES or driver.name in added_names:
+        if driver.name in _RESERVED_NAMES | table.loaded.keys():
             raise ValueError(f"there is a device {driver.name!r} already")
-        added_names.add(driver.name)
         table.drivers.append(driver)
         table.loaded[driver.name] = _declared_kind(driver, built_in=False)
     return table

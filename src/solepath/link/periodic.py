@@ -123,7 +123,9 @@ class PeriodicClock:
         return SampleTimes([self.clock.assign_time(self.slot)], lost_count, t_missing)
 
     def set_period(self, period: float) -> None:
-        """Set a period (s) that was written to the device; slots restart with the next packet."""
+        """Set a period (s) that was written to the device; slots restart with the next packet, if it is another one."""
+        if period == self.period:
+            return
         newest_arrival = self.newest_arrival
         self.period, self.newest_arrival = period, None
         if newest_arrival is None:
@@ -132,23 +134,15 @@ class PeriodicClock:
     def _count_lost(self, gap: float, delay: float, period: float) -> int:
         """Return the number of packets lost before a packet that is `delay` s behind its slot, after `gap` s."""
         gap_is_evidence = period >= MAX_RADIO_DELAY
+        shows_loss = gap_is_evidence and gap >= MIN_LOSS_GAP * period
         if self.settled_packets < SETTLED_PACKETS:  # lateness may still be a slow device; only the gap is evidence
-            return (
-                round(gap / period) - 1
-                if gap_is_evidence and gap >= MIN_LOSS_GAP * period and delay >= MIN_UNSETTLED_LATE_PERIODS * period
-                else 0
-            )
-        if (
-            gap_is_evidence
-            and gap >= MIN_LOSS_GAP * period
-            and delay >= MIN_LATE_PERIODS * period
-            and delay >= MIN_LATE_JITTERS * self.jitter
-        ):
+            return round(gap / period) - 1 if shows_loss and delay >= MIN_UNSETTLED_LATE_PERIODS * period else 0
+        lost_count = floor(delay / period + 1.0 - MIN_LATE_PERIODS)
+        is_late = delay >= MIN_LATE_PERIODS * period
+        shows_loss = shows_loss and is_late and delay >= MIN_LATE_JITTERS * self.jitter
+        if shows_loss or not (is_late if gap_is_evidence else delay >= MAX_RADIO_DELAY):
             self.slipped_packets = 0
-            return floor(delay / period + 1.0 - MIN_LATE_PERIODS)
-        if delay < (MIN_LATE_PERIODS * period if gap_is_evidence else MAX_RADIO_DELAY):
-            self.slipped_packets = 0
-            return 0
+            return lost_count if shows_loss else 0
         if self.slipped_packets == 0:
             self.slip_delay, self.jitter_before_slip = delay, self.jitter
         self.slip_delay = min(self.slip_delay, delay)

@@ -81,16 +81,17 @@ class Profile:
     def __attrs_post_init__(self) -> None:
         if not self.name or "/" in self.name:
             raise ValueError(f"a profile's name is what stands before the first '/' of its channels, not {self.name!r}")
-        if len(self.channel_names) != len(self.channels):
-            raise ValueError(f"{self.name}: two channels have one name")
         used_names = {*self.streams, *self.reads}.union(*[(write.channel, *write.then_read) for write in self.setup])
-        if used_names - self.channel_names:
-            raise ValueError(f"{self.name}: no channel of its own: {sorted(used_names - self.channel_names)}")
-        not_notified = [name for name in self.streams if self.channel(name).access is not Access.NOTIFY]
-        if not_notified:
-            raise ValueError(f"{self.name}: a stream is notified, and {not_notified} are not")
-        if not (0.0 < self.nominal_rate < inf and 0.0 < self.stale_after < inf):
-            raise ValueError(f"{self.name}: nominal_rate and stale_after are finite and above 0")
+        notified = {channel.name for channel in self.channels if channel.access is Access.NOTIFY}
+        is_finite = 0.0 < self.nominal_rate < inf and 0.0 < self.stale_after < inf
+        for is_wrong, what in (
+            (len(self.channel_names) != len(self.channels), "two channels have one name"),
+            (used_names - self.channel_names, f"no channel of its own: {sorted(used_names - self.channel_names)}"),
+            ({*self.streams} - notified, f"a stream is notified, and {sorted({*self.streams} - notified)} are not"),
+            (not is_finite, "nominal_rate and stale_after are finite and above 0"),
+        ):
+            if is_wrong:
+                raise ValueError(f"{self.name}: {what}")
 
     def matches_name(self, name: str) -> bool:
         """Return whether a device of this kind may advertise this name."""
@@ -107,6 +108,15 @@ class Profile:
 def ti_uuid(short: int) -> str:
     """Return the complete UUID of a 16-bit id of Texas Instruments."""
     return f"f000{short:04x}-0451-4000-b000-000000000000"
+
+
+def ti_sensor(device: str, name: str, service: int, period: int = 3) -> tuple[Channel, ...]:
+    """Return the channels of a sensor of a TI tag: its values, and its configuration and its period, which are written.
+
+    The short ids follow that of the service: 1 for the values, 2 for the configuration, `period` for the period."""
+    uses = (("", 1, Access.NOTIFY), ("-config", 2, Access.WRITE), ("-period", period, Access.WRITE))
+    ids = [(f"{device}/{name}{suffix}", service + short, access) for suffix, short, access in uses]
+    return tuple([Channel(full_name, ti_uuid(service), ti_uuid(short), access) for full_name, short, access in ids])
 
 
 def standard_uuid(short: int) -> str:

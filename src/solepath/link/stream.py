@@ -10,7 +10,7 @@ Times come from the best source that the device has, by the rules of protocol/cl
 
 from __future__ import annotations
 
-from ..events import BatteryLevel, KeysChanged, LayoutKnown, Limitation, Rejection
+from ..events import BatteryLevel, KeysChanged, LayoutKnown, Rejection
 from ..types import Sample, Site, Vec3
 from ..types.attrs import define, field
 from ..types.vector import unit
@@ -18,8 +18,8 @@ from ..wire.error import WireError
 from ..wire.fields import malformed
 from .clock import MIN_INCREMENT
 from .counters import PacketPosition, PacketRun, SampleTimes, signed_difference
-from .device_link import DeviceLink, Output
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, DriverSignature, Reading, TimeAxis
+from .kinds import DeviceLink, Output
 from .periodic import PeriodicClock, make_periodic_clock
 
 MAX_PRESSURE_WAIT = 1.0
@@ -48,13 +48,13 @@ UNUSED_TICKS = "the ticks of this device are not used, because its driver has no
 class StreamLink(DeviceLink):
     """The link of one declared device at one site, without latency."""
 
-    site: Site
     name: str
     """Name of the driver."""
     signature: DriverSignature
     """Numbers of the driver that the link was made with."""
     rate: float
     """Nominal rate, samples a second."""
+    site: Site
     known: dict[str, float] = field(factory=dict)
     """Numbers from earlier values that are passed to the readers of later values."""
     may_be_silent: bool = False
@@ -105,9 +105,6 @@ class StreamLink(DeviceLink):
         """Take counters that go back in the next packet as restarted: no packet is overtaken across two connections."""
         self.packet_run.after_reconnection = True
 
-    def flush(self, known_at: float) -> Output:
-        return []
-
     def _check(self, driver: Driver, channel: str, reading: Reading) -> None:
         """Raise WireError when a reading cannot be used."""
         if reading.foot is not None and reading.foot is not self.site.foot:
@@ -137,8 +134,7 @@ class StreamLink(DeviceLink):
         if reading.period is not None:
             if self.periodic is None:
                 self.periodic = make_periodic_clock(reading.period)
-            elif reading.period != self.periodic.period:
-                self.periodic.set_period(reading.period)
+            self.periodic.set_period(reading.period)
 
     def _set_rate(self, rate: float) -> None:
         if rate != self.rate:
@@ -186,11 +182,9 @@ class StreamLink(DeviceLink):
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
         out: Output = [*sample_times.make_events(self.site, channel, arrival)]
-        unused = UNUSED_TICKS if reading.ticks is not None and not driver.tick_rate else ""
-        if (driver.limitation or unused) and not self.limitation_reported:
-            self.limitation_reported = True
-            what = "; ".join(filter(None, (driver.limitation, unused)))
-            out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
+        if not self.limitation_reported:
+            unused = UNUSED_TICKS if reading.ticks is not None and not driver.tick_rate else ""
+            out += self.report_limitation("; ".join(filter(None, (driver.limitation, unused))), arrival)
         self.newest_arrival = arrival
         for raw, assigned_t in zip(reading.samples, sample_times.times, strict=True):
             t = self._make_increasing(assigned_t)
@@ -212,12 +206,10 @@ class StreamLink(DeviceLink):
         if reading.ticks is None or (driver.sequence and reading.sequence is None):
             raise malformed("no device time or no sequence number, which this device has")
         interval = driver.tick_rate / rate if reading.interval is None else reading.interval
-        ticks = signed_difference(reading.ticks - run.ticks, driver.tick_modulus)
         if reading.sequence is not None and driver.sequence:
-            difference, packets = run.count_packets(reading.sequence, driver.sequence, ticks / run.packet_ticks)
-            return PacketPosition(
-                int(reading.sequence), int(reading.ticks), interval, count, difference, packets, ticks
-            )
+            counters = reading.sequence, driver.sequence, reading.ticks, driver.tick_modulus
+            return run.locate(*counters, interval, count)
+        ticks = signed_difference(reading.ticks - run.ticks, driver.tick_modulus)
         if ticks > 0:  # ticks were cut to whole ones: the true distance may be up to one tick less
             packets = max(1, round(ticks / run.packet_ticks)) if ticks - 1 >= MIN_LOSS_GAP * run.packet_ticks else 1
         else:
@@ -286,8 +278,3 @@ class StreamLink(DeviceLink):
             t = self.last_t + MIN_INCREMENT
         self.last_t = t
         return t
-
-
-def make_stream_link(driver: Driver, built_in: bool, site: Site, firmware: str) -> StreamLink:
-    """Return a fresh link of this kind of device at `site`."""
-    return StreamLink(site, driver.name, driver.signature(built_in), driver.profile.nominal_rate)

@@ -17,9 +17,16 @@ from collections.abc import Callable, Iterable
 from ..events import Event
 from ..link.profile import Profile
 from ..link.setup.config import DeviceConfig
-from ..link.setup.device_setup import DeviceSetup, GattCharacteristic, Request, find_profile
+from ..link.setup.device_setup import (
+    DeviceSetup,
+    GattCharacteristic,
+    RecentTroubles,
+    Request,
+    Value,
+    find_profile,
+    trouble,
+)
 from ..link.setup.roster import Member, Roster
-from ..link.setup.troubles import RecentTroubles, Value, trouble
 from ..types import Packet, Site
 from ..types.attrs import define, field, frozen
 from .session import Session

@@ -1,1 +1,1 @@
-"""Conversion of bytes to records and back: one construct of each format does both (protocol/ defines the formats)."""
+"""Conversion of bytes to records and back: one definition of each format does both (protocol/ defines the formats)."""

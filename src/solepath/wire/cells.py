@@ -6,18 +6,9 @@ bytes. If the number of values is odd, the high nibble (four bits) of the last b
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
 
-from construct import FormatFieldError, StreamError
-
-from .fields import Definition, malformed
-
-if TYPE_CHECKING:
-    from typing import IO
-
-MAX_VALUE = 4095
-"""Largest value of 12 bits."""
+from .fields import malformed
 
 _LOW_NIBBLE = bytes(b & 15 for b in range(256))
 _HIGH_NIBBLE = bytes(b >> 4 for b in range(256))
@@ -39,54 +30,23 @@ def unpack12(data: bytes, count: int) -> tuple[int, ...]:
         data += b"\0"
     x, y, z = data[0::3], data[1::3], data[2::3]
     pairs = len(x)
-    second = _union(y.translate(_HIGH_NIBBLE), z.translate(_LOW_NIBBLE_RAISED))
+    second = int.from_bytes(y.translate(_HIGH_NIBBLE)) | int.from_bytes(z.translate(_LOW_NIBBLE_RAISED))
     words = bytearray(4 * pairs)
     words[0::4] = x
     words[1::4] = y.translate(_LOW_NIBBLE)
-    words[2::4] = second
+    words[2::4] = second.to_bytes(pairs)
     words[3::4] = z.translate(_HIGH_NIBBLE)
     return struct.unpack_from(f"<{count}H", words)
 
 
 def pack12(values: Sequence[int]) -> bytes:
-    """Return the `packed_size(len(values))` bytes of `values`; ValueError unless each value is 0 to 4095."""
-    count = len(values)
+    """Return the `packed_size(len(values))` bytes of `values`; ValueError unless each is a whole number, 0 to 4095."""
     try:
-        words = struct.pack(f"<{count}H", *values) + b"\0\0" * (count & 1)
+        digits = struct.pack(f">{len(values)}H", *reversed(values)).hex().encode()  # four a value, the last value first
     except struct.error as error:
         raise ValueError(f"values that are not whole numbers of 12 bits: {error}") from error
-    if count and max(values) > MAX_VALUE:
+    if digits[0::4].strip(b"0"):
         raise ValueError(f"{max(values)} does not fit in 12 bits")
-    second = words[2::4]
-    packed = bytearray(3 * (len(words) // 4))
-    packed[0::3] = words[0::4]
-    packed[1::3] = _union(words[1::4], second.translate(_LOW_NIBBLE_RAISED))
-    packed[2::3] = _union(second.translate(_HIGH_NIBBLE), words[3::4].translate(_LOW_NIBBLE_RAISED))
-    return bytes(packed[: packed_size(count)])
-
-
-def _union(one: bytes, other: bytes) -> bytes:
-    """Return the bits that are set in either, byte by byte."""
-    bits = int.from_bytes(one, "little") | int.from_bytes(other, "little")
-    return bits.to_bytes(len(one), "little")
-
-
-class Packed12(Definition):
-    """A construct for a block of 12-bit values; `count` returns their number from construct's context."""
-
-    def __init__(self, count: Callable[[Any], int]) -> None:
-        super().__init__()
-        self.count = count
-
-    def _parse(self, stream: IO[bytes], context: Any, path: str) -> tuple[int, ...]:
-        count = self.count(context)
-        data = stream.read(packed_size(count))
-        if len(data) != packed_size(count):
-            raise StreamError(f"{count} values need {packed_size(count)} bytes, has {len(data)}", path=path)
-        return unpack12(data, count)
-
-    def _build(self, obj: Any, stream: IO[bytes], context: Any, path: str) -> Any:
-        if len(obj) != self.count(context):
-            raise FormatFieldError(f"{len(obj)} values where {self.count(context)} belong", path=path)
-        stream.write(pack12(obj))
-        return obj
+    packed = bytearray(3 * len(values))
+    packed[0::3], packed[1::3], packed[2::3] = digits[1::4], digits[2::4], digits[3::4]
+    return int(packed or b"0", 16).to_bytes(packed_size(len(values)), "little")

@@ -11,7 +11,6 @@ from io import BytesIO
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-import attrs
 from construct import Adapter, Construct, ConstructError, FormatFieldError, StreamError, TerminatedError
 
 from ..events import Rejection
@@ -33,12 +32,10 @@ LONGEST_VALUE = 512
 class Fields(Definition):
     """A construct for several numbers in `struct` notation, which parses to a tuple or to `make(*numbers)`.
 
-    It builds bytes from a tuple or, if `make` is an attrs class, from a record of that class. `notation` is the layout
-    that it was made with, byte order first."""
+    It builds bytes from a tuple."""
 
     def __init__(self, layout: str, make: Callable[..., Any] | None = None) -> None:
         super().__init__()
-        self.notation = layout
         self._struct = struct.Struct(layout)
         self._make = make
 
@@ -50,11 +47,10 @@ class Fields(Definition):
         return values if self._make is None else self._make(*values)
 
     def _build(self, obj: Any, stream: IO[bytes], context: Any, path: str) -> Any:
-        values = obj if self._make is None or isinstance(obj, tuple) else attrs.astuple(obj, recurse=False)
         try:
-            stream.write(self._struct.pack(*values))
+            stream.write(self._struct.pack(*obj))
         except (struct.error, OverflowError) as error:  # OverflowError: a float too large for binary32
-            raise FormatFieldError(f"{values} do not fit: {error}", path=path) from error
+            raise FormatFieldError(f"{obj} do not fit: {error}", path=path) from error
         return obj
 
     def _sizeof(self, context: Any, path: str) -> int:

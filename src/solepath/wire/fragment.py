@@ -1,13 +1,11 @@
-"""Fragments of frames that do not fit a small MTU (protocol/insole.md, "Fragments")."""
+"""Fragments of frames that do not fit a small MTU, and their reassembly (protocol/insole.md, "Fragments")."""
 
 from __future__ import annotations
 
-from construct import BitsInteger, BitStruct, Flag, GreedyBytes, Struct
-
 from ..events import Rejection
-from ..types.attrs import frozen
+from ..types.attrs import define, frozen
 from .error import WireError
-from .fields import LONGEST_VALUE, build_whole, malformed, parse_whole
+from .fields import LONGEST_VALUE, malformed
 
 FRAME_ID_COUNT = 7
 """Number of frame ids, which are 0 to 6: with id 7, a fragment could start with 0xF5 as a whole frame does."""
@@ -17,17 +15,14 @@ MAX_FRAGMENTS = 16
 
 @frozen
 class Fragment:
-    """A part of a frame: `frame_id` 0 to 6, `index` 0 to 15, `last` True for the last fragment of the frame."""
+    """A part of a frame: `frame_id` 0 to 6, `index` 0 to 15, `last` True for the last fragment of the frame.
+
+    The first byte has the frame id in bits 5 to 7, `last` in bit 4, and the index in bits 0 to 3."""
 
     frame_id: int
     last: bool
     index: int
     body: bytes
-
-
-_FRAGMENT = Struct(
-    "head" / BitStruct("frame_id" / BitsInteger(3), "last" / Flag, "index" / BitsInteger(4)), "body" / GreedyBytes
-)
 
 
 def is_fragment(data: bytes) -> bool:
@@ -44,18 +39,15 @@ def parse_fragment(data: bytes) -> Fragment:
         raise WireError(Rejection.TRUNCATED, "a fragment without a body")
     if len(data) > LONGEST_VALUE:
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes, at most {LONGEST_VALUE}")
-    parsed = parse_whole(_FRAGMENT, data)
-    return Fragment(parsed.head.frame_id, parsed.head.last, parsed.head.index, parsed.body)
+    return Fragment(data[0] >> 5, data[0] & 16 != 0, data[0] & 15, data[1:])
 
 
 def build_fragment(fragment: Fragment) -> bytes:
     """Return the bytes of `fragment`; ValueError when it does not fit the format."""
-    if not 0 <= fragment.frame_id < FRAME_ID_COUNT:
-        raise ValueError(f"frame id {fragment.frame_id}, 0 to {FRAME_ID_COUNT - 1} are allowed")
-    if not 0 < len(fragment.body) <= LONGEST_VALUE - 1:
-        raise ValueError(f"a fragment with a body of {len(fragment.body)} bytes")
-    head = {"frame_id": fragment.frame_id, "last": fragment.last, "index": fragment.index}
-    return build_whole(_FRAGMENT, {"head": head, "body": fragment.body})
+    frame_id, index, body = fragment.frame_id, fragment.index, fragment.body
+    if not (0 <= frame_id < FRAME_ID_COUNT and 0 <= index < MAX_FRAGMENTS and 0 < len(body) < LONGEST_VALUE):
+        raise ValueError(f"no fragment has the frame id {frame_id}, the index {index} and {len(body)} bytes")
+    return bytes([frame_id << 5 | fragment.last << 4 | index]) + body
 
 
 def split(frame: bytes, payload: int, frame_id: int) -> list[bytes]:
@@ -67,6 +59,53 @@ def split(frame: bytes, payload: int, frame_id: int) -> list[bytes]:
     if payload < 2:
         raise ValueError(f"a payload of {payload} bytes leaves no room for a fragment")
     bodies = [frame[i : i + payload - 1] for i in range(0, len(frame), payload - 1)]
-    if len(bodies) > MAX_FRAGMENTS:
-        raise ValueError(f"{len(frame)} bytes do not fit in {MAX_FRAGMENTS} fragments of {payload}")
     return [build_fragment(Fragment(frame_id, i == len(bodies) - 1, i, body)) for i, body in enumerate(bodies)]
+
+
+@define
+class Reassembly:
+    """Joins the fragments of one frame of at most 512 bytes; a fragment out of order drops the frame."""
+
+    frame_id: int = 0
+    """Id of the newest frame."""
+    next_index: int = 0
+    """Index of the next fragment; 0 when no frame is incomplete."""
+    skipping: bool = False
+    """True if the frame `frame_id` was dropped; its further fragments are then skipped without an event."""
+    body: bytes = b""
+    """Bytes of the incomplete frame."""
+    newest_fragment: Fragment | None = None
+    """Fragment that was joined last; None after a packet of another kind."""
+
+    def drop(self) -> str | None:
+        """Drop the incomplete frame, and return a description of the loss; None when there is no incomplete frame."""
+        expected, self.next_index, self.body, self.newest_fragment = self.next_index, 0, b"", None
+        return f"frame dropped: its fragment {expected} never came" if expected else None
+
+    def feed(self, fragment: Fragment) -> tuple[bytes | None, str | None]:
+        """Return the frame that this fragment completes, or None, and a description of a dropped frame, or None.
+
+        The newest fragment again, with the same body, raises WireError and changes nothing."""
+        index, drop_reason = fragment.index, None
+        if fragment == self.newest_fragment:
+            raise WireError(Rejection.DUPLICATE, f"fragment {index} again")
+        same_frame = fragment.frame_id == self.frame_id
+        if same_frame and self.skipping and index > 0:
+            return None, None
+        behind = self.next_index - index if same_frame and self.next_index else None
+        if behind != 0:
+            drop_reason = self.drop()
+            if behind == 1:
+                drop_reason = f"frame dropped: its fragment {index} came twice, not the same"
+            self.frame_id, self.skipping = fragment.frame_id, index > 0
+            if self.skipping:
+                return None, drop_reason or f"frame dropped: its fragment 0 never came, {index} did"
+        if len(self.body) + len(fragment.body) > LONGEST_VALUE:
+            self.drop()
+            self.skipping = True
+            return None, f"frame dropped: longer than {LONGEST_VALUE} bytes"
+        self.body, self.newest_fragment, self.next_index = self.body + fragment.body, fragment, index + 1
+        if not fragment.last:
+            return None, drop_reason
+        frame_data, self.body, self.next_index = self.body, b"", 0
+        return frame_data, drop_reason

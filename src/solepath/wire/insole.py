@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from struct import Struct as Packing
+from struct import Struct
 from struct import error as StructError
-from typing import Any, NamedTuple
-
-from construct import Array, If, Int16ul, Sequence, Struct
+from typing import Any
 
 from ..types import Foot
 from ..types.attrs import define, frozen
-from .cells import Packed12, pack12, unpack12
+from .cells import pack12, packed_size, unpack12
 from .envelope import CRC_SIZE, FRAME_TYPE, MAGIC, check_end, check_start, seal
-from .fields import Fields, malformed
-from .flat import flat_struct
+from .fields import malformed
 
 MAX_CELLS = 128
 """Largest number of pressure cells of an insole."""
@@ -54,61 +51,33 @@ class InsoleFrame:
     retransmitted: bool = False
 
 
-class FrameHeader(NamedTuple):
-    """The header of a frame: `samples` is their number, `cells` the number of cells in each."""
-
-    magic: int
-    kind: int
-    flags: int
-    layout: int
-    sequence: int
-    ticks: int
-    interval: int
-    samples: int
-    cells: int
-
-
-def _cell_count(context: Any) -> int:
-    return int(context._.header.cells)
-
-
-def _has_imu(context: Any) -> bool:
-    return bool(context._.header.flags & _IMU_FLAG)
-
-
-def _has_quat(context: Any) -> bool:
-    return bool(context._.header.flags & _QUAT_FLAG)
-
-
-def _sample_count(context: Any) -> int:
-    return int(context.header.samples)
-
-
-_HEADER = Fields("<BBBBHIHBB", FrameHeader)
-_SAMPLE = Sequence(Packed12(_cell_count), If(_has_imu, Fields("<6h")), If(_has_quat, Fields("<4h")))
-FRAME = Struct("header" / _HEADER, "samples" / Array(_sample_count, _SAMPLE), "crc" / Int16ul)
-"""The construct of a frame, from which `flat_struct` generates reader and writer."""
-
-_HEADER_NUMBERS = flat_struct(_HEADER)
+_HEADER = Struct("<BBBBHIHBB")
+"""Magic, type, flags, layout, sequence, ticks, interval, number of samples, and number of cells of each."""
+_HEADER_NUMBERS = 9
+"""Number of numbers in the header."""
 
 
 @lru_cache(maxsize=16)
-def _frame_struct(sensors: int, count: int, cells: int) -> Packing:
-    """Return the struct of a whole frame; `sensors` are the flags of IMU and quaternion."""
-    return flat_struct(FRAME, header=FrameHeader(MAGIC, FRAME_TYPE, sensors, 0, 0, 0, 0, count, cells))
+def _frame_struct(sensors: int, count: int, cells: int) -> Struct:
+    """Return the definition of a whole frame: header, samples, CRC; `sensors` are the flags of IMU and quaternion.
+
+    A sample has its packed cells, six numbers of the IMU, and four of the quaternion. One call of `struct` for all of
+    them takes a fifth of the time of a construct for each part."""
+    imu, quat = "6h" if sensors & _IMU_FLAG else "", "4h" if sensors & _QUAT_FLAG else ""
+    return Struct(_HEADER.format + count * f"{packed_size(cells)}s{imu}{quat}" + "H")
 
 
 def parse_frame(data: bytes) -> InsoleFrame:
     """Return the frame in `data`; WireError for any other bytes."""
     data = bytes(data)
-    check_start(data, FRAME_TYPE, _HEADER_NUMBERS.size)
-    _, _, flags, layout, sequence, ticks, interval, count, cells = _HEADER_NUMBERS.unpack_from(data)
+    check_start(data, FRAME_TYPE, _HEADER.size)
+    _, _, flags, layout, sequence, ticks, interval, count, cells = _HEADER.unpack_from(data)
     whole = _frame_struct(flags & _SENSOR_FLAGS, count, cells)
     check_end(data, whole.size)
     problem = _find_problem(flags, interval, count, cells)
     if problem:
         raise malformed(problem)
-    numbers, at = whole.unpack(data), len(FrameHeader._fields)
+    numbers, at = whole.unpack(data), _HEADER_NUMBERS
     samples = []
     for _ in range(count):
         packed_cells, imu, quat = numbers[at], None, None
@@ -132,32 +101,30 @@ def parse_frame(data: bytes) -> InsoleFrame:
 
 def build_frame(frame: InsoleFrame) -> bytes:
     """Return the bytes of `frame`, the inverse of `parse_frame`; ValueError when it does not fit the format."""
-    if not frame.samples:
-        raise ValueError("a frame without samples")
-    first = frame.samples[0]
-    shape = (len(first.cells), first.imu is None, first.quat is None)
-    if any((len(s.cells), s.imu is None, s.quat is None) != shape for s in frame.samples):
-        raise ValueError("the samples of a frame have different cells or sensors")
+    first = frame.samples[0] if frame.samples else InsoleSample(())
     flags = (
-        (_RIGHT_FLAG if frame.foot is Foot.RIGHT else 0)
-        | (_IMU_FLAG if first.imu is not None else 0)
-        | (_QUAT_FLAG if first.quat is not None else 0)
-        | (_SATURATED_FLAG if frame.saturated else 0)
-        | (_RETRANSMITTED_FLAG if frame.retransmitted else 0)
+        _RIGHT_FLAG * (frame.foot is Foot.RIGHT)
+        | _IMU_FLAG * (first.imu is not None)
+        | _QUAT_FLAG * (first.quat is not None)
+        | _SATURATED_FLAG * frame.saturated
+        | _RETRANSMITTED_FLAG * frame.retransmitted
     )
     count, cells = len(frame.samples), len(first.cells)
     problem = _find_problem(flags, frame.interval, count, cells)
     if problem:
         raise ValueError(problem)
-    numbers: list[Any] = [
-        *FrameHeader(MAGIC, FRAME_TYPE, flags, frame.layout, frame.sequence, frame.ticks, frame.interval, count, cells)
-    ]
+    shape = (cells, 6 if first.imu is not None else 0, 4 if first.quat is not None else 0)
+    numbers: list[Any] = []
     for sample in frame.samples:
-        if len(sample.imu or (0,) * 6) != 6 or len(sample.quat or (0,) * 4) != 4:
-            raise ValueError("an IMU has six numbers, and a quaternion four")
-        numbers += [pack12(sample.cells), *(sample.imu or ()), *(sample.quat or ())]
+        imu, quat = sample.imu or (), sample.quat or ()
+        if (len(sample.cells), len(imu), len(quat)) != shape:
+            raise ValueError(
+                "the samples of a frame have the same cells and sensors: six numbers of an IMU, four of a quaternion"
+            )
+        numbers += [pack12(sample.cells), *imu, *quat]
+    header = MAGIC, FRAME_TYPE, flags, frame.layout, frame.sequence, frame.ticks, frame.interval, count, cells
     try:
-        return seal(_frame_struct(flags & _SENSOR_FLAGS, count, cells).pack(*numbers, 0)[:-CRC_SIZE])
+        return seal(_frame_struct(flags & _SENSOR_FLAGS, count, cells).pack(*header, *numbers, 0)[:-CRC_SIZE])
     except StructError as error:
         raise ValueError(f"a number does not fit its place in a frame: {error}") from error
 

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from construct import ExprAdapter, Int8ul, Mapping, OneOf, Struct
 
-
-def _to_seconds(hundredths: int, _: Any) -> float:
-    return hundredths / 100
+from .fields import Definition
 
 
-def _to_hundredths(seconds: float, _: Any) -> int:
-    return round(seconds * 100)
+def hundredths(number: Definition) -> Definition:
+    """Return a construct for a number that counts hundredths."""
+    return ExprAdapter(number, lambda count, _: count / 100, lambda value, _: round(value * 100))
 
 
-PERIOD = Struct("period" / ExprAdapter(OneOf(Int8ul, range(1, 256)), _to_seconds, _to_hundredths))
+PERIOD = Struct("period" / hundredths(OneOf(Int8ul, range(1, 256))))
 """Time between notifications, 0.01 to 2.55 s; building rounds it to 0.01 s.
 
 Stock firmware does not accept less than 0.1 s. Modified firmware does, so a shorter period is not rejected here."""

@@ -15,10 +15,9 @@ from memory_radio import MemoryRadio
 from solepath.ble import Backend, DeviceConfig, Devices
 from solepath.emulate.controllers.server import virtual_link
 from solepath.emulate.devices.bench import Bench
-from solepath.link.devices.reassembly import Reassembly
 from solepath.types import Packet, Site
 from solepath.wire.fields import parse_text
-from solepath.wire.fragment import is_fragment, parse_fragment
+from solepath.wire.fragment import Reassembly, is_fragment, parse_fragment
 
 T = TypeVar("T")
 

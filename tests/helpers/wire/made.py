@@ -7,7 +7,7 @@ from itertools import count
 from random import Random
 from typing import Any
 
-from solepath.recipes import AIDS, LINKS, PARTS, part_class
+from solepath.recipes import part_class
 
 # internal: the schema of a record, which lists its fields and what they hold
 from solepath.saving.nodes import (
@@ -22,8 +22,9 @@ from solepath.saving.nodes import (
     TupleNode,
 )
 from solepath.saving.schema import record_of
+from solepath.types.registry import TABLE
 
-NAMES = (*PARTS, *AIDS, *LINKS)
+NAMES = (*TABLE["part"], *TABLE["aid"], *TABLE["link"])
 EXTREME = (-0.0, 5e-324, -1.7976931348623157e308, 2.0**53 + 2.0, 1e-17)
 LARGE = (2**63, -(2**63) - 1, 2**63 - 1, -(2**63), -1, 0)
 

@@ -32,7 +32,7 @@ SPACING = 0.2
 class Aid(Protocol):
     """Outside help that has rows of its own in the filter of the common errors.
 
-    It is a protocol, so that its class (`recipes.AIDS`) is loaded only when it is needed."""
+    It is a protocol, so that its class (types/registry.py) is loaded only when it is needed."""
 
     def add_sample(self, foot: int, view: FootView, mag: Vec3) -> None:
         """Add a sample of foot 0 (left) or 1, which stands, with the flux density `mag`, T, sensor frame."""

@@ -6,7 +6,7 @@ import struct
 
 from attrs import frozen
 
-from ...link.devices.dot_orientation import DRIVER
+from ...link.devices.dot import ORIENTATION_DRIVER as DRIVER
 from ...types import Site
 from ..wearers.curves import Rng
 from ..wearers.shoe import Mounting

@@ -30,12 +30,8 @@ GYRO_RANGE_END = 0.99 * radians(250.0)
 The gyroscope ends at 250 degrees/s, which a foot exceeds in every push-off."""
 
 
-@define
-class TimedMeasurement:
-    """A measurement and the time at which it was taken, s."""
-
-    t: float
-    value: Vec3
+Timed = tuple[float, Vec3]
+"""The time at which a measurement was taken, s, and the measurement."""
 
 
 @define
@@ -46,11 +42,11 @@ class Assembler:
     is the time between two measurements of the added kind, s. `known_at` is the arrival of the packet, s."""
 
     site: Site
-    waiting_acc: list[TimedMeasurement] = field(factory=list)
+    waiting_acc: list[Timed] = field(factory=list)
     """Accelerometer measurements that wait for their gyroscope measurement."""
-    gyro_before: TimedMeasurement | None = None
+    gyro_before: Timed | None = None
     """Gyroscope measurement before the newest."""
-    gyro_newest: TimedMeasurement | None = None
+    gyro_newest: Timed | None = None
     """Newest gyroscope measurement."""
     newest_acc_t: float | None = None
     """Time of the newest accelerometer measurement, s."""
@@ -68,12 +64,12 @@ class Assembler:
     def add_acc(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
         """Add an accelerometer measurement, m/s^2, and return the Samples that are complete."""
         self.newest_acc_t, self.gyro_alone_since = t, None
-        self.waiting_acc.append(TimedMeasurement(t, value))
+        self.waiting_acc.append((t, value))
         return self._release_complete(period, known_at)
 
     def add_gyro(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
         """Add a gyroscope measurement, rad/s, and return the Samples that are complete."""
-        self.gyro_before, self.gyro_newest, self.gyro_silent = self.gyro_newest, TimedMeasurement(t, value), False
+        self.gyro_before, self.gyro_newest, self.gyro_silent = self.gyro_newest, (t, value), False
         out = self._release_complete(period, known_at)
         if self.gyro_alone_since is None:
             self.gyro_alone_since = t
@@ -91,35 +87,35 @@ class Assembler:
     def flush(self, known_at: float) -> list[Sample]:
         """Return the Samples that still wait, without gyroscope."""
         out: list[Sample] = []
-        for acc in self.waiting_acc:
-            out += self._make_sample(acc.t, acc.value, None, known_at)
+        for t, acc in self.waiting_acc:
+            out += self._make_sample(t, acc, None, known_at)
         self.waiting_acc = []
         return out
 
     def _release_complete(self, period: float, known_at: float) -> list[Sample]:
         out: list[Sample] = []
         while self.waiting_acc:
-            acc = self.waiting_acc[0]
-            gyro_is_newer = self.gyro_newest is not None and self.gyro_newest.t >= acc.t
-            if not gyro_is_newer and not self.gyro_silent:
-                t_last = self.gyro_newest.t if self.gyro_newest is not None else acc.t
-                if self.waiting_acc[-1].t - t_last < MAX_GAP_PERIODS * period:
+            t, acc = self.waiting_acc[0]
+            t_gyro = None if self.gyro_newest is None else self.gyro_newest[0]
+            if (t_gyro is None or t_gyro < t) and not self.gyro_silent:
+                if self.waiting_acc[-1][0] - (t if t_gyro is None else t_gyro) < MAX_GAP_PERIODS * period:
                     break
                 self.gyro_silent = True
-            out += self._make_sample(acc.t, acc.value, self._interpolate_gyro(acc.t, period), known_at)
+            out += self._make_sample(t, acc, self._interpolate_gyro(t, period), known_at)
             del self.waiting_acc[0]
         return out
 
     def _interpolate_gyro(self, t: float, period: float) -> Vec3 | None:
-        a, b = self.gyro_before, self.gyro_newest
-        if b is None:
+        if self.gyro_newest is None:
             return None
-        if a is not None and a.t <= t <= b.t and b.t - a.t <= MAX_GAP_PERIODS * period:
-            k = (t - a.t) / (b.t - a.t)
-            (ax, ay, az), (bx, by, bz) = a.value, b.value
-            return (ax + k * (bx - ax), ay + k * (by - ay), az + k * (bz - az))
-        nearest = a if a is not None and abs(t - a.t) < abs(b.t - t) else b
-        return nearest.value if abs(nearest.t - t) <= MAX_NEAREST_PERIODS * period else None
+        t_b, b = self.gyro_newest
+        t_a, a = self.gyro_newest if self.gyro_before is None else self.gyro_before
+        if t_a <= t <= t_b and 0.0 < t_b - t_a <= MAX_GAP_PERIODS * period:
+            k = (t - t_a) / (t_b - t_a)
+            x, y, z = [p + k * (q - p) for p, q in zip(a, b, strict=True)]
+            return (x, y, z)
+        t_nearest, nearest = (t_a, a) if abs(t - t_a) < abs(t_b - t) else (t_b, b)
+        return nearest if abs(t_nearest - t) <= MAX_NEAREST_PERIODS * period else None
 
     def _make_sample(self, t: float, acc: Vec3 | None, gyro: Vec3 | None, known_at: float) -> list[Sample]:
         if self.last_t is not None and t <= self.last_t:  # too late: the first value after a silence of its channel

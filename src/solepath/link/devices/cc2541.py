@@ -5,20 +5,22 @@ assembler.py combines, and because the accelerometer's scale depends on the firm
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import radians
 from typing import ClassVar
 
 from construct import Array, BitsInteger, BitsSwapped, BitStruct, Const, Flag, Int8ul, Int16sl, Int16ul, OneOf, Struct
 
-from ...events import KeysChanged, Limitation
-from ...types import Site, Vec3
+from ...events import KeysChanged
+from ...types import Sample, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD
-from ..device_link import DeviceLink, Output
+from ..driver import scaled
+from ..kinds import DeviceKind, DeviceLink, Output
 from ..periodic import PeriodicClock, make_periodic_clock
-from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
+from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_sensor, ti_uuid
 from .assembler import Assembler
 
 STOCK_PERIOD = 0.1
@@ -37,19 +39,11 @@ def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
         names=("SensorTag", "TI BLE Sensor Tag"),
         services=(),
         channels=(
-            Channel("cc2541/accelerometer", ti_uuid(0xAA10), ti_uuid(0xAA11), Access.NOTIFY),
-            Channel("cc2541/accelerometer-config", ti_uuid(0xAA10), ti_uuid(0xAA12), Access.WRITE),
-            Channel("cc2541/accelerometer-period", ti_uuid(0xAA10), ti_uuid(0xAA13), Access.WRITE),
-            Channel("cc2541/magnetometer", ti_uuid(0xAA30), ti_uuid(0xAA31), Access.NOTIFY),
-            Channel("cc2541/magnetometer-config", ti_uuid(0xAA30), ti_uuid(0xAA32), Access.WRITE),
-            Channel("cc2541/magnetometer-period", ti_uuid(0xAA30), ti_uuid(0xAA33), Access.WRITE),
-            Channel("cc2541/barometer", ti_uuid(0xAA40), ti_uuid(0xAA41), Access.NOTIFY),
-            Channel("cc2541/barometer-config", ti_uuid(0xAA40), ti_uuid(0xAA42), Access.WRITE),
+            *ti_sensor("cc2541", "accelerometer", 0xAA10),
+            *ti_sensor("cc2541", "magnetometer", 0xAA30),
+            *ti_sensor("cc2541", "barometer", 0xAA40, period=4),
             Channel("cc2541/barometer-calibration", ti_uuid(0xAA40), ti_uuid(0xAA43), Access.READ),
-            Channel("cc2541/barometer-period", ti_uuid(0xAA40), ti_uuid(0xAA44), Access.WRITE),
-            Channel("cc2541/gyroscope", ti_uuid(0xAA50), ti_uuid(0xAA51), Access.NOTIFY),
-            Channel("cc2541/gyroscope-config", ti_uuid(0xAA50), ti_uuid(0xAA52), Access.WRITE),
-            Channel("cc2541/gyroscope-period", ti_uuid(0xAA50), ti_uuid(0xAA53), Access.WRITE),
+            *ti_sensor("cc2541", "gyroscope", 0xAA50),
             Channel("cc2541/keys", standard_uuid(0xFFE0), standard_uuid(0xFFE1), Access.NOTIFY),
             FIRMWARE,
         ),
@@ -142,6 +136,10 @@ class BarometerCalibration:
         return (sensitivity * pressure + offset) / 2**14
 
 
+Add = Callable[[float, Vec3, float, float], list[Sample]]
+"""`Assembler.add_acc` or `Assembler.add_gyro`."""
+
+
 @define
 class Cc2541Link(DeviceLink):
     """The link of a CC2541 at one site.
@@ -181,23 +179,26 @@ class Cc2541Link(DeviceLink):
         value = parse_whole(FORMATS[channel], data)
         match channel:
             case "cc2541/accelerometer":
-                return self._read_acc(value.acc, arrival)
+                acc = scaled(value.acc, GRAVITY / counts_per_g(self.firmware, self.code))
+                return self._add(channel, self.acc_clock, self.assembler.add_acc, acc, arrival)
             case "cc2541/gyroscope":
-                return self._read_gyro(value.gyro, arrival)
+                gyro = scaled(value.gyro, GYRO_SCALE)
+                return self._add(channel, self.gyro_clock, self.assembler.add_gyro, gyro, arrival)
             case "cc2541/magnetometer":
-                self.assembler.mag = _scale(value.mag, MAG_SCALE)
+                self.assembler.mag = scaled(value.mag, MAG_SCALE)
             case "cc2541/barometer":
                 return self._read_barometer(value.temperature, value.pressure, arrival)
             case "cc2541/barometer-calibration":
                 self.calibration = BarometerCalibration(*[value[f"c{n}"] for n in range(1, 9)])
             case "cc2541/accelerometer-config":
-                self._set_acc_config(value.code)
+                self.acc_on = value.code != 0
+                self.code = value.code or self.code
             case "cc2541/gyroscope-config":
                 self.gyro_on = any(value.axes)
             case "cc2541/accelerometer-period":
-                self._set_period(self.acc_clock, value.period)
+                self.acc_clock.set_period(value.period)
             case "cc2541/gyroscope-period":
-                self._set_period(self.gyro_clock, value.period)
+                self.gyro_clock.set_period(value.period)
             case "cc2541/keys":
                 down = tuple([name for name in ("left", "right", "side") if value[name]])
                 return [KeysChanged(t=arrival, known_at=arrival, site=self.site, down=down)]
@@ -215,44 +216,18 @@ class Cc2541Link(DeviceLink):
         )
         self.assembler = Assembler(self.site)
 
-    def handle_reconnection(self) -> None:
-        """Do nothing, because the device has no counters."""
-
     def flush(self, known_at: float) -> Output:
         return [*self.assembler.flush(known_at)]
 
-    def _set_acc_config(self, code: int) -> None:
-        self.acc_on = code != 0
-        if code:
-            self.code = code
-
-    def _set_period(self, clock: PeriodicClock, period: float) -> None:
-        if period != clock.period:
-            clock.set_period(period)
-
-    def _read_acc(self, counts: tuple[int, int, int], arrival: float) -> Output:
-        per_g = counts_per_g(self.firmware, self.code)
-        acc = _scale(counts, GRAVITY / per_g)
-        sample_times = self.acc_clock.add_packet(arrival)
+    def _add(self, channel: str, clock: PeriodicClock, add: Add, value: Vec3, arrival: float) -> Output:
+        sample_times = clock.add_packet(arrival)
         (t,) = sample_times.times
-        out: Output = [*sample_times.make_events(self.site, "cc2541/accelerometer", arrival)]
-        out += self.assembler.add_acc(t, acc, self.acc_clock.period, arrival)
-        return out
-
-    def _read_gyro(self, counts: tuple[int, int, int], arrival: float) -> Output:
-        sample_times = self.gyro_clock.add_packet(arrival)
-        (t,) = sample_times.times
-        out: Output = [*sample_times.make_events(self.site, "cc2541/gyroscope", arrival)]
-        out += self.assembler.add_gyro(t, _scale(counts, GYRO_SCALE), self.gyro_clock.period, arrival)
-        return out
+        out: Output = [*sample_times.make_events(self.site, channel, arrival)]
+        return out + [*add(t, value, clock.period, arrival)]
 
     def _read_barometer(self, temperature: int, raw: int, arrival: float) -> Output:
         if self.calibration is None:
-            if self.limitation_reported:
-                return []
-            self.limitation_reported = True
-            what = "no barometer calibration (AA43) from the CC2541: no air pressure"
-            return [Limitation(t=arrival, known_at=arrival, site=self.site, what=what)]
+            return self.report_limitation("no barometer calibration (AA43) from the CC2541: no air pressure", arrival)
         pressure = self.calibration.pascal(temperature, raw)
         if any(
             clock.newest_arrival is not None and arrival - clock.newest_arrival <= MAX_PRESSURE_WAIT
@@ -263,17 +238,8 @@ class Cc2541Link(DeviceLink):
         return [*self.assembler.add_pressure_alone(arrival, pressure)]
 
 
-def _scale(counts: tuple[int, int, int], scale: float) -> Vec3:
-    x, y, z = counts
-    return (x * scale, y * scale, z * scale)
+def _make_link(site: Site) -> Cc2541Link:
+    return Cc2541Link(site, Assembler(site))
 
 
-def make_cc2541_link(site: Site, firmware: str) -> Cc2541Link:
-    """Return a fresh link of a tag at `site`."""
-    link = Cc2541Link(site, Assembler(site))
-    link.set_firmware(firmware)
-    return link
-
-
-LINK = make_cc2541_link, Cc2541Link.feed
-"""Function that makes a link, and function that feeds it (kinds.DeviceKind)."""
+KIND = DeviceKind(PROFILE, _make_link, Cc2541Link.feed)

@@ -12,9 +12,9 @@ from construct import Mapping as Named
 
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields
-from ...wire.sensortag import ON_OFF, PERIOD
-from ..driver import FULL_SCALE_COUNTS, Driver, Known, Measured, Reading
-from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
+from ...wire.sensortag import ON_OFF, PERIOD, hundredths
+from ..driver import FULL_SCALE_COUNTS, Driver, Known, Measured, Reading, scaled
+from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_sensor
 
 ACC_RANGE = 8.0
 """Full scale of the accelerometer that the profile's setup sets, g."""
@@ -30,12 +30,8 @@ PROFILE = Profile(
     names=("CC2650 SensorTag", "SensorTag 2.0"),
     services=(standard_uuid(0xAA80),),
     channels=(
-        Channel("cc2650/movement", ti_uuid(0xAA80), ti_uuid(0xAA81), Access.NOTIFY),
-        Channel("cc2650/movement-config", ti_uuid(0xAA80), ti_uuid(0xAA82), Access.WRITE),
-        Channel("cc2650/movement-period", ti_uuid(0xAA80), ti_uuid(0xAA83), Access.WRITE),
-        Channel("cc2650/barometer", ti_uuid(0xAA40), ti_uuid(0xAA41), Access.NOTIFY),
-        Channel("cc2650/barometer-config", ti_uuid(0xAA40), ti_uuid(0xAA42), Access.WRITE),
-        Channel("cc2650/barometer-period", ti_uuid(0xAA40), ti_uuid(0xAA44), Access.WRITE),
+        *ti_sensor("cc2650", "movement", 0xAA80),
+        *ti_sensor("cc2650", "barometer", 0xAA40, period=4),
         Channel("cc2650/keys", standard_uuid(0xFFE0), standard_uuid(0xFFE1), Access.NOTIFY),
         BATTERY,
         FIRMWARE,
@@ -51,22 +47,6 @@ PROFILE = Profile(
     streams=("cc2650/movement",),
     stale_after=2.0,
 )
-
-
-def _to_degrees(hundredths: int, _: Any) -> float:
-    return hundredths / 100
-
-
-def _to_hundredths(degrees: float, _: Any) -> int:
-    return round(degrees * 100)
-
-
-def _to_float(pascal: int, _: Any) -> float:
-    return float(pascal)
-
-
-def _to_whole(pascal: float, _: Any) -> int:
-    return round(pascal)
 
 
 FORMATS: dict[str, Definition] = {
@@ -86,8 +66,8 @@ FORMATS: dict[str, Definition] = {
     "cc2650/movement-period": PERIOD,
     # Degrees Celsius and Pa, compensated by the tag (BMP280).
     "cc2650/barometer": Struct(
-        "temperature" / ExprAdapter(Int24sl, _to_degrees, _to_hundredths),
-        "pressure" / ExprAdapter(Int24ul, _to_float, _to_whole),
+        "temperature" / hundredths(Int24sl),
+        "pressure" / ExprAdapter(Int24ul, lambda pascal, _: float(pascal), lambda pascal, _: round(pascal)),
     ),
     "cc2650/barometer-config": Struct("on" / ON_OFF),
     "cc2650/barometer-period": PERIOD,
@@ -98,14 +78,12 @@ FORMATS: dict[str, Definition] = {
 
 def _movement(value: Any, known: Known) -> Reading:
     a = known.get("acc_range", ACC_RANGE) * GRAVITY / FULL_SCALE_COUNTS
-    ax, ay, az = value.acc
-    gx, gy, gz = value.gyro
-    mx, my, mz = value.mag
+    x, y, z = value.mag
     sample = Measured(
-        acc=(ax * a, ay * a, az * a) if known.get("has_acc", True) else None,
-        gyro=(gx * GYRO_SCALE, gy * GYRO_SCALE, gz * GYRO_SCALE) if known.get("has_gyro", True) else None,
+        acc=scaled(value.acc, a) if known.get("has_acc", True) else None,
+        gyro=scaled(value.gyro, GYRO_SCALE) if known.get("has_gyro", True) else None,
         # The MPU-9250's magnetometer has axes of its own: (y, x, -z) in those of its accelerometer and gyroscope.
-        mag=(my * MAG_SCALE, mx * MAG_SCALE, -mz * MAG_SCALE) if known.get("has_mag", True) else None,
+        mag=scaled((y, x, -z), MAG_SCALE) if known.get("has_mag", True) else None,
         saturated=max(map(abs, (*value.acc, *value.gyro))) >= RANGE_END_COUNTS,
     )
     return Reading((sample,))

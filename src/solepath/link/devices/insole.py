@@ -9,21 +9,20 @@ from math import radians
 from operator import itemgetter
 from typing import ClassVar
 
-from ...events import LayoutKnown, Limitation, PacketRejected, Rejection
+from ...events import LayoutKnown, PacketRejected, Rejection
 from ...types import Layout, Sample, Site, shared
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, unit
 from ...wire.envelope import MAGIC
 from ...wire.error import WireError
-from ...wire.fragment import is_fragment, parse_fragment
+from ...wire.fragment import Reassembly, is_fragment, parse_fragment
 from ...wire.insole import InsoleFrame, parse_frame
 from ...wire.insole_control import StartSampling, build_control, parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
-from ..counters import PacketPosition, PacketRun
-from ..device_link import DeviceLink, Output
+from ..counters import PacketRun
 from ..driver import FULL_SCALE_COUNTS
+from ..kinds import DeviceKind, DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
-from .reassembly import Reassembly
 
 ASSUMED_ACC_SCALE = 16.0 * GRAVITY / FULL_SCALE_COUNTS
 """Accelerometer scale before INFO comes, m/s^2 per count: 16 g full scale."""
@@ -31,6 +30,8 @@ ASSUMED_GYRO_SCALE = radians(2000.0) / FULL_SCALE_COUNTS
 """Gyroscope scale before INFO comes, rad/s per count: 2000 degrees/s full scale."""
 TICK_RATE = 32768
 """Ticks per second before INFO comes (protocol/clock.md)."""
+NO_INFO = "no INFO from the insole: 16 g and 2000 degrees/s full scale assumed, pressure in counts"
+"""Limitation of an insole whose INFO did not come."""
 SEQUENCE_MODULUS, TICK_MODULUS = 1 << 16, 1 << 32
 """Values at which a frame's sequence and ticks wrap to 0."""
 WHOLE_FRAME_START = bytes([MAGIC])
@@ -125,32 +126,19 @@ class InsoleLink(DeviceLink):
         self.reassembly.drop()
         self.packet_run.after_reconnection = True
 
-    def flush(self, known_at: float) -> Output:
-        return []
-
     def _read_fragment(self, data: bytes, arrival: float) -> Output:
         frame_data, drop_reason = self.reassembly.feed(parse_fragment(data))
         dropped = self._report_dropped(drop_reason, arrival)
-        if frame_data is None:
-            return [*dropped]
         try:
-            return [*dropped, *self._read_frame(parse_frame(frame_data), arrival)]
+            return [*dropped, *(self._read_frame(parse_frame(frame_data), arrival) if frame_data else ())]
         except WireError as error:  # the packet is rejected with its frame, and only the fragments are gone
             raise WireError(error.reason, error.detail, tuple(dropped)) from None
 
     def _report_dropped(self, detail: str | None, arrival: float) -> list[PacketRejected]:
         if detail is None:
             return []
-        return [
-            PacketRejected(
-                t=arrival,
-                known_at=arrival,
-                site=self.site,
-                channel="insole/frame",
-                reason=Rejection.TRUNCATED,
-                detail=detail,
-            )
-        ]
+        t, channel, reason = arrival, "insole/frame", Rejection.TRUNCATED
+        return [PacketRejected(t=t, known_at=t, site=self.site, channel=channel, reason=reason, detail=detail)]
 
     def _read_info(self, data: bytes, arrival: float) -> Output:
         info = parse_info(data)
@@ -183,30 +171,17 @@ class InsoleLink(DeviceLink):
                 Rejection.WRONG_LAYOUT,
                 f"layout {frame.layout} of {cells} cells, not layout {self.layout} of {self.cells}",
             )
-        run = self.packet_run
-        half = TICK_MODULUS // 2
-        ticks_after = (frame.ticks - run.ticks + half) % TICK_MODULUS - half  # nearest to zero
-        difference, packets = run.count_packets(frame.sequence, SEQUENCE_MODULUS, ticks_after / run.packet_ticks)
-        position = PacketPosition(
-            frame.sequence,
-            frame.ticks,
-            frame.interval,
-            len(frame.samples),
-            difference,
-            packets,
-            ticks_after,
-            frame.retransmitted,
-        )
+        run, count = self.packet_run, len(frame.samples)
+        position = run.locate(frame.sequence, SEQUENCE_MODULUS, frame.ticks, TICK_MODULUS, frame.interval, count)
+        position.retransmitted = frame.retransmitted
         sample_times = run.accept(position, float(self.rate), arrival)
         out: Output = []
         if sample_times.lost_count or sample_times.restarted is not None:
             out += sample_times.make_events(self.site, "insole/frame", arrival)
         if self.layout is None:
             self.layout, self.cells = frame.layout, cells
-        if not self.info_digest and not self.limitation_reported:
-            self.limitation_reported = True
-            what = "no INFO from the insole: 16 g and 2000 degrees/s full scale assumed, pressure in counts"
-            out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
+        if not self.info_digest:
+            out += self.report_limitation(NO_INFO, arrival)
         a, g, n = self.acc_scale, self.gyro_scale, self.pressure_scale
         for raw, t in zip(frame.samples, sample_times.times, strict=True):
             acc = gyro = pressure = quat = None
@@ -257,10 +232,4 @@ def _check_scales(info: InsoleInfo) -> None:
         )
 
 
-def make_insole_link(site: Site, firmware: str) -> InsoleLink:
-    """Return a fresh link of an insole at `site`."""
-    return InsoleLink(site)
-
-
-LINK = make_insole_link, InsoleLink.feed
-"""Function that makes a link, and function that feeds it (kinds.DeviceKind)."""
+KIND = DeviceKind(PROFILE, InsoleLink, InsoleLink.feed)

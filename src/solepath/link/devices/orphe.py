@@ -26,7 +26,7 @@ from construct import (
 from ...types import Foot
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, Hex
-from ..driver import FULL_SCALE_COUNTS, Driver, Known, Measured, Reading
+from ..driver import FULL_SCALE_COUNTS, Driver, Known, Measured, Reading, scaled
 from ..profile import FIRMWARE, Access, Channel, Profile, Write
 
 RATE_BY_HEADER = {50: 208.0, 54: 208.0, 55: 208.0, 56: 104.0}
@@ -114,11 +114,10 @@ def _values(value: Any, known: Known) -> Reading:
     g = known.get("gyro_range", 2000.0) * GYRO_SCALE
     samples = []
     for sample in reversed(value.samples):  # the newest stands first
-        (ax, ay, az), (gx, gy, gz) = sample.acc, sample.gyro
         samples.append(
             Measured(
-                acc=(ax * a, ay * a, az * a),
-                gyro=(gx * g, gy * g, gz * g),
+                acc=scaled(sample.acc, a),
+                gyro=scaled(sample.gyro, g),
                 pressure=tuple(map(float, sample.pressure)) if "pressure" in sample else None,
                 quat=sample.get("quat"),
                 saturated=max(map(abs, (*sample.acc, *sample.gyro))) >= RANGE_END_COUNTS,

@@ -12,7 +12,7 @@ from construct import Int8ul, Int16ul, Int32sl, OneOf, Struct, Terminated
 
 from ...types.vector import GRAVITY
 from ...wire.fields import Fields
-from ..driver import Driver, Known, Measured, Reading
+from ..driver import Driver, Known, Measured, Reading, scaled
 from ..profile import BATTERY, Access, Channel, Profile, Write
 
 ACC_SCALE = GRAVITY / 1024.0
@@ -77,13 +77,11 @@ FORMATS = {
 
 def _motion(value: Any, known: Known) -> Reading:
     # The firmware inverts the accelerometer's signs, not the gyroscope's: accelerometer counts are positive downwards.
-    ax, ay, az = value.acc
-    gx, gy, gz = value.gyro
-    mx, my, mz = value.mag
+    x, y, z = value.acc
     sample = Measured(
-        acc=(-ax * ACC_SCALE, -ay * ACC_SCALE, -az * ACC_SCALE),
-        gyro=(gx * GYRO_SCALE, gy * GYRO_SCALE, gz * GYRO_SCALE),
-        mag=(mx * MAG_SCALE, my * MAG_SCALE, mz * MAG_SCALE),
+        acc=scaled((-x, -y, -z), ACC_SCALE),
+        gyro=scaled(value.gyro, GYRO_SCALE),
+        mag=scaled(value.mag, MAG_SCALE),
         saturated=max(map(abs, value.acc)) >= ACC_END_COUNTS or max(map(abs, value.gyro)) >= GYRO_END_COUNTS,
     )
     return Reading((sample,))

@@ -4,6 +4,5 @@ Nothing here does input or output, so bleak (`solepath.ble`), a page in a browse
 same code:
 
 - `config`: the devices to connect to, and the filters of a scan for them.
-- `candidates`: the choice among devices that advertise.
 - `roster`: which device is worn at which site.
 - `device_setup`: the requests for one connected device, one at a time."""

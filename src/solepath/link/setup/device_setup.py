@@ -32,11 +32,51 @@ from ..decoder import Decoder
 from ..profile import Access, Channel, Profile
 from .config import INFO_CHANNEL, reports_site
 from .roster import Member, Roster, WrongDevice
-from .troubles import Value, shorten, trouble
-from .watchdog import Remedy, Watchdog
 
 ANSWER_TIMEOUT = 5.0
 """Time limit for the answer of a device to a request, s, chosen by hand; then the connection is made again."""
+MAX_TRIES = 2
+"""Largest number of times that the setup of a frozen stream is written again before the device is disconnected."""
+TROUBLE = "receiver/trouble"
+"""Channel of a sentence on what could not be done."""
+MAX_TEXT_SIZE = 500
+"""Longest text of a trouble, bytes, chosen by hand."""
+REPORT_INTERVAL = 60.0
+"""Shortest interval between two reports of the same trouble, s, chosen by hand."""
+MAX_RECENT = 100
+"""Largest number of troubles of a device that are remembered, chosen by hand."""
+
+Value = tuple[str, bytes]
+"""Channel and data of a packet."""
+
+
+def trouble(sentence: str) -> Value:
+    """Return the value of a trouble; a long sentence is shortened."""
+    return TROUBLE, build_text(shorten(sentence, MAX_TEXT_SIZE))
+
+
+def shorten(text: str, size: int) -> str:
+    """Return the start of the text that fits into `size` bytes of UTF-8."""
+    return text.encode("utf-8", "replace")[:size].decode("utf-8", "ignore")
+
+
+@define(eq=False)
+class RecentTroubles:
+    """The troubles of one device that were reported less than `REPORT_INTERVAL` ago."""
+
+    _reported: dict[bytes, float] = field(factory=dict, init=False)
+    """Time of the last report of each trouble, s, by its text."""
+
+    def leave_out(self, values: list[Value], now: float) -> list[Value]:
+        """Return the values, at `now`, s, without troubles that were reported shortly before."""
+        return [value for value in values if value[0] != TROUBLE or self._add(value[1], now)]
+
+    def _add(self, text: bytes, now: float) -> bool:
+        self._reported = {reported: t for reported, t in self._reported.items() if now - t < REPORT_INTERVAL}
+        is_new = text not in self._reported
+        if is_new and len(self._reported) < MAX_RECENT:
+            self._reported[text] = now
+        return is_new
 
 
 @frozen
@@ -106,7 +146,14 @@ class DeviceSetup:
     """Values that were written until the device was set up, which may let it be silent."""
     _values: list[Value] = field(factory=list, init=False)
     """Values that the running call will return."""
-    _watchdog: Watchdog = field(factory=lambda: Watchdog((), 0.0, 0.0), init=False)
+    _watched: tuple[str, ...] = field(default=(), init=False)
+    """Streams that must notify in time; none when silence is allowed."""
+    _last_t: dict[str, float] = field(factory=dict, init=False)
+    """Time of the newest notification of each channel, s."""
+    _set_up_at: float = field(default=0.0, init=False)
+    """Time at which the device was last set up, s."""
+    _tries: int = field(default=0, init=False)
+    """Number of times in a row that a frozen stream was set up again."""
 
     @property
     def name(self) -> str:
@@ -159,28 +206,34 @@ class DeviceSetup:
     def add_notification(self, channel: str, t: float) -> None:
         """Note a notification of `channel` at time `t`, s."""
         self.has_streamed = self.has_streamed or channel in self.profile.streams
-        self._watchdog.add_notification(channel, t)
+        self._last_t[channel] = t
 
     def next_check_at(self) -> float | None:
         """Return the time at which `check` is due, s; None when there is nothing to check."""
-        return self._watchdog.next_check_at() if self._is_watched() else None
+        if not self.is_listening or self.request is not None or self.end is not None:
+            return None
+        return min(map(self._frozen_at, self._watched), default=None)
 
     def check(self, now: float) -> list[Value]:
         """Check the streams at `now`, s: one that is frozen is set up again, or ends the connection."""
-        frozen_stream = self._watchdog.check(now) if self._is_watched() else None
-        if frozen_stream is not None:
-            channel, remedy = frozen_stream
+        due = self.next_check_at()
+        if due is not None and now >= due:
+            channel = next(stream for stream in self._watched if now >= self._frozen_at(stream))
             self._values.append(("receiver/restarted", build_text(channel)))
-            if remedy is Remedy.RECONNECT:
+            if self._tries >= MAX_TRIES:
                 self.end = f"{channel} is frozen"
             else:
-                self._queue.extend([*self._writes(before_subscribing=True), *self._writes(before_subscribing=False)])
+                self._tries, self._set_up_at = self._tries + 1, now
+                self._queue += self._writes(before_subscribing=True) + self._writes(before_subscribing=False)
                 self._advance(now)
+        elif all([self._last_t.get(stream, self._set_up_at) > self._set_up_at for stream in self._watched]):
+            self._tries = 0
         return self._take_values()
 
     def restart_clock(self, now: float) -> None:
         """Go on at `now`, s, after the clock restarted or was set: streams have their whole time again."""
-        self._watchdog.restart_clock(now)
+        self._last_t.clear()
+        self._set_up_at = now
 
     def disconnect(self) -> list[Value]:
         """Note that the connection was lost or given up."""
@@ -188,8 +241,12 @@ class DeviceSetup:
         self._queue.clear()
         return [("receiver/disconnected", b"")] if self._is_accepted else []
 
-    def _is_watched(self) -> bool:
-        return self.is_listening and self.request is None and self.end is None
+    def _frozen_at(self, stream: str) -> float:
+        """Return the time from which the stream counts as frozen, s.
+
+        The CC2650's movement sensor is known to freeze (firmware before 1.12 on a weak coin cell); writing its
+        configuration again restarts it."""
+        return max(self._last_t.get(stream, self._set_up_at), self._set_up_at) + self.profile.stale_after
 
     def _read_site(self, now: float, info: bytes) -> None:
         try:
@@ -210,11 +267,10 @@ class DeviceSetup:
         self._values.append(
             ("receiver/connected", build_connected(ConnectionFrame(shorten(self.name, MAX_NAME_SIZE), self.signal)))
         )
-        subscribed = (one for one in self.profile.channels if one.access is Access.NOTIFY and self._can_notify(one))
-        self._queue.extend(self._reads(self.profile.reads))
-        self._queue.extend(self._writes(before_subscribing=True))
-        self._queue.extend(Request(Operation.SUBSCRIBE, channel) for channel in subscribed)
-        self._queue.extend(self._writes(before_subscribing=False))
+        notifying = [one for one in self.profile.channels if one.access is Access.NOTIFY and self._can_notify(one)]
+        self._queue += self._reads(self.profile.reads) + self._writes(before_subscribing=True)
+        self._queue += [Request(Operation.SUBSCRIBE, channel) for channel in notifying]
+        self._queue += self._writes(before_subscribing=False)
         self._advance(now)
 
     def _advance(self, now: float) -> None:
@@ -230,9 +286,8 @@ class DeviceSetup:
                 self.request = request
                 return
         if not self.is_listening:
-            self.is_listening = True
-            streams = () if may_be_silent(self.member.site, self._written) else self.profile.streams
-            self._watchdog = Watchdog(streams, self.profile.stale_after, now)
+            self.is_listening, self._set_up_at = True, now
+            self._watched = () if may_be_silent(self.member.site, self._written) else self.profile.streams
 
     def _take_request(self) -> Request:
         if self.request is None:
@@ -265,9 +320,7 @@ class DeviceSetup:
         ]
 
     def _has(self, channel: Channel) -> bool:
-        return any(
-            one.service == channel.service and one.uuid == channel.characteristic for one in self.characteristics
-        )
+        return (channel.service, channel.characteristic) in {(one.service, one.uuid) for one in self.characteristics}
 
     def _can_notify(self, channel: Channel) -> bool:
         return GattCharacteristic(channel.service, channel.characteristic, True) in self.characteristics

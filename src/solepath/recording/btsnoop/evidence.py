@@ -9,10 +9,9 @@ from contextlib import suppress
 
 from attrs import define, field
 
-from ...link.devices.reassembly import Reassembly
 from ...types import Foot
 from ...wire.error import WireError
-from ...wire.fragment import is_fragment, parse_fragment
+from ...wire.fragment import Reassembly, is_fragment, parse_fragment
 from ...wire.insole import parse_frame
 from ...wire.insole_info import parse_info
 from .att import AttOperation

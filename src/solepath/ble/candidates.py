@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ...types.attrs import define, field, frozen
-from ..profile import Profile
-from .config import DeviceConfig, identify, reports_site
+from ..link.profile import Profile
+from ..link.setup.config import DeviceConfig, identify, reports_site
+from ..types.attrs import define, field, frozen
 
 UNIQUENESS_TIME = 1.0
 """Time of listening without a second device that matches the config, after which the first is accepted, s."""

@@ -1,0 +1,109 @@
+"""All that is loaded by its name: the only module that holds names of modules as text.
+
+Recipes, parts, links and devices are loaded when they are first used, so that a session imports only what it needs. A
+name from a saved state, a packet or a command line is looked up only here."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+TABLE: dict[str, dict[str, str]] = {
+    # recipes, the default first
+    "recipe": {
+        "default": "solepath.recipes:DEFAULT",
+        "kupt-dfpc": "solepath.papers.kupt_dfpc.recipe:KUPT_DFPC",
+        "kupt-dfpc-printed": "solepath.papers.kupt_dfpc.recipe:KUPT_DFPC_PRINTED",
+        "kupt": "solepath.papers.kupt_dfpc.recipe:KUPT",
+        "zupt": "solepath.papers.kupt_dfpc.recipe:ZUPT",
+        "pressure-contour": "solepath.papers.pressure_contour.recipe:PRESSURE_CONTOUR",
+        "pressure-contour-printed": "solepath.papers.pressure_contour.recipe:PRESSURE_CONTOUR_PRINTED",
+        "gyroscope": "solepath.papers.pressure_contour.recipe:GYROSCOPE",
+        "walking-modes": "solepath.papers.walking_modes.recipe:WALKING_MODES",
+        "walking-modes-printed": "solepath.papers.walking_modes.recipe:WALKING_MODES_PRINTED",
+        "touchdown-height": "solepath.papers.walking_modes.recipe:TOUCHDOWN_HEIGHT",
+        "touchdown-acceleration": "solepath.papers.walking_modes.recipe:TOUCHDOWN_ACCELERATION",
+        "touchdown-pressure": "solepath.papers.walking_modes.recipe:TOUCHDOWN_PRESSURE",
+        "footstep-tracker": "solepath.papers.footstep_tracker.recipe:FOOTSTEP_TRACKER",
+        "footstep-tracker-printed": "solepath.papers.footstep_tracker.recipe:FOOTSTEP_TRACKER_PRINTED",
+        "shoe-sensing": "solepath.papers.shoe_sensing.recipe:SHOE_SENSING",
+        "shoe-sensing-printed": "solepath.papers.shoe_sensing.recipe:SHOE_SENSING_PRINTED",
+        "acceleration-magnitude": "solepath.papers.shoe_sensing.recipe:SHOE_MAGNITUDE",
+    },
+    # classes of parts; a saved state names only these and those of an app
+    "part": {
+        "Cycle": "solepath.foot.stance.cycle:Cycle",
+        "ShoeDetector": "solepath.foot.stance.shoe:ShoeDetector",
+        "ErrorStateFilter": "solepath.foot.navigate.error_state:ErrorStateFilter",
+        "LinearDedrift": "solepath.foot.navigate.dedrift:LinearDedrift",
+        "GaitCues": "solepath.foot.cues.gait_cues:GaitCues",
+        "SensorChecks": "solepath.body.checks.sensors:SensorChecks",
+        "PossibleMotion": "solepath.body.checks.motion:PossibleMotion",
+        "Looseness": "solepath.body.checks.looseness:Looseness",
+        "AirPressure": "solepath.body.checks.air_pressure:AirPressure",
+        "Wear": "solepath.body.wear:Wear",
+        "MeanOfFeet": "solepath.body.fuse.position:MeanOfFeet",
+        "BothFeet": "solepath.body.fuse.both_feet:BothFeet",
+        "Activities": "solepath.body.activity.activities:Activities",
+        "Turns": "solepath.body.gait.turns:Turns",
+        "Altitude": "solepath.body.altitude:Altitude",
+        "FootClocks": "solepath.body.checks.foot_clocks:FootClocks",
+        "GaitCycles": "solepath.body.gait.cycles:GaitCycles",
+        "Particles": "solepath.body.place.particles:Particles",
+        "KnownVelocity": "solepath.papers.kupt_dfpc.known_velocity:KnownVelocity",
+        "SwingDedrift": "solepath.papers.kupt_dfpc.swing.dedrift:SwingDedrift",
+        "SoftSwing": "solepath.papers.kupt_dfpc.swing.soft:SoftSwing",
+        "CopCues": "solepath.papers.kupt_dfpc.cop_cues:CopCues",
+        "DoubleFoot": "solepath.papers.kupt_dfpc.fusion:DoubleFoot",
+        "ContourVelocity": "solepath.papers.pressure_contour.contour_stance:ContourVelocity",
+        "PrintedContour": "solepath.papers.pressure_contour.printed:PrintedContour",
+        "GyroscopeMagnitude": "solepath.papers.pressure_contour.contour_stance:GyroscopeMagnitude",
+        "BiasZupt": "solepath.papers.pressure_contour.bias_zupt:BiasZupt",
+        "Modes": "solepath.papers.walking_modes.modes:Modes",
+        "StaticZones": "solepath.papers.footstep_tracker.static_zones:StaticZones",
+        "Projection": "solepath.papers.footstep_tracker.projection:Projection",
+        "CriticalCues": "solepath.papers.footstep_tracker.critical_cues:CriticalCues",
+        "Footsteps": "solepath.papers.footstep_tracker.footsteps:Footsteps",
+        "TwoSecondWindows": "solepath.papers.footstep_tracker.activity.two_second_windows:TwoSecondWindows",
+        "SnakeGame": "solepath.papers.footstep_tracker.snake:SnakeGame",
+        "PrintedSnake": "solepath.papers.footstep_tracker.snake:PrintedSnake",
+        "ShortTimeEnergy": "solepath.papers.shoe_sensing.short_time_energy:ShortTimeEnergy",
+        "AccelerationMagnitude": "solepath.papers.shoe_sensing.short_time_energy:AccelerationMagnitude",
+        "GatedTilt": "solepath.papers.shoe_sensing.printed:GatedTilt",
+        "ShoeSensing": "solepath.papers.shoe_sensing.gated_tilt:ShoeSensing",
+        "AnglePerMetre": "solepath.papers.shoe_sensing.walking_state:AnglePerMetre",
+    },
+    # classes that a part loads when the first sample needs them
+    "aid": {"Compass": "solepath.body.aiding.compass:Compass"},
+    # classes of links
+    "link": {
+        "InsoleLink": "solepath.link.devices.insole:InsoleLink",
+        "Cc2541Link": "solepath.link.devices.cc2541:Cc2541Link",
+        "StreamLink": "solepath.link.stream:StreamLink",
+    },
+    # devices by the prefix of their channels: a Driver, or a DeviceKind for one with a link of its own
+    "device": {
+        "insole": "solepath.link.devices.insole:KIND",
+        "cc2650": "solepath.link.devices.cc2650:DRIVER",
+        "cc2541": "solepath.link.devices.cc2541:KIND",
+        "orphe": "solepath.link.devices.orphe:DRIVER",
+        "dot": "solepath.link.devices.dot:DRIVER",
+        "dot-orientation": "solepath.link.devices.dot:ORIENTATION_DRIVER",
+        "thingy": "solepath.link.devices.thingy:DRIVER",
+    },
+    # experiments of papers that `solepath reproduce` repeats
+    "experiment": {
+        "kupt-dfpc": "solepath.lab.reproduce.kupt_dfpc:reproduce",
+        "pressure-contour": "solepath.lab.reproduce.pressure_contour:reproduce",
+        "walking-modes": "solepath.lab.reproduce.walking_modes:reproduce",
+        "footstep-tracker": "solepath.lab.reproduce.footstep_tracker:reproduce",
+        "shoe-sensing": "solepath.lab.reproduce.shoe_sensing:reproduce",
+    },
+}
+"""Module and, after the colon, attribute of each entry, by its kind and its name."""
+
+
+def load(kind: str, name: str) -> Any:
+    """Return the entry of this name; KeyError when there is none."""
+    module, _, attribute = TABLE[kind][name].partition(":")
+    return getattr(import_module(module), attribute)
