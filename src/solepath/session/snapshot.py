@@ -50,22 +50,11 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
 
 def own_classes(state: SessionState) -> tuple[type, ...]:
     """Return the classes of the parts of a session that are those of an app."""
-<<<<<<< HEAD
     return tuple([cls for cls in _classes(state.settings.recipe) if cls.__name__ not in TABLE["part"]])
-=======
-    classes = dict.fromkeys([type(part) for part in _parts(state.settings.recipe)])
-    return tuple([cls for cls in classes if cls.__name__ not in TABLE["part"]])
-
-
-def _parts(recipe: Recipe) -> list[Any]:
-    parts = (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place)
-    return [part for part in parts if part is not None]
->>>>>>> hH
 
 
 def check_names(recipe: Recipe) -> None:
     """Raise TypeError for an app's part that has the name of a part of solepath: it would be restored as that."""
-<<<<<<< HEAD
     for cls in _classes(recipe):
         if cls.__name__ in TABLE["part"] and part_class(cls.__name__) is not cls:
             raise TypeError(f"it could not tell this {cls.__name__} from solepath's own: give it another name")
@@ -75,12 +64,6 @@ def _classes(recipe: Recipe) -> list[type]:
     """Return the classes of a recipe's parts, each once."""
     parts = (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place)
     return list(dict.fromkeys([type(part) for part in parts if part is not None]))
-=======
-    for part in _parts(recipe):
-        name = type(part).__name__
-        if name in TABLE["part"] and part_class(name) is not type(part):
-            raise TypeError(f"it could not tell this {name} from solepath's own: give it another name")
->>>>>>> hH
 
 
 def make_class_lookup(parts: Iterable[type]) -> Classes:

@@ -82,7 +82,7 @@ def broken(
 
 def _changed_settings(before: Any, after: Any) -> list[str]:
     """Return the names of the settings that have changed, which a packed session would lose."""
-    cls = type(before)
+    cls: Any = type(before)
     settings = record_of(cls, made=True).defaults if has_state(cls) else {}
     return [name for name in settings if getattr(before, name) != getattr(after, name)]
 

@@ -6,9 +6,15 @@ bytes. If the number of values is odd, the high nibble (four bits) of the last b
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
-from .fields import malformed
+from construct import FormatFieldError, StreamError
+
+from .fields import Definition, malformed
+
+if TYPE_CHECKING:
+    from typing import IO
 
 _LOW_NIBBLE = bytes(b & 15 for b in range(256))
 _HIGH_NIBBLE = bytes(b >> 4 for b in range(256))
@@ -50,3 +56,24 @@ def pack12(values: Sequence[int]) -> bytes:
     packed = bytearray(3 * len(values))
     packed[0::3], packed[1::3], packed[2::3] = digits[1::4], digits[2::4], digits[3::4]
     return int(packed or b"0", 16).to_bytes(packed_size(len(values)), "little")
+
+
+class Packed12(Definition):
+    """A construct for a block of 12-bit values; `count` returns their number from construct's context."""
+
+    def __init__(self, count: Callable[[Any], int]) -> None:
+        super().__init__()
+        self.count = count
+
+    def _parse(self, stream: IO[bytes], context: Any, path: str) -> tuple[int, ...]:
+        count = self.count(context)
+        data = stream.read(packed_size(count))
+        if len(data) != packed_size(count):
+            raise StreamError(f"{count} values need {packed_size(count)} bytes, has {len(data)}", path=path)
+        return unpack12(data, count)
+
+    def _build(self, obj: Any, stream: IO[bytes], context: Any, path: str) -> Any:
+        if len(obj) != self.count(context):
+            raise FormatFieldError(f"{len(obj)} values where {self.count(context)} belong", path=path)
+        stream.write(pack12(obj))
+        return obj

@@ -36,7 +36,7 @@ class Fields(Definition):
 
     def __init__(self, layout: str, make: Callable[..., Any] | None = None) -> None:
         super().__init__()
-        self._struct = struct.Struct(layout)
+        self.notation, self._struct = layout, struct.Struct(layout)
         self._make = make
 
     def _parse(self, stream: IO[bytes], context: Any, path: str) -> Any:

@@ -3,15 +3,63 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from struct import Struct
+from struct import Struct as Packing
 from struct import error as StructError
-from typing import Any
+from typing import Any, NamedTuple
+
+from construct import Array, Container, FormatField, If, IfThenElse, Int16ul, Pass, Renamed, Sequence, Struct
 
 from ..types import Foot
 from ..types.attrs import define, frozen
-from .cells import pack12, packed_size, unpack12
+from .cells import Packed12, pack12, packed_size, unpack12
 from .envelope import CRC_SIZE, FRAME_TYPE, MAGIC, check_end, check_start, seal
-from .fields import malformed
+from .fields import Definition, Fields, malformed
+
+# A reader and writer generated from a construct: one call of the module struct for a whole packet.
+#
+# For every part that it reads, construct makes a stream, a context and a container, which takes five times as long as
+# reading the numbers. If the sizes in a packet follow from its header, all of its parts have one notation in `struct`,
+# which `flat_struct` derives from the construct. So the construct stays the only definition of the format.
+
+
+def flat_struct(definition: Definition, **context: Any) -> Packing:
+    """Return the struct of all numbers of `definition`, in order; a block of 12-bit values is one `bytes`.
+
+    `context` has what the parts before are to have been parsed to, by their names, as in construct. TypeError for a
+    construct without a notation in `struct`; ValueError if its numbers have different byte orders, or none."""
+    notations = _notations(definition, Container(context))
+    if any([notation[0] not in "<>" for notation in notations]):
+        raise ValueError("a notation without its byte order")
+    orders = {notation[0] for notation in notations if notation[1:].strip("0123456789bBs")}
+    if len(orders) > 1:
+        raise ValueError("numbers of different byte orders have no common notation")
+    return Packing("".join([*(orders or "<"), *[notation[1:] for notation in notations]]))
+
+
+def _in_context(number: Any, context: Container[Any]) -> int:
+    return int(number(context) if callable(number) else number)
+
+
+def _notations(definition: Any, context: Container[Any]) -> list[str]:
+    """Return the notation of each part: its byte order, and its numbers."""
+    if isinstance(definition, Renamed):
+        return _notations(definition.subcon, context)
+    if isinstance(definition, Fields):
+        return [definition.notation]
+    if isinstance(definition, FormatField):
+        return [definition.fmtstr]
+    if isinstance(definition, Packed12):
+        return [f"<{packed_size(definition.count(context))}s"]
+    if isinstance(definition, Array):
+        return _in_context(definition.count, context) * _notations(definition.subcon, context)
+    if isinstance(definition, IfThenElse):
+        chosen = definition.thensubcon if _in_context(definition.condfunc, context) else definition.elsesubcon
+        return [] if chosen is Pass else _notations(chosen, context)
+    if isinstance(definition, (Struct, Sequence)):
+        within = Container(context, _=context)
+        return [notation for part in definition.subcons for notation in _notations(part, within)]
+    raise TypeError(f"{type(definition).__name__} has no notation in struct")
+
 
 MAX_CELLS = 128
 """Largest number of pressure cells of an insole."""
@@ -51,33 +99,61 @@ class InsoleFrame:
     retransmitted: bool = False
 
 
-_HEADER = Struct("<BBBBHIHBB")
-"""Magic, type, flags, layout, sequence, ticks, interval, number of samples, and number of cells of each."""
-_HEADER_NUMBERS = 9
-"""Number of numbers in the header."""
+class FrameHeader(NamedTuple):
+    """The header of a frame: `samples` is their number, `cells` the number of cells in each."""
+
+    magic: int
+    kind: int
+    flags: int
+    layout: int
+    sequence: int
+    ticks: int
+    interval: int
+    samples: int
+    cells: int
+
+
+def _cell_count(context: Any) -> int:
+    return int(context._.header.cells)
+
+
+def _has_imu(context: Any) -> bool:
+    return bool(context._.header.flags & _IMU_FLAG)
+
+
+def _has_quat(context: Any) -> bool:
+    return bool(context._.header.flags & _QUAT_FLAG)
+
+
+def _sample_count(context: Any) -> int:
+    return int(context.header.samples)
+
+
+_HEADER = Fields("<BBBBHIHBB", FrameHeader)
+_SAMPLE = Sequence(Packed12(_cell_count), If(_has_imu, Fields("<6h")), If(_has_quat, Fields("<4h")))
+FRAME = Struct("header" / _HEADER, "samples" / Array(_sample_count, _SAMPLE), "crc" / Int16ul)
+"""The construct of a frame, from which `flat_struct` generates reader and writer."""
+
+_HEADER_NUMBERS = flat_struct(_HEADER)
 
 
 @lru_cache(maxsize=16)
-def _frame_struct(sensors: int, count: int, cells: int) -> Struct:
-    """Return the definition of a whole frame: header, samples, CRC; `sensors` are the flags of IMU and quaternion.
-
-    A sample has its packed cells, six numbers of the IMU, and four of the quaternion. One call of `struct` for all of
-    them takes a fifth of the time of a construct for each part."""
-    imu, quat = "6h" if sensors & _IMU_FLAG else "", "4h" if sensors & _QUAT_FLAG else ""
-    return Struct(_HEADER.format + count * f"{packed_size(cells)}s{imu}{quat}" + "H")
+def _frame_struct(sensors: int, count: int, cells: int) -> Packing:
+    """Return the struct of a whole frame; `sensors` are the flags of IMU and quaternion."""
+    return flat_struct(FRAME, header=FrameHeader(MAGIC, FRAME_TYPE, sensors, 0, 0, 0, 0, count, cells))
 
 
 def parse_frame(data: bytes) -> InsoleFrame:
     """Return the frame in `data`; WireError for any other bytes."""
     data = bytes(data)
-    check_start(data, FRAME_TYPE, _HEADER.size)
-    _, _, flags, layout, sequence, ticks, interval, count, cells = _HEADER.unpack_from(data)
+    check_start(data, FRAME_TYPE, _HEADER_NUMBERS.size)
+    _, _, flags, layout, sequence, ticks, interval, count, cells = _HEADER_NUMBERS.unpack_from(data)
     whole = _frame_struct(flags & _SENSOR_FLAGS, count, cells)
     check_end(data, whole.size)
     problem = _find_problem(flags, interval, count, cells)
     if problem:
         raise malformed(problem)
-    numbers, at = whole.unpack(data), _HEADER_NUMBERS
+    numbers, at = whole.unpack(data), len(FrameHeader._fields)
     samples = []
     for _ in range(count):
         packed_cells, imu, quat = numbers[at], None, None
@@ -101,30 +177,32 @@ def parse_frame(data: bytes) -> InsoleFrame:
 
 def build_frame(frame: InsoleFrame) -> bytes:
     """Return the bytes of `frame`, the inverse of `parse_frame`; ValueError when it does not fit the format."""
-    first = frame.samples[0] if frame.samples else InsoleSample(())
+    if not frame.samples:
+        raise ValueError("a frame without samples")
+    first = frame.samples[0]
+    shape = (len(first.cells), first.imu is None, first.quat is None)
+    if any((len(s.cells), s.imu is None, s.quat is None) != shape for s in frame.samples):
+        raise ValueError("the samples of a frame have different cells or sensors")
     flags = (
-        _RIGHT_FLAG * (frame.foot is Foot.RIGHT)
-        | _IMU_FLAG * (first.imu is not None)
-        | _QUAT_FLAG * (first.quat is not None)
-        | _SATURATED_FLAG * frame.saturated
-        | _RETRANSMITTED_FLAG * frame.retransmitted
+        (_RIGHT_FLAG if frame.foot is Foot.RIGHT else 0)
+        | (_IMU_FLAG if first.imu is not None else 0)
+        | (_QUAT_FLAG if first.quat is not None else 0)
+        | (_SATURATED_FLAG if frame.saturated else 0)
+        | (_RETRANSMITTED_FLAG if frame.retransmitted else 0)
     )
     count, cells = len(frame.samples), len(first.cells)
     problem = _find_problem(flags, frame.interval, count, cells)
     if problem:
         raise ValueError(problem)
-    shape = (cells, 6 if first.imu is not None else 0, 4 if first.quat is not None else 0)
-    numbers: list[Any] = []
+    numbers: list[Any] = [
+        *FrameHeader(MAGIC, FRAME_TYPE, flags, frame.layout, frame.sequence, frame.ticks, frame.interval, count, cells)
+    ]
     for sample in frame.samples:
-        imu, quat = sample.imu or (), sample.quat or ()
-        if (len(sample.cells), len(imu), len(quat)) != shape:
-            raise ValueError(
-                "the samples of a frame have the same cells and sensors: six numbers of an IMU, four of a quaternion"
-            )
-        numbers += [pack12(sample.cells), *imu, *quat]
-    header = MAGIC, FRAME_TYPE, flags, frame.layout, frame.sequence, frame.ticks, frame.interval, count, cells
+        if len(sample.imu or (0,) * 6) != 6 or len(sample.quat or (0,) * 4) != 4:
+            raise ValueError("an IMU has six numbers, and a quaternion four")
+        numbers += [pack12(sample.cells), *(sample.imu or ()), *(sample.quat or ())]
     try:
-        return seal(_frame_struct(flags & _SENSOR_FLAGS, count, cells).pack(*header, *numbers, 0)[:-CRC_SIZE])
+        return seal(_frame_struct(flags & _SENSOR_FLAGS, count, cells).pack(*numbers, 0)[:-CRC_SIZE])
     except StructError as error:
         raise ValueError(f"a number does not fit its place in a frame: {error}") from error
 

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from itertools import groupby
 from math import isfinite
-from operator import eq
-from struct import Struct
-from struct import error as StructError
+from typing import Any, NamedTuple
+
+from construct import Array, Bytes, Struct, Terminated
 
 from ..types import Cell, Foot
 from ..types.attrs import frozen
-from .cells import pack12, packed_size, unpack12
+from .cells import Packed12, packed_size
 from .envelope import CRC_SIZE, INFO_TYPE, MAGIC, check_end, check_start, seal
-from .error import WireError
-from .fields import malformed, to_counts
+from .fields import Fields, build_whole, malformed, parse_whole, to_counts
 from .insole import MAX_CELLS
 
 _RIGHT_FLAG = 1
@@ -45,62 +44,90 @@ class InsoleInfo:
     firmware: str = ""
 
 
-_HEADER = Struct("<BBBBIIHfffHBBB")
-"""Magic, type, flags, layout, serial number, tick rate, interval, scales of accelerometer, gyroscope and pressure,
-length, number of cells, number of areas, and size of the firmware name."""
+class _InfoHeader(NamedTuple):
+    magic: int
+    kind: int
+    flags: int
+    layout: int
+    serial: int
+    tick_rate: int
+    interval: int
+    acc_scale: float
+    gyro_scale: float
+    pressure_scale: float
+    length: int
+    cells: int
+    runs: int
+    firmware_size: int
+
+    @property
+    def size(self) -> int:
+        """Size of the whole record with its CRC, bytes."""
+        return _HEADER_SIZE + packed_size(2 * self.cells) + 3 * self.runs + self.firmware_size + CRC_SIZE
 
 
-def _record_struct(cells: int, areas: int, name_size: int) -> Struct:
-    """Return the definition of a whole record.
+class _AreaRun(NamedTuple):
+    """A run of neighbouring cells that have the same area."""
 
-    After the header it has the packed coordinates x and y of each cell, the areas, of which each has the number of
-    neighbouring cells that have it, the name of the firmware, and the CRC."""
-    return Struct(_HEADER.format + f"{packed_size(2 * cells)}s" + areas * "BH" + f"{name_size}sH")
+    cells: int
+    area: int
+
+
+def _coordinate_count(context: Any) -> int:
+    return 2 * int(context.header.cells)
+
+
+def _run_count(context: Any) -> int:
+    return int(context.header.runs)
+
+
+def _firmware_size(context: Any) -> int:
+    return int(context.header.firmware_size)
+
+
+_HEADER = Fields("<BBBBIIHfffHBBB", _InfoHeader)
+_HEADER_SIZE = 31
+
+_BODY = Struct(
+    "header" / _HEADER,
+    "coordinates" / Packed12(_coordinate_count),
+    "runs" / Array(_run_count, Fields("<BH", _AreaRun)),
+    "firmware" / Bytes(_firmware_size),
+    Terminated,
+)
+"""Construct of the record without the CRC that follows it."""
 
 
 def parse_info(data: bytes) -> InsoleInfo:
     """Return the INFO record in `data`; WireError for any other bytes."""
     data = bytes(data)
-    check_start(data, INFO_TYPE, _HEADER.size)
-    _, _, flags, layout, serial, tick_rate, interval, acc, gyro, force, length, cells, areas, name_size = (
-        _HEADER.unpack_from(data)
-    )
-    whole = _record_struct(cells, areas, name_size)
-    check_end(data, whole.size)
-    scales = acc, gyro, force
-    coordinates, *runs, name, _ = whole.unpack(data)[14:]  # without the header
-    counts, sizes = runs[0::2], runs[1::2]
-    for is_wrong, problem in (
-        (flags & _RESERVED_FLAGS, f"reserved flags are set: {flags:#04x}"),
-        (cells > MAX_CELLS, f"{cells} cells, at most {MAX_CELLS}"),
-        (tick_rate == 0 or interval == 0, "a tick rate or interval of zero"),
-        (not all([isfinite(scale) and scale >= 0.0 for scale in scales]), f"scales negative or not finite: {scales}"),
-        (sum(counts) != cells or 0 in counts, f"areas for {sum(counts)} of {cells} cells"),
-        (any(map(eq, sizes, sizes[1:])), "neighbouring areas that should be one run"),
-    ):
-        if is_wrong:
-            raise malformed(problem)
-    numbers = unpack12(coordinates, 2 * cells)
-    areas_of_cells = [
-        size / _COUNTS_PER_SQUARE_METRE for count, size in zip(counts, sizes, strict=True) for _ in range(count)
-    ]
+    check_start(data, INFO_TYPE, _HEADER_SIZE)
+    header: _InfoHeader = _HEADER.parse(data)
+    check_end(data, header.size)
+    body = parse_whole(_BODY, data[:-CRC_SIZE])
+    problem = _find_problem(header, body.runs)
+    if problem:
+        raise malformed(problem)
+    areas = [run.area / _COUNTS_PER_SQUARE_METRE for run in body.runs for _ in range(run.cells)]
     try:
-        firmware = name.decode("utf-8")
+        firmware = body.firmware.decode("utf-8")
     except UnicodeDecodeError as error:
         raise malformed(f"the firmware name is not UTF-8: {error}") from error
     return InsoleInfo(
-        Foot.RIGHT if flags & _RIGHT_FLAG else Foot.LEFT,
-        layout,
-        serial,
-        tick_rate,
-        interval,
-        *scales,
-        length / _COUNTS_PER_METRE,
-        tuple(
+        foot=Foot.RIGHT if header.flags & _RIGHT_FLAG else Foot.LEFT,
+        layout=header.layout,
+        serial=header.serial,
+        tick_rate=header.tick_rate,
+        interval=header.interval,
+        acc_scale=header.acc_scale,
+        gyro_scale=header.gyro_scale,
+        pressure_scale=header.pressure_scale,
+        length=header.length / _COUNTS_PER_METRE,
+        cells=tuple(
             Cell(x / _COUNTS_PER_METRE, (y - _Y_ZERO_COUNTS) / _COUNTS_PER_METRE, area)
-            for x, y, area in zip(numbers[0::2], numbers[1::2], areas_of_cells, strict=True)
+            for x, y, area in zip(body.coordinates[0::2], body.coordinates[1::2], areas, strict=True)
         ),
-        firmware,
+        firmware=firmware,
     )
 
 
@@ -108,20 +135,51 @@ def build_info(info: InsoleInfo) -> bytes:
     """Return the bytes of `info`, the inverse of `parse_info`; lengths are rounded to 0.1 mm, areas to 0.1 mm^2.
 
     ValueError when a value does not fit: too many cells, a cell too far out, a firmware name too long."""
-    coordinates: list[int] = []
-    for cell in info.cells:
-        coordinates += to_counts(cell.x, _COUNTS_PER_METRE), to_counts(cell.y, _COUNTS_PER_METRE) + _Y_ZERO_COUNTS
+    coordinates = [
+        c
+        for cell in info.cells
+        for c in (to_counts(cell.x, _COUNTS_PER_METRE), to_counts(cell.y, _COUNTS_PER_METRE) + _Y_ZERO_COUNTS)
+    ]
     areas = [to_counts(cell.area, _COUNTS_PER_SQUARE_METRE) for cell in info.cells]
-    runs = [number for area, equal in groupby(areas) for number in (len([*equal]), area)]
-    name = info.firmware.encode("utf-8")
-    sizes = len(info.cells), len(runs) // 2, len(name)
-    header = MAGIC, INFO_TYPE, _RIGHT_FLAG * (info.foot is Foot.RIGHT), info.layout, info.serial
-    ticks, scales = (info.tick_rate, info.interval), (info.acc_scale, info.gyro_scale, info.pressure_scale)
-    numbers = *header, *ticks, *scales, to_counts(info.length, _COUNTS_PER_METRE), *sizes
-    try:
-        record = _record_struct(*sizes).pack(*numbers, pack12(coordinates), *runs, name, 0)
-        data = seal(record[:-CRC_SIZE])
-        parse_info(data)
-    except (StructError, OverflowError, WireError) as error:  # OverflowError: a float too large for binary32
-        raise ValueError(f"this INFO does not fit its format: {error}") from error
-    return data
+    runs = [_AreaRun(len(list(equal)), area) for area, equal in groupby(areas)]
+    firmware = info.firmware.encode("utf-8")
+    header = _InfoHeader(
+        MAGIC,
+        INFO_TYPE,
+        _RIGHT_FLAG if info.foot is Foot.RIGHT else 0,
+        info.layout,
+        info.serial,
+        info.tick_rate,
+        info.interval,
+        info.acc_scale,
+        info.gyro_scale,
+        info.pressure_scale,
+        to_counts(info.length, _COUNTS_PER_METRE),
+        len(info.cells),
+        len(runs),
+        len(firmware),
+    )
+    problem = _find_problem(header, runs)
+    if problem:
+        raise ValueError(problem)
+    body = {"header": header, "coordinates": coordinates, "runs": runs, "firmware": firmware}
+    return seal(build_whole(_BODY, body))
+
+
+def _find_problem(header: _InfoHeader, runs: list[_AreaRun]) -> str:
+    """Return a description of an error that length and CRC do not show; "" when there is none."""
+    scales = (header.acc_scale, header.gyro_scale, header.pressure_scale)
+    if header.flags & _RESERVED_FLAGS:
+        return f"reserved flags are set: {header.flags:#04x}"
+    if header.cells > MAX_CELLS:
+        return f"{header.cells} cells, at most {MAX_CELLS}"
+    if header.tick_rate == 0 or header.interval == 0:
+        return "a tick rate or interval of zero"
+    if not all(isfinite(scale) and scale >= 0.0 for scale in scales):
+        return f"scales that are negative or not finite: {scales}"
+    cells = sum([run.cells for run in runs])  # whole numbers
+    if cells != header.cells or any([run.cells == 0 for run in runs]):
+        return f"areas for {cells} of {header.cells} cells"
+    if any(a.area == b.area for a, b in zip(runs, runs[1:], strict=False)):
+        return "neighbouring areas that should be one run"
+    return ""
