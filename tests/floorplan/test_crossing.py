@@ -9,10 +9,10 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.floorplan.crossing import Walls
+from solepath.floorplan.geometry import touch
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Wall
-from solepath.floorplan.segments import touch
+from solepath.floorplan.walls import Walls
 
 Line = tuple[tuple[float, float], tuple[float, float]]
 
@@ -46,7 +46,7 @@ def test_lines_touch_exactly_when_fractions_do(a: Line, b: Line) -> None:
 
 @given(walls_of, st.lists(lines, min_size=1, max_size=8))
 def test_a_move_crosses_when_it_touches_any_wall_exactly(walls: list[Line], moves: list[Line]) -> None:
-    grid = Walls(walls)
+    grid = Walls([(*a, *b) for a, b in walls])
     for start, end in moves:
         assert grid.crosses(*start, *end) == any(exactly_touch((start, end), wall) for wall in walls)
 
@@ -54,7 +54,7 @@ def test_a_move_crosses_when_it_touches_any_wall_exactly(walls: list[Line], move
 @given(st.tuples(any_float, any_float, any_float, any_float))
 def test_any_floats_get_an_answer_and_no_place_is_behind_a_wall(move: tuple[float, float, float, float]) -> None:
     walls = [((0.0, 0.0), (5.0, 0.0)), ((5.0, 0.0), (5.0, 5.0))]
-    crosses = Walls(walls).crosses(*move)
+    crosses = Walls([(*a, *b) for a, b in walls]).crosses(*move)
     if all(map(math.isfinite, move)):
         assert crosses == any(exactly_touch((move[:2], move[2:]), wall) for wall in walls)
     else:
@@ -63,7 +63,7 @@ def test_any_floats_get_an_answer_and_no_place_is_behind_a_wall(move: tuple[floa
 
 def test_nobody_slips_through_a_corner_where_walls_meet() -> None:
     corner = (0.1 + 0.2, 1.0 / 3.0)
-    walls = Walls([((0.0, 1.0 / 3.0), corner), (corner, (0.1 + 0.2, 0.0))])
+    walls = Walls([(0.0, 1.0 / 3.0, *corner), (*corner, 0.1 + 0.2, 0.0)])
     for k in range(1, 1000):
         heading = k * 0.5 * math.pi / 1000
         dx, dy = 0.2 * math.cos(heading), 0.2 * math.sin(heading)

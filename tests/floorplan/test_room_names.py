@@ -13,9 +13,9 @@ from plan_files import format_floorplan
 
 from solepath.emulate.routes.building import BUILDING
 from solepath.floorplan.checks import find_fault
+from solepath.floorplan.geometry import Ring
 from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.outlines import Ring
 from solepath.floorplan.plan import Door, FloorPlan, Level, Wall, with_rooms
 
 HOUSE = read_floorplan(FILES / "house.geojson")

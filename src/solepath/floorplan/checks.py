@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import fsum, hypot
+from itertools import pairwise
+from math import fsum, hypot, sqrt
 
 from ..types import checking
-from ..types.attrs import evolve
 from ..types.checking import describe
-from .crossing import MAX_CELLS, Walls
-from .enclosure import MAX_LATTICE_POINTS, Enclosure
-from .grid import MAX_CELLS_PER_PLAN, MAX_LATTICE_POINTS_PER_PLAN, share_limit
+from .enclosure import Enclosure
 from .plan import MAX_COORDINATE, Connector, FloorPlan, Level, Point
 from .rooms import Rooms
+from .walls import Walls
 
 MAX_BUILDING_WIDTH = 5000.0
 """Largest width of a building, m: the longest are 4 km."""
@@ -34,6 +33,23 @@ MAX_CORNERS = 100_000
 MAX_TOTAL_LENGTH = 500e3
 """Largest total length of all walls, doors and outlines, m: the time of indexing grows with it."""
 
+MAX_AREA = 2e6
+"""Largest area of all levels of a plan whose cells (walls.py, rooms.py) have the usual size, m^2."""
+
+
+def scale_cells(plan: FloorPlan) -> float:
+    """Return the factor of the side of all cells of a plan: 1, or more where its cells would be too many.
+
+    Larger cells give the same answers, after a longer search."""
+    width, depth = _measure(plan)
+    return max(1.0, sqrt(len(plan.levels) * width * depth / MAX_AREA))
+
+
+def _measure(plan: FloorPlan) -> list[float]:
+    """Return width and depth of all levels together, m."""
+    places = [point for _, _, points in plan.shapes() for point in points]
+    return [max(axis) - min(axis) for axis in zip(*places, strict=True)] or [0.0, 0.0]
+
 
 def find_fault(plan: FloorPlan) -> str | None:
     """Return the first fault that makes a plan unusable, in one line; None when it is usable.
@@ -43,101 +59,59 @@ def find_fault(plan: FloorPlan) -> str | None:
 
 
 def _find_faults(plan: FloorPlan) -> Iterator[str]:
+    """Yield faults; only the first is reliable, since each check relies on those before it."""
     fault = checking.find_fault(plan, FloorPlan)
     if fault is not None:
         yield str(fault)
-    if not plan.levels:
+    levels, connectors = plan.levels, plan.connectors
+    if not levels:
         yield "the plan has no levels"
-    yield from _faults_of_size(plan)
-    ids = set()
-    for level in plan.levels:
+    if len(levels) > MAX_LEVELS or sum(len(level.walls) for level in levels) > MAX_WALLS:
+        yield f"the plan has more than {MAX_LEVELS} levels or {MAX_WALLS} walls"
+    if max(len(connectors), sum(len(connector.stops) for connector in connectors)) > MAX_STOPS:
+        yield f"the plan's stairs and lifts have more than {MAX_STOPS} stops"
+    if (
+        sum(1 if kind == "door" else len(points) for kind, _, points in plan.shapes() if kind not in ("wall", "stop"))
+        > MAX_CORNERS
+    ):
+        yield f"the plan has more than {MAX_CORNERS} doors and corners of rooms"
+    elevations: dict[str, float] = {}
+    for level in levels:
         if not level.id:
             yield "a level has no id"
-        if level.id in ids:
+        if level.id in elevations:
             yield f"two levels have the id {level.id!r}"
-        ids.add(level.id)
-    for level in plan.levels:
-        yield from _faults_of_level(level)
-    yield from _faults_of_units(plan)
-    elevations = {level.id: level.elevation for level in plan.levels}
-    for connector in plan.connectors:
-        yield from _faults_of_connector(connector, elevations)
-    yield from _faults_of_length(plan)
-
-
-def _faults_of_size(plan: FloorPlan) -> Iterator[str]:
-    if len(plan.levels) > MAX_LEVELS or sum(len(level.walls) for level in plan.levels) > MAX_WALLS:
-        yield f"the plan has more than {MAX_LEVELS} levels or {MAX_WALLS} walls"
-    if len(plan.connectors) > MAX_STOPS or sum(len(one.stops) for one in plan.connectors) > MAX_STOPS:
-        yield f"the plan's stairs and lifts have more than {MAX_STOPS} stops"
-    corners = sum(len(level.doors) + sum(map(len, level.rooms)) for level in plan.levels)  # whole numbers
-    corners += sum(len(stop.outline) for one in plan.connectors for stop in one.stops)
-    if corners > MAX_CORNERS:
-        yield f"the plan has more than {MAX_CORNERS} doors and corners of rooms"
-
-
-def _faults_of_length(plan: FloorPlan) -> Iterator[str]:
-    lines = [(wall.start, wall.end) for level in plan.levels for wall in level.walls]
-    lines += [(door.start, door.end) for level in plan.levels for door in level.doors]
-    rings = [room for level in plan.levels for room in level.rooms]
-    rings += [stop.outline for one in plan.connectors for stop in one.stops]
-    lines += [line for ring in rings for line in zip(ring, (*ring[1:], *ring[:1]), strict=True)]
-    length = fsum([hypot(b[0] - a[0], b[1] - a[1]) for a, b in lines])
-    if length > MAX_TOTAL_LENGTH:
-        yield (f"the walls, doors and rooms of the plan come to {length / 1000.0:.0f} km; it can have "
+        if not abs(level.elevation) <= MAX_COORDINATE:
+            yield f"level {level.id!r}: its elevation is {describe(level.elevation)}"
+        elevations[level.id] = level.elevation
+    lengths = []
+    for kind, name, points in plan.shapes():
+        for point in points:
+            if not all([abs(value) <= MAX_COORDINATE for value in point]):  # also if it is NaN
+                yield f"{name} is at {describe(point)}"
+        if kind == "wall" and points[0] == points[1]:
+            yield f"{name} has no length, at {describe(points[0])}"
+        if kind == "room" and len(points) < 3 or kind == "outline" and len(points) in (1, 2):
+            yield f"{name} has {len(points)} corners"
+        lengths += [
+            hypot(bx - ax, by - ay)
+            for (ax, ay), (bx, by) in pairwise(points if kind in ("wall", "door") else points + points[:1])
+        ]
+    yield from _find_faults_of_units(plan)
+    for connector in connectors:
+        yield from _find_faults_of_connector(connector, elevations)
+    if fsum(lengths) > MAX_TOTAL_LENGTH:
+        yield (f"the walls, doors and rooms of the plan come to {fsum(lengths) / 1000.0:.0f} km; it can have "
                f"{MAX_TOTAL_LENGTH / 1000.0:.0f}")  # fmt: skip
 
 
-def _faults_of_level(level: Level) -> Iterator[str]:
-    name = f"level {level.id!r}"
-    if not abs(level.elevation) <= MAX_COORDINATE:
-        yield f"{name}: its elevation is {describe(level.elevation)}"
-    for name_of_shape, points in _features_drawn(level):
-        for point in points:
-            if not _is_place(point):
-                yield f"{name}: {name_of_shape} is at {describe(point)}"
-    for i, wall in enumerate(level.walls):
-        if wall.start == wall.end:
-            yield f"{name}: wall {i} has no length, at {describe(wall.start)}"
-    for i, room in enumerate(level.rooms):
-        if len(room) < 3:
-            yield f"{name}: room {i} has {len(room)} corners"
-
-
-def _faults_of_connector(connector: Connector, elevations: dict[str, float]) -> Iterator[str]:
-    name = f"{connector.kind.value} {connector.name!r}"
-    if not connector.stops:
-        yield f"{name}: has no stops"
-    elevation_below = None
-    for stop in connector.stops:
-        if stop.level not in elevations:
-            yield f"{name}: stops at level {stop.level!r}, which the plan does not have"
-            return
-        for point in (stop.place, *stop.outline):
-            if not _is_place(point):
-                yield f"{name}: its stop at level {stop.level!r} is at {describe(point)}"
-        if len(stop.outline) in (1, 2):
-            yield f"{name}: its outline at level {stop.level!r} has {len(stop.outline)} corners"
-        if elevation_below is not None and not elevations[stop.level] > elevation_below:
-            yield f"{name}: its stops are not from the lowest to the highest"
-        elevation_below = elevations[stop.level]
-    if connector.flights is not None and not 1 <= connector.flights <= MAX_FLIGHTS:
-        yield f"{name}: has {describe(connector.flights)} flights a storey"
-    if connector.rise is not None and not MIN_RISE <= connector.rise <= MAX_RISE:
-        yield f"{name}: its steps rise {describe(connector.rise)} m"
-
-
-def _faults_of_units(plan: FloorPlan) -> Iterator[str]:
-    points = [point for level in plan.levels for _, shape_points in _features_drawn(level) for point in shape_points]
-    points += [point for one in plan.connectors for stop in one.stops for point in (stop.place, *stop.outline)]
-    if any(not _is_place(point) for point in points) or not points:
-        return
-    width = max([max(axis) - min(axis) for axis in zip(*points, strict=True)])
+def _find_faults_of_units(plan: FloorPlan) -> Iterator[str]:
+    width = max(_measure(plan))
     if width > MAX_BUILDING_WIDTH:
         yield f"the plan is {width:.0f} wide; it must be in metres, is it in millimetres or another unit?"
     if width < MIN_BUILDING_WIDTH and any(level.walls or level.rooms for level in plan.levels):
         yield f"the plan is {width:.2g} wide; it must be in metres, is it in degrees or another unit?"
-    for below, above in zip(plan.levels, plan.levels[1:], strict=False):
+    for below, above in pairwise(plan.levels):
         storey = above.elevation - below.elevation
         if storey < 0.0:
             yield f"level {above.id!r} comes after level {below.id!r} and lies below it"
@@ -146,17 +120,20 @@ def _faults_of_units(plan: FloorPlan) -> Iterator[str]:
                    f"are they in millimetres or another unit?")  # fmt: skip
 
 
-def _features_drawn(level: Level) -> Iterator[tuple[str, tuple[Point, ...]]]:
-    for i, wall in enumerate(level.walls):
-        yield f"wall {i}", (wall.start, wall.end)
-    for i, door in enumerate(level.doors):
-        yield f"door {i}", (door.start, door.end)
-    for i, room in enumerate(level.rooms):
-        yield f"room {i}", room
-
-
-def _is_place(point: Point) -> bool:
-    return abs(point[0]) <= MAX_COORDINATE and abs(point[1]) <= MAX_COORDINATE  # False for NaN
+def _find_faults_of_connector(connector: Connector, elevations: dict[str, float]) -> Iterator[str]:
+    name = connector.label
+    if not connector.stops:
+        yield f"{name}: has no stops"
+    for stop in connector.stops:
+        if stop.level not in elevations:
+            yield f"{name}: stops at level {stop.level!r}, which the plan does not have"
+    heights = [elevations[stop.level] for stop in connector.stops]
+    if any(high <= low for low, high in pairwise(heights)):
+        yield f"{name}: its stops are not from the lowest to the highest"
+    if connector.flights is not None and not 1 <= connector.flights <= MAX_FLIGHTS:
+        yield f"{name}: has {describe(connector.flights)} flights a storey"
+    if connector.rise is not None and not MIN_RISE <= connector.rise <= MAX_RISE:
+        yield f"{name}: its steps rise {describe(connector.rise)} m"
 
 
 def find_warnings(plan: FloorPlan, *, has_start: bool = False) -> tuple[str, ...]:
@@ -168,35 +145,30 @@ def find_warnings(plan: FloorPlan, *, has_start: bool = False) -> tuple[str, ...
 
 
 def _find_remarks(plan: FloorPlan, has_start: bool) -> Iterator[str]:
-    if not plan.heights_known and len(plan.levels) > 1:
+    levels, connectors = plan.levels, plan.connectors
+    if not plan.heights_known and len(levels) > 1:
         yield "the plan does not say how high its levels lie"
-    count = len(plan.levels)
-    cells = share_limit(MAX_CELLS, MAX_CELLS_PER_PLAN, count)
-    points = share_limit(MAX_LATTICE_POINTS, MAX_LATTICE_POINTS_PER_PLAN, count)
-    for level in plan.levels:
-        yield from _remarks_of_walls(level, cells, points)
-    if not plan.connectors and not has_start:
+    scale = scale_cells(plan)
+    for level in levels:
+        opening = _find_opening(level, len(levels), scale)
+        if not level.walls:
+            yield f"level {level.id!r}: has no walls"
+        elif opening is not None:
+            yield f"level {level.id!r}: its walls do not close near ({opening[0]:.1f}, {opening[1]:.1f})"
+    if not connectors and not has_start:
         yield "the plan has no stairs and no lifts: the place on it is known by a start only"
-    for connector in plan.connectors:
+    for connector in connectors:
         if len(connector.stops) == 1:
-            yield f"{connector.kind.value} {connector.name!r}: stops at level {connector.stops[0].level!r} only"
-    if plan.connectors and len(plan.levels) > 1:
-        joined_levels = {
-            stop.level for connector in plan.connectors if len(connector.stops) > 1 for stop in connector.stops
-        }
-        for level in plan.levels:
-            if level.id not in joined_levels:
-                yield f"level {level.id!r}: neither stairs nor a lift lead there"
+            yield f"{connector.label}: stops at level {connector.stops[0].level!r} only"
+    joined = {stop.level for connector in connectors if len(connector.stops) > 1 for stop in connector.stops}
+    for level in levels:
+        if connectors and len(levels) > 1 and level.id not in joined:
+            yield f"level {level.id!r}: neither stairs nor a lift lead there"
 
 
-def _remarks_of_walls(level: Level, cells: int, points: int) -> Iterator[str]:
-    if not level.walls:
-        yield f"level {level.id!r}: has no walls"
-        return
-    enclosure = Enclosure(level, Walls([(wall.start, wall.end) for wall in level.walls], cells), points)
-    opening: Point | None = enclosure.open_end
-    if level.rooms:
-        rooms = Rooms(evolve(level, doors=()), (), points)  # without doors, since a doorstep is no room
-        opening = next((place for place in enclosure.outside if rooms.inside(*place)), None)
-    if opening is not None:
-        yield f"level {level.id!r}: its walls do not close near ({opening[0]:.1f}, {opening[1]:.1f})"
+def _find_opening(level: Level, count: int, scale: float) -> Point | None:
+    """Return a place through which one comes in from outside without a door, m; None without one."""
+    enclosure = Enclosure(level, Walls([wall.line for wall in level.walls], 2.0 * scale), count)
+    rooms = Rooms(level, (), scale)
+    inside = (place for place in enclosure.outside if rooms.find(*place))
+    return next(inside, None) if level.rooms else enclosure.open_end

@@ -6,7 +6,7 @@ of them (doors.py). checks.py has the requirements on a plan."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from enum import Enum
 
 from ..saving.codec import checksum, save
@@ -18,6 +18,9 @@ MAX_COORDINATE = 1e7
 """Largest absolute coordinate from the plan's origin, m: national grids have up to 1e7."""
 MAX_LATITUDE = 89.0
 """Largest absolute latitude of an anchor, degrees: east is not defined at a pole."""
+
+Line = tuple[float, float, float, float]
+"""A straight line from (ax, ay) to (bx, by), m, plan frame."""
 
 
 class FloorPlanError(ValueError):
@@ -31,6 +34,11 @@ class Wall:
     start: Point
     end: Point
 
+    @property
+    def line(self) -> Line:
+        """The wall from end to end."""
+        return (*self.start, *self.end)
+
 
 @frozen
 class Door:
@@ -39,6 +47,11 @@ class Door:
     start: Point
     end: Point
     name: str = ""
+
+    @property
+    def line(self) -> Line:
+        """The door from post to post."""
+        return (*self.start, *self.end)
 
 
 class ConnectorKind(Enum):
@@ -72,6 +85,11 @@ class Connector:
     stops: tuple[ConnectorStop, ...]
     flights: int | None = None
     rise: float | None = None
+
+    @property
+    def label(self) -> str:
+        """Kind and name, for messages."""
+        return f"{self.kind.value} {self.name!r}"
 
 
 @frozen
@@ -142,15 +160,24 @@ class FloorPlan:
         It is computed at each access, in a time that grows with the plan."""
         return checksum(save(evolve(self, remarks=())))
 
+    def shapes(self) -> Iterator[tuple[str, str, tuple[Point, ...]]]:
+        """Yield everything that is drawn: its kind, its name for messages, and its points."""
+        for level in self.levels:
+            walls = ((wall.start, wall.end) for wall in level.walls)
+            doors = ((door.start, door.end) for door in level.doors)
+            for kind, drawn in (("wall", walls), ("room", level.rooms), ("door", doors)):
+                for i, points in enumerate(drawn):
+                    yield kind, f"level {level.id!r}: {kind} {i}", points
+        for connector in self.connectors:
+            for stop in connector.stops:
+                for kind, points in (("stop", (stop.place,)), ("outline", stop.outline)):
+                    yield kind, f"{connector.label}: its {kind} at level {stop.level!r}", points
+
     @property
     def origin(self) -> Point:
         """A place near the plan in whole m, plan frame: values stored with few digits are stored relative to it."""
-        for level in self.levels:
-            for x, y in [wall.start for wall in level.walls[:1]] + [room[0] for room in level.rooms[:1] if room]:
-                return x // 1.0, y // 1.0
-        for x, y in [stop.place for connector in self.connectors[:1] for stop in connector.stops[:1]]:
-            return x // 1.0, y // 1.0
-        return 0.0, 0.0
+        x, y = next((points[0] for _, _, points in self.shapes()), (0.0, 0.0))
+        return x // 1.0, y // 1.0
 
     def level(self, name: str) -> Level:
         """Return the level with this id; raise FloorPlanError when there is none."""

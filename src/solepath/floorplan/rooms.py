@@ -1,96 +1,82 @@
-"""Test whether a place on a level with rooms is inside: in a room, a stairwell, an elevator cabin, or on a doorstep."""
+"""Search for the rooms and the doors at a place, over square cells."""
 
 from __future__ import annotations
 
-from math import ceil, sqrt
+from collections.abc import Iterable
 
-from .grid import Grid
-from .outlines import Edges, Ring, contains, edges
-from .plan import Level
-from .segments import distance
+from .geometry import Ring, area, contains, distance, edges, share_along
+from .plan import Door, Level, Line, Point
+from .walls import CELLS_PER_COLUMN, find_cells, find_range
+
+CELL_SIZE = 2.0
+"""Side of a cell, m, in a plan of the usual size: about half of a small room's width."""
 
 DOORSTEP_DISTANCE = 0.5
 """Distance from a door within which a place is inside, m.
 
 Rooms are often drawn without the thickness of the wall between them."""
 
-CELL_SIZE = 0.5
-"""Side of a cell, m; larger where the level would have more than MAX_CELLS."""
-MAX_CELLS = 30_000
+DOOR_DISTANCE = 1.5
+"""Largest distance of a place from a door at which it is at the door, m: two steps.
+
+A wearer who walks through a door at 1.6 m/s takes two strides or more within it."""
+
+EDGE_SHARE = 0.1
+"""Share of a door's length at each end that a line to the door does not use, so that it does not touch the wall."""
 
 
 class Rooms:
-    """The rooms of a level in a grid.
+    """The rooms and doors of a level, and `outlines` of its stairwells and cabins, which are rooms without a name.
 
-    A cell that no outline crosses is inside or outside as a whole. Every other cell lists the edges of its row and the
-    doors near it. A test takes 0.4 us in a cell of the first kind, and 0.15 us for each edge in the second."""
+    A cell lists the rooms that may be in it, the smallest first, each with its edges in the cell's row, and the doors
+    that may be within DOOR_DISTANCE. `scale` is the side of a cell in units of CELL_SIZE."""
 
-    __slots__ = ("_bottom", "_cells", "_columns", "_edge_cells", "_left", "_per_m", "_rows")
+    __slots__ = ("_cells", "_size")
 
-    def __init__(self, level: Level, outlines: tuple[Ring, ...], most: int = MAX_CELLS) -> None:
-        """Index the level's rooms and `outlines` of stairwells and cabins in a grid of at most `most` cells."""
-        rings = [edges(ring) for ring in dict.fromkeys((*level.rooms, *outlines)) if len(ring) >= 3]
-        doors = [(*door.start, *door.end) for door in level.doors]
-        grid = Grid([line for ring in rings for line in ring] + doors, DOORSTEP_DISTANCE, CELL_SIZE, most)
-        self._left, self._bottom, self._per_m = grid.left, grid.bottom, grid.per_m
-        self._columns, self._rows = grid.columns, grid.rows
-        self._cells = bytearray(self._columns * self._rows)
-        self._edge_cells: dict[int, tuple[list[Edges], list[tuple[float, float, float, float]]]] = {}
-        self._index(grid, rings, doors)
+    def __init__(self, level: Level, outlines: Iterable[Ring], scale: float = 1.0) -> None:
+        self._size = scale * CELL_SIZE
+        self._cells: dict[float, tuple[list[tuple[list[Line], str]], list[Door]]] = {}
+        names = level.room_names or [""] * len(level.rooms)
+        rings = [*zip(level.rooms, names, strict=True), *[(outline, "") for outline in outlines if outline]]
+        for ring, name in sorted(rings, key=lambda room: abs(area(room[0]))):
+            self._add(ring, name)
+        for door in level.doors:
+            for cell, _ in find_cells(door.line, DOOR_DISTANCE, self._size):
+                self._cells.setdefault(cell, ([], []))[1].append(door)
 
-    def _index(self, grid: Grid, rings: list[Edges], doors: list[tuple[float, float, float, float]]) -> None:
-        half = grid.cell * sqrt(0.5) + 1e-6
-        for ring in rings:
-            crossed_by_row: dict[int, list[int]] = {}
-            for cell in {cell for edge in ring for cell, _ in grid.find_near(*edge, half)}:
-                crossed_by_row.setdefault(cell // self._columns, []).append(cell)
-            for row, row_edges in self._group_by_row(ring).items():
-                self._fill(grid, row, row_edges, crossed_by_row.get(row, []))
-                for cell in crossed_by_row.get(row, ()):
-                    self._edge_cells.setdefault(cell, ([], []))[0].append(row_edges)
-        for door in doors:
-            for cell, _ in grid.find_near(*door, half + DOORSTEP_DISTANCE):
-                self._edge_cells.setdefault(cell, ([], []))[1].append(door)
-        for cell in [cell for cell in self._edge_cells if self._cells[cell]]:
-            del self._edge_cells[cell]  # another room contains the whole cell
+    def _add(self, ring: Ring, name: str) -> None:
+        rows: dict[int, list[Line]] = {}
+        for edge in edges(ring):
+            for row in find_range(edge[1], edge[3], self._size):
+                rows.setdefault(row, []).append(edge)
+        for row, lines in rows.items():
+            xs = [x for ax, _, bx, _ in lines for x in (ax, bx)]
+            for column in find_range(min(xs), max(xs), self._size):
+                self._cells.setdefault(column * CELLS_PER_COLUMN + row, ([], []))[0].append((lines, name))
 
-    def _group_by_row(self, ring: Edges) -> dict[int, Edges]:
-        """Return the edges of a ring by the grid rows that they cross: only these matter for a place in the row."""
-        edges_by_row: dict[int, list[tuple[float, float, float, float]]] = {}
-        for edge in ring:
-            low, high = sorted([int((y - self._bottom) * self._per_m) for y in (edge[1], edge[3])])
-            for row in range(low, high + 1):
-                edges_by_row.setdefault(row, []).append(edge)
-        return {row: tuple(row_edges) for row, row_edges in edges_by_row.items()}
+    def _list(self, x: float, y: float) -> tuple[list[tuple[list[Line], str]], list[Door]]:
+        return self._cells.get(x // self._size * CELLS_PER_COLUMN + y // self._size, ([], []))
 
-    def _fill(self, grid: Grid, row_number: int, row_edges: Edges, crossed_cells: list[int]) -> None:
-        """Mark the cells of a row within a ring, except those that the ring crosses."""
-        y = self._bottom + (row_number + 0.5) * grid.cell
-        crossings = sorted(
-            [ax + (y - ay) * (bx - ax) / (by - ay) for ax, ay, bx, by in row_edges if (ay > y) != (by > y)]
-        )
-        if not crossings:
-            return
-        inside = bytearray(self._columns)
-        for west, east in zip(crossings[::2], crossings[1::2], strict=False):
-            first, last = [min(max(ceil((x - self._left) * self._per_m - 0.5), 0), self._columns) for x in (west, east)]
-            inside[first:last] = b"\1" * (last - first)
-        row = slice(row_number * self._columns, (row_number + 1) * self._columns)
-        for cell in crossed_cells:
-            inside[cell - row.start] = 0
-        filled = int.from_bytes(self._cells[row], "little") | int.from_bytes(inside, "little")
-        self._cells[row] = filled.to_bytes(self._columns, "little")
+    def find(self, x: float, y: float) -> list[str]:
+        """Return the names of the rooms that contain (x, y), m, the smallest first, "" for one without a name.
+
+        A place on an outline is in one of the rooms beside it or in none."""
+        return [name for lines, name in self._list(x, y)[0] if contains(lines, x, y)]
 
     def inside(self, x: float, y: float) -> bool:
-        """Return whether (x, y), m, is inside; a place on an outline is in one of the rooms beside it or in none."""
-        column, row = (x - self._left) * self._per_m, (y - self._bottom) * self._per_m
-        if not (0.0 <= column < self._columns and 0.0 <= row < self._rows):
-            return False
-        cell = int(row) * self._columns + int(column)
-        edge_cell = self._edge_cells.get(cell)
-        if edge_cell is None:
-            return bool(self._cells[cell])
-        rings, doors = edge_cell
-        return any(contains(ring, x, y) for ring in rings) or any(
-            distance(*door, x, y) <= DOORSTEP_DISTANCE for door in doors
-        )
+        """Return whether (x, y), m, is in a room, a stairwell or an elevator cabin, or on a doorstep."""
+        doors = self._list(x, y)[1]
+        return bool(self.find(x, y)) or any(distance(*door.line, x, y) <= DOORSTEP_DISTANCE for door in doors)
+
+    def find_doors(self, x: float, y: float) -> list[tuple[float, str, Point]]:
+        """Return the doors within DOOR_DISTANCE of (x, y), m, the nearest first.
+
+        Each has its distance, m, its name, and its place between the posts that is nearest to (x, y)."""
+        doors = [(distance(*door.line, x, y), door) for door in self._list(x, y)[1]]
+        return sorted([(far, door.name, _find_place(door.line, x, y)) for far, door in doors if far <= DOOR_DISTANCE])
+
+
+def _find_place(door: Line, x: float, y: float) -> Point:
+    ax, ay, bx, by = door
+    k = min(max(share_along(*door, x, y), EDGE_SHARE), 1.0 - EDGE_SHARE)
+    return ax + k * (bx - ax), ay + k * (by - ay)

@@ -13,7 +13,7 @@ from math import atan2, hypot
 from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_WALLS
 from ..doors import MAX_DOOR_OFFSET, Line, Openings, cut_openings
-from ..outlines import Ring, contains, edges, find_inner_point, join_holes, normalize_ring
+from ..geometry import Ring, contains, distance, edges, find_inner_point, join_holes, normalize_ring
 from ..plan import (
     Anchor,
     Connector,
@@ -27,7 +27,6 @@ from ..plan import (
     Wall,
     with_rooms,
 )
-from ..segments import distance
 from .earth import to_mm
 
 _MERGE_DISTANCE = 2e-3

@@ -8,7 +8,8 @@ from typing import Any, NoReturn
 
 from ...types.attrs import evolve, frozen
 from ...types.checking import describe
-from ..outlines import MAX_CLOSING_DISTANCE, Ring, describe_open_ring, make_ring
+from ..geometry import Ring
+from ..outlines import MAX_CLOSING_DISTANCE, describe_open_ring, make_ring
 from ..plan import Anchor, FloorPlanError, Point
 from .earth import south_west
 

@@ -7,7 +7,8 @@ from typing import Any
 from ...types.attrs import evolve
 from ...types.checking import find_fault
 from ..doors import cut_doors
-from ..outlines import Ring, find_inner_point, join_holes, without_repeats
+from ..geometry import Ring, find_inner_point, join_holes
+from ..outlines import without_repeats
 from ..plan import (
     Anchor,
     Connector,

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
-from ..outlines import Ring, edges, without_repeats
+from ..geometry import Ring, edges
+from ..outlines import without_repeats
 from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent

@@ -10,7 +10,8 @@ from math import floor
 
 from ..checks import MAX_RISE, MIN_RISE
 from ..doors import Line, Openings
-from ..outlines import Ring, contains, edges, without_repeats
+from ..geometry import Ring, contains, edges
+from ..outlines import without_repeats
 from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Wall
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent, south_west
