@@ -43,7 +43,7 @@ def find_range(a: float, b: float, size: float, reach: float = 0.0) -> range:
 
 
 def find_cells(line: Line, within: float, size: float) -> Iterator[tuple[float, float]]:
-    """Yield the numbers of the cells with a place within `within` m of the line, and the least distance of one.
+    """Yield the numbers of the cells with a place within `within` m of the line, and their least distances, m.
 
     The time grows with the length of the line, not with the area of its bounding box."""
     ax, ay, bx, by = line

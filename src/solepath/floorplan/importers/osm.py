@@ -31,17 +31,17 @@ class _OsmReader:
     """The conversion of the elements of one file into a Drawing."""
 
     def __init__(self, file: OsmFile) -> None:
-        drawn = [element for element in (*file.ways.values(), *file.relations.values()) if is_indoor(element)]
+        drawn = [element for element in (*file.way.values(), *file.relation.values()) if is_indoor(element)]
         self._shapes = [(element, *find_shapes(element, file)) for element in drawn]
         drawn_refs = {ref for _, shapes, lines in self._shapes
                       for refs in (*lines, *(r for shape in shapes for r in shape)) for ref in refs}  # fmt: skip
         nodes_drawn = [
-            element for element in file.nodes.values() if connector_kind(element) is not None or is_door(element)
+            element for element in file.node.values() if connector_kind(element) is not None or is_door(element)
         ]
         self._nodes = [element for element in nodes_drawn if element.id in drawn_refs or is_indoor(element)]
         if not drawn_refs:
             raise FloorPlanError("has no ways or relations with indoor=* and level=*")
-        nodes = [file.nodes[ref] for ref in sorted(drawn_refs)] + [
+        nodes = [file.node[ref] for ref in sorted(drawn_refs)] + [
             element for element in self._nodes if element.id not in drawn_refs
         ]
         self._anchor = south_west([(node.latitude, node.longitude) for node in nodes])
@@ -52,7 +52,7 @@ class _OsmReader:
                 self._places[node.id] = tangent.place((node.longitude, node.latitude))
             except FloorPlanError as error:
                 raise FloorPlanError(f"{node.name}: {error}") from None
-        named = [element.tags["name"] for element in (*file.relations.values(), *file.ways.values())
+        named = [element.tags["name"] for element in (*file.relation.values(), *file.way.values())
                  if "building" in element.tags and element.tags.get("name")]  # fmt: skip
         self._drawing = Drawing(named[0] if named else "")
         self._levels = {element.id: levels_of(element) for element in self._nodes}

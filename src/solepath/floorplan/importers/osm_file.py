@@ -1,18 +1,21 @@
 """Parser of OpenStreetMap XML from untrusted bytes: nodes, ways and relations with their tags.
 
-It reads with expat into records, without a tree. It rejects a document type declaration, since entities can be declared
-only there."""
+It rejects a document type declaration, since entities can be declared only there."""
 
 from __future__ import annotations
 
-from math import isfinite
+from itertools import groupby
+from math import inf
 from typing import NoReturn
+from xml.etree.ElementTree import Element as XmlElement
+from xml.etree.ElementTree import TreeBuilder
 from xml.parsers import expat
 
 from ...types.attrs import define, field
 from ..plan import FloorPlanError
 
-MAX_XML_ELEMENTS = 2_000_000
+MAX_XML_TAGS = 4_000_000
+"""Largest number of tags that begin and end elements."""
 
 
 @define
@@ -24,11 +27,11 @@ class Element:
 
     kind: str
     id: str
-    latitude: float = 0.0
-    longitude: float = 0.0
-    refs: list[str] = field(factory=list)
-    members: list[tuple[str, str, str]] = field(factory=list)
-    tags: dict[str, str] = field(factory=dict)
+    latitude: float
+    longitude: float
+    refs: list[str]
+    members: list[tuple[str, str, str]]
+    tags: dict[str, str]
 
     @property
     def name(self) -> str:
@@ -40,92 +43,71 @@ class Element:
 class OsmFile:
     """Elements of a file, by id."""
 
-    nodes: dict[str, Element] = field(factory=dict)
-    ways: dict[str, Element] = field(factory=dict)
-    relations: dict[str, Element] = field(factory=dict)
+    node: dict[str, Element] = field(factory=dict)
+    way: dict[str, Element] = field(factory=dict)
+    relation: dict[str, Element] = field(factory=dict)
 
 
 def parse_elements(data: bytes) -> OsmFile:
     """Return all elements of an OSM XML file that are not marked as deleted; raise FloorPlanError for other data."""
-    parser = expat.ParserCreate()
-    reader = _OsmFileReader()
-    parser.StartElementHandler = reader.start
-    parser.EndElementHandler = reader.end
+    if data.count(b"<") > MAX_XML_TAGS:
+        raise FloorPlanError(f"has more than {MAX_XML_TAGS} tags")
+    parser, builder = expat.ParserCreate(), TreeBuilder()
+
+    def start_root(tag: str, attributes: dict[str, str]) -> None:
+        if tag != "osm":
+            raise FloorPlanError(f"is XML, but not of OpenStreetMap: its root is {tag[:40]!r}")
+        parser.StartElementHandler = builder.start
+        builder.start(tag, attributes)
+
+    parser.StartElementHandler, parser.EndElementHandler = start_root, builder.end
     parser.StartDoctypeDeclHandler = _reject_doctype
     try:
         parser.Parse(data, True)
     except expat.ExpatError as error:
         raise FloorPlanError(f"is not XML ({expat.ErrorString(error.code)}, line {error.lineno})") from None
+    except FloorPlanError:
+        raise
     except (ValueError, LookupError) as error:
-        if isinstance(error, FloorPlanError):
-            raise
         raise FloorPlanError(f"is not XML ({error})") from None
-    return reader.found
+    found = OsmFile()
+    for one in builder.close():
+        if one.tag in ("node", "way", "relation") and not (
+            one.get("action") == "delete" or one.get("visible") == "false"
+        ):
+            element, elements = _parse_element(one), getattr(found, one.tag)
+            if element.id in elements:
+                raise FloorPlanError(f"two {one.tag}s have the id {element.id[:40]!r}")
+            elements[element.id] = element
+    return found
 
 
 def _reject_doctype(*_: object) -> NoReturn:
     raise FloorPlanError("has a document type, which no OpenStreetMap file has")
 
 
-class _OsmFileReader:
-    def __init__(self) -> None:
-        self.found = OsmFile()
-        self._current: Element | None = None
-        self._depth = 0
-        self._count = 0
-
-    def start(self, tag: str, attributes: dict[str, str]) -> None:
-        self._depth += 1
-        self._count += 1
-        if self._count > MAX_XML_ELEMENTS:
-            raise FloorPlanError(f"has more than {MAX_XML_ELEMENTS} elements")
-        if self._depth == 1:
-            if tag != "osm":
-                raise FloorPlanError(f"is XML, but not of OpenStreetMap: its root is {tag[:40]!r}")
-        elif self._depth == 2:
-            self._current = _element(tag, attributes) if tag in ("node", "way", "relation") else None
-        elif self._depth == 3 and self._current is not None:
-            _add_child(self._current, tag, attributes)
-
-    def end(self, tag: str) -> None:
-        self._depth -= 1
-        if self._depth == 1 and self._current is not None:
-            elements = {"node": self.found.nodes, "way": self.found.ways, "relation": self.found.relations}[tag]
-            if self._current.id in elements:
-                raise FloorPlanError(f"two {tag}s have the id {self._current.id[:40]!r}")
-            elements[self._current.id] = self._current
-            self._current = None
+def _parse_element(one: XmlElement) -> Element:
+    own = one.get("id")
+    if own is None:
+        raise FloorPlanError(f"a {one.tag} has no id")
+    latitude, longitude = [
+        _parse_degrees(one, key, most) if one.tag == "node" else 0.0 for key, most in (("lat", 90.0), ("lon", 180.0))
+    ]
+    refs = [child.get("ref", "") for child in one.iterfind("nd")]
+    members = [(child.get("type", ""), child.get("ref", ""), child.get("role", "")) for child in one.iterfind("member")]
+    tags = {child.get("k", ""): child.get("v", "") for child in one.iterfind("tag")}
+    return Element(one.tag, own, latitude, longitude, refs, members, tags)
 
 
-def _element(tag: str, attributes: dict[str, str]) -> Element | None:
-    if attributes.get("action") == "delete" or attributes.get("visible") == "false":
-        return None
-    if "id" not in attributes:
-        raise FloorPlanError(f"a {tag} has no id")
-    element = Element(tag, attributes["id"])
-    if tag == "node":
-        element.latitude = _degrees(element, attributes, "lat", 90.0)
-        element.longitude = _degrees(element, attributes, "lon", 180.0)
-    return element
-
-
-def _degrees(element: Element, attributes: dict[str, str], key: str, most: float) -> float:
+def _parse_degrees(node: XmlElement, key: str, most: float) -> float:
+    text = node.get(key, "missing")
     try:
-        value = float(attributes.get(key, "nothing"))
+        value = float(text)
     except ValueError:
-        value = float("nan")
-    if not (isfinite(value) and abs(value) <= most):
-        raise FloorPlanError(f"{element.name}: its {key} is {attributes.get(key, 'missing')[:40]!r}, not degrees")
+        value = inf
+    if not abs(value) <= most:
+        raise FloorPlanError(f"node {node.get('id', '')[:40]!r}: its {key} is {text[:40]!r}, not degrees")
     return value
-
-
-def _add_child(element: Element, tag: str, attributes: dict[str, str]) -> None:
-    if tag == "tag":
-        element.tags[attributes.get("k", "")] = attributes.get("v", "")
-    elif tag == "nd" and element.kind == "way":
-        element.refs.append(attributes.get("ref", ""))
-    elif tag == "member" and element.kind == "relation":
-        element.members.append((attributes.get("type", ""), attributes.get("ref", ""), attributes.get("role", "")))
 
 
 Refs = list[str]
@@ -147,9 +129,9 @@ def find_shapes(element: Element, file: OsmFile) -> tuple[list[list[Refs]], list
     for kind, ref, role in element.members:
         if kind != "way":
             continue
-        if ref not in file.ways:
+        if ref not in file.way:
             raise FloorPlanError(f"{element.name}: its way {ref[:40]!r} is not in the file")
-        (inner if role == "inner" else outer).append(_find_refs(file.ways[ref], file))
+        (inner if role == "inner" else outer).append(_find_refs(file.way[ref], file))
     shapes, lines = _split_closed(_join_chains(outer))
     holes, open_holes = _split_closed(_join_chains(inner))
     if len(shapes) == 1:
@@ -162,30 +144,26 @@ def find_shapes(element: Element, file: OsmFile) -> tuple[list[list[Refs]], list
 
 def _find_refs(way: Element, file: OsmFile) -> Refs:
     for ref in way.refs:
-        if ref not in file.nodes:
+        if ref not in file.node:
             raise FloorPlanError(f"{way.name}: its node {ref[:40]!r} is not in the file")
-    return [ref for i, ref in enumerate(way.refs) if i == 0 or ref != way.refs[i - 1]]
+    return [ref for ref, _ in groupby(way.refs)]
 
 
 def _split_closed(chains: list[Refs]) -> tuple[list[list[Refs]], list[Refs]]:
-    shapes = [[refs[:-1]] for refs in chains if len(refs) >= 4 and refs[0] == refs[-1]]
-    return shapes, [refs for refs in chains if len(refs) >= 2 and not (len(refs) >= 4 and refs[0] == refs[-1])]
+    closed = [len(refs) >= 4 and refs[0] == refs[-1] for refs in chains]
+    shapes = [[refs[:-1]] for refs, is_closed in zip(chains, closed, strict=True) if is_closed]
+    return shapes, [refs for refs, is_closed in zip(chains, closed, strict=True) if len(refs) >= 2 and not is_closed]
 
 
 def _join_chains(ways: list[Refs]) -> list[Refs]:
     """Return chains of nodes, made by joining ways that share an end."""
-    remaining = [refs for refs in ways if len(refs) >= 2]
+    left = [refs for refs in ways if len(refs) >= 2]
     chains: list[Refs] = []
-    while remaining:
-        chain = remaining.pop(0)
-        has_grown = True
-        while has_grown and chain[0] != chain[-1]:
-            has_grown = False
-            for i, refs in enumerate(remaining):
-                if chain[-1] in (refs[0], refs[-1]):
-                    chain = chain + (refs[1:] if refs[0] == chain[-1] else refs[-2::-1])
-                    del remaining[i]
-                    has_grown = True
-                    break
+    while left:
+        chain = left.pop(0)
+        while chain[0] != chain[-1] and (near := [refs for refs in left if chain[-1] in (refs[0], refs[-1])]):
+            refs = near[0]
+            left.remove(refs)
+            chain = chain + (refs[1:] if refs[0] == chain[-1] else refs[-2::-1])
         chains.append(chain)
     return chains
