@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator
 from math import hypot
 
 from ..types.attrs import evolve
@@ -23,32 +23,27 @@ MIN_COSINE = 0.7
 _ON_LINE_DISTANCE = 1e-9
 """Distance from a wall's line, m, below which the door's end itself becomes the end of the wall, without projection."""
 
-Line = tuple[Point, Point]
-
 
 class Openings:
-    """The lines that are cut out of walls, indexed by x; `owners[i]` is the number of the outline that has line i."""
+    """The lines that are cut out of walls, in the order of x, each with the number of the outline that has it."""
 
-    def __init__(self, lines: Sequence[Line], owners: Sequence[int] = ()) -> None:
-        order = sorted(range(len(lines)), key=lambda i: _leftmost(lines[i]))
-        self._lines = [(lines[i], owners[i] if owners else -1) for i in order]
-        self._lefts = [_leftmost(lines[i]) for i in order]
-        self._widest = max((abs(b[0] - a[0]) for a, b in lines), default=0.0)
+    def __init__(self, lines: Iterable[tuple[Point, Point, int]]) -> None:
+        self._lines = sorted([(min(a, b), max(a, b), owner) for a, b, owner in lines])
+        self._widest = max([b[0] - a[0] for a, b, _ in self._lines], default=0.0)
 
-    def find_near(self, wall: Wall, beside: float, excluded: int | None) -> list[Line]:
-        """Return the lines that may lie along a wall, within `beside` m of it, except those of the owner `excluded`."""
-        left, right = min(wall.start[0], wall.end[0]) - beside, max(wall.start[0], wall.end[0]) + beside
-        bottom, top = min(wall.start[1], wall.end[1]) - beside, max(wall.start[1], wall.end[1]) + beside
-        first, last = bisect_left(self._lefts, left - self._widest), bisect_right(self._lefts, right)
-        return [
-            line for line, owner in self._lines[first:last]
-            if owner != excluded and not (max(line[0][1], line[1][1]) < bottom or min(line[0][1], line[1][1]) > top)
-        ]  # fmt: skip
+    def find_near(self, left: float, right: float) -> list[tuple[Point, Point, int]]:
+        """Return the lines that may have a place with x from `left` to `right`, m."""
+        first = bisect_left(self._lines, left - self._widest, key=_left_of)
+        return self._lines[first : bisect_right(self._lines, right, key=_left_of)]
+
+
+def _left_of(line: tuple[Point, Point, int]) -> float:
+    return line[0][0]
 
 
 def cut_doors(level: Level) -> Level:
     """Return the level with a gap in its walls wherever a door lies along them; a second call changes nothing."""
-    doors = Openings([(door.start, door.end) for door in level.doors])
+    doors = Openings([(door.start, door.end, -1) for door in level.doors])
     return evolve(level, walls=cut_openings(level.walls, doors, MAX_DOOR_OFFSET))
 
 
@@ -59,33 +54,28 @@ def cut_openings(
 
     An opening lies along a wall when both its ends are within `beside` m of the wall's line and the cosine of its angle
     to the wall is at least MIN_COSINE. Openings of the owner `excluded` leave no gaps."""
-    return tuple(
-        [piece for wall in walls for piece in _pieces(wall, openings.find_near(wall, beside, excluded), beside)]
-    )
+    pieces: list[Wall] = []
+    for wall in walls:
+        left, right = sorted((wall.start[0], wall.end[0]))
+        near = openings.find_near(left - beside, right + beside)
+        gaps = [_gap(wall, (a, b), beside) for a, b, owner in near if owner != excluded]
+        pieces += _cut(wall, sorted([gap for gap in gaps if gap is not None]))
+    return tuple(pieces)
 
 
-def _leftmost(line: Line) -> float:
-    return min(line[0][0], line[1][0])
-
-
-def _pieces(wall: Wall, openings: list[Line], beside: float) -> list[Wall]:
-    gaps = sorted(gap for gap in (_gap(wall, opening, beside) for opening in openings) if gap is not None)
-    if not gaps:
-        return [wall]
+def _cut(wall: Wall, gaps: list[tuple[float, float, Point, Point]]) -> Iterator[Wall]:
     (ax, ay), (bx, by) = wall.start, wall.end
-    pieces = []
     cut_to, piece_start = 0.0, wall.start
     for gap_from, gap_to, gap_start, gap_end in gaps:
         if gap_from - cut_to >= MIN_PIECE_LENGTH:
-            pieces.append(Wall(piece_start, gap_start))
+            yield Wall(piece_start, gap_start)
         if gap_to > cut_to:
             cut_to, piece_start = gap_to, gap_end
-    if hypot(bx - ax, by - ay) - cut_to >= MIN_PIECE_LENGTH:
-        pieces.append(Wall(piece_start, wall.end))
-    return pieces
+    if not gaps or hypot(bx - ax, by - ay) - cut_to >= MIN_PIECE_LENGTH:
+        yield Wall(piece_start, wall.end)
 
 
-def _gap(wall: Wall, opening: Line, beside: float) -> tuple[float, float, Point, Point] | None:
+def _gap(wall: Wall, opening: tuple[Point, Point], beside: float) -> tuple[float, float, Point, Point] | None:
     """Return start and end of an opening, as distances along the wall, m, and as points; None if not along it."""
     (ax, ay), (bx, by) = wall.start, wall.end
     wall_length = hypot(bx - ax, by - ay)

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from itertools import pairwise
 
 from ..geometry import Ring, edges
 from ..outlines import without_repeats
-from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point
+from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent
 from .features import Feature, find_anchor, parse_json, parse_positions, read_features
@@ -124,7 +125,7 @@ class _ImdfReader:
             if feature.properties.get("outdoor") is not True:
                 for rings in self._rings(feature):
                     for line in rings:
-                        self._drawing.lines += [(name, (ax, ay), (bx, by)) for ax, ay, bx, by in edges(line)]
+                        self._drawing.storeys[name].lines += edges(line)
 
     def _level(self, feature: Feature) -> str:
         level = feature.properties.get("level_id")
@@ -152,7 +153,7 @@ class _ImdfReader:
 
     def _space(self, feature: Feature, level: str, border: Border) -> None:
         name = self._label(feature, "name")
-        self._drawing.spaces += [Space(level, rings, border, name) for rings in self._rings(feature)]
+        self._drawing.storeys[level].spaces += [Space(rings, border, name) for rings in self._rings(feature)]
 
     def _opening(self, feature: Feature) -> None:
         level = self._level(feature)
@@ -160,7 +161,7 @@ class _ImdfReader:
             feature.fail("an opening is a LineString")
         points = without_repeats(feature.convert_line(feature.lines[0][0], self._to_plan))
         name = self._label(feature, "name")
-        self._drawing.doors += [(level, a, b, name) for a, b in zip(points, points[1:], strict=False)]
+        self._drawing.storeys[level].doors += [Door(a, b, name) for a, b in pairwise(points)]
 
     def _rings(self, feature: Feature) -> list[tuple[Ring, ...]]:
         """Return the outline and the holes of each polygon."""

@@ -9,13 +9,13 @@ from __future__ import annotations
 from math import floor
 
 from ..checks import MAX_RISE, MIN_RISE
-from ..doors import Line, Openings
-from ..geometry import Ring, contains, edges
+from ..geometry import Ring, edges
 from ..outlines import without_repeats
-from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Wall
+from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point
+from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent, south_west
-from .osm_doors import MAX_NODE_DISTANCE, door_at, door_beside
+from .osm_doors import Line, door_at, door_beside
 from .osm_file import Element, OsmFile, Refs, find_shapes, parse_elements
 from .osm_tags import BORDERS, connector_kind, is_door, is_indoor, label_of, level_id, levels_of, parse_length
 
@@ -58,7 +58,7 @@ class _OsmReader:
         self._levels = {element.id: levels_of(element) for element in self._nodes}
         self._neighbours: dict[str, dict[str, list[str]]] = {}
         """Nodes that a wall joins to each node, by level and node."""
-        self._openings_by_level: dict[str, Openings] = {}
+        self._walls_by_level: dict[str, Walls] = {}
 
     def plan(self, storey: float) -> FloorPlan:
         self._storeys()
@@ -92,8 +92,10 @@ class _OsmReader:
             self._space(element, level_ids, shapes, lines, BORDERS.get(indoor))
         else:
             chains = [*lines, *([*refs, refs[0]] for shape in shapes for refs in shape)]
-            self._drawing.doors += [(level, *line, label_of(element)) for level in level_ids for refs in chains
-                                    for line in self._lines(refs)]  # fmt: skip
+            for level in level_ids:
+                self._drawing.storeys[level].doors += [
+                    Door(a, b, label_of(element)) for refs in chains for a, b in self._lines(refs)
+                ]
 
     def _space(self, element: Element, level_ids: list[str], shapes: list[list[Refs]], lines: list[Refs],
                border: Border | None) -> None:  # fmt: skip
@@ -102,14 +104,13 @@ class _OsmReader:
             self._drawing.remarks.append(f"{element.name}: its outline does not close")
         outlines = self._outlines(shapes)
         for level in level_ids:
+            storey = self._drawing.storeys[level]
             if border in (None, Border.SOLID):
-                self._drawing.lines += [(level, (ax, ay), (bx, by)) for rings in outlines for ring in rings
-                                        for ax, ay, bx, by in edges(ring)]  # fmt: skip
+                storey.lines += [line for rings in outlines for ring in rings for line in edges(ring)]
             else:
-                name = label_of(element)
-                self._drawing.spaces += [Space(level, rings, border, name) for rings in outlines if border]
+                storey.spaces += [Space(rings, border, label_of(element)) for rings in outlines if border]
             if border is not Border.FREE:
-                self._drawing.lines += [(level, *line) for refs in lines for line in self._lines(refs)]
+                storey.lines += [(*a, *b) for refs in lines for a, b in self._lines(refs)]
                 self._add_walls(level, shapes, lines)
 
     def _connector(self, element: Element, kind: ConnectorKind, level_ids: list[str], shapes: list[list[Refs]],
@@ -152,14 +153,13 @@ class _OsmReader:
     def _remove_inner_flights(self) -> None:
         """Remove flights drawn as lines within stairs drawn as an area, since they are part of these stairs."""
         stairs = [part for part in self._drawing.parts if part.kind is ConnectorKind.STAIRS]
-        areas = [(part.level, edges(part.ring)) for part in stairs if part.ring]
-        is_within: dict[str, bool] = {}
-        for part in stairs:
-            if part.place is not None:
-                x, y = part.place
-                inside = any(level == part.level and contains(lines, x, y) for level, lines in areas)
-                is_within[part.group] = is_within.get(part.group, True) and inside
-        self._drawing.parts = [part for part in self._drawing.parts if not is_within.get(part.group, False)]
+        flights = [(part.group, part.level, part.place) for part in stairs if part.place is not None]
+        outer = {
+            group for group, level, place in flights
+            if not any(part.level == level and part.contains(place) for part in stairs)
+        }  # fmt: skip
+        inner = {group for group, _, _ in flights} - outer
+        self._drawing.parts = [part for part in self._drawing.parts if part.group not in inner]
 
     def _draw_node(self, element: Element) -> None:
         kind, place = connector_kind(element), self._places[element.id]
@@ -178,12 +178,12 @@ class _OsmReader:
                 if line is None:
                     self._drawing.remarks.append(f"{element.name}: a door on level {level!r} that is in no wall")
             if line is not None:
-                self._drawing.doors.append((level, *line, label_of(element)))
+                self._drawing.storeys[level].doors.append(Door(*line, label_of(element)))
 
     def _near(self, place: Point, level: str) -> list[Line]:
-        openings = self._openings_by_level.get(level)
-        if openings is None:
-            openings = Openings([(self._places[a], self._places[b])
-                                 for a, others in self._neighbours.get(level, {}).items() for b in others])  # fmt: skip
-            self._openings_by_level[level] = openings
-        return openings.find_near(Wall(place, place), MAX_NODE_DISTANCE, None)
+        walls = self._walls_by_level.get(level)
+        if walls is None:
+            pairs = [(self._places[a], self._places[b])
+                     for a, others in self._neighbours.get(level, {}).items() for b in others]  # fmt: skip
+            walls = self._walls_by_level[level] = Walls([(*a, *b) for a, b in pairs if a != b])
+        return [(line[:2], line[2:]) for line in walls.near(*place)]

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from math import hypot
 
-from ..doors import Line
 from ..plan import Point
 from .earth import to_mm
+
+Line = tuple[Point, Point]
 
 DEFAULT_DOOR_WIDTH = 1.0
 """Width of a door without a valid width, m."""
