@@ -6,26 +6,19 @@ import json
 from typing import Any
 
 import pytest
-from floorplans import FILES, archive
+from floorplans import FILES, archive, degrees
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.floorplan.importers.earth import Tangent
 from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, Point
+from solepath.floorplan.plan import ConnectorKind, FloorPlan
 
-CORNER = Tangent(Anchor(48.15, 11.57))
 HOUSE = read_floorplan(FILES / "house.geojson")
 
 
-def degrees(place: Point) -> list[float]:
-    latitude, longitude = CORNER.degrees(place)
-    return [longitude, latitude]
-
-
 def box(x0: float, y0: float, x1: float, y1: float) -> list[list[list[float]]]:
-    return [[degrees(place) for place in ((x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0))]]
+    return [[[*degrees(place)[::-1]] for place in ((x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0))]]
 
 
 def feature(kind: str, own: str, geometry: str, coordinates: Any, **properties: Any) -> dict[str, Any]:
@@ -71,7 +64,7 @@ def test_the_category_of_a_unit_decides_whether_a_walkway_is_open_to_it(
 def test_lifts_are_joined_where_they_lie_over_each_other_and_stop_where_they_are_shown() -> None:
     levels = [level("L0", 0, short_name={"en": "G"}), level("L1", 1, short_name={"en": "1"}),
               level("L2", 2, short_name={"en": "2"})]  # fmt: skip
-    shown = {"type": "Point", "coordinates": degrees((3.5, 2.5))}
+    shown = {"type": "Point", "coordinates": [*degrees((3.5, 2.5))[::-1]]}
     units = [unit(f"a{i}", "elevator", box(2, 2, 4, 4), f"L{i}", name={"en": "A"}, display_point=shown)
              for i in (2, 0, 1)]  # fmt: skip
     units += [unit(f"b{i}", "elevator", box(4, 2, 6, 4), f"L{i}", name={"en": "B"}) for i in (0, 1)]

@@ -6,14 +6,12 @@ from collections.abc import Sequence
 from xml.sax.saxutils import quoteattr
 
 import pytest
+from floorplans import degrees
 
-from solepath.floorplan.importers.earth import Tangent
 from solepath.floorplan.importers.osm_tags import parse_levels
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Anchor, ConnectorKind, Door, FloorPlan, FloorPlanError, Point
-
-CORNER = Tangent(Anchor(48.15, 11.57))
+from solepath.floorplan.plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point
 
 
 class Map:
@@ -43,7 +41,7 @@ class Map:
     def plan(self) -> FloorPlan:
         nodes = []
         for place, (number, tags) in self._nodes.items():
-            latitude, longitude = CORNER.degrees(place)
+            latitude, longitude = degrees(place)
             nodes.append(f'<node id="{number}" lat="{latitude:.10f}" lon="{longitude:.10f}">{_tags(tags)}</node>')
         return parse_floorplan(f'<osm version="0.6">{"".join(nodes)}{"".join(self._rest)}</osm>'.encode())
 

@@ -35,6 +35,13 @@ def archive(files: dict[str, Any], folder: str = "", compression: int = zipfile.
     return buffer.getvalue()
 
 
+def degrees(place: tuple[float, float]) -> tuple[float, float]:
+    """Return latitude and longitude, degrees, of a place within 30 m of 48.15 N, 11.57 E; right to 0.1 mm.
+
+    A degree there is 111,193.24 m long along the meridian of WGS84, 74,408.77 m along the parallel."""
+    return 48.15 + place[1] / 111193.24, 11.57 + place[0] / 74408.77
+
+
 names = st.text(max_size=8)
 coordinates = st.floats(-9.0, 9.0) | st.integers(-9, 9).map(float)
 places = st.tuples(coordinates, coordinates)
