@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator
+from itertools import chain, groupby
+from math import hypot
 from typing import Any, NoReturn
 
 from ...types.attrs import evolve, frozen
 from ...types.checking import describe
 from ..geometry import Ring
-from ..outlines import MAX_CLOSING_DISTANCE, describe_open_ring, make_ring
 from ..plan import Anchor, FloorPlanError, Point
 from .earth import south_west
 
@@ -25,6 +26,9 @@ Position = tuple[float, float]
 ToPlan = Callable[[Position], Point]
 """Function from the file's coordinates to the plan's."""
 
+MAX_CLOSING_DISTANCE = 0.05
+"""Largest distance between the first and last point of a closed ring, m."""
+
 _DEPTHS = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2, "Polygon": 2, "MultiPolygon": 3}
 """Number of lists around a position in the coordinates of each geometry."""
 
@@ -33,15 +37,14 @@ _DEPTHS = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2, "
 class Feature:
     """One feature of a GeoJSON file.
 
-    `name` is for error messages. `lines` holds the parts of a LineString, MultiLineString, Polygon or MultiPolygon, for
-    a polygon its outline and then its holes; `points` holds those of a Point or MultiPoint."""
+    `name` is for error messages. `lines` holds the parts of the geometry with their lines: of a polygon the outline,
+    then the holes; of points one line."""
 
     id: str
     name: str
     kind: str
     properties: dict[str, Any]
     geometry: str = "none"
-    points: tuple[Position, ...] = ()
     lines: tuple[tuple[tuple[Position, ...], ...], ...] = ()
 
     def fail(self, what: str) -> NoReturn:
@@ -89,19 +92,21 @@ class Feature:
 
     def polygons(self, to_plan: ToPlan, remark: Callable[[str], None]) -> list[tuple[Ring, ...]]:
         """Return the outline and the holes of each polygon of the feature, m, plan frame."""
-        found = []
-        for polygon in self.lines:
-            rings = []
-            for line in polygon:
-                corners, open_by = make_ring(self.convert_line(line, to_plan))
-                if len(corners) < 3:
-                    self.fail("its outline has fewer than three corners")
-                if open_by > MAX_CLOSING_DISTANCE:
-                    remark(describe_open_ring(open_by))
-                rings.append(corners)
-            if rings:
-                found.append(tuple(rings))
+        found = [tuple([self._ring(line, to_plan, remark) for line in polygon]) for polygon in self.lines if polygon]
         return found or self.fail("has no outline")
+
+    def _ring(self, line: tuple[Position, ...], to_plan: ToPlan, remark: Callable[[str], None]) -> Ring:
+        corners = [point for point, _ in groupby(self.convert_line(line, to_plan))]
+        open_by = hypot(corners[-1][0] - corners[0][0], corners[-1][1] - corners[0][1]) if corners else 0.0
+        if open_by <= MAX_CLOSING_DISTANCE and len(corners) > 1:
+            corners.pop()
+        if len(corners) > 1 and corners[0] == corners[-1]:
+            corners.pop()
+        if len(corners) < 3:
+            self.fail("its outline has fewer than three corners")
+        if open_by > MAX_CLOSING_DISTANCE:
+            remark(f"its outline does not close, it ends {open_by:.2f} m from where it begins")
+        return tuple(corners)
 
 
 def parse_json(data: bytes) -> dict[str, Any]:
@@ -132,7 +137,7 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
     for i, value in enumerate(collection["features"]):
         if not isinstance(value, dict) or value.get("type") != "Feature":
             raise FloorPlanError(f"feature {i} is not a GeoJSON Feature")
-        raw_id = value.get("id")
+        raw_id = value.get("id", "")
         if not (raw_id is None or isinstance(raw_id, str) or type(raw_id) is int and abs(raw_id) < MAX_NUMBER):
             raise FloorPlanError(f"feature {i}: its id is {describe(raw_id)}, neither a text nor a whole number")
         own_id = "" if raw_id is None else str(raw_id)
@@ -140,8 +145,7 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
             raise FloorPlanError(f"two features have the id {own_id!r}")
         ids.add(own_id)
         properties = value.get("properties")
-        if properties is None:
-            properties = {}
+        properties = {} if properties is None else properties
         if not isinstance(properties, dict):
             raise FloorPlanError(f"feature {i}: its properties are no object")
         kind = (properties if in_properties else value).get(kind_key)
@@ -150,7 +154,7 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
         word = kind[:20] if kind.isascii() and kind.isalpha() else "feature"
         name = f"{word} {own_id[:60]!r}" if own_id else f"feature {i}"
         feature = _with_geometry(Feature(own_id, name, kind, properties), value.get("geometry"))
-        corners += len(feature.points) + sum([len(line) for part in feature.lines for line in part])
+        corners += sum(map(len, chain(*feature.lines)))
         if corners > MAX_CORNERS:
             raise FloorPlanError(f"has more than {MAX_CORNERS} points")
         yield feature
@@ -165,8 +169,6 @@ def _with_geometry(feature: Feature, geometry: object) -> Feature:
     if kind not in _DEPTHS:
         feature.fail(f"its geometry is a {kind[:30]!r}")
     positions = parse_positions(geometry.get("coordinates"), feature, _DEPTHS[kind])
-    if kind in ("Point", "MultiPoint"):
-        return evolve(feature, geometry=kind, points=positions if _DEPTHS[kind] else (positions,))
     for _ in range(3 - _DEPTHS[kind]):
         positions = (positions,)
     return evolve(feature, geometry=kind, lines=positions)
@@ -186,8 +188,8 @@ def parse_positions(value: object, feature: Feature, depth: int = 0) -> Any:
 
 def find_anchor(features: Iterable[Feature]) -> Anchor:
     """Return the south-west corner of all features, degrees, as an anchor."""
-    positions = [p for f in features for p in (*f.points, *(p for part in f.lines for line in part for p in line))]
-    return south_west([(latitude, longitude) for longitude, latitude in positions])
+    lines = chain(*[part for feature in features for part in feature.lines])
+    return south_west([(latitude, longitude) for longitude, latitude in chain(*lines)])
 
 
 def parse_number(value: object, what: str) -> float:

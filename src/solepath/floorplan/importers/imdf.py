@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 from ..geometry import Ring, edges
-from ..outlines import without_repeats
 from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent
@@ -159,7 +158,7 @@ class _ImdfReader:
         level = self._level(feature)
         if feature.geometry != "LineString":
             feature.fail("an opening is a LineString")
-        points = without_repeats(feature.convert_line(feature.lines[0][0], self._to_plan))
+        points = [point for point, _ in groupby(feature.convert_line(feature.lines[0][0], self._to_plan))]
         name = self._label(feature, "name")
         self._drawing.storeys[level].doors += [Door(a, b, name) for a, b in pairwise(points)]
 

@@ -6,11 +6,11 @@ are outlines (drawing.py), and levels lie one storey apart. Everything in the fi
 
 from __future__ import annotations
 
+from itertools import groupby, pairwise
 from math import floor
 
 from ..checks import MAX_RISE, MIN_RISE
 from ..geometry import Ring, edges
-from ..outlines import without_repeats
 from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point
 from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
@@ -134,13 +134,12 @@ class _OsmReader:
         """Return the outline and the holes of each shape, m, plan frame."""
         outlines = []
         for shape in shapes:
-            rings = [tuple(without_repeats([self._places[ref] for ref in refs])) for refs in shape]
+            rings = [tuple([place for place, _ in groupby([self._places[ref] for ref in refs])]) for refs in shape]
             outlines.append(tuple([ring for ring in rings if len(set(ring)) >= 3]))
         return [rings for rings in outlines if rings]
 
     def _lines(self, refs: Refs) -> list[Line]:
-        points = without_repeats([self._places[ref] for ref in refs])
-        return list(zip(points, points[1:], strict=False))
+        return list(pairwise([place for place, _ in groupby([self._places[ref] for ref in refs])]))
 
     def _add_walls(self, level: str, shapes: list[list[Refs]], lines: list[Refs]) -> None:
         """Add the pairs of nodes that walls join to `_neighbours`."""
