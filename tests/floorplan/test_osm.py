@@ -8,7 +8,7 @@ from xml.sax.saxutils import quoteattr
 import pytest
 from floorplans import degrees
 
-from solepath.floorplan.importers.osm_tags import parse_levels
+from solepath.floorplan.importers.osm import parse_levels
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point

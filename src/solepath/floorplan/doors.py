@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator
-from math import hypot
+from math import dist, hypot
 
 from ..types.attrs import evolve
 from .plan import Level, Point, Wall
@@ -58,40 +58,33 @@ def cut_openings(
     for wall in walls:
         left, right = sorted((wall.start[0], wall.end[0]))
         near = openings.find_near(left - beside, right + beside)
-        gaps = [_gap(wall, (a, b), beside) for a, b, owner in near if owner != excluded]
-        pieces += _cut(wall, sorted([gap for gap in gaps if gap is not None]))
+        pieces += _cut(wall, [(a, b) for a, b, owner in near if owner != excluded], beside)
     return tuple(pieces)
 
 
-def _cut(wall: Wall, gaps: list[tuple[float, float, Point, Point]]) -> Iterator[Wall]:
+def _cut(wall: Wall, openings: list[tuple[Point, Point]], beside: float) -> Iterator[Wall]:
     (ax, ay), (bx, by) = wall.start, wall.end
+    length = hypot(bx - ax, by - ay) or MIN_PIECE_LENGTH
+    ux, uy = (bx - ax) / length, (by - ay) / length
+    gaps = []  # start and end along the wall, m, and as places
+    for opening in openings:
+        ends = []
+        for x, y in opening:
+            offset, along = ux * (y - ay) - uy * (x - ax), ux * (x - ax) + uy * (y - ay)
+            ends.append(
+                (along, (x, y) if abs(offset) <= _ON_LINE_DISTANCE else (ax + along * ux, ay + along * uy), offset)
+            )
+        (first, start, _), (last, end, _) = sorted(ends)
+        is_beside = all(abs(offset) <= beside for _, _, offset in ends)
+        is_along = last - first >= MIN_COSINE * dist(*opening)
+        first, last = max(first, 0.0), min(last, length)
+        if is_beside and is_along and last - first >= MIN_PIECE_LENGTH:
+            gaps.append((first, last, start, end))
     cut_to, piece_start = 0.0, wall.start
-    for gap_from, gap_to, gap_start, gap_end in gaps:
-        if gap_from - cut_to >= MIN_PIECE_LENGTH:
-            yield Wall(piece_start, gap_start)
-        if gap_to > cut_to:
-            cut_to, piece_start = gap_to, gap_end
-    if not gaps or hypot(bx - ax, by - ay) - cut_to >= MIN_PIECE_LENGTH:
+    for first, last, start, end in sorted(gaps):
+        if first - cut_to >= MIN_PIECE_LENGTH:
+            yield Wall(piece_start, start)
+        if last > cut_to:
+            cut_to, piece_start = last, end
+    if not gaps or length - cut_to >= MIN_PIECE_LENGTH:
         yield Wall(piece_start, wall.end)
-
-
-def _gap(wall: Wall, opening: tuple[Point, Point], beside: float) -> tuple[float, float, Point, Point] | None:
-    """Return start and end of an opening, as distances along the wall, m, and as points; None if not along it."""
-    (ax, ay), (bx, by) = wall.start, wall.end
-    wall_length = hypot(bx - ax, by - ay)
-    opening_length = hypot(opening[1][0] - opening[0][0], opening[1][1] - opening[0][1])
-    if wall_length < MIN_PIECE_LENGTH or opening_length < MIN_PIECE_LENGTH:
-        return None
-    ux, uy = (bx - ax) / wall_length, (by - ay) / wall_length
-    ends = []
-    for x, y in opening:
-        offset = ux * (y - ay) - uy * (x - ax)
-        if not abs(offset) <= beside:  # also if it is NaN
-            return None
-        along = ux * (x - ax) + uy * (y - ay)
-        point = (x, y) if abs(offset) <= _ON_LINE_DISTANCE else (ax + along * ux, ay + along * uy)
-        ends.append((along, point))
-    (first, start), (last, end) = sorted(ends)
-    if last - first < MIN_COSINE * opening_length or min(last, wall_length) - max(first, 0.0) < MIN_PIECE_LENGTH:
-        return None
-    return max(first, 0.0), min(last, wall_length), start, end

@@ -6,18 +6,146 @@ are outlines (drawing.py), and levels lie one storey apart. Everything in the fi
 
 from __future__ import annotations
 
-from itertools import groupby, pairwise
-from math import floor
+import re
+from itertools import chain, groupby, pairwise
+from math import floor, hypot, inf
 
-from ..checks import MAX_RISE, MIN_RISE
-from ..geometry import Ring, edges
-from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point
+from ..checks import MAX_LEVELS, MAX_RISE, MIN_RISE
+from ..geometry import Ring, distance, edges, share_along
+from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point
 from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
-from .earth import Tangent, south_west
-from .osm_doors import Line, door_at, door_beside
+from .earth import Tangent, south_west, to_mm
 from .osm_file import Element, OsmFile, Refs, find_shapes, parse_elements
-from .osm_tags import BORDERS, connector_kind, is_door, is_indoor, label_of, level_id, levels_of, parse_length
+
+BORDERS = {"room": Border.WALL, "corridor": Border.OPEN, "area": Border.FREE, "column": Border.SOLID,
+           "wall": Border.SOLID}  # fmt: skip
+"""Border for each value of indoor=* (OpenStreetMap wiki, Key:indoor).
+
+The values mean: a room with walls, a walled walkway between rooms, an area without walls, a pillar, a wall."""
+
+CONNECTORS = {
+    ("highway", "elevator"): ConnectorKind.LIFT,
+    ("room", "elevator"): ConnectorKind.LIFT,
+    ("elevator", "yes"): ConnectorKind.LIFT,
+    ("highway", "steps"): ConnectorKind.STAIRS,
+    ("room", "stairs"): ConnectorKind.STAIRS,
+    ("stairs", "yes"): ConnectorKind.STAIRS,
+}
+"""Tags of elevators and stairs."""
+
+_NUMBER = r"-?\d{1,4}(?:\.\d{1,3})?"
+_RANGE = re.compile(rf"\s*({_NUMBER})\s*(?:-\s*({_NUMBER})\s*)?", re.ASCII)
+_LENGTH = re.compile(r"\s*(\d{1,6}(?:[.,]\d{1,6})?)\s*(m|cm)?\s*", re.ASCII)
+
+
+def parse_levels(text: str) -> list[float]:
+    """Return the levels in a value of `level` or `repeat_on`, each once, ascending.
+
+    Examples: "0", "-1", "0.5", "0;1", "0-3", "-3--1", "-1;2-4". A range gives its ends and the whole numbers between
+    them. Raises FloorPlanError when the text is no list of levels."""
+    levels: set[float] = set()
+    for part in text.split(";"):
+        match = _RANGE.fullmatch(part)
+        if match is None:
+            raise FloorPlanError(f"{text[:40]!r} tells no levels")
+        low = float(match[1])
+        high = float(match[2]) if match[2] is not None else low
+        low, high = min(low, high), max(low, high)
+        if high - low > MAX_LEVELS:
+            raise FloorPlanError(f"{text[:40]!r} tells more than {MAX_LEVELS} levels")
+        levels |= {low + 0.0, high + 0.0, *(float(k) for k in range(floor(low) + 1, floor(high) + 1))}
+    return sorted(levels)
+
+
+def levels_of(element: Element) -> list[float]:
+    """Return the levels that an element is on, by `level` and `repeat_on`."""
+    levels: set[float] = set()
+    for key in [key for key in ("level", "repeat_on") if key in element.tags]:
+        try:
+            levels.update(parse_levels(element.tags[key]))
+        except FloorPlanError as error:
+            raise FloorPlanError(f"{element.name}: its {key} {error}") from None
+    return sorted(levels)
+
+
+def connector_kind(element: Element) -> ConnectorKind | None:
+    """Return whether the element is an elevator or stairs, None for neither; escalators are stairs."""
+    return next((kind for tag, kind in CONNECTORS.items() if tag in element.tags.items()), None)
+
+
+def is_door(element: Element) -> bool:
+    """Return whether the element is a door, an entrance, or a gap to walk through."""
+    tags = element.tags
+    return tags.get("indoor") == "door" or any(tags.get(key, "no") != "no" for key in ("door", "entrance"))
+
+
+def is_indoor(element: Element) -> bool:
+    """Return whether the element draws something inside a building, on known levels."""
+    draws = element.tags.get("indoor") in (*BORDERS, "level") or connector_kind(element) is not None or is_door(element)
+    return draws and ("level" in element.tags or "repeat_on" in element.tags)
+
+
+def label_of(element: Element) -> str:
+    """Return the name or number of the element, "" when it has none."""
+    return element.tags.get("name") or element.tags.get("ref") or ""
+
+
+def parse_length(text: str | None) -> float | None:
+    """Return the length in a text ("0.9", "1.2 m", "90 cm"), m; None for any other text."""
+    match = _LENGTH.fullmatch(text) if text is not None else None
+    if match is None:
+        return None
+    value = float(match[1].replace(",", "."))
+    return value / 100.0 if match[2] == "cm" else value
+
+
+DEFAULT_DOOR_WIDTH = 1.0
+"""Width of a door without a valid width, m."""
+
+MIN_DOOR_WIDTH, MAX_DOOR_WIDTH = 0.4, 20.0
+"""Range of valid widths, m; other values are errors of units and are ignored."""
+
+MAX_NODE_DISTANCE = 0.5
+"""Largest distance of a door's node outside any wall from the wall that it belongs to, m."""
+
+_MAX_STRAIGHT_COSINE = -0.94
+"""Cosine of 160 degrees: two walls that meet at a node at a larger angle count as one straight wall."""
+
+
+def door_at(place: Point, neighbours: list[Point], width: float) -> tuple[Point, Point] | None:
+    """Return the door at a node of walls; None without a wall.
+
+    `neighbours` are the other ends of the walls at the node, m. In the middle of a wall the door is centred on the
+    node; at a corner it starts there, along the longest wall. `width` is in m."""
+    directions = sorted({_direction(place, other) for other in neighbours if other != place})
+    if not directions:
+        return None
+    pairs = [(ax * bx + ay * by, i, j) for i, (_, ax, ay) in enumerate(directions)
+             for j, (_, bx, by) in enumerate(directions[:i])]  # fmt: skip
+    cosine, i, j = min(pairs, default=(1.0, 0, 0))
+    if cosine <= _MAX_STRAIGHT_COSINE:
+        return _move(place, directions[i], 0.5 * width), _move(place, directions[j], 0.5 * width)
+    return place, _move(place, directions[-1], min(width, directions[-1][0]))
+
+
+def door_beside(place: Point, walls: list[Line], width: float) -> tuple[Point, Point] | None:
+    """Return the door of a node outside any wall, in the nearest wall within MAX_NODE_DISTANCE; None without one."""
+    far, wall = min([(distance(*wall, *place), wall) for wall in walls], default=(inf, (0.0, 0.0, 0.0, 0.0)))
+    if far > MAX_NODE_DISTANCE:
+        return None
+    direction = _direction(wall[:2], wall[2:])
+    middle = _move(wall[:2], direction, share_along(*wall, *place) * direction[0])
+    return _move(middle, direction, -0.5 * width), _move(middle, direction, 0.5 * width)
+
+
+def _direction(a: Point, b: Point) -> tuple[float, float, float]:
+    length = hypot(b[0] - a[0], b[1] - a[1])
+    return length, (b[0] - a[0]) / length, (b[1] - a[1]) / length
+
+
+def _move(place: Point, direction: tuple[float, float, float], by: float) -> Point:
+    return to_mm((place[0] + by * direction[1], place[1] + by * direction[2]))
 
 
 def read_osm(data: bytes, storey: float) -> FloorPlan:
@@ -31,10 +159,9 @@ class _OsmReader:
     """The conversion of the elements of one file into a Drawing."""
 
     def __init__(self, file: OsmFile) -> None:
-        drawn = [element for element in (*file.way.values(), *file.relation.values()) if is_indoor(element)]
-        self._shapes = [(element, *find_shapes(element, file)) for element in drawn]
-        drawn_refs = {ref for _, shapes, lines in self._shapes
-                      for refs in (*lines, *(r for shape in shapes for r in shape)) for ref in refs}  # fmt: skip
+        drawn_elements = [element for element in (*file.way.values(), *file.relation.values()) if is_indoor(element)]
+        self._shapes = [(element, *find_shapes(element, file)) for element in drawn_elements]
+        drawn_refs = {ref for _, shapes, lines in self._shapes for refs in _join_shapes(shapes, lines) for ref in refs}
         nodes_drawn = [
             element for element in file.node.values() if connector_kind(element) is not None or is_door(element)
         ]
@@ -74,24 +201,24 @@ class _OsmReader:
                        | {level for node_levels in self._levels.values() for level in node_levels})  # fmt: skip
         all_whole, count_below = all(level == floor(level) for level in levels), sum(level < 0.0 for level in levels)
         for i, level in enumerate(levels):
-            own_id = level_id(level)
+            own_id = f"{level:g}"
             self._drawing.storeys[own_id] = Storey(own_id, int(level) if all_whole else i - count_below, level)
         for element, *_ in self._shapes:
             if element.tags.get("indoor") == "level":
                 name = element.tags.get("name") or element.tags.get("level:ref")
                 for level in levels_of(element):
                     if name:
-                        self._drawing.storeys[level_id(level)].name = name
+                        self._drawing.storeys[f"{level:g}"].name = name
 
     def _draw(self, element: Element, shapes: list[list[Refs]], lines: list[Refs]) -> None:
-        level_ids = [level_id(level) for level in levels_of(element)]
+        level_ids = [f"{level:g}" for level in levels_of(element)]
         kind, indoor = connector_kind(element), element.tags.get("indoor", "")
         if kind is not None:
             self._connector(element, kind, level_ids, shapes, lines)
         elif indoor == "level" or indoor in BORDERS:
             self._space(element, level_ids, shapes, lines, BORDERS.get(indoor))
         else:
-            chains = [*lines, *([*refs, refs[0]] for shape in shapes for refs in shape)]
+            chains = _join_shapes(shapes, lines)
             for level in level_ids:
                 self._drawing.storeys[level].doors += [
                     Door(a, b, label_of(element)) for refs in chains for a, b in self._lines(refs)
@@ -116,7 +243,7 @@ class _OsmReader:
     def _connector(self, element: Element, kind: ConnectorKind, level_ids: list[str], shapes: list[list[Refs]],
                    lines: list[Refs]) -> None:  # fmt: skip
         rise = parse_length(element.tags.get("step:height"))
-        rise = rise if rise is not None and MIN_RISE <= rise <= MAX_RISE else None
+        rise = rise if MIN_RISE <= (rise or 0.0) <= MAX_RISE else None
         for rings in self._outlines(shapes):
             parts = self._drawing.parts
             parts += [
@@ -138,16 +265,15 @@ class _OsmReader:
             outlines.append(tuple([ring for ring in rings if len(set(ring)) >= 3]))
         return [rings for rings in outlines if rings]
 
-    def _lines(self, refs: Refs) -> list[Line]:
+    def _lines(self, refs: Refs) -> list[tuple[Point, Point]]:
         return list(pairwise([place for place, _ in groupby([self._places[ref] for ref in refs])]))
 
     def _add_walls(self, level: str, shapes: list[list[Refs]], lines: list[Refs]) -> None:
         """Add the pairs of nodes that walls join to `_neighbours`."""
         neighbours = self._neighbours.setdefault(level, {})
-        for refs in (*lines, *([*refs, refs[0]] for shape in shapes for refs in shape)):
-            for a, b in zip(refs, refs[1:], strict=False):
-                neighbours.setdefault(a, []).append(b)
-                neighbours.setdefault(b, []).append(a)
+        for a, b in chain(*map(pairwise, _join_shapes(shapes, lines))):
+            neighbours.setdefault(a, []).append(b)
+            neighbours.setdefault(b, []).append(a)
 
     def _remove_inner_flights(self) -> None:
         """Remove flights drawn as lines within stairs drawn as an area, since they are part of these stairs."""
@@ -162,13 +288,14 @@ class _OsmReader:
 
     def _draw_node(self, element: Element) -> None:
         kind, place = connector_kind(element), self._places[element.id]
-        level_ids = [level_id(level) for level in self._levels[element.id]]
+        level_ids = [f"{level:g}" for level in self._levels[element.id]]
         if kind is not None:
             self._drawing.parts += [
                 ConnectorPart(kind, label_of(element), level, place, (), element.name) for level in level_ids
             ]
             return
-        width = parse_length(element.tags.get("width", element.tags.get("door:width")))
+        width = parse_length(element.tags.get("width", element.tags.get("door:width"))) or 0.0
+        width = width if MIN_DOOR_WIDTH <= width <= MAX_DOOR_WIDTH else DEFAULT_DOOR_WIDTH
         for level in level_ids or sorted(self._neighbours):
             neighbours = [self._places[ref] for ref in self._neighbours.get(level, {}).get(element.id, [])]
             line = door_at(place, neighbours, width)
@@ -185,4 +312,9 @@ class _OsmReader:
             pairs = [(self._places[a], self._places[b])
                      for a, others in self._neighbours.get(level, {}).items() for b in others]  # fmt: skip
             walls = self._walls_by_level[level] = Walls([(*a, *b) for a, b in pairs if a != b])
-        return [(line[:2], line[2:]) for line in walls.near(*place)]
+        return walls.near(*place)
+
+
+def _join_shapes(shapes: list[list[Refs]], lines: list[Refs]) -> list[Refs]:
+    """Return all lines and rings as chains of nodes, in which a ring repeats its first node."""
+    return [*lines, *([*refs, refs[0]] for shape in shapes for refs in shape)]
