@@ -70,10 +70,8 @@ def _find_faults(plan: FloorPlan) -> Iterator[str]:
         yield f"the plan has more than {MAX_LEVELS} levels or {MAX_WALLS} walls"
     if max(len(connectors), sum(len(connector.stops) for connector in connectors)) > MAX_STOPS:
         yield f"the plan's stairs and lifts have more than {MAX_STOPS} stops"
-    if (
-        sum(1 if kind == "door" else len(points) for kind, _, points in plan.shapes() if kind not in ("wall", "stop"))
-        > MAX_CORNERS
-    ):
+    corners = sum(len(points) for kind, _, points in plan.shapes() if kind in ("room", "outline"))
+    if corners + sum(len(level.doors) for level in levels) > MAX_CORNERS:
         yield f"the plan has more than {MAX_CORNERS} doors and corners of rooms"
     elevations: dict[str, float] = {}
     for level in levels:

@@ -74,7 +74,7 @@ class IndexedPlan:
         """Return the name of the room at (x, y), m, plan frame, on this level; None outside of all named rooms.
 
         The smallest of several named rooms counts. Accepts any floats."""
-        return next((name for name in self._rooms[level].find(x, y) if name), None)
+        return next(filter(None, self._rooms[level].find(x, y)), None)
 
     def door(self, level: int, x: float, y: float) -> str | None:
         """Return the name of the nearest door within 1.5 m of (x, y), m, plan frame, on this level; None without one.

@@ -150,9 +150,13 @@ def _find_refs(way: Element, file: OsmFile) -> Refs:
 
 
 def _split_closed(chains: list[Refs]) -> tuple[list[list[Refs]], list[Refs]]:
-    closed = [len(refs) >= 4 and refs[0] == refs[-1] for refs in chains]
-    shapes = [[refs[:-1]] for refs, is_closed in zip(chains, closed, strict=True) if is_closed]
-    return shapes, [refs for refs, is_closed in zip(chains, closed, strict=True) if len(refs) >= 2 and not is_closed]
+    shapes, lines = [], []
+    for refs in chains:
+        if len(refs) >= 4 and refs[0] == refs[-1]:
+            shapes.append([refs[:-1]])
+        elif len(refs) >= 2:
+            lines.append(refs)
+    return shapes, lines
 
 
 def _join_chains(ways: list[Refs]) -> list[Refs]:
