@@ -197,7 +197,7 @@ PARTS: dict[str, str] = {
 }
 """Module below solepath of each class of parts by its name; a saved state names only these and those of an app."""
 
-AIDS: dict[str, str] = {"Compass": _BODY + "aiding.compass", "BetweenFeet": _BODY + "width.between_feet"}
+AIDS: dict[str, str] = {"Compass": _BODY + "fuse.compass", "BetweenFeet": _BODY + "width.between_feet"}
 """Module below solepath of each class that a part loads when the first sample needs it."""
 
 

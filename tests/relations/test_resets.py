@@ -34,26 +34,27 @@ Activities._restart: flights left right strides pressure_height.restart()
 Activities.reset: left* right* apart flights.reset() left.restart() pressure_height.restart() right.restart()
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now* inputs_kept.clear()
-AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* flights.reset()
+AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* apart flights.reset()
 BetweenFeet.reset: usual_width apart
 BiasFilter.forget: before bias* noise rate
 BiasFilter.reset: before bias* noise rate
-BothFeet._restart: common directions distance divergence errors* evidence* left* placements right started width
-BothFeet.reset: common* directions distance divergence errors evidence* left* placements right* started width apart
-  evidence.reset()
+BothFeet._restart: common compass directions distance divergence errors* ground measured_at path placements started
+  straight_ways* tracks* width straight_ways.reset()
+BothFeet.reset: common* compass* directions distance divergence errors measured_at path placements started
+  straight_ways* tracks* width apart compass.reset() straight_ways.reset()
 Cc2541Link.handle_reconnection: acc_clock calibration firmware gyro_clock
 Cc2541Link.restart_clock: assembler* calibration firmware
 CellHealth.reset: count lively_windows
 Clipping.reset: axes* largest near_end_square
-Compass.reset: distance disturbance first trust.reset()
-CompassTrust.reset:
+Compass.reset: distance disturbance first apart trust.reset()
+CompassTrust.reset: apart
 Contours.reset: cells levels per_area points rays
 CopCues.reset: foot_centre inertial* sagittal stage_t_start* inertial.reset()
 CopCues.restart: foot_centre inertial* sagittal touch* inertial.reset() inertial.restart() touch.restart()
 CriticalCues.reset:
 CriticalCues.restart:
 Decoder.restart_clock: firmware link* newest_stream_arrival* used link.restart_clock()
-DoubleFoot.reset: chosen error_balance paths*
+DoubleFoot.reset: chosen error_balance paths* apart
 Flights.reset: level_stride_count rises stride_count t_end t_start trusted_rise
 FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares resolution sink speed squares
   strike_height top tracked
@@ -83,18 +84,17 @@ MeanOfFeet.reset: apart
 Modes.reset: limb_sensors* pending places* recognition* reference signs touchdowns limb_sensors.reset()
   recognition.reset()
 PossibleMotion.reset: apart
-PressureHeight.restart: blocks compared newest noise walked
+PressureHeight.restart: blocks compared newest noise walked apart
 RateIntegral.clear:
 RateIntegral.restart: instants* t*
 Reassembly.drop: frame_id skipping
 RecentInputs.clear:
-Recognition.reset: load_count mean_load soles*
+Recognition.reset: load_count mean_load soles* apart
 Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing acc_clipping.reset()
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
 SensorChecks.reset: apart
 SessionState.restart_clock: decoders* now* wearer*
-SharedEvidence.reset: compass* measured_at path straight_ways* compass.reset() straight_ways.reset()
 Sides.reset:
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
 StanceFinder._restart: best_motion duration force latest_motion since_best since_latest t turn
@@ -112,10 +112,10 @@ StrideTemplate.reset: age bridged first_position infilled last_stride longest_st
 StrideTurn.reset: stride_turn
 Touch.restart: in_front
 TurnDetector.reset: left* pause right* t_end apart
-Turns.reset: detector* detector.reset()
+Turns.reset: detector* apart detector.reset()
 TwoSecondWindows.reset: limitation_reported moving_windows
 WalkScale.reset: drift_deviation force stance_deviation strides
-WearerParts.reset: feet* height parts* sampled* unsettled
+WearerParts.reset: feet* height parts* sampled* unsettled apart
 """
 """For each class and method the fields that stay, with a * if they change; the resets of its parts that it makes, with
 (); and `apart` where the reset of one foot leaves the other's fields alone.
@@ -221,11 +221,15 @@ class Seen:
                     if called(inner, method, state)[2] != inner:
                         call = f"{field.name}.{method}()"
                         self.calls[call] = self.calls.get(call, True) and called(after, method, state)[2] == after
-            side = {"left": left, "right": right}.get(field.name.partition("_")[0])
-            if side is not None and inner != getattr(both, field.name):
-                other = left if side is right else right
-                assert getattr(side, field.name) == getattr(both, field.name), f"{field.name} of its own foot"
-                self.sides["apart"] = self.sides.get("apart", True) and getattr(other, field.name) == inner
+            for foot, own, other in ((Foot.LEFT, left, right), (Foot.RIGHT, right, left)):
+                values = [getattr(one, field.name) for one in (record, both, own, other)]
+                if isinstance(inner, dict) and foot in inner:
+                    values = [value.get(foot) for value in values]
+                elif field.name.partition("_")[0] != foot.value:
+                    continue
+                if values[0] != values[1]:
+                    assert values[2] == values[1], f"{field.name} of its own foot"
+                    self.sides["apart"] = self.sides.get("apart", True) and values[3] == values[0]
 
     def row(self) -> list[str]:
         """Return the fields that stay, the resets of parts that are done with it, and whether each foot is apart."""
