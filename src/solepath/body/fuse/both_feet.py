@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 from math import atan2, hypot
-from typing import Final, Protocol
+from typing import TYPE_CHECKING, Final, Protocol, cast
 
 from ...calibration import Calibration
 from ...events import Defect, DefectFound, PositionReported, SampleGap, StrideTaken
@@ -34,6 +34,9 @@ from .moving_ground import MovingGround
 from .position import ABSENCE_TIME, MeanOfFeet, mean_place
 from .straight_ways import StraightWays
 from .walked_path import WalkedPath
+
+if TYPE_CHECKING:
+    from .compass import Compass
 
 STATIONARY: Final = Phase.STATIONARY
 """Local name of `Phase.STATIONARY`, because a look-up in the enum is slow."""
@@ -86,9 +89,9 @@ class WalkingDirection:
 
     It changes when the wearer walks backwards or sideways; the usual position of the other foot does not apply then."""
 
-    turn_sum: float = field(default=0.0, init=False)
+    turn_sum: float = 0.0
     """Sum of the foot's turns, rad."""
-    direction_offset: float | None = field(default=None, init=False)
+    direction_offset: float | None = None
     """Mean direction of the foot's strides minus `turn_sum`, rad; None before any stride."""
 
     def add_stride(self, direction: float, turn: float) -> float:
@@ -103,26 +106,9 @@ class WalkingDirection:
 
 
 class Aid(Protocol):
-    """Outside help that has rows of its own in the filter of the common errors: the compass (compass.py).
+    """Outside help that has rows of its own in the filter of the common errors: the compass.
 
     It is a protocol, so that its class (`recipes.AIDS`) is loaded only when it is needed."""
-
-    def add_sample(self, view: FootView, mag: Vec3) -> None:
-        """Add a sample of a foot that stands, with the flux density `mag`, T, sensor frame."""
-
-    def add_stride(self, event: StrideTaken, turn: float, error: CommonError) -> tuple[Move, str | None]:
-        """Add what was measured before a stride of a foot, whose track is turned by `turn`, rad.
-
-        Returns the correction of both tracks, and a sentence on a fault, once."""
-
-    def turned(self, yaw: float) -> None:
-        """Turn what is in the common frame with both tracks, by `yaw`, rad."""
-
-    def north(self, error: CommonError) -> Vec2 | None:
-        """Return the direction of magnetic north, common frame, and its standard deviation, rad; None if unknown."""
-
-    def reset(self, foot: Foot, error: CommonError) -> None:
-        """Forget what depends on the device of a foot."""
 
 
 @frozen
@@ -146,7 +132,7 @@ class BothFeet(MeanOfFeet):
     """Covariance of the errors that both tracks share."""
     straight_ways: StraightWays = field(factory=StraightWays, init=False)
     ground: MovingGround = field(factory=MovingGround, init=False)
-    compass: Aid | None = field(default=None, init=False)
+    aid: Aid | None = field(default=None, init=False)
     """The compass; None until a sample has a magnetic field."""
     measured_at: float = field(default=0.0, init=False)
     """Time of the newest sample that the compass has, s."""
@@ -165,6 +151,11 @@ class BothFeet(MeanOfFeet):
     directions: PerFoot[WalkingDirection] = field(factory=lambda: per_foot(WalkingDirection), init=False)
     placements: PerFoot[tuple[float, Vec3]] = field(factory=lambda: dict.fromkeys(Foot, (0.0, ZERO)), init=False)
     """Turn, rad, and offset, m, of each track when alignment ended; later corrections go to the feet themselves."""
+
+    @property
+    def compass(self) -> Compass | None:
+        """The compass; None until a sample has a magnetic field."""
+        return cast("Compass | None", self.aid)
 
     def calibrated(self, calibration: Calibration) -> BothFeet:
         """Return the part for a wearer whose feet remove a drift that a calibration walk has shown."""
@@ -211,12 +202,12 @@ class BothFeet(MeanOfFeet):
 
     def _add_magnetic_field(self, view: FootView, mag: Vec3) -> None:
         """Add a sample of a foot that stands, with the magnetic flux density `mag`, T, sensor frame."""
-        self.measured_at = view.t
-        if self.compass is None:
+        self.measured_at, compass = view.t, self.compass
+        if compass is None:
             from .compass import Compass
 
-            self.compass = Compass()
-        self.compass.add_sample(view, mag)
+            compass = self.aid = Compass()
+        compass.feet[view.foot].add_sample(view, mag)
 
     def _use_position(self, event: PositionReported) -> Sequence[PartOutput]:
         """Correct both tracks by a reported position, reject it, or note a new place without an event."""

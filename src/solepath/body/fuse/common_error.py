@@ -122,15 +122,15 @@ def _first_covariance() -> list[list[float]]:
 class CommonError:
     """The covariance of the errors, and what was estimated and removed of those of each foot."""
 
-    covariance: list[list[float]] = field(factory=_first_covariance, init=False)
+    covariance: list[list[float]] = field(factory=_first_covariance)
     """Covariance of the errors, symmetric; the rows are named above."""
-    estimates: list[float] = field(factory=lambda: [0.0] * (SIZE - FEET[Foot.LEFT]), init=False)
+    estimates: list[float] = field(factory=lambda: [0.0] * (SIZE - FEET[Foot.LEFT]))
     """Estimates of all rows after that of the heading. What is estimated of the feet is removed from both tracks."""
-    shares: PerFoot[float] = field(factory=lambda: dict.fromkeys(Foot, 0.5), init=False)
+    shares: PerFoot[float] = field(factory=lambda: dict.fromkeys(Foot, 0.5))
     """Share of each foot in the wearer's heading: 1 and 0 if a foot is alone."""
-    started: bool = field(default=False, init=False)
+    started: bool = False
     """Flag: a foot has taken a stride."""
-    foot_biases: PerFoot[FootBias | None] = field(factory=lambda: dict.fromkeys(Foot), init=False)
+    foot_biases: PerFoot[FootBias | None] = field(factory=lambda: dict.fromkeys(Foot))
     """Bias of each foot at its newest stride."""
 
     def use_calibration(self, headings: Mapping[Foot, HeadingCalibration]) -> None:
@@ -217,29 +217,26 @@ class CommonError:
 
         It counts as `strides` usual ones, turns by `turn` rad and takes `duration` s; `variance` is that of its
         displacement: xx, xy, yy, m^2."""
-        p, row, w = self.covariance, FEET[foot], self.shares[foot]
-        dx, dy = w * displacement[0], w * displacement[1]
+        p, row, w, rows = self.covariance, FEET[foot], self.shares[foot], range(HEADING + 1, len(self.covariance))
         n, k, t = w * strides, w * turn, w * duration
-        px, py, ph = p[X], p[Y], p[HEADING]
         # a: the turn of the heading in the stride; g: the heading in its middle; each with all errors
-        a = [n * r + k * q + t * b for r, q, b in zip(p[row], p[row + 1], p[row + 2], strict=True)]
-        g = [heading + 0.5 * half for heading, half in zip(ph, a, strict=True)]
-        aa = n * a[row] + k * a[row + 1] + t * a[row + 2]
-        ah, gx, gy = a[HEADING], g[X], g[Y]
-        gg, gh = ph[HEADING] + ah + 0.25 * aa, ph[HEADING] + 1.5 * ah + 0.5 * aa
-        xx, xy, yy = variance
-        px[X] += -2.0 * dy * gx + dy * dy * gg + w * w * xx
-        px[Y] += dx * gx - dy * gy - dx * dy * gg + w * w * xy
-        py[Y] += 2.0 * dx * gy + dx * dx * gg + w * w * yy
-        px[HEADING] += a[X] - dy * gh
-        py[HEADING] += a[Y] + dx * gh
-        ph[HEADING] += 2.0 * ah + aa + w * HEADING_NOISE * HEADING_NOISE * duration
-        py[X], ph[X], ph[Y] = px[Y], px[HEADING], py[HEADING]
-        for j in range(HEADING + 1, len(p)):
-            px[j] -= dy * g[j]
-            py[j] += dx * g[j]
-            ph[j] += a[j]
-            p[j][X], p[j][Y], p[j][HEADING] = px[j], py[j], ph[j]
+        a = [n * r + k * q + t * b for r, q, b in zip(*p[row : row + 3], strict=True)]
+        g = [heading + 0.5 * half for heading, half in zip(p[HEADING], a, strict=True)]
+        aa, ah, hh = n * a[row] + k * a[row + TURN] + t * a[row + BIAS], a[HEADING], p[HEADING][HEADING]
+        gg, gh = hh + ah + 0.25 * aa, hh + 1.5 * ah + 0.5 * aa
+        arms = (-w * displacement[1], w * displacement[0])
+        for i, arm in enumerate(arms):
+            for j in range(i, HEADING):
+                p[i][j] += arms[j] * g[i] + arm * g[j] + arm * arms[j] * gg + w * w * variance[i + j]
+            p[i][HEADING] += a[i] + arm * gh
+            for j in rows:
+                p[i][j] += arm * g[j]
+        p[HEADING][HEADING] += 2.0 * ah + aa + w * HEADING_NOISE * HEADING_NOISE * duration
+        for j in rows:
+            p[HEADING][j] += a[j]
+        for i in (X, Y, HEADING):
+            for j in range(i, len(p)):
+                p[j][i] = p[i][j]
         p[row][row] += DRIFT_CHANGE * DRIFT_CHANGE * duration
 
     def add_gap(self, duration: float, unseen: bool) -> None:

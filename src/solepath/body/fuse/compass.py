@@ -133,14 +133,14 @@ CHANGED = 6.0
 class StanceField:
     """The samples of the newest stance of one foot, when neither timing nor rotation blurs what it measures."""
 
-    count: int = field(default=0, init=False)
-    sum: Vec3 = field(default=ZERO, init=False)
+    count: int = 0
+    sum: Vec3 = ZERO
     """Sum of the flux densities, navigation frame, uT."""
-    attitude: Quat | None = field(default=None, init=False)
+    attitude: Quat | None = None
     """Attitude at the newest of them, sensor to navigation frame; None before any."""
-    north: Vec2 = field(default=(1.0, 0.0), init=False)
+    north: Vec2 = (1.0, 0.0)
     """Cosine and sine of the angle from navigation to world frame."""
-    first: Quat | None = field(default=None, init=False)
+    first: Quat | None = None
     """Attitude in the first stance; None before any."""
 
     def add_sample(self, view: FootView, mag: Vec3) -> None:
@@ -190,12 +190,12 @@ class CompassTrust:
     where a is the turn of the measured field in the world without the iron, with errors of a von Mises distribution of
     concentration kappa, and with outliers; a magnet adds 0. Besides, the strength must be possible."""
 
-    feet: PerFoot[FootTurns] = field(factory=lambda: per_foot(FootTurns), init=False)
-    evidence: float = field(default=0.0, init=False)
+    feet: PerFoot[FootTurns] = field(factory=lambda: per_foot(FootTurns))
+    evidence: float = 0.0
     """Log-likelihood ratio of right to mirrored axes."""
-    reported: list[str] = field(factory=list, init=False)
+    reported: list[str] = field(factory=list)
     """Faults that were reported; those that concern one foot have its number."""
-    pending: str | None = field(default=None, init=False)
+    pending: str | None = None
     """Fault to be reported next; None usually."""
 
     def add_strength(self, foot: Foot, flux: Vec3) -> bool:
@@ -272,14 +272,14 @@ class Disturbance:
     heading best. The field of sources below the floor has no divergence and no curl there, so the vertical axis is
     disturbed as much as both horizontal axes together: all three show the size of the disturbance."""
 
-    usual: float = field(default=FIRST_DISTURBANCE * FIRST_DISTURBANCE, init=False)
-    near: PerFoot[float] = field(factory=lambda: dict.fromkeys(Foot, FIRST_DISTURBANCE * FIRST_DISTURBANCE), init=False)
+    usual: float = FIRST_DISTURBANCE * FIRST_DISTURBANCE
+    near: PerFoot[float] = field(factory=lambda: dict.fromkeys(Foot, FIRST_DISTURBANCE * FIRST_DISTURBANCE))
     """Variance about the newest stances of each foot, uT^2."""
-    changed: PerFoot[int] = field(factory=lambda: per_foot(int), init=False)
+    changed: PerFoot[int] = field(factory=lambda: per_foot(int))
     """Number of stances in a row of each foot that show a change of its iron."""
-    count: int = field(default=0, init=False)
+    count: int = 0
     """Number of stances so far."""
-    vertical: PerFoot[tuple[int, float]] = field(factory=lambda: dict.fromkeys(Foot, (0, 0.0)), init=False)
+    vertical: PerFoot[tuple[int, float]] = field(factory=lambda: dict.fromkeys(Foot, (0, 0.0)))
     """Number of stances and mean vertical field of each foot, uT."""
 
     @property
@@ -339,23 +339,19 @@ class Block:
 class Compass:
     """The field, its disturbance and the iron of the shoes, as rows of the common errors (an `Aid`)."""
 
-    feet: PerFoot[StanceField] = field(factory=lambda: per_foot(StanceField), init=False)
-    trust: CompassTrust = field(factory=CompassTrust, init=False)
-    disturbance: Disturbance = field(factory=Disturbance, init=False)
-    blocks: PerFoot[Block] = field(factory=lambda: per_foot(Block), init=False)
+    feet: PerFoot[StanceField] = field(factory=lambda: per_foot(StanceField))
+    trust: CompassTrust = field(factory=CompassTrust)
+    disturbance: Disturbance = field(factory=Disturbance)
+    blocks: PerFoot[Block] = field(factory=lambda: per_foot(Block))
     """Newest stances of each foot."""
-    distance: float = field(default=0.0, init=False)
+    distance: float = 0.0
     """Distance walked since the newest comparison, m."""
-    strange: int = field(default=0, init=False)
+    strange: int = 0
     """Number of strange blocks in a row."""
-    is_another: bool = field(default=False, init=False)
+    is_another: bool = False
     """Flag: the field was learnt again, so it may be that of steel, whose direction is not north."""
-    first: int = field(default=-1, init=False)
+    first: int = -1
     """First row of the compass among the common errors; -1 before any stance."""
-
-    def add_sample(self, view: FootView, mag: Vec3) -> None:
-        """Add a sample of a foot that stands, with the flux density `mag`, T, sensor frame."""
-        self.feet[view.foot].add_sample(view, mag)
 
     def add_stride(self, event: StrideTaken, turn: float, error: CommonError) -> tuple[Move, str | None]:
         """Add the stance before a stride of a foot, whose track is turned by `turn`, rad.

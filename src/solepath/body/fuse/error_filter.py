@@ -72,13 +72,13 @@ class TrackErrorFilter:
 
     Estimated errors are removed from the tracks at once, so only the rates are stored as estimates."""
 
-    covariance: list[list[float]] = field(factory=_zeros, init=False)
+    covariance: list[list[float]] = field(factory=_zeros)
     """Covariance of the states, `STATE_COUNT` rows, in units of m, rad and rad/s."""
-    centre: Vec2 = field(default=(0.0, 0.0), init=False)
+    centre: Vec2 = (0.0, 0.0)
     """Point about which heading errors rotate the tracks, m, common frame."""
-    rates: PerFoot[float] = field(factory=lambda: per_foot(float), init=False)
+    rates: PerFoot[float] = field(factory=lambda: per_foot(float))
     """Correction of the heading rate of each track, rad/s, positive to the left."""
-    degraded_shares: PerFoot[float] = field(factory=lambda: per_foot(float), init=False)
+    degraded_shares: PerFoot[float] = field(factory=lambda: per_foot(float))
     """Share of the recent strides of each foot that were degraded."""
 
     def start(self) -> None:

@@ -64,12 +64,12 @@ class FootVelocity:
 class MovingGround:
     """The ground's velocity, from the strides of both feet."""
 
-    feet: PerFoot[FootVelocity] = field(factory=lambda: per_foot(FootVelocity), init=False)
-    velocity: Vec2 = field(default=STILL, init=False)
+    feet: PerFoot[FootVelocity] = field(factory=lambda: per_foot(FootVelocity))
+    velocity: Vec2 = STILL
     """Velocity of the ground, along the strides and to the left of them, m/s."""
-    since: float | None = field(default=None, init=False)
+    since: float | None = None
     """Time since which the ground moves, s; None while it stands still."""
-    t: float = field(default=0.0, init=False)
+    t: float = 0.0
     """Time up to which `variance` was given, s."""
 
     def add_stride(self, event: StrideTaken, velocity_error: Vec3) -> str | None:

@@ -147,19 +147,19 @@ Stretch = tuple[float, Places]
 class Straightness:
     """Collects the strides of a stretch, and keeps what was learnt from earlier stretches."""
 
-    direction: float = field(default=0.0, init=False)
+    direction: float = 0.0
     """Direction of the first stride of the stretch, rad, world frame."""
-    t: float | None = field(default=None, init=False)
+    t: float | None = None
     """End of the newest stride, s; None before any stretch."""
-    t_start: float = field(default=0.0, init=False)
+    t_start: float = 0.0
     """End of the first stride of the stretch, s."""
-    recent: list[Places] = field(factory=list, init=False)
+    recent: list[Places] = field(factory=list)
     """The places after each of the last strides, the newest last; empty without a stretch."""
-    left_out: int = field(default=0, init=False)
+    left_out: int = 0
     """Number of strides that are left out before the next stretch starts, because the wearer still turns."""
-    counts: tuple[float, ...] = field(default=FIRST_COUNTS, init=False)
+    counts: tuple[float, ...] = FIRST_COUNTS
     """Number of stretches that were straight, that bent gently and that bent, each fading by `FORGETTING`."""
-    wander: Vec2 = field(default=(USUAL_WANDER * USUAL_WANDER, WANDER_WEIGHT), init=False)
+    wander: Vec2 = (USUAL_WANDER * USUAL_WANDER, WANDER_WEIGHT)
     """Variance of the wandering, m^2, and the number of stretches as which it counts."""
 
     def add_stride(self, t: float, displacement: Vec2, share: float, strides: float, turn: float) -> Stretch | None:
@@ -295,18 +295,18 @@ class CalibrationFit:
 class StraightWays:
     """Learns the drift of the heading from straight ways, and drops a calibration that they contradict."""
 
-    straightness: Straightness = field(factory=Straightness, init=False)
-    calibrated: tuple[float, ...] | None = field(default=None, init=False)
+    straightness: Straightness = field(factory=Straightness)
+    calibrated: tuple[float, ...] | None = None
     """Drift, rad a stride, and turning, no unit, of each foot that a calibration says and the feet remove, as in
     `CALIBRATED`; None without one, and once it was dropped."""
-    fit: CalibrationFit | None = field(default=None, init=False)
+    fit: CalibrationFit | None = None
     """Test of the calibration; None before the first stretch."""
-    moved: list[list[float]] = field(factory=list, init=False)
+    moved: list[list[float]] = field(factory=list)
     """Derivatives of x and y, m, and of the heading, rad, over the whole walk by each of these errors; empty without a
     calibration."""
-    devices: tuple[int, ...] = field(default=(0, 0), init=False)
+    devices: tuple[int, ...] = (0, 0)
     """Number of times that another device may have been connected to the left and to the right foot."""
-    spoiled: tuple[Foot, ...] = field(default=(), init=False)
+    spoiled: tuple[Foot, ...] = ()
     """Feet whose rates are wrong by another defect, for example because the sensor came loose."""
 
     def use_calibration(self, headings: Mapping[Foot, HeadingCalibration]) -> None:

@@ -31,21 +31,21 @@ class NotedPlace:
 class WalkedPath:
     """Nodes at the ends of strides since the newest known position, common frame of both feet."""
 
-    nodes: list[TrackNode] = field(factory=list, init=False)
+    nodes: list[TrackNode] = field(factory=list)
     """Nodes, of which the first stays as it is."""
-    spacing: float = field(default=FIRST_SPACING, init=False)
+    spacing: float = FIRST_SPACING
     """Least distance from a node to the next one, m."""
-    walked: float = field(default=0.0, init=False)
+    walked: float = 0.0
     """Distance walked since the newest node, m."""
-    known: Vec2 = field(default=(0.0, 0.0), init=False)
+    known: Vec2 = (0.0, 0.0)
     """Newest position that was reported, m; that of the start before any."""
-    known_at: float | None = field(default=None, init=False)
+    known_at: float | None = None
     """Time of that report, s; None before any."""
-    heading_variance: float = field(default=0.0, init=False)
+    heading_variance: float = 0.0
     """Variance of the heading there, rad^2."""
-    places: dict[str, NotedPlace] = field(factory=dict, init=False)
+    places: dict[str, NotedPlace] = field(factory=dict)
     """Noted places by their names, the newest visited last; the empty name is that of the newest rejected position."""
-    rejected: Vec2 | None = field(default=None, init=False)
+    rejected: Vec2 | None = None
     """Newest rejected position as it was reported, m; None if none was rejected since the newest one that was used."""
 
     def add_stride(self, t: float, position: Vec2, length: float) -> None:
