@@ -5,10 +5,10 @@ function in src/solepath is counted, with the number of files and of changes fro
 another. Generated code (attrs) and other packages do not count. A generator counts each time that it continues. A quiet
 frame causes no event; frames of the other kind end a stride. Numbers are medians over a walk.
 
-Then come the modules of solepath that `import solepath; Session(...)` loads: their number, their lines, and the
-processor time beside that of `import attrs, construct`, of `import solepath` alone, whose names are imported when they
-are first used, and of `solepath --help`. They are medians over new processes. `--calls` lists the functions of a frame
-of each kind.
+Then come the modules of solepath that `import solepath; Session(...)` loads: their number, their lines, their syntax
+nodes as `.ci/size` counts them, and the processor time beside that of `import attrs, construct`, of `import solepath`
+alone, whose names are imported when they are first used, and of `solepath --help`. They are medians over new processes.
+`--calls` lists the functions of a frame of each kind.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import os
 import subprocess
 import sys
 from collections import Counter
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from statistics import median, median_low
 from types import CodeType, FrameType
@@ -137,8 +138,9 @@ import solepath
 from pathlib import Path
 here = str(Path(solepath.__file__).parent)
 files = {{m.__file__ for m in sys.modules.values() if (getattr(m, "__file__", None) or "").startswith(here)}}
-print(len(files), sum(len(Path(file).read_text("utf-8").splitlines()) for file in files))
+print("\\n".join(files))
 """
+SIZE = SourceFileLoader("size", str(Path(__file__).resolve().parents[2] / ".ci" / "size")).load_module()
 
 
 def print_loading() -> None:
@@ -160,10 +162,14 @@ def print_loading() -> None:
     print(f"import solepath, before any of its names is used: {median(times['solepath']) * 1e3:.0f} ms")
     print(f"solepath --help: {median(times['help']) * 1e3:.0f} ms")
     for name in RECIPES:
-        modules, lines = run_fresh(MODULES_PROGRAM.format(work=works[name])).split()
+        sources = [
+            Path(file).read_text("utf-8")
+            for file in run_fresh(MODULES_PROGRAM.format(work=works[name])).split("\n")[:-1]
+        ]
+        lines, nodes = sum(len(one.splitlines()) for one in sources), sum(map(SIZE.nodes, sources))
         seconds = median(times[name])
         print(
-            f"import solepath; Session({name}): {modules} modules, {lines} lines, "
+            f"import solepath; Session({name}): {len(sources)} modules, {lines} lines, {nodes} nodes, "
             f"{seconds * 1e3:.0f} ms, {seconds / reference_time:.1f} times attrs and construct"
         )
 

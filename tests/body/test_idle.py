@@ -62,12 +62,33 @@ class EventPart(Part):
         return ()
 
 
+@define
+class HeardPart(Part):
+    """A part that notes the kinds of the events that reach it together."""
+
+    heard: list[str] = field(factory=list, init=False)
+
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        self.heard += [" ".join(type(event).__name__ for event in events)]
+        return ()
+
+
 def with_part(part: Part) -> Session:
     return Session(evolve(recipes.DEFAULT, name="mine", parts=(*recipes.DEFAULT.parts, part)))
 
 
 def last_part(session: Session) -> Part:
-    return session._state.wearer.parts[-1]
+    return session._state.parts[-1]
+
+
+def test_parts_receive_events_in_the_order_that_a_recipe_prints_each_those_of_the_parts_before_it() -> None:
+    assert recipes.DEFAULT.order().split() == [
+        "SensorChecks", "PossibleMotion", "Looseness", "Wear", "BothFeet", "AirPressure", "Activities", "Turns",
+        "Altitude", "FootClocks", "GaitCycles", "Particles", "(with", "a", "floor", "plan)",
+    ]  # fmt: skip
+    session = with_part(HeardPart())
+    session.feed(WALK_SAMPLES)
+    assert "FootFlat StrideTaken GaitCycleMeasured" in last_part(session).heard, "of the foot, then of GaitCycles"
 
 
 def report_position(session: Session) -> None:

@@ -13,7 +13,7 @@ from attrs import define, evolve, field
 from own import CELLS, WALKED, ByMotion, Resets, StillDetector
 
 from solepath import recipes
-from solepath.body.part import LayoutReported, Part, PartInput, PartOutput
+from solepath.body.part import LayoutReported, Notice, Part, PartInput, PartOutput
 from solepath.events import WearerMoved
 from solepath.foot.cues.cues import TimedCue
 from solepath.foot.stance.stance import Stance
@@ -253,6 +253,7 @@ class Foreseeing(Part):
 class Lingering(Part):
     """A part that returns an event at the end of the session, after it has received a layout."""
 
+    notices: ClassVar[tuple[type[Notice], ...]] = (LayoutReported,)
     cells: int = field(default=0, init=False)
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:

@@ -16,7 +16,7 @@ from changes import LEFT, RIGHT, draws
 from corpus import Case, given, kept, plain
 
 from solepath import Calibration, DefectFound, SampleGap, Session, Site, WearerMoved, recipes
-from solepath.body.part import ClockUnsettled, Notice, Part, PartInput, StartGiven
+from solepath.body.part import ClockUnsettled, LayoutReported, Notice, Part, PartInput, StartGiven
 from solepath.body.place.particles import Particles
 from solepath.events import Defect
 from solepath.foot.view import FootView
@@ -29,6 +29,7 @@ class Notes(Part):
     """The last part of a recipe, which notes what reaches it."""
 
     needs_samples = needs_position = True
+    notices = (LayoutReported, ClockUnsettled)
     noted: ClassVar[list[tuple[Sequence[PartInput], FootView | None]]] = []
     """Of the class, since a session works with a copy of the part."""
 
@@ -80,6 +81,7 @@ def parts(name: str, recipe: str, until: float) -> Iterator[Any]:
     places = (Particles(), SnakeGame()) if name.startswith("building") else ()
     for part in (*recipes.by_name(recipe).parts, *places):
         own, drawn = deepcopy(part).calibrated(Calibration()), draws(17)
+        own.ready()
         if hasattr(own, "plan"):
             own.plan = building()
             own.feed((StartGiven(STARTS[8]),), None)
@@ -119,7 +121,7 @@ def numbers(part: Any) -> dict[str, Any]:
 PARTS_ALONE: tuple[Case, ...] = tuple(
     Case(f"parts of {recipe} that are misled, {name}", partial(parts, name, recipe, until))
     for name, recipe, until in (
-        ("ranged", "default", 12.0), ("compass", "default", 16.0),
+        ("stroll", "default", 12.0), ("compass", "default", 16.0),
         ("lifts", "default", 60.0), ("building-8", "default", 12.0),
         ("stroll", "kupt-dfpc", 12.0), ("stroll", "footstep-tracker", 12.0), ("stroll", "shoe-sensing", 10.0),
         ("suit", "walking-modes", 16.0), ("insole", "walking-modes", 14.0),

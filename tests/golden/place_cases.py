@@ -29,6 +29,7 @@ from floors import (
     office,
     round_to,
 )
+from plan_files import format_floorplan
 
 from solepath import (
     Activity,
@@ -46,11 +47,10 @@ from solepath import (
 from solepath.body.part import StartGiven
 from solepath.body.place.particles import Particles  # a track with known errors is given to it, without a session
 from solepath.floorplan.checks import find_fault, find_warnings
-from solepath.floorplan.importers.geojson import format_floorplan
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlanError, Level, Wall
-from solepath.floorplan.records import find_start_fault
 from solepath.papers.footstep_tracker.snake import SnakeGame  # as Particles
+from solepath.types import checking
 
 Place = tuple[float, float]
 PROTOCOL = Path(__file__).resolve().parents[2] / "protocol"
@@ -603,7 +603,7 @@ def limits() -> Iterator[Any]:
         *[Start("0"), Start(), Start("0", heading=1.0), Start(0, near)],  # type: ignore[arg-type]
     ]
     for start in starts:
-        yield find_start_fault(start)
+        yield str(checking.find_fault(start, Start))
 
 
 def landmarks() -> Iterator[Any]:

@@ -46,9 +46,8 @@ from solepath.body.place.place_hypotheses import PlaceSettings
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
 from solepath.saving import codec as machine
-from solepath.saving.packed import Lists, write
 from solepath.saving.schema import record_of
-from solepath.saving.streams import to_bytes
+from solepath.saving.streams import Lists, to_bytes
 
 NUMBERS = st.one_of(
     st.floats(-60.0, 60.0), st.floats(allow_nan=True, allow_infinity=True), st.sampled_from([0.0, 1e-300, 1e300, -1e9])
@@ -116,9 +115,9 @@ def test_any_events_and_any_track_give_sound_events_and_no_exception(method, sta
 
 
 def packed_size(part: object) -> int:
-    lists: Lists = ([], [], [], [])
-    write(record_of(type(part)), part, lists)
-    return len(to_bytes(*lists))
+    lists = Lists([], [], [], [])
+    record_of(type(part)).write(part, lists)
+    return len(to_bytes(lists))
 
 
 def test_the_state_is_small_and_does_not_grow(part: Method) -> None:

@@ -35,13 +35,12 @@ Activities.reset: left* right* apart flights.reset() left.restart() pressure_hei
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now* inputs_kept.clear()
 AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* apart flights.reset()
-BetweenFeet.reset: usual_width apart
 BiasFilter.forget: before bias* noise rate
 BiasFilter.reset: before bias* noise rate
-BothFeet._restart: common compass directions distance divergence errors* ground measured_at path placements started
+BothFeet._restart: aid common directions distance divergence errors* ground measured_at path placements started
   straight_ways* tracks* width straight_ways.reset()
-BothFeet.reset: common* compass* directions distance divergence errors measured_at path placements started
-  straight_ways* tracks* width apart compass.reset() straight_ways.reset()
+BothFeet.reset: aid* common* directions distance divergence errors measured_at path placements started straight_ways*
+  tracks* width aid.reset() apart straight_ways.reset()
 Cc2541Link.handle_reconnection: acc_clock calibration firmware gyro_clock
 Cc2541Link.restart_clock: assembler* calibration firmware
 CellHealth.reset: count lively_windows
@@ -66,8 +65,7 @@ Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
 GaitCues.reset: inertial* sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
-GaitCycles.reset: between* idle left* left_progress* left_unsettled right_progress* right_unsettled apart
-  between.reset() means.reset()
+GaitCycles.reset: left* left_progress* left_unsettled right_progress* right_unsettled apart means.reset()
 GaitMeans.reset: running walking_means apart
 InertialCues.reset: axis force impact landing_at lowest_rate moving_since not_turning_at peak_rate sagittal
   swing_start turn
@@ -94,7 +92,8 @@ Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping 
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
 SensorChecks.reset: apart
-SessionState.restart_clock: decoders* now* wearer*
+SessionState.reset: decoders feet* height now parts* sampled* unsettled apart
+SessionState.restart_clock: decoders* feet* height now* parts* sampled* unsettled
 Sides.reset:
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
 StanceFinder._restart: best_motion duration force latest_motion since_best since_latest t turn
@@ -115,7 +114,6 @@ TurnDetector.reset: left* pause right* t_end apart
 Turns.reset: detector* apart detector.reset()
 TwoSecondWindows.reset: limitation_reported moving_windows
 WalkScale.reset: drift_deviation force stance_deviation strides
-WearerParts.reset: feet* height parts* sampled* unsettled apart
 """
 """For each class and method the fields that stay, with a * if they change; the resets of its parts that it makes, with
 (); and `apart` where the reset of one foot leaves the other's fields alone.

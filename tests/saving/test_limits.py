@@ -12,8 +12,9 @@ from made import places, replaced
 from signed import signed
 
 from solepath import Session, SnapshotError
+from solepath.saving.codec import no_class
 from solepath.saving.limits import MAX_DEPTH, MAX_SIZE, MAX_VALUES, check_size
-from solepath.saving.streams import HEADER, from_bytes, to_bytes
+from solepath.saving.streams import HEADER, Lists, from_bytes, to_bytes
 from solepath.session.packed import HEADER as SESSION_HEADER
 
 START = Session().pack()[: SESSION_HEADER.size]
@@ -35,9 +36,9 @@ def test_more_values_than_a_state_may_have_are_not_read(counts: tuple[int, int, 
 
 
 def test_what_could_not_be_read_is_not_written() -> None:
-    assert from_bytes(to_bytes([0.0] * MAX_VALUES, [], [], []))[0] == [0.0] * MAX_VALUES
+    assert [*from_bytes(to_bytes(Lists([0.0] * MAX_VALUES, [], [], [])), no_class).floats] == [0.0] * MAX_VALUES
     with pytest.raises(ValueError, match="no state has more"):
-        to_bytes([0.0] * MAX_VALUES, [1], [], [])
+        to_bytes(Lists([0.0] * MAX_VALUES, [1], [], []))
     check_size([0.0] * MAX_VALUES)
     with pytest.raises(ValueError, match="no snapshot has more"):
         check_size([0.0] * MAX_VALUES + [0.0])

@@ -18,10 +18,9 @@ from solepath.recipes import part_class
 from solepath.saving.codec import SnapshotError, load, save
 
 # internal: the packed form of a record that is not a whole session, and the schema from which it is made
-from solepath.saving.nodes import RecordNode, TupleNode
-from solepath.saving.packed import Lists, Streams, read, write
+from solepath.saving.nodes import RecordNode
 from solepath.saving.schema import record_of
-from solepath.saving.streams import from_bytes, to_bytes
+from solepath.saving.streams import Lists, Streams, from_bytes, to_bytes
 from solepath.session.packed import Head
 from solepath.session.state import SessionState
 from solepath.types.attrs import NOT_SAVED
@@ -53,7 +52,7 @@ def told(value: Any) -> Any:
 def inside(node: Any) -> Iterator[Any]:
     """Yield a node and all nodes in it."""
     yield node
-    inner = node.items if isinstance(node, TupleNode) else [getattr(node, "of", None), getattr(node, "key", None)]
+    inner = [*getattr(node, "items", ()), getattr(node, "of", None), getattr(node, "key", None)]
     for one in [one for one in inner if one is not None]:
         yield from inside(one)
 
@@ -72,9 +71,9 @@ def classes() -> list[Any]:
 
 
 def packed(node: RecordNode, record: Any) -> Streams:
-    lists: Lists = ([], [], [], [])
-    write(node, record, lists)
-    return Streams(*from_bytes(to_bytes(*lists)))
+    lists = Lists([], [], [], [])
+    node.write(record, lists)
+    return from_bytes(to_bytes(lists), part_class)
 
 
 def test_every_field_of_every_record_is_saved_unless_it_is_marked() -> None:
@@ -95,7 +94,7 @@ def test_every_record_comes_back_from_json_and_from_bytes_as_it_was(shape: int) 
         saved = json.loads(json.dumps(save(record), allow_nan=False))
         assert told(load(cls, saved, part_class)) == told(record), cls
         streams = packed(node, record)
-        assert told(read(node, streams, part_class)) == told(record), cls
+        assert told(node.read(None, streams)) == told(record), cls
         streams.end()
 
 
@@ -105,7 +104,7 @@ def test_a_record_that_is_made_again_has_its_state_from_the_bytes_and_its_settin
         node, whole = record_of(cls, made=True), record_of(cls)
         saved, again = Maker(shape).record(whole), Maker(shape, 10_000).record(whole)
         streams = packed(node, saved)
-        restored = read(node, streams, part_class, again)
+        restored = node.read(again, streams)
         streams.end()
         for one in [one for one in attrs.fields(cls) if one.name in whole.fields]:
             if one.name not in node.fields:

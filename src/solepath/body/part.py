@@ -131,16 +131,21 @@ class Part(Protocol):
     It is either always true, or a field that changes only in `feed` and `reset`."""
     sites: ClassVar[tuple[Site, ...]] = ()
     """Sites of limbs whose samples the part needs, each as a `LimbSampled`."""
+    notices: ClassVar[tuple[type[Notice], ...]] = ()
+    """Kinds of notices that the part needs; a `LimbSampled` comes for its `sites`."""
     needs_position: ClassVar[bool] = False
     """Flag: WearerMoved with the wearer's position comes after the events, if one of `MOVEMENTS` is among them."""
 
     def calibrated(self, calibration: Calibration) -> Self:
-        """Return the part for a wearer with this calibration; called once, before any other method.
-
-        It is called for a new and for a restored wearer, and loads the files that the part needs: `feed` must import
-        nothing and open no file, but for what the first sample or event of a new kind needs (a compass, a reported
-        position)."""
+        """Return the part for a wearer with this calibration; called once, before any other method."""
         return self
+
+    def ready(self) -> None:
+        """Load the files that the part needs; called for a new wearer and for a wearer restored from a saved state.
+
+        `feed` must import nothing and open no file, but for what the first sample or event of a new kind needs (a
+        compass, a reported position)."""
+        return
 
     def with_heading(self, heading: float) -> Self | None:
         """Return the part for a wearer who starts with this heading, rad, left positive, in the world of all sensors.

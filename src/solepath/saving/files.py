@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from errno import EISDIR
 from functools import partial
-from itertools import count
 from pathlib import Path
 from stat import S_IMODE, S_IWUSR
 
 from ..types.attrs import define, field
 from .lock import locked
-
-_numbers = count()
 
 
 class FileTooLarge(ValueError):
@@ -60,10 +57,8 @@ def replace_whole(path: Path, write: Callable[[Path], object], before_move: Befo
     files = FileReplacements(before_move)
     try:
         temporary = files.temporary_path(path)
-        try:
+        with _errors_naming(path):
             write(temporary)
-        except OSError as error:  # the system names the temporary file, or none
-            raise OSError(error.errno, error.strerror, str(path)) from None
         files.move_to_targets()
     finally:
         files.discard()
@@ -95,34 +90,22 @@ class FileReplacements:
             return path
         if exists and not read_only:
             target.open("ab").close()
-        while True:
-            temporary = target.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
-            self._targets[temporary] = path  # before it exists: Ctrl-C may come between any two lines
-            try:
-                temporary.open("xb").close()
-                break
-            except FileExistsError:
-                del self._targets[temporary]  # of another program, or of one that was killed: containers repeat numbers
-            except OSError as error:
-                raise OSError(error.errno, error.strerror, str(path)) from None
-        if exists:
-            try:
-                _copy_mode(target, temporary)  # the new file has the same permissions
-                temporary.chmod(temporary.stat().st_mode | S_IWUSR)
-            except OSError as error:
-                raise OSError(error.errno, error.strerror, str(path)) from None
+        temporary = target.with_name(f".solepath-{os.urandom(8).hex()}.part")
+        self._targets[temporary] = path  # before it exists: Ctrl-C may come between any two lines
+        with _errors_naming(path):
+            temporary.open("xb").close()
+            if exists:
+                temporary.chmod(S_IMODE(target.stat().st_mode) | S_IWUSR)  # the permissions of now, if somebody looks
         return temporary
 
     def move_to_targets(self) -> None:
         """Move all temporary files to their targets; raise OSError, naming the path, when one cannot be moved."""
         for temporary, path in list(self._targets.items()):
-            try:
+            with _errors_naming(path):
                 with temporary.open("r+b") as file:
                     os.fsync(file.fileno())  # otherwise a power failure may leave the new name with no content
                 while not self._try_to_move(temporary, path):
                     pass
-            except OSError as error:
-                raise OSError(error.errno, error.strerror, str(path)) from None
             del self._targets[temporary]
 
     def _try_to_move(self, temporary: Path, path: Path) -> bool:
@@ -131,7 +114,7 @@ class FileReplacements:
         with locked(target) as exists:
             self.before_move(path)
             if exists:
-                _copy_mode(target, temporary)
+                temporary.chmod(S_IMODE(target.stat().st_mode))
                 os.replace(temporary, target)
                 return True
         try:
@@ -152,5 +135,10 @@ class FileReplacements:
         self._targets.clear()
 
 
-def _copy_mode(source: Path, target: Path) -> None:
-    target.chmod(S_IMODE(source.stat().st_mode))
+@contextmanager
+def _errors_naming(path: Path) -> Iterator[None]:
+    """Let errors of the system name `path`: they name the temporary file, or none."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None

@@ -1,16 +1,21 @@
-"""Limits on a saved state, which bound memory and time of reading whatever somebody put in its place.
+"""What a saved state may be: limits, which bound memory and time of reading whatever somebody put in its place.
 
 A state of a session has some 5,000 values, with a floor plan some 20,000; the limits leave room for parts of an app. A
 state that exceeds them is not saved either, so that every saved state can be read."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
+
+Json = None | bool | int | float | str | list["Json"] | dict[str, "Json"]
+Classes = Callable[[str], type | None]
+"""Function, such as a dict's `get`, that returns the class of an open record by its name, or None."""
 
 MAX_VALUES = 1 << 20
 """Largest number of values (numbers, flags, texts, lists and objects) of a saved state."""
 MAX_SIZE = 1 << 24
-"""Largest number of bytes of a packed state, and of characters of all texts of a snapshot."""
+"""Largest number of characters of all texts of a snapshot, and of bytes that a packed state has beside its numbers."""
 MAX_DEPTH = 64
 """Largest number of lists and objects of a snapshot that are within each other; a session has about 15."""
 MAX_DIGITS = 309
@@ -19,11 +24,8 @@ _INT_LIMIT = 10**MAX_DIGITS
 _TEXT_LENGTH = 80
 
 
-def check_rows(data: bytes, size: int) -> bytes:
-    """Return the bytes; raise ValueError unless they are whole rows of `size` bytes."""
-    if len(data) % size:
-        raise ValueError(f"{len(data)} bytes are no whole rows of {size}")
-    return data
+class SnapshotError(ValueError):
+    """Error for a value that is no snapshot, has another version, or does not fit this release's records."""
 
 
 def check_size(value: Any) -> None:

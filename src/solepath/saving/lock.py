@@ -27,40 +27,37 @@ if sys.platform == "win32":
     FAR_POSITION = 0x7FFF_0000_0000_0000
     """Position of the locked byte: a lock of Windows also forbids to read, so it is where no file has data."""
 
-    def take_lock(descriptor: int) -> bool:
-        """Lock an open file for this program; return False when another program has locked it.
-
-        Where the system has no locks, as on some network drives, the file counts as locked for this program."""
+    def _lock(descriptor: int) -> None:
         position = os.lseek(descriptor, 0, os.SEEK_CUR)
         try:
             os.lseek(descriptor, FAR_POSITION, os.SEEK_SET)
             msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
-        except OSError as error:
-            return error.errno not in TAKEN
         finally:
             os.lseek(descriptor, position, os.SEEK_SET)
-        return True
 
 else:
     try:
         from fcntl import LOCK_EX, LOCK_NB, flock
-    except ImportError:  # a browser
+    except ImportError:  # a browser, where no other program can write into the files of a page
 
-        def take_lock(descriptor: int) -> bool:
-            """Return True, since no other program can write into the files of a browser's page."""
-            return True
+        def _lock(descriptor: int) -> None:
+            pass
 
     else:
 
-        def take_lock(descriptor: int) -> bool:
-            """Lock an open file for this program; return False when another program has locked it.
+        def _lock(descriptor: int) -> None:
+            flock(descriptor, LOCK_EX | LOCK_NB)
 
-            Where the system has no locks, as on some network drives, the file counts as locked for this program."""
-            try:
-                flock(descriptor, LOCK_EX | LOCK_NB)
-            except OSError as error:
-                return error.errno not in TAKEN
-            return True
+
+def take_lock(descriptor: int) -> bool:
+    """Lock an open file for this program; return False when another program has locked it.
+
+    Where the system has no locks, as on some network drives, the file counts as locked for this program."""
+    try:
+        _lock(descriptor)
+    except OSError as error:
+        return error.errno not in TAKEN
+    return True
 
 
 @contextmanager

@@ -10,25 +10,24 @@ from __future__ import annotations
 
 from binascii import crc32
 from collections.abc import Iterable
-from functools import lru_cache
-from struct import Struct
+from functools import cache
+from struct import Struct, error
 from typing import Any
 
 from ..calibration import Calibration
 from ..recipes import Recipe, own
-from ..saving.codec import Classes, SnapshotError
-from ..saving.limits import MAX_SIZE, shorten
-from ..saving.packed import Lists, Streams, read, write
-from ..saving.schema import describe, record_of, schema_checksum
-from ..saving.streams import from_bytes, to_bytes
+from ..saving.codec import SnapshotError
+from ..saving.limits import shorten
+from ..saving.nodes import schema_check
+from ..saving.schema import record_of
+from ..saving.streams import Lists, Streams, from_bytes, to_bytes
 from ..types import Foot, shared
 from ..types.attrs import define
 from .snapshot import check_names, make_class_lookup
-from .state import VERSION, SessionState
-from .wearer import WearerParts, WearerSettings
+from .state import VERSION, SessionSettings, SessionState
 
 MAGIC = b"sole"
-FORM = 3
+FORM = 4
 HEADER = Struct("<4sHHII")
 
 MAX_TEMPLATES = 16
@@ -52,15 +51,9 @@ HEAD, STATE = record_of(Head), record_of(SessionState, made=True)
 """Schemas of a body: first the head, then the state."""
 
 
-@lru_cache(maxsize=1)
-def schema() -> dict[str, Any]:
-    """Return the schema of a body as plain data."""
-    return describe(HEAD, STATE)
-
-
-@lru_cache(maxsize=1)
-def _schema_check() -> int:
-    return schema_checksum(schema())
+@cache
+def _schema() -> int:
+    return schema_check(HEAD, STATE)
 
 
 def pack(state: SessionState) -> bytes:
@@ -68,21 +61,23 @@ def pack(state: SessionState) -> bytes:
 
     Raises TypeError when an app's part has a field of a type that cannot be saved, and SnapshotError when the field's
     value cannot be saved."""
-    wearer = state.wearer
-    settings = wearer.settings
+    settings = state.settings
     check_names(settings.recipe)
     head = Head(settings.recipe.name, settings.calibration, settings.poses, settings.pressures, settings.plan)
-    lists: Lists = ([], [], [], [])
+    lists = Lists([], [], [], [])
     try:
-        write(HEAD, head, lists)
-        write(STATE, state, lists)
-        body = to_bytes(*lists)
-    except (ValueError, KeyError, OverflowError) as error:
-        raise SnapshotError(f"a packed session cannot hold this: {error}") from error
-    if HEADER.size + len(body) > MAX_SIZE:
-        raise SnapshotError(f"a packed session cannot have more than {MAX_SIZE} bytes")
-    start = HEADER.pack(MAGIC, FORM, VERSION, _schema_check(), 0)
-    return HEADER.pack(MAGIC, FORM, VERSION, _schema_check(), crc32(body, crc32(start))) + body
+        HEAD.write(head, lists)
+        STATE.write(state, lists)
+        body = to_bytes(lists)
+    except (ValueError, OverflowError, error) as fault:
+        raise SnapshotError(f"a packed session cannot hold this: {fault}") from fault
+    return _signed(HEADER.pack(MAGIC, FORM, VERSION, _schema(), 0) + body)
+
+
+def _signed(data: bytes) -> bytes:
+    """Return the bytes with the right checksum in their header."""
+    start, body = data[:12], data[HEADER.size :]
+    return start + crc32(start + bytes(4) + body).to_bytes(4, "little") + body
 
 
 def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> SessionState:
@@ -94,49 +89,41 @@ def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> SessionStat
     classes = make_class_lookup(parts)
     body = _check_header(data)
     try:
-        return _read_state(Streams(*from_bytes(body)), own_recipe, classes)
+        return _read_state(from_bytes(body, classes), own_recipe)
     except (SnapshotError, MemoryError, RecursionError):  # when memory runs out, the bytes may still be sound
         raise
-    except StopIteration:
-        raise SnapshotError("not a packed session: it was cut short") from None
-    except Exception as error:
-        raise SnapshotError(f"not a packed session: {error}") from error
+    except Exception as fault:
+        raise SnapshotError(f"not a packed session: {str(fault) or 'it was cut short'}") from fault
 
 
 def _check_header(data: Any) -> memoryview:
     """Return the body after checking the header."""
-    if not isinstance(data, bytes | bytearray | memoryview):
-        raise SnapshotError("not a packed session")
-    if memoryview(data).nbytes > MAX_SIZE:
-        raise SnapshotError(f"not a packed session: it has more than {MAX_SIZE} bytes")
-    packed = bytes(data)
+    packed = bytes(data) if isinstance(data, bytes | bytearray | memoryview) else b""
     if len(packed) < HEADER.size or not packed.startswith(MAGIC):
         raise SnapshotError("not a packed session")
-    _, form, version, packed_schema, packed_checksum = HEADER.unpack_from(packed)
+    _, form, version, packed_schema, _ = HEADER.unpack_from(packed)
     if (form, version) != (FORM, VERSION):
         raise SnapshotError(f"packed as version {version}, form {form}; this release reads {VERSION}, {FORM} alone")
-    start = HEADER.pack(MAGIC, form, version, packed_schema, 0)
-    body = memoryview(packed)[HEADER.size :]
-    if crc32(body, crc32(start)) != packed_checksum:
+    if packed != _signed(packed):
         raise SnapshotError("the packed session was damaged: its checksum is another")
-    if packed_schema != _schema_check():
+    if packed_schema != _schema():
         raise SnapshotError(f"packed by another release of version {version}: its schema is another")
-    return body
+    return memoryview(packed)[HEADER.size :]
 
 
-_templates: tuple[tuple[Recipe, Head, SessionState], ...] = ()
+_templates: dict[tuple[int, str], SessionState] = {}
 
 
-def _read_state(streams: Streams, recipe: Recipe, classes: Classes) -> SessionState:
+def _read_state(streams: Streams, recipe: Recipe) -> SessionState:
     """Return the state that the streams hold; `recipe` is a copy that nobody changes (recipes.own).
 
     Raises SnapshotError when the state was packed with another recipe."""
-    head: Head = read(HEAD, streams, classes)
+    head: Head = HEAD.read(None, streams)
     if head.recipe != recipe.name:
         raise SnapshotError(f"packed with the recipe {shorten(head.recipe)}, and this is {recipe.name!r}")
-    state: SessionState = read(STATE, streams, classes, _make_initial_state(recipe, head))
+    state: SessionState = STATE.read(_make_initial_state(recipe, head), streams)
     streams.end()
-    for foot in state.wearer.feet.values():
+    for foot in state.feet.values():
         layout = foot.sole.insole.layout
         if layout is not None:
             foot.sole.insole.layout = shared(layout)
@@ -148,11 +135,10 @@ def _make_initial_state(recipe: Recipe, head: Head) -> SessionState:
 
     Making it takes longer than the rest of unpacking, so the newest MAX_TEMPLATES are kept here and nowhere else."""
     global _templates
-    for kept_recipe, kept_head, state in _templates:
-        if kept_recipe is recipe and repr(kept_head) == repr(head):
-            return state
-    wearer = WearerParts(WearerSettings(recipe, head.calibration, head.poses, head.pressures, head.plan))
-    state = SessionState(wearer)
-    state.wearer.feet = {foot: state.wearer._tracker(foot) for foot in Foot}
-    _templates = ((recipe, head, state), *_templates[: MAX_TEMPLATES - 1])
+    key = id(recipe), repr(head)  # a template has its recipe, so that no other one gets its id
+    state = _templates.get(key)
+    if state is None:
+        state = SessionState(SessionSettings(recipe, head.calibration, head.poses, head.pressures, head.plan))
+        state.feet = {foot: state._tracker(foot) for foot in Foot}
+        _templates = dict([*_templates.items(), (key, state)][-MAX_TEMPLATES:])
     return state

@@ -12,8 +12,7 @@ from ..saving.limits import check_size, shorten
 from ..saving.schema import is_record
 from ..types import Foot, Site
 from ..types.attrs import evolve
-from .state import VERSION, SessionState
-from .wearer import sort_by_key
+from .state import VERSION, SessionState, sort_by_key
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 
 def take_snapshot(state: SessionState) -> dict[str, Json]:
     """Return the state with a checksum, since damaged numbers could cause any fault later."""
-    check_names(state.wearer.settings.recipe)
+    check_names(state.settings.recipe)
     saved_state = save(state)
     try:
         check_size(saved_state)
@@ -36,35 +35,34 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
     if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
         raise SnapshotError("not a snapshot of a session")
     version = saved["solepath"]
-    if type(version) is not int or version != VERSION:
+    if version != VERSION:
         raise SnapshotError(f"a snapshot of version {shorten(version)}; this release reads version {VERSION} alone")
     state = load(SessionState, saved["state"], classes)
     state.decoders = sort_by_key(state.decoders, Site)
-    state.wearer.feet = sort_by_key(state.wearer.feet, Foot)
+    state.feet = sort_by_key(state.feet, Foot)
     if checksum(save(state)) != saved["check"]:
         raise SnapshotError("the snapshot was damaged: its checksum is another")
-    settings = state.wearer.settings
-    state.wearer.settings = evolve(settings, recipe=own(settings.recipe))
+    settings = state.settings
+    state.settings = evolve(settings, recipe=own(settings.recipe))
     return state
 
 
 def own_classes(state: SessionState) -> tuple[type, ...]:
     """Return the classes of the parts of a session that are those of an app."""
-    classes = dict.fromkeys([type(part) for part in _parts(state.wearer.settings.recipe)])
-    return tuple([cls for cls in classes if cls.__name__ not in PARTS])
-
-
-def _parts(recipe: Recipe) -> list[Any]:
-    parts = (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place)
-    return [part for part in parts if part is not None]
+    return tuple([cls for cls in _classes(state.settings.recipe) if cls.__name__ not in PARTS])
 
 
 def check_names(recipe: Recipe) -> None:
     """Raise TypeError for an app's part that has the name of a part of solepath: it would be restored as that."""
-    for part in _parts(recipe):
-        name = type(part).__name__
-        if name in PARTS and part_class(name) is not type(part):
-            raise TypeError(f"it could not tell this {name} from solepath's own: give it another name")
+    for cls in _classes(recipe):
+        if cls.__name__ in PARTS and part_class(cls.__name__) is not cls:
+            raise TypeError(f"it could not tell this {cls.__name__} from solepath's own: give it another name")
+
+
+def _classes(recipe: Recipe) -> list[type]:
+    """Return the classes of a recipe's parts, each once."""
+    parts = (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place)
+    return list(dict.fromkeys([type(part) for part in parts if part is not None]))
 
 
 def make_class_lookup(parts: Iterable[type]) -> Classes:
@@ -83,15 +81,12 @@ def make_class_lookup(parts: Iterable[type]) -> Classes:
 
 def check_fit(state: SessionState, kinds: DeviceKinds, plan: IndexedPlan | None) -> None:
     """Raise SnapshotError if the state needs another floor plan than `plan`, or a device that is not in `kinds`."""
-    saved_plan = state.wearer.settings.plan
+    saved_plan = state.settings.plan
     if saved_plan != (None if plan is None else plan.fingerprint):
         condition = "with the floor plan that it had" if saved_plan is not None else "without a floor plan"
         raise SnapshotError(f"a snapshot of a session is restored {condition}")
-    for decoder in state.decoders.values():
-        if decoder.link is None:
-            continue
-        kind = kinds.get(decoder.link.name)
-        if kind is None:
-            raise SnapshotError(f"a snapshot of a device {shorten(decoder.link.name)}: restore it with its profile")
-        if not kind.accepts(decoder.link):
-            raise SnapshotError(f"a snapshot of a device {shorten(decoder.link.name)} as another driver declared it")
+    for link in [decoder.link for decoder in state.decoders.values() if decoder.link is not None]:
+        kind = kinds.get(link.name)
+        if kind is None or not kind.accepts(link):
+            what = "restore it with its profile" if kind is None else "another driver declared it"
+            raise SnapshotError(f"a snapshot of a device {shorten(link.name)}: {what}")

@@ -26,10 +26,10 @@ SPLIT = 2.0**29 + 1.0
 
 
 def single(x: float) -> float:
-    """Return `x` rounded to the 24 bits of a float32, which a packed state writes in half the bytes.
+    """Return `x` rounded to the 24 bits of a float32, whose other bits are zeros that a packed state compresses.
 
     Use it for values that are stored, not for values that are propagated (a covariance, a position). It takes 60 ns.
-    A value below 1e-38 saves no bytes; `x` must be below 1e290 (T. J. Dekker, "A floating-point technique for extending
+    `x` must be below 1e290 (T. J. Dekker, "A floating-point technique for extending
     the available precision", 1971)."""
     high = SPLIT * x
     return high - (high - x)

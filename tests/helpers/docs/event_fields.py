@@ -12,8 +12,7 @@ from typing import Any, get_args, get_origin, get_type_hints
 import attrs
 
 from solepath import Event
-from solepath.events.frames.columns import RENAMED
-from solepath.events.frames.units import UNITS
+from solepath.events.frames import RENAMED, UNITS
 from solepath.events.happening import Happening
 
 Row = tuple[str, str, str]

@@ -11,13 +11,14 @@ from solepath.recipes import AIDS, LINKS, PARTS, part_class
 
 # internal: the schema of a record, which lists its fields and what they hold
 from solepath.saving.nodes import (
+    DataNode,
     DictNode,
     EnumNode,
     MaybeNode,
+    NumberNode,
     OpenNode,
     RecordNode,
-    ScalarNode,
-    SequenceNode,
+    RowNode,
     TupleNode,
 )
 from solepath.saving.schema import record_of
@@ -51,28 +52,30 @@ class Maker:
 
     def value(self, node: Any) -> Any:
         match node:
-            case ScalarNode(kind, row_size):
+            case NumberNode(kind) | DataNode(kind):
                 k = next(self.numbers)
                 if kind is bool:
                     return self.words.random() < 0.5
                 is_extreme = self.words.random() < self.extreme
                 number = EXTREME[k % len(EXTREME)] if is_extreme else k + 0.1
                 whole = LARGE[k % len(LARGE)] if is_extreme else -k
-                return {float: number, int: whole, str: f"é {k}", bytes: (b"%d" % k) * row_size}[kind]
+                return {float: number, int: whole, str: f"é {k}", bytes: (b"%d" % k) * getattr(node, "row_size", 1)}[
+                    kind
+                ]
             case EnumNode(cls):
                 return self.words.choice([*cls])
             case MaybeNode(of):
                 return self.value(of) if self.shape.random() < 0.6 else None
             case TupleNode(items):
                 return tuple([self.value(item) for item in items])
-            case SequenceNode(kind, of):
+            case RowNode(kind, of):
                 items = [self.value(of) for _ in range(self.shape.randrange(3))]
                 return deque(items, self.shape.choice([None, 5])) if kind is deque else kind(items)
-            case DictNode(key, of, kind):
+            case DictNode(kind, key, of):
                 keys = [Maker(k + self.shape.randrange(9), 7 * k).value(key) for k in range(2)]
                 return kind({key: self.value(of) for key in keys})
-            case OpenNode(known, others, _):
-                names = [*known, *(NAMES if others and self.depth < 9 else ("Cycle", "Turns")[: others * 2])]
+            case OpenNode(known):
+                names = [*known] or (NAMES if self.depth < 9 else ("Cycle", "Turns"))
                 name = self.shape.choice(names)
                 return self.record(record_of(known.get(name) or part_class(name)))
             case RecordNode():

@@ -18,23 +18,18 @@ from collections.abc import Sequence
 from math import floor
 from typing import ClassVar, Final
 
-from ...calibration import Calibration
 from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Site, Vec3
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartInput, PartOutput
-from .activity_report import ActivityReport
-from .blocks.features import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, WINDOW_REACH
-from .blocks.foot_blocks import MAX_STRIDE_TIME, FootBlocks
-from .blocks.motion import MotionModel, load_released_model
-from .blocks.stride_slope import slope_evidence
-from .blocks.votes import block_force, motion_votes
-from .early import ActivityCue, BlockSigns, EarlyActivities, cue_of_stride
+from .early import ActivityCue, ActivityReport, BlockSigns, EarlyActivities, cue_of_stride
 from .elevator_evidence import BlockForce, ElevatorEvidence
 from .flights import Flights
+from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, FootBlocks
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
+from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
 from .pressure_height import BLOCKS_BEFORE, NO_EVIDENCE, PressureHeight
 
 LEFT: Final = Foot.LEFT
@@ -93,11 +88,10 @@ class Activities(ActivityPart):
         """The newest activity that was reported, final or not."""
         return self.report.activity
 
-    def calibrated(self, calibration: Calibration) -> Activities:
+    def ready(self) -> None:
         """Read the motion model of this release, unless the settings have one."""
         if self.settings.model is None:
             load_released_model()
-        return self
 
     def reset(self, site: Site) -> None:
         """Discard the blocks of a foot whose clock restarts, the waiting strides and the flight under way."""

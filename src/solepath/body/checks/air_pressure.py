@@ -15,7 +15,7 @@ from ...events import Defect, DefectFound, StrideTaken
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
-from ..height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE, height_of
+from ..altitude import SCALE_HEIGHT, STANDARD_PRESSURE, height_of
 from ..part import Part, PartInput, PartOutput
 
 STRIDE_PAUSE = 2.5

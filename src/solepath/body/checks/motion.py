@@ -15,7 +15,7 @@ from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, evolve, field
 from ...types.vector import GRAVITY
-from ..activity.steepness import HIGHEST_RISE
+from ..activity.flights import HIGHEST_RISE
 from ..part import Part, PartInput, PartOutput, Replacement
 
 LONGEST_LEG = 1.15

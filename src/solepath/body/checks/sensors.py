@@ -10,15 +10,19 @@ from ...foot.view import FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ..part import Part, PartInput, PartOutput
-from .axes import AxesCheck
-from .bandwidth import BandwidthCheck
-from .closure import Axes
-from .finding import Finding
-from .gravity import MOVING_GYRO, GravityCheck
-from .loads import LoadCheck
-from .ranges import ACCELEROMETER, GYROSCOPE, RangeCheck, find_extremes
-from .rates import LEAST_RATE, RateCheck
-from .stances import Row, StanceFinder
+from .axes import AxesCheck, BandwidthCheck
+from .readings import (
+    ACCELEROMETER,
+    GYROSCOPE,
+    LEAST_RATE,
+    MOVING_GYRO,
+    GravityCheck,
+    LoadCheck,
+    RangeCheck,
+    RateCheck,
+    find_extremes,
+)
+from .stances import Axes, Finding, Row, StanceFinder
 
 LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""

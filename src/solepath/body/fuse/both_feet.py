@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 from math import atan2, hypot
-from typing import TYPE_CHECKING, Final, Protocol, cast
+from typing import TYPE_CHECKING, ClassVar, Final, Protocol, cast
 
 from ...calibration import Calibration
 from ...events import Defect, DefectFound, PositionReported, SampleGap, StrideTaken
@@ -27,7 +27,7 @@ from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Phase, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, add, minus, rotated, sub, unit_at, wrap_angle
-from ..part import PartInput, PartOutput, Position, Shift, StartGiven
+from ..part import Notice, PartInput, PartOutput, Position, Shift, StartGiven
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import FEET, RATE, WIDTH, TrackErrorFilter, feet_apart, standing_foot
 from .moving_ground import MovingGround
@@ -124,6 +124,8 @@ class BothFeet(MeanOfFeet):
     """The mean position of two feet whose headings and positions correct each other, or the position of a foot alone.
 
     Latency: none; a foot itself is corrected at its next foot-flat, if its corrector accepts shifts."""
+
+    notices: ClassVar[tuple[type[Notice], ...]] = (StartGiven,)
 
     settings: BothFeetSettings = BothFeetSettings()
     errors: TrackErrorFilter = field(factory=TrackErrorFilter, init=False)

@@ -11,7 +11,7 @@ from ...events import Defect, DefectFound, FootFlat, HeelOff, HeelStrike, Sample
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
-from ..part import ClockUnsettled, Part, PartInput, PartOutput
+from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
 from .footfalls import Footfalls
 from .means import GaitMeans, GaitParameters
 from .measuring import measure_cycle
@@ -35,6 +35,7 @@ class GaitCycles(Part):
     """Measures gait cycles from the events of both feet and returns GaitCycleMeasured; `means` has running means."""
 
     needs_samples: ClassVar[bool] = True
+    notices: ClassVar[tuple[type[Notice], ...]] = (ClockUnsettled,)
 
     left: Footfalls = field(factory=Footfalls, init=False)
     right: Footfalls = field(factory=Footfalls, init=False)
@@ -47,9 +48,6 @@ class GaitCycles(Part):
     """Time up to which the left foot's clock cannot be compared with the right one's, s; None: it can."""
     right_unsettled: float | None = field(default=None, init=False)
     """Time up to which the right foot's clock cannot be compared with the left one's, s; None: it can."""
-
-    between: Part | None = field(default=None, init=False)
-    """Measurement of steps by ranges between the feet (`recipes.AIDS`); None until a sample has a range."""
     clocks_apart: bool = field(default=False, init=False)
     """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 
@@ -72,13 +70,7 @@ class GaitCycles(Part):
         return outputs
 
     def _add_sample(self, view: FootView, events: Sequence[PartInput]) -> Sequence[PartOutput]:
-        if self.between is None and view.sample.range is not None:
-            from ..width.between_feet import BetweenFeet
-
-            self.between = BetweenFeet()
-        if self.between is not None and self.left_unsettled is self.right_unsettled is None and not self.clocks_apart:
-            self.between.feed(events, view)
-        elif self.idle and view.after is None:
+        if self.idle and view.after is None:
             return ()
         is_left = view.foot is Foot.LEFT
         progress, other = self.left_progress, self.right_progress
@@ -115,7 +107,7 @@ class GaitCycles(Part):
         """Return the cycles that still wait, because no more samples come."""
         for falls in (self.left, self.right):
             falls.close_cycle()
-        self.idle = self.between is None
+        self.idle = True
         counts = (len(self.left.waiting_cycles), len(self.right.waiting_cycles))
         return [*self._measure(Foot.LEFT, now, counts[0]), *self._measure(Foot.RIGHT, now, counts[1])]
 
@@ -123,8 +115,6 @@ class GaitCycles(Part):
         """Discard the cycles and the times of a foot whose clock restarts."""
         if site.foot is not None:
             self.clocks_apart = False
-            if self.between is not None:
-                self.between.reset(site)
             self.means.reset(site.foot)
             if site.foot is Foot.LEFT:
                 self.left, self.left_progress.t = Footfalls(count=self.left.count), None
@@ -145,7 +135,7 @@ class GaitCycles(Part):
                 ready_count += 1
             if ready_count:
                 outputs += self._measure(foot, known_at, ready_count)
-        self.idle = self.between is None and not (self.left.waiting_cycles or self.right.waiting_cycles)
+        self.idle = not (self.left.waiting_cycles or self.right.waiting_cycles)
         return outputs
 
     def _measure(self, foot: Foot, known_at: float, count: int) -> list[PartOutput]:
@@ -162,8 +152,6 @@ class GaitCycles(Part):
             comparable = not (self.clocks_apart or is_unsettled)
             previous = self.means.left if is_left else self.means.right
             measured = measure_cycle(foot, falls.count, cycle, previous, other, tracked, comparable, known_at)
-            if self.between is not None and comparable:
-                measured = self.between.complete(measured)  # type: ignore[attr-defined]
             self.means.add(measured)
             outputs.append(measured)
         return outputs

@@ -19,7 +19,7 @@ from ...floorplan.plan import Point, Start
 from ...foot.view import FootView
 from ...types.attrs import NOT_SAVED, define, field
 from ..fuse.common_error import LEAST_WAY
-from ..part import MOVEMENTS, PartInput, PartOutput, StartGiven
+from ..part import MOVEMENTS, Notice, PartInput, PartOutput, StartGiven
 from .arrivals import START_HEADING_ERROR, spread_rows, start_error
 from .connectors.level_changes import DirectionRevised, LevelChangePossible, LevelReached
 from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
@@ -53,6 +53,8 @@ them where floors are equal, and `hold_alike_levels` keeps their share of the we
 @define
 class Placing(LevelChanges):
     """The common part of all placing methods: start, change of level, loss and report of the place."""
+
+    notices: ClassVar[tuple[type[Notice], ...]] = (StartGiven,)
 
     needs_position: ClassVar[bool] = True
 

@@ -21,7 +21,7 @@ from statistics import median
 import numpy as np
 from attrs import evolve, frozen
 
-from ...body.checks.clocks.foot_clocks import FootClocks
+from ...body.checks.foot_clocks import FootClocks
 from ...events import DefectFound, GaitEvent, HeelStrike, StrideTaken
 from ...types import OTHER, Foot
 from ..processes import run_jobs

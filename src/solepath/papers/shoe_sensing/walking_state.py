@@ -1,15 +1,14 @@
 """Walking state by the angle per metre of each stride: its inclination divided by half its horizontal length.
 
 Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.4.1. The angle and its
-thresholds are in body/activity/steepness.py. Numbers without a source were chosen by hand."""
+thresholds are in body/activity/flights.py. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import ClassVar
 
-from ...body.activity.flights import Flights
-from ...body.activity.steepness import is_stair_rise, steepness
+from ...body.activity.flights import Flights, is_stair_rise, steepness
 from ...body.part import ActivityPart, PartInput, PartOutput
 from ...events import ActivityChanged, Event, Limitation, StrideTaken
 from ...foot.view import FootView

@@ -38,7 +38,6 @@ from math import fsum
 from typing import ClassVar
 
 from ....body.part import ActivityPart, PartInput, PartOutput
-from ....calibration import Calibration
 from ....events import ActivityChanged, Event, LiftRidden, Limitation
 from ....foot.view import FootView
 from ....types import Activity, Foot, Site
@@ -121,11 +120,10 @@ class TwoSecondWindows(ActivityPart):
     reported_t: float | None = field(default=None, init=False)
     """Time `t` of the newest event, s."""
 
-    def calibrated(self, calibration: Calibration) -> TwoSecondWindows:
+    def ready(self) -> None:
         """Read the learnt model from its file."""
         if self.settings.model is None:
             shipped()
-        return self
 
     def reset(self, site: Site) -> None:
         """Discard all windows when the clock of a foot's samples restarts."""
