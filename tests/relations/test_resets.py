@@ -30,8 +30,8 @@ LOOK_EVERY = 61
 """Number of items after which the state is looked at."""
 
 STAYS = """
-Activities._restart: flights left right strides pressure_height.restart()
-Activities.reset: left* right* apart flights.reset() left.restart() pressure_height.restart() right.restart()
+Activities._restart: feet flights strides pressure_height.restart()
+Activities.reset: feet* apart flights.reset() left.feet.restart() pressure_height.restart() right.feet.restart()
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now* inputs_kept.clear()
 AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* apart flights.reset()
@@ -57,15 +57,15 @@ DoubleFoot.reset: chosen error_balance paths* apart
 Flights.reset: level_stride_count rises stride_count t_end t_start trusted_rise
 FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares resolution sink speed squares
   strike_height top tracked
-FootClocks._forget: idle left* right*
-FootClocks.reset: idle left* right*
+FootClocks._forget: feet* idle
+FootClocks.reset: feet* idle
 FootTracker.reset: corrector* cues* detector* gait* levelled limitations rest* rhythm sole* walk_scale* cues.reset()
   cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
 Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
 GaitCues.reset: inertial* sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
-GaitCycles.reset: left* left_progress* left_unsettled right_progress* right_unsettled apart means.reset()
+GaitCycles.reset: feet* progress* unsettled apart means.reset()
 GaitMeans.reset: running walking_means apart
 InertialCues.reset: axis force impact landing_at lowest_rate moving_since not_turning_at peak_rate sagittal
   swing_start turn
@@ -92,8 +92,8 @@ Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping 
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
 SensorChecks.reset: apart
-SessionState.reset: decoders feet* height now parts* sampled* unsettled apart
-SessionState.restart_clock: decoders* feet* height now* parts* sampled* unsettled
+SessionState.reset: decoders feet* height now parts* sampled* unsettled apart left.feet.reset() right.feet.reset()
+SessionState.restart_clock: decoders* feet* height now* parts* sampled* unsettled left.feet.reset() right.feet.reset()
 Sides.reset:
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
 StanceFinder._restart: best_motion duration force latest_motion since_best since_latest t turn
@@ -110,7 +110,7 @@ StrideTemplate.reset: age bridged first_position infilled last_stride longest_st
   t_last_flat t_next_moment
 StrideTurn.reset: stride_turn
 Touch.restart: in_front
-TurnDetector.reset: left* pause right* t_end apart
+TurnDetector.reset: feet* pause t_end apart
 Turns.reset: detector* apart detector.reset()
 TwoSecondWindows.reset: limitation_reported moving_windows
 WalkScale.reset: drift_deviation force stance_deviation strides
@@ -214,11 +214,16 @@ class Seen:
         self.changed |= differing(both, record)
         for field in attrs.fields(type(record)):
             inner, after = getattr(record, field.name), getattr(both, field.name)
-            if attrs.has(type(inner)) and type(inner) is type(after):
-                for method in resets(type(inner)):
-                    if called(inner, method, state)[2] != inner:
-                        call = f"{field.name}.{method}()"
-                        self.calls[call] = self.calls.get(call, True) and called(after, method, state)[2] == after
+            pairs = {field.name: (inner, after)}
+            if isinstance(inner, dict):
+                pairs = {f"{foot.value}.{field.name}": (inner[foot], after.get(foot)) for foot in Foot if foot in inner}
+            for place, (inner_before, inner_after) in pairs.items():
+                if not attrs.has(type(inner_before)) or type(inner_before) is not type(inner_after):
+                    continue
+                for method in resets(type(inner_before)):
+                    if called(inner_before, method, state)[2] != inner_before:
+                        call, done = f"{place}.{method}()", called(inner_after, method, state)[2] == inner_after
+                        self.calls[call] = self.calls.get(call, True) and done
             for foot, own, other in ((Foot.LEFT, left, right), (Foot.RIGHT, right, left)):
                 values = [getattr(one, field.name) for one in (record, both, own, other)]
                 if isinstance(inner, dict) and foot in inner:
