@@ -56,5 +56,5 @@ def test_a_rest_after_a_walk_turns_the_track_back_by_what_its_bias_has_turned(fe
     y, heading = (sum(move[axis] for move in moves) for axis in (1, 2))
     assert heading == pytest.approx(turned, rel=0.05)
     assert y == pytest.approx(0.5 * turned * length, rel=0.1)
-    assert error.estimates == pytest.approx([0.0] * 6, abs=2e-5), "the feet have removed it"
+    assert error.estimates == pytest.approx([0.0] * 9, abs=2e-5), "the feet have removed it"
     assert error.heading_sigma < 0.3 * turned and is_covariance(error)

@@ -124,8 +124,8 @@ class CommonError:
 
     covariance: list[list[float]] = field(factory=_first_covariance)
     """Covariance of the errors, symmetric; the rows are named above."""
-    estimates: list[float] = field(factory=lambda: [0.0] * (SIZE - FEET[Foot.LEFT]))
-    """Estimates of all rows after that of the heading. What is estimated of the feet is removed from both tracks."""
+    estimates: list[float] = field(factory=lambda: [0.0] * SIZE)
+    """Estimate of each row, 0 for position and heading. What is estimated of the feet is removed from both tracks."""
     shares: PerFoot[float] = field(factory=lambda: dict.fromkeys(Foot, 0.5))
     """Share of each foot in the wearer's heading: 1 and 0 if a foot is alone."""
     started: bool = False
@@ -148,13 +148,9 @@ class CommonError:
         self.shares = {one: share if one is foot else 1.0 - share for one in Foot}
         return share
 
-    def estimate(self, row: int) -> float:
-        """Return the estimate of a row."""
-        return self.estimates[row - HEADING - 1]
-
     def aid(self, first: int) -> Vec2:
         """Return the estimates of two rows."""
-        return (self.estimate(first), self.estimate(first + 1))
+        return (self.estimates[first], self.estimates[first + 1])
 
     def _drift(self, values: Sequence[float], stride_time: float) -> float:
         """Return the drift with the bias, rad a stride, as straight ways measure it, of values by row."""
@@ -165,7 +161,7 @@ class CommonError:
 
     def drift_with_bias(self, stride_time: float) -> float:
         """Return the estimated drift with the bias, rad a stride, with strides of this duration, s."""
-        return self._drift([*NO_MOVE, *self.estimates], stride_time)
+        return self._drift(self.estimates, stride_time)
 
     def drift_variance(self, stride_time: float) -> float:
         """Return the variance of drift and bias together, (rad a stride)^2, with strides of this duration, s."""
@@ -252,7 +248,7 @@ class CommonError:
         """Return the correction of the heading of a foot, rad, over a stride.
 
         It counts as `strides` usual ones, turns by `turn` rad and takes `duration` s."""
-        drift, turning, bias = [self.estimate(row) for row in range(FEET[foot], FEET[foot] + 3)]
+        drift, turning, bias = self.estimates[FEET[foot] : FEET[foot] + 3]
         return strides * drift + turn * turning + duration * bias
 
     def correct_drift(self, z: float, variance: float, weight: float, stride_time: float) -> Move:
@@ -282,7 +278,7 @@ class CommonError:
                 p[i][j] += f * one * gain[j]
                 p[j][i] = p[i][j]
             if i > HEADING:
-                self.estimates[i - HEADING - 1] += one * z
+                self.estimates[i] += one * z
         return (gain[X] * z, gain[Y] * z, gain[HEADING] * z) if rows is None else NO_MOVE
 
     def correct_by(self, terms: Sequence[Term], z: float, variance: float, rows: range | None = None) -> Move:
@@ -316,14 +312,14 @@ class CommonError:
         """Give two rows new estimates with this variance."""
         for row, value in enumerate(values, first):
             self.renew(row, variance)
-            self.estimates[row - HEADING - 1] = value
+            self.estimates[row] = value
 
     def replace(self, row: int, value: float, variance: float, moved: list[float]) -> Move:
         """Replace the drift or the turning of a foot, which has this row, by another one with its variance.
 
         `moved` is the derivative of x and y, m, and of the heading, rad, by this error over the whole walk. Returns
         what is to be added to them."""
-        p, change = self.covariance, value - self.estimate(row)
+        p, change = self.covariance, value - self.estimates[row]
         # slopes: what this error has done to the estimates of aids
         slopes = [one / max(p[row][row], 1e-18) for one in p[row][SIZE:]]
         self.renew(row, variance)
@@ -333,7 +329,7 @@ class CommonError:
             for j, other in all_moved:
                 p[i][j] += variance * (one * other)
         for i, one in [(row, 1.0), *enumerate(slopes, SIZE)]:
-            self.estimates[i - HEADING - 1] += change * one
+            self.estimates[i] += change * one
         x, y, heading = moved
         return (change * x, change * y, change * heading)
 
@@ -367,7 +363,7 @@ class CommonError:
         if bias.spans == newest.spans:
             self.foot_biases[foot] = evolve(now, variance=before)
             return NO_MOVE
-        known, change, gain = self.estimate(row), bias.change - newest.change, 1.0 - variance / before
+        known, change, gain = self.estimates[row], bias.change - newest.change, 1.0 - variance / before
         if gain > 0.0:
             z, noise = -change / gain - known, variance / gain
             s = p[row][row] + noise
@@ -377,10 +373,10 @@ class CommonError:
                 s = p[row][row] + noise
             if z * z <= REST_GATE * s and abs(p[HEADING][row] * z) <= MAX_TURN_BACK * s:
                 move = self.correct(list(p[row]), z, s, 1.0)
-                self.estimates[row - HEADING - 1] += change  # which the foot has removed
+                self.estimates[row] += change  # which the foot has removed
                 return move
         elif change * change <= REST_GATE * p[row][row]:  # the rest was too restless to show anything
-            self.estimates[row - HEADING - 1] += change
+            self.estimates[row] += change
             return NO_MOVE
         self._replace_bias(row, variance, change + known)
         return NO_MOVE
@@ -394,7 +390,7 @@ class CommonError:
             most = 2.0 * MAX_TURN_BACK * p[row][row] / (abs(p[HEADING][row]) + 1e-12)
             self._add_to_bias(row, min(change * change / 3.0, most * most), HEADING + 1)
         self.renew(row, variance)
-        self.estimates[row - HEADING - 1] = 0.0
+        self.estimates[row] = 0.0
 
     def _add_to_bias(self, row: int, variance: float, count: int) -> None:
         """Add `variance`, (rad/s)^2, to that of a bias, and what it has moved so far to the first `count` errors."""

@@ -194,7 +194,7 @@ class CompassTrust:
     evidence: float = 0.0
     """Log-likelihood ratio of right to mirrored axes."""
     reported: list[str] = field(factory=list)
-    """Faults that were reported; those that concern one foot have its number."""
+    """Faults that were reported; those that concern one foot have its name."""
     pending: str | None = None
     """Fault to be reported next; None usually."""
 
@@ -224,7 +224,7 @@ class CompassTrust:
 
     def note(self, foot: Foot, fault: str) -> None:
         """Queue a fault of a foot, a key of `SENTENCES`, unless it was reported before."""
-        name = fault if fault in OF_BOTH else f"{fault} {_number(foot)}"
+        name = fault if fault in OF_BOTH else f"{fault} {foot}"
         if name not in self.reported:
             self.reported.append(name)
             self.pending = fault
@@ -247,16 +247,12 @@ class CompassTrust:
     def reset(self, foot: Foot) -> None:
         """Forget what depends on the device of a foot."""
         self.feet[foot] = FootTurns()
-        self.reported = [one for one in self.reported if one not in OF_BOTH and not one.endswith(_number(foot))]
+        self.reported = [one for one in self.reported if one not in OF_BOTH and not one.endswith(str(foot))]
         self.evidence = 0.0
 
 
 def _log_likelihood(angle: float, kappa: float) -> float:
     return log(OUTLIERS + exp(min(kappa, MOST_KAPPA) * (cos(angle) - 1.0)))
-
-
-def _number(foot: Foot) -> str:
-    return str([*Foot].index(foot))
 
 
 def _size(flux: Vec3) -> float:
@@ -440,7 +436,7 @@ class Compass:
                 p[row][j] *= keep
                 p[j][row] = p[row][j]
             p[row][row] = keep * p[row][row] + SHARE * self.disturbance.here * (1.0 - keep * keep)
-            error.estimates[row - HEADING - 1] *= keep
+            error.estimates[row] *= keep
 
     def turned(self, yaw: float) -> None:
         """Turn the blocks with both tracks by `yaw`, rad."""
