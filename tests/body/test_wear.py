@@ -160,11 +160,12 @@ def test_devices_that_report_the_right_feet_are_trusted() -> None:
     events = session.feed(insoles(WALK, cells=96).packets)
     assert of(FeetSwapped, events) == []
     sides = session._state.find_attribute("sides")
-    assert sides.left.declared and sides.right.declared
-    assert not sides.left.turn_integral.instants and not sides.right.turn_integral.instants, (
+    left, right = sides.feet.values()
+    assert left.declared and right.declared
+    assert not left.turn_integral.instants and not right.turn_integral.instants, (
         "what their feet do need not be remembered"
     )
-    sides.left.roll = sides.right.roll = RunningAverage(count=24, mean=0.2)
+    left.roll = right.roll = RunningAverage(count=24, mean=0.2)
     assert not sides._both_look_swapped()
 
 

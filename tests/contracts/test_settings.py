@@ -19,7 +19,7 @@ def test_sessions_of_one_recipe_hold_one_copy_of_it_and_of_a_recipe_that_was_cha
     own_copy = own(recipe)
     assert own_copy is own(recipe) is own(evolve(recipe)) and own_copy is not recipe
     assert own_copy == recipe
-    usual_settings, body.settings = body.settings, BothFeetSettings(reach=1.25)
+    usual_settings, body.settings = body.settings, BothFeetSettings(straightness=False)
     assert own(recipe) is not own_copy and own_copy != recipe
     body.settings = usual_settings
     assert own(recipe) is own_copy

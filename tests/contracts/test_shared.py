@@ -11,8 +11,8 @@ from own import StillDetector
 from walks import samples
 
 from solepath import Foot, Session, recipes
-from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
-from solepath.body.part import TrackPart
+from solepath.foot.settings import CycleSettings
+from solepath.foot.stance.cycle import Cycle
 from solepath.recipes import own
 
 
@@ -23,8 +23,8 @@ def test_sessions_are_started_in_many_threads_at_once() -> None:
     def start_sessions(k: int) -> None:
         try:
             for i in range(25):
-                both_feet = BothFeet(BothFeetSettings(reach=1.0 + 0.001 * (1000 * k + i)))
-                Session(recipes.DEFAULT.exchanged(TrackPart, both_feet))
+                cycle = Cycle(CycleSettings(least_threshold=1.0 + 1000 * k + i))
+                Session(evolve(recipes.DEFAULT, detector=cycle))
         except Exception as error:
             errors.append(error)
 

@@ -30,41 +30,42 @@ LOOK_EVERY = 61
 """Number of items after which the state is looked at."""
 
 STAYS = """
-Activities._restart: flights left right strides pressure_height.restart()
-Activities.reset: left* right* apart flights.reset() left.restart() pressure_height.restart() right.restart()
+Activities._restart: feet flights strides pressure_height.restart()
+Activities.reset: feet* apart flights.reset() left.feet.restart() pressure_height.restart() right.feet.restart()
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now* inputs_kept.clear()
-AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* flights.reset()
+AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* apart flights.reset()
 BiasFilter.forget: before bias* noise rate
 BiasFilter.reset: before bias* noise rate
-BothFeet._restart: common directions distance divergence errors* evidence* left* placements right started width
-BothFeet.reset: common* directions distance divergence errors evidence* left* placements right* started width apart
-  evidence.reset()
+BothFeet._restart: aid common directions distance divergence errors* ground measured_at path placements started
+  straight_ways* tracks* width straight_ways.reset()
+BothFeet.reset: aid* common* directions distance divergence errors measured_at path placements started straight_ways*
+  tracks* width aid.reset() apart straight_ways.reset()
 Cc2541Link.handle_reconnection: acc_clock calibration firmware gyro_clock
 Cc2541Link.restart_clock: assembler* calibration firmware
 CellHealth.reset: count lively_windows
 Clipping.reset: axes* largest near_end_square
-Compass.reset: distance disturbance first trust.reset()
-CompassTrust.reset:
+Compass.reset: distance disturbance first apart trust.reset()
+CompassTrust.reset: apart
 Contours.reset: cells levels per_area points rays
 CopCues.reset: foot_centre inertial* sagittal stage_t_start* inertial.reset()
 CopCues.restart: foot_centre inertial* sagittal touch* inertial.reset() inertial.restart() touch.restart()
 CriticalCues.reset:
 CriticalCues.restart:
 Decoder.restart_clock: firmware link* newest_stream_arrival* used link.restart_clock()
-DoubleFoot.reset: chosen error_balance paths*
+DoubleFoot.reset: chosen error_balance paths* apart
 Flights.reset: level_stride_count rises stride_count t_end t_start trusted_rise
 FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares resolution sink speed squares
   strike_height top tracked
-FootClocks._forget: idle left* right*
-FootClocks.reset: idle left* right*
+FootClocks._forget: feet* idle
+FootClocks.reset: feet* idle
 FootTracker.reset: corrector* cues* detector* gait* levelled limitations rest* rhythm sole* walk_scale* cues.reset()
   cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
 Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
 GaitCues.reset: inertial* sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
-GaitCycles.reset: left* left_progress* left_unsettled right_progress* right_unsettled apart means.reset()
+GaitCycles.reset: feet* progress* unsettled apart means.reset()
 GaitMeans.reset: running walking_means apart
 InertialCues.reset: axis force impact landing_at lowest_rate moving_since not_turning_at peak_rate sagittal
   swing_start turn
@@ -81,19 +82,18 @@ MeanOfFeet.reset: apart
 Modes.reset: limb_sensors* pending places* recognition* reference signs touchdowns limb_sensors.reset()
   recognition.reset()
 PossibleMotion.reset: apart
-PressureHeight.restart: blocks compared newest noise walked
+PressureHeight.restart: blocks compared newest noise walked apart
 RateIntegral.clear:
 RateIntegral.restart: instants* t*
 Reassembly.drop: frame_id skipping
 RecentInputs.clear:
-Recognition.reset: load_count mean_load soles*
+Recognition.reset: load_count mean_load soles* apart
 Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing acc_clipping.reset()
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
 SensorChecks.reset: apart
-SessionState.reset: decoders feet* height now parts* sampled* unsettled
-SessionState.restart_clock: decoders* feet* height now* parts* sampled* unsettled
-SharedEvidence.reset: compass* measured_at path straight_ways* compass.reset() straight_ways.reset()
+SessionState.reset: decoders feet* height now parts* sampled* unsettled apart left.feet.reset() right.feet.reset()
+SessionState.restart_clock: decoders* feet* height now* parts* sampled* unsettled left.feet.reset() right.feet.reset()
 Sides.reset:
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
 StanceFinder._restart: best_motion duration force latest_motion since_best since_latest t turn
@@ -110,8 +110,8 @@ StrideTemplate.reset: age bridged first_position infilled last_stride longest_st
   t_last_flat t_next_moment
 StrideTurn.reset: stride_turn
 Touch.restart: in_front
-TurnDetector.reset: left* pause right* t_end apart
-Turns.reset: detector* detector.reset()
+TurnDetector.reset: feet* pause t_end apart
+Turns.reset: detector* apart detector.reset()
 TwoSecondWindows.reset: limitation_reported moving_windows
 WalkScale.reset: drift_deviation force stance_deviation strides
 """
@@ -214,16 +214,25 @@ class Seen:
         self.changed |= differing(both, record)
         for field in attrs.fields(type(record)):
             inner, after = getattr(record, field.name), getattr(both, field.name)
-            if attrs.has(type(inner)) and type(inner) is type(after):
-                for method in resets(type(inner)):
-                    if called(inner, method, state)[2] != inner:
-                        call = f"{field.name}.{method}()"
-                        self.calls[call] = self.calls.get(call, True) and called(after, method, state)[2] == after
-            side = {"left": left, "right": right}.get(field.name.partition("_")[0])
-            if side is not None and inner != getattr(both, field.name):
-                other = left if side is right else right
-                assert getattr(side, field.name) == getattr(both, field.name), f"{field.name} of its own foot"
-                self.sides["apart"] = self.sides.get("apart", True) and getattr(other, field.name) == inner
+            pairs = {field.name: (inner, after)}
+            if isinstance(inner, dict):
+                pairs = {f"{foot.value}.{field.name}": (inner[foot], after.get(foot)) for foot in Foot if foot in inner}
+            for place, (inner_before, inner_after) in pairs.items():
+                if not attrs.has(type(inner_before)) or type(inner_before) is not type(inner_after):
+                    continue
+                for method in resets(type(inner_before)):
+                    if called(inner_before, method, state)[2] != inner_before:
+                        call, done = f"{place}.{method}()", called(inner_after, method, state)[2] == inner_after
+                        self.calls[call] = self.calls.get(call, True) and done
+            for foot, own, other in ((Foot.LEFT, left, right), (Foot.RIGHT, right, left)):
+                values = [getattr(one, field.name) for one in (record, both, own, other)]
+                if isinstance(inner, dict) and foot in inner:
+                    values = [value.get(foot) for value in values]
+                elif field.name.partition("_")[0] != foot.value:
+                    continue
+                if values[0] != values[1]:
+                    assert values[2] == values[1], f"{field.name} of its own foot"
+                    self.sides["apart"] = self.sides.get("apart", True) and values[3] == values[0]
 
     def row(self) -> list[str]:
         """Return the fields that stay, the resets of parts that are done with it, and whether each foot is apart."""

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from itertools import accumulate
 from math import fsum, hypot, sqrt
 from struct import Struct
-from typing import ClassVar, Final
+from typing import ClassVar
 
 from ..events import FeetSwapped, FootResumed, FootSilent, StrideTaken, ToeOff
 from ..foot.view import FootView
-from ..types import Foot, Layout, Vec3
+from ..types import OTHER, Foot, Layout, PerFoot, Vec3, per_foot
 from ..types.attrs import ROW_SIZE, define, field, frozen
 from ..types.vector import ZERO, rotate_back
 from .part import LayoutReported, Notice, Part, PartInput, PartOutput
@@ -189,14 +189,12 @@ class Sides:
 
     Cost: an integral at 50 Hz, or a centre of pressure at 20 Hz for an insole without inertial sensor."""
 
-    left: SwapEvidence = field(factory=SwapEvidence, init=False)
-    right: SwapEvidence = field(factory=SwapEvidence, init=False)
+    feet: PerFoot[SwapEvidence] = field(factory=lambda: per_foot(SwapEvidence), init=False)
 
     def update(self, view: FootView, events: Sequence[object]) -> bool:
         """Add one sample of a foot with its events and return whether both feet now look exchanged."""
-        is_left = view.foot is Foot.LEFT
-        side = self.left if is_left else self.right
-        self.add_sample(side, view)
+        side = self.feet[view.foot]
+        self.add_sample(view)
         evidence_changed = False
         for event in events:
             if isinstance(event, StrideTaken):
@@ -205,18 +203,19 @@ class Sides:
                 side.turn_integral.keep_newest()
             elif isinstance(event, ToeOff) and side.centre_ys:
                 evidence_changed = True
-                _add_stance(side, is_left)
+                _add_stance(side, view.foot is Foot.LEFT)
         if not evidence_changed or view.after is None:
             return False
         layout = view.after.layout
         side.mirrored = layout is not None and layout.foot is not view.foot
         return self._both_look_swapped()
 
-    def add_sample(self, side: SwapEvidence, view: FootView) -> None:
+    def add_sample(self, view: FootView) -> None:
         """Add one sample of a foot to its evidence."""
-        if self.left.declared or self.right.declared:
+        left, right = self.feet.values()
+        if left.declared or right.declared:
             return
-        gyro = view.sample.gyro
+        side, gyro = self.feet[view.foot], view.sample.gyro
         if gyro is None:
             if view.moved_at is None and view.sample.pressure:
                 _add_centre(side, view.t, None if view.pressed is None else view.pressed.centre_alone)
@@ -232,19 +231,19 @@ class Sides:
 
     def set_layout(self, foot: Foot, layout: Layout) -> None:
         """Set the layout that the device on `foot` has reported."""
-        side = self.left if foot is Foot.LEFT else self.right
+        side = self.feet[foot]
         side.declared = layout.foot is foot
         if side.declared:
             self.reset()
 
     def reset(self) -> None:
         """Discard the recent motion of both feet, which is no longer needed."""
-        for side in (self.left, self.right):
+        for side in self.feet.values():
             side.turn_integral.clear()
             side.centre_ys = []
 
     def _both_look_swapped(self) -> bool:
-        left, right = self.left, self.right
+        left, right = self.feet.values()
         if left.mirrored and right.mirrored:
             return True
         if left.declared or right.declared:
@@ -325,10 +324,6 @@ def _add_stance(side: SwapEvidence, is_left: bool) -> None:
     side.centre.add(leftward if is_left else -leftward)
 
 
-LEFT: Final = Foot.LEFT
-"""The left foot, looked up once: access to an enum member costs as much as five multiplications."""
-
-
 @define
 class FootSilence:
     """The time without samples of one foot."""
@@ -366,8 +361,7 @@ class Wear(Part):
 
     settings: WearSettings = WearSettings()
     sides: Sides = field(factory=Sides, init=False)
-    left: FootSilence = field(factory=FootSilence, init=False)
-    right: FootSilence = field(factory=FootSilence, init=False)
+    feet: PerFoot[FootSilence] = field(factory=lambda: per_foot(FootSilence), init=False)
     swapped: bool = field(default=False, init=False)
     """Flag: exchanged feet were reported."""
 
@@ -378,12 +372,11 @@ class Wear(Part):
                 self.sides.set_layout(event.site.foot, event.layout)
         if view is None:
             return ()
-        t, is_left = view.t, view.foot is LEFT
-        this, other = (self.left, self.right) if is_left else (self.right, self.left)
+        t, this, other = view.t, self.feet[view.foot], self.feet[OTHER[view.foot]]
         if not (events or this.silent or other.strides_since):
             this.t, this.strides_since = t, 0
             if not self.swapped:
-                self.sides.add_sample(self.sides.left if is_left else self.sides.right, view)
+                self.sides.add_sample(view)
             return ()
         outputs: list[PartOutput] = []
         if this.silent:
@@ -399,8 +392,8 @@ class Wear(Part):
                 other.strides_since = 0  # this foot's samples are late, or its clock has restarted
             elif other.strides_since >= self.settings.strides and t - other.t >= self.settings.seconds:
                 other.silent = True
-                silent_foot = Foot.RIGHT if is_left else LEFT
-                outputs.append(FootSilent(t=t, known_at=view.known_at, foot=silent_foot, silent_for=t - other.t))
+                silence = t - other.t
+                outputs.append(FootSilent(t=t, known_at=view.known_at, foot=OTHER[view.foot], silent_for=silence))
         if not self.swapped and self.sides.update(view, events):
             self.swapped = True
             self.sides.reset()

@@ -8,15 +8,18 @@ from .records import (
     Foot,
     OnBody,
     Packet,
+    PerFoot,
     Phase,
     Quat,
     Sample,
     Site,
     Support,
     Turn,
+    Vec2,
     Vec3,
     WalkingMode,
     Word,
+    per_foot,
 )
 
 __all__ = [
@@ -27,6 +30,7 @@ __all__ = [
     "Layout",
     "OnBody",
     "Packet",
+    "PerFoot",
     "Phase",
     "Quat",
     "SITE_OF_FOOT",
@@ -34,8 +38,10 @@ __all__ = [
     "Site",
     "Support",
     "Turn",
+    "Vec2",
     "Vec3",
     "WalkingMode",
     "Word",
+    "per_foot",
     "shared",
 ]

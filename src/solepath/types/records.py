@@ -4,13 +4,17 @@ Units are SI (s, m/s^2, rad/s, N, Pa, T); times are floats in seconds on one clo
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import Enum
-from typing import Any, SupportsIndex
+from typing import Any, SupportsIndex, TypeVar
 
 from .attrs import field, frozen
 
 Vec3 = tuple[float, float, float]
 """Vector (x, y, z), in the frame that the docstring of the field or argument names."""
+
+Vec2 = tuple[float, float]
+"""Vector (x, y) in the horizontal plane, in the frame that the docstring of the field or argument names."""
 
 Quat = tuple[float, float, float, float]
 """Unit quaternion (w, x, y, z) that turns sensor coordinates into world coordinates."""
@@ -37,6 +41,15 @@ class Foot(Word):
 
 OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 """The other foot of each foot."""
+
+_Value = TypeVar("_Value")
+PerFoot = dict[Foot, _Value]
+"""One value for each foot, the left one first."""
+
+
+def per_foot(make: Callable[[], _Value]) -> PerFoot[_Value]:
+    """Return a new value for each foot."""
+    return {foot: make() for foot in Foot}
 
 
 class OnBody(Word):

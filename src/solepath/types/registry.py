@@ -74,7 +74,7 @@ TABLE: dict[str, dict[str, str]] = {
         "AnglePerMetre": "solepath.papers.shoe_sensing.walking_state:AnglePerMetre",
     },
     # classes that a part loads when the first sample needs them
-    "aid": {"Compass": "solepath.body.aiding.compass:Compass"},
+    "aid": {"Compass": "solepath.body.fuse.compass:Compass"},
     # classes of links
     "link": {
         "InsoleLink": "solepath.link.devices.insole:InsoleLink",

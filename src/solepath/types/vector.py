@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import atan2, cos, pi, sin, sqrt
 
-from .records import Quat, Vec3
+from .records import Quat, Vec2, Vec3
 
 GRAVITY = 9.80665
 """Standard gravity, m/s^2 (ISO 80000-3)."""
@@ -38,6 +38,53 @@ def single(x: float) -> float:
 def sub(a: Vec3, b: Vec3) -> Vec3:
     """Return a - b."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def add(a: Vec3, b: Vec3) -> Vec3:
+    """Return a + b."""
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def plus(a: Vec2, b: Vec2) -> Vec2:
+    """Return a + b."""
+    return (a[0] + b[0], a[1] + b[1])
+
+
+def minus(a: Vec2, b: Vec2) -> Vec2:
+    """Return a - b."""
+    return (a[0] - b[0], a[1] - b[1])
+
+
+def scaled(k: float, v: Vec2) -> Vec2:
+    """Return k v."""
+    return (k * v[0], k * v[1])
+
+
+def along(a: Vec2, b: Vec2) -> float:
+    """Return the scalar product of a and b."""
+    return a[0] * b[0] + a[1] * b[1]
+
+
+def across(a: Vec2, b: Vec2) -> float:
+    """Return the component of b to the left of a, times the length of a."""
+    return a[0] * b[1] - a[1] * b[0]
+
+
+def rotated(v: Vec2, by: Vec2) -> Vec2:
+    """Return v rotated by the angle with the cosine and the sine `by`, counter-clockwise positive."""
+    c, s = by
+    return (c * v[0] - s * v[1], s * v[0] + c * v[1])
+
+
+def rotated_back(v: Vec2, by: Vec2) -> Vec2:
+    """Return v rotated by the opposite of the angle with the cosine and the sine `by`."""
+    c, s = by
+    return (c * v[0] + s * v[1], c * v[1] - s * v[0])
+
+
+def unit_at(angle: float) -> Vec2:
+    """Return the cosine and the sine of an angle, rad."""
+    return (cos(angle), sin(angle))
 
 
 def cross(a: Vec3, b: Vec3) -> Vec3:
@@ -134,6 +181,11 @@ def levelling(acc: Vec3) -> Quat:
         return (0.0, 1.0, 0.0, 0.0)
     # half-way quaternion of z-up and the measured up: (1 + cos, sensor_up x world_up)
     return normalise((1.0 + z, y, -x, 0.0))
+
+
+def wrap_angle(angle: float) -> float:
+    """Return the angle plus whole turns, from -pi to pi, rad."""
+    return (angle + pi) % (2.0 * pi) - pi
 
 
 def heading_turned(before: Quat, after: Quat) -> float:

@@ -10,8 +10,7 @@ import pytest
 from soak import longer
 
 from solepath import Session
-from solepath.body.fuse.calibration_fit import CalibrationFit, DriftHypothesis
-from solepath.body.fuse.straightness import StretchDrift
+from solepath.body.fuse.straight_ways import CalibrationFit, DriftHypothesis, StretchDrift
 from solepath.calibration import Calibration
 from solepath.emulate.walk import SampledWalk, sampled
 from solepath.events import Defect, DefectFound, Event

@@ -8,13 +8,12 @@ import pytest
 
 from solepath import Session
 from solepath.body.fuse.both_feet import BothFeet
-from solepath.body.fuse.calibration_fit import DriftHypothesis
 from solepath.body.fuse.common_error import NO_MOVE, CommonError
-from solepath.body.fuse.straight_ways import StraightWays
+from solepath.body.fuse.straight_ways import DriftHypothesis, StraightWays
 from solepath.calibration import HeadingCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import SampledWalk, sampled
-from solepath.events import Defect, Event, StrideTaken
+from solepath.events import Event, StrideTaken
 from solepath.lab.emulated.heading_walks import heading_route, insoles_of, wearer_of
 from solepath.types import Foot
 from solepath.types.attrs import evolve
@@ -50,11 +49,12 @@ def test_a_calibration_is_dropped_although_the_strides_have_no_duration() -> Non
     ways.use_calibration(known)
     for k in range(400):
         turn = 1.0 if k % 40 == 39 else 0.0
-        one = evolve(stride, t_start=4.0, t_end=5.0, heading_change=turn)
+        foot = (Foot.LEFT, Foot.RIGHT)[k % 2]
+        one = evolve(stride, foot=foot, t_start=4.0, t_end=5.0, heading_change=turn)
         direction = 0.003 * (k % 40)
-        _, defect = ways.add_stride(k % 2, one, 1.0, (1.3 * cos(direction), 1.3 * sin(direction)), common)
-        found += [defect] if defect is not None else []
-    assert [one.defect for one in found] == [Defect.CALIBRATION]
+        _, sentence = ways.add_stride(one, 1.0, (1.3 * cos(direction), 1.3 * sin(direction)), common)
+        found += [sentence] if sentence is not None else []
+    assert len(found) == 1 and "does not fit this walk" in found[0]
 
 
 def test_a_calibration_that_has_turned_the_track_far_is_dropped_without_turning_it_back() -> None:
@@ -64,5 +64,5 @@ def test_a_calibration_that_has_turned_the_track_far_is_dropped_without_turning_
     common.use_calibration(known)
     ways.use_calibration(known)
     ways.moved = [[30.0, 60.0, 100.0] for _ in ways.moved]
-    move = ways._drop(((0.02, 0.0), (0.02, 0.0)), DriftHypothesis(-0.02, 1e-6), common)
+    move = ways._drop((0.02, 0.0, 0.02, 0.0), DriftHypothesis(-0.02, 1e-6), common)
     assert move == NO_MOVE and common.heading_sigma > 1.0 and ways.calibrated is None

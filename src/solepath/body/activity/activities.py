@@ -16,11 +16,11 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from math import floor
-from typing import ClassVar, Final
+from typing import ClassVar
 
 from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
-from ...types import Activity, Foot, Site, Vec3
+from ...types import Activity, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartInput, PartOutput
@@ -31,9 +31,6 @@ from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, 
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
 from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
 from .pressure_height import BLOCKS_BEFORE, NO_EVIDENCE, PressureHeight
-
-LEFT: Final = Foot.LEFT
-"""The left foot, looked up once: access to an enum member costs as much as five multiplications."""
 
 SILENT_BLOCKS = 3
 """Number of blocks without samples after which a foot is no longer waited for."""
@@ -68,8 +65,7 @@ class Activities(ActivityPart):
     """Start of block 0, s."""
     next_block: int = field(default=0, init=False)
     """Number of the block that is judged next."""
-    left: FootBlocks = field(factory=FootBlocks, init=False)
-    right: FootBlocks = field(factory=FootBlocks, init=False)
+    feet: PerFoot[FootBlocks] = field(factory=lambda: per_foot(FootBlocks), init=False)
     pressure_height: PressureHeight = field(factory=PressureHeight, init=False)
     hypotheses: Hypotheses = field(factory=Hypotheses, init=False)
     report: ActivityReport = field(factory=ActivityReport, init=False)
@@ -97,11 +93,11 @@ class Activities(ActivityPart):
         """Discard the blocks of a foot whose clock restarts, the waiting strides and the flight under way."""
         if site.foot is None:
             return
-        (self.left if site.foot is LEFT else self.right).restart()
+        self.feet[site.foot].restart()
         self.pressure_height.restart(site.foot)
         self.flights.reset()
         self.strides.clear()
-        if self.left.index is None and self.right.index is None:
+        if all([side.index is None for side in self.feet.values()]):
             self._restart()
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
@@ -116,7 +112,7 @@ class Activities(ActivityPart):
         sample = view.sample
         acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
         t, origin = view.t, self.origin
-        side = self.left if view.foot is LEFT else self.right
+        side = self.feet[view.foot]
         outputs: list[PartOutput] = []
         if origin is None:
             if acc is None:
@@ -141,7 +137,7 @@ class Activities(ActivityPart):
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return the final activities, including the last second, because no more samples come."""
         events: list[Event] = []
-        sides = [side for side in (self.left, self.right) if side.index is not None]
+        sides = [side for side in self.feet.values() if side.index is not None]
         last = max([side.index for side in sides if side.index is not None], default=-1)
         for side in sides:
             side.close()
@@ -153,7 +149,7 @@ class Activities(ActivityPart):
 
     def _judge(self, t: float, known_at: float) -> list[Event]:
         """Judge the blocks that are complete in all feet that give samples."""
-        open_blocks = [side.index for side in (self.left, self.right) if side.index is not None]
+        open_blocks = [side.index for side in self.feet.values() if side.index is not None]
         newest = max(open_blocks)
         complete = min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1
         if complete <= self.newest_block:
@@ -193,10 +189,10 @@ class Activities(ActivityPart):
     def _features(self, index: int) -> list[list[float] | None]:
         """Return the features of a block of both feet, with as many later blocks as there are."""
         t = self._time(index) + 0.5 * BLOCK_DURATION
-        return [side.features(index, t) for side in (self.left, self.right)]
+        return [side.features(index, t) for side in self.feet.values()]
 
     def _forces(self, index: int) -> tuple[BlockForce | None, ...]:
-        return tuple([block_force(side.block(index), side.resolution) for side in (self.left, self.right)])
+        return tuple([block_force(side.block(index), side.resolution) for side in self.feet.values()])
 
     def _report(self, followed: int, known_at: float) -> list[Event]:
         """Return the events by which what was reported changes with the newest block.

@@ -13,7 +13,7 @@ from typing import ClassVar
 
 from ...events import Defect, DefectFound, StrideTaken
 from ...foot.view import FootView
-from ...types import SITE_OF_FOOT, Foot, Site
+from ...types import SITE_OF_FOOT, PerFoot, Site, per_foot
 from ...types.attrs import define, field
 from ..altitude import SCALE_HEIGHT, STANDARD_PRESSURE, height_of
 from ..part import Part, PartInput, PartOutput
@@ -78,8 +78,7 @@ class AirPressure(Part):
     needs_samples: ClassVar[bool] = True
     idle = True
 
-    left: Barometer = field(factory=Barometer, init=False)
-    right: Barometer = field(factory=Barometer, init=False)
+    feet: PerFoot[Barometer] = field(factory=lambda: per_foot(Barometer), init=False)
     stride_at: float | None = field(default=None, init=False)
     """End of the newest stride of either foot, s; None before any."""
     degraded: bool = field(default=False, init=False)
@@ -98,7 +97,7 @@ class AirPressure(Part):
         if pressure is None:
             return ()
         t, z = view.t, view.position[2]
-        barometer = self.left if view.foot is Foot.LEFT else self.right
+        barometer = self.feet[view.foot]
         if self.stride_at is None or abs(t - self.stride_at) > STRIDE_PAUSE:
             barometer.count = 0
             return ()
@@ -112,10 +111,8 @@ class AirPressure(Part):
 
     def reset(self, site: Site) -> None:
         """Forget what was found at a site, where another device is worn or the clock has restarted."""
-        if site.foot is Foot.LEFT:
-            self.left = Barometer()
-        elif site.foot is not None:
-            self.right = Barometer()
+        if site.foot is not None:
+            self.feet[site.foot] = Barometer()
         self.stride_at = None
 
 

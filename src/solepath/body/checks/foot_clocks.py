@@ -20,7 +20,7 @@ from typing import ClassVar
 
 from ...events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...foot.view import FootView
-from ...types import OTHER, Foot, Phase, Site
+from ...types import OTHER, Foot, PerFoot, Phase, Site, per_foot
 from ...types.attrs import define, field, frozen
 from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
 
@@ -180,15 +180,14 @@ class LoneFoot:
 class LoneStrides:
     """Detects a foot that walked while the other foot stood; the sentences are those of the right foot."""
 
-    left: LoneFoot = field(factory=LoneFoot, init=False)
-    right: LoneFoot = field(factory=LoneFoot, init=False)
+    feet: PerFoot[LoneFoot] = field(factory=lambda: per_foot(LoneFoot), init=False)
     requested: Foot | None = field(default=None, init=False)
     """Foot of which a sample without events is needed, to know whether it is tracked; None mostly."""
 
     def see(self, view: FootView) -> None:
         """Take a sample with events, or one of the foot that was requested."""
         foot = view.foot
-        this, other = self._feet(foot)
+        this, other = self.feet[foot], self.feet[OTHER[foot]]
         if not this.is_known and view.levelled and view.moved_at is not None:
             self.set_standing(foot, view.t if view.phase in (Phase.STATIONARY, Phase.LOADING) else None)
         if self.requested is foot:
@@ -200,17 +199,17 @@ class LoneStrides:
 
     def set_newest(self, foot: Foot, t: float, other_t: float | None) -> None:
         """Set the time of the newest sample of a foot and of the other foot, s."""
-        this, other = self._feet(foot)
+        this, other = self.feet[foot], self.feet[OTHER[foot]]
         this.newest, other.newest = t, other_t
 
     def set_standing(self, foot: Foot, since: float | None) -> None:
         """Set that a foot is tracked, and the time from which on it is on the ground, s, or None if it is not."""
-        this, _ = self._feet(foot)
+        this = self.feet[foot]
         this.is_known, this.stood_since = True, since
 
     def add(self, event: GaitEvent) -> str | None:
         """Add an event of a foot; return sentences for the person if the foot has walked while the other one stood."""
-        this, other = self._feet(event.foot)
+        this, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
         other.restart()
         if not isinstance(event, StrideTaken):
             self.set_standing(event.foot, event.t if isinstance(event, HeelStrike | FootFlat) else None)
@@ -224,7 +223,8 @@ class LoneStrides:
         this.strides, this.x, this.y = this.strides + 1, this.x + x, this.y + y
         if this.strides < MIN_STRIDES or hypot(this.x, this.y) <= 2.0 * LONGEST_STEP:
             return None
-        contradiction = "stood while the left foot walked" if this is self.left else "walked while the left foot stood"
+        is_left = event.foot is Foot.LEFT
+        contradiction = "stood while the left foot walked" if is_left else "walked while the left foot stood"
         return (
             f"it {contradiction}: the clocks are seconds apart, or one sensor is not worn or does not measure. Step "
             "time and double support are left out. Record both feet with one clock"
@@ -233,12 +233,8 @@ class LoneStrides:
     def add_gap(self, gap: SampleGap) -> None:
         """Restart the count after a gap in which a foot may have taken a step."""
         if gap.duration > LONGEST_LONE_GAP:
-            self.left.restart()
-            self.right.restart()
-
-    def _feet(self, foot: Foot) -> tuple[LoneFoot, LoneFoot]:
-        """Return this foot and the other one."""
-        return (self.left, self.right) if foot is Foot.LEFT else (self.right, self.left)
+            for foot in self.feet.values():
+                foot.restart()
 
 
 MEMORY = 48
@@ -311,8 +307,7 @@ class FootClocks(Part):
 
     idle: bool = field(default=True, init=False)
     """Flag: only samples with events are needed."""
-    left: FootClock = field(factory=FootClock, init=False)
-    right: FootClock = field(factory=FootClock, init=False)
+    feet: PerFoot[FootClock] = field(factory=lambda: per_foot(FootClock), init=False)
     comparisons: list[Comparison] = field(factory=list, init=False)
     """Newest comparisons, oldest first."""
     reported: float | None = field(default=None, init=False)
@@ -338,11 +333,11 @@ class FootClocks(Part):
 
     def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         if isinstance(event, GaitEvent):
-            if self.left.spoiled or self.right.spoiled or self.lone_reported:
+            if self.lone_reported or any([foot.spoiled for foot in self.feet.values()]):
                 return ()
             self.lone_sentences = self.lone.add(event) or self.lone_sentences
             self.idle = self.idle and self.lone_sentences is None
-            foot = self._foot(event.foot)
+            foot = self.feet[event.foot]
             if isinstance(event, FootFlat):
                 if foot.toe_off is not None:  # the heel-strike was not detected
                     foot.discard()
@@ -358,35 +353,31 @@ class FootClocks(Part):
         elif isinstance(event, SampleGap) and event.site.foot is not None:
             self.lone.add_gap(event)
             if event.duration > MAX_GAP:
-                self._foot(event.site.foot).discard()
+                self.feet[event.site.foot].discard()
         elif isinstance(event, DefectFound) and event.site.foot is not None and is_spoiling(event):
-            self._foot(event.site.foot).spoiled = True
+            self.feet[event.site.foot].spoiled = True
             self._forget()
         elif isinstance(event, ClockUnsettled) and event.site.foot is not None:
-            self._foot(event.site.foot).unsettled = event.until
+            self.feet[event.site.foot].unsettled = event.until
         return ()
 
     def reset(self, site: Site) -> None:
         """Discard everything when the clock or the device of a foot has changed."""
         if site.foot is not None:
-            self._foot(site.foot).spoiled = False
+            self.feet[site.foot].spoiled = False
             self._forget()
             self.reported, self.lone_reported = None, False
 
     def _forget(self) -> None:
         """Discard what was collected from both feet."""
-        for foot in (self.left, self.right):
+        for foot in self.feet.values():
             foot.discard()
             foot.swings = []
         self.comparisons, self.lone, self.lone_sentences = [], LoneStrides(), None
 
-    def _foot(self, foot: Foot) -> FootClock:
-        return self.left if foot is Foot.LEFT else self.right
-
     def _compare(self, foot: Foot, middle: float) -> bool:
         """Compare the newest cycle of a foot, the middle of whose stance is `middle`, s; return whether that worked."""
-        is_left = foot is Foot.LEFT
-        this, other = (self.left, self.right) if is_left else (self.right, self.left)
+        is_left, this, other = foot is Foot.LEFT, self.feet[foot], self.feet[OTHER[foot]]
         if not other.swings:
             return False
         own = this.swings[-1]

@@ -11,7 +11,7 @@ from typing import ClassVar
 
 from ...events import Defect, DefectFound, StrideTaken
 from ...foot.view import FootView
-from ...types import OTHER, SITE_OF_FOOT, Foot, Site
+from ...types import OTHER, SITE_OF_FOOT, PerFoot, Site, per_foot
 from ...types.attrs import define, field
 from ..part import Part, PartInput, PartOutput
 
@@ -67,8 +67,7 @@ class Looseness(Part):
     needs_samples: ClassVar[bool] = True
     idle = True
 
-    left: LandingErrors = field(factory=LandingErrors, init=False)
-    right: LandingErrors = field(factory=LandingErrors, init=False)
+    feet: PerFoot[LandingErrors] = field(factory=lambda: per_foot(LandingErrors), init=False)
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a stride of the foot; return the event if its sensor came loose."""
@@ -76,7 +75,7 @@ class Looseness(Part):
         for event in events:
             if not isinstance(event, StrideTaken) or view is None or view.after is None:
                 continue
-            this, other = self._errors(event.foot), self._errors(OTHER[event.foot])
+            this, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
             x, y, z = view.after.velocity_error
             this.add(x * x + y * y + z * z)
             compares = min(this.count, other.count) >= FIRST_STRIDES + RECENT_STRIDES and not this.reported
@@ -88,13 +87,8 @@ class Looseness(Part):
 
     def reset(self, site: Site) -> None:
         """Forget a foot whose device or clock is another one."""
-        if site.foot is Foot.LEFT:
-            self.left = LandingErrors()
-        elif site.foot is Foot.RIGHT:
-            self.right = LandingErrors()
-
-    def _errors(self, foot: Foot) -> LandingErrors:
-        return self.left if foot is Foot.LEFT else self.right
+        if site.foot is not None:
+            self.feet[site.foot] = LandingErrors()
 
 
 def _loose(event: StrideTaken) -> DefectFound:

@@ -7,12 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import degrees, radians, sqrt
-from typing import assert_never
 
 from ...events import Defect, DefectFound, SampleGap, StrideTaken
 from ...foot.stride import FASTEST_RUN
 from ...foot.view import FootView
-from ...types import SITE_OF_FOOT, Foot, Site
+from ...types import SITE_OF_FOOT, PerFoot, Site, per_foot
 from ...types.attrs import define, evolve, field
 from ...types.vector import GRAVITY
 from ..activity.flights import HIGHEST_RISE
@@ -78,21 +77,20 @@ class PossibleMotion(Part):
 
     Latency: none; a stride is replaced before another part receives it."""
 
-    left: FootRecord = field(factory=FootRecord, init=False)
-    right: FootRecord = field(factory=FootRecord, init=False)
+    feet: PerFoot[FootRecord] = field(factory=lambda: per_foot(FootRecord), init=False)
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         return [output for event in events for output in self._receive(event)]
 
     def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         if isinstance(event, DefectFound) and event.spoils and event.site.foot is not None:
-            record = self._record(event.site.foot)
+            record = self.feet[event.site.foot]
             record.one_reported = record.all_reported = True  # the cause is known
         if isinstance(event, SampleGap) and event.site.foot is not None:
-            self._record(event.site.foot).gap_at = event.t
+            self.feet[event.site.foot].gap_at = event.t
         if not isinstance(event, StrideTaken):
             return ()
-        record = self._record(event.foot)
+        record = self.feet[event.foot]
         motion = impossible_motion(event)
         reason = motion or impossible_angle(event)
         record.recent = (*record.recent[1 - MOST_RECENT :], reason is not None)
@@ -117,18 +115,8 @@ class PossibleMotion(Part):
         return output
 
     def reset(self, site: Site) -> None:
-        if site.foot is Foot.LEFT:
-            self.left = FootRecord()
-        elif site.foot is Foot.RIGHT:
-            self.right = FootRecord()
-
-    def _record(self, foot: Foot) -> FootRecord:
-        match foot:
-            case Foot.LEFT:
-                return self.left
-            case Foot.RIGHT:
-                return self.right
-        assert_never(foot)
+        if site.foot is not None:
+            self.feet[site.foot] = FootRecord()
 
     @staticmethod
     def _found(event: StrideTaken, what: str, spoils: bool) -> DefectFound:

@@ -7,7 +7,7 @@ from typing import ClassVar, Final
 
 from ...events import Defect, DefectFound, HeelStrike, SampleRejected, StrideTaken
 from ...foot.view import FootView
-from ...types import OTHER, SITE_OF_FOOT, Foot, Site, Vec3
+from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import define, field, frozen
 from ..part import Part, PartInput, PartOutput
 from .axes import AxesCheck, BandwidthCheck
@@ -24,8 +24,6 @@ from .readings import (
 )
 from .stances import Axes, Finding, Row, StanceFinder
 
-LEFT: Final = Foot.LEFT
-"""The left foot, looked up once: access to an enum member costs as much as five multiplications."""
 BLINDING: Final = frozenset((Defect.TIME_UNIT, Defect.BURSTS, Defect.GYRO_UNIT))
 """Defects with which no stance can be found, so that gravity and axes cannot be judged."""
 LONGEST_INTERVAL = 1.0 / 40.0
@@ -99,8 +97,7 @@ class SensorChecks(Part):
     needs_samples: ClassVar[bool] = True
 
     settings: SensorChecksSettings = SensorChecksSettings()
-    left: SensorCheck = field(factory=SensorCheck, init=False)
-    right: SensorCheck = field(factory=SensorCheck, init=False)
+    feet: PerFoot[SensorCheck] = field(factory=lambda: per_foot(SensorCheck), init=False)
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a sample and events; return the defects that they show."""
@@ -112,7 +109,7 @@ class SensorChecks(Part):
         acc, gyro = sample.acc, sample.gyro
         if acc is None or gyro is None:
             return ()
-        check = self.left if view.foot is LEFT else self.right  # as _check, without the cost of a call
+        check = self.feet[view.foot]
         rows = check.rows
         rows.append((view.t, acc, gyro))
         if len(rows) < BLOCK:
@@ -125,40 +122,35 @@ class SensorChecks(Part):
     def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive contacts and strides, which an insole or a stuck sensor may contradict, and rejected samples."""
         if isinstance(event, HeelStrike):
-            self._check(event.foot).loads.new_contacts += 1
+            self.feet[event.foot].loads.new_contacts += 1
         elif isinstance(event, StrideTaken):
-            check, other = self._check(event.foot), OTHER[event.foot]
+            check, other = self.feet[event.foot], OTHER[event.foot]
             found = self._report(event.foot, event.t, event.known_at, [check.loads.add_stride(event, check.in_newtons)])
-            return found + self._report(other, event.t, event.known_at, [_stuck(self._check(other), event)])
+            return found + self._report(other, event.t, event.known_at, [_stuck(self.feet[other], event)])
         elif isinstance(event, SampleRejected) and event.defect is not None and event.site.foot is not None:
-            finding = _wrong_unit(self._check(event.site.foot), event)
+            finding = _wrong_unit(self.feet[event.site.foot], event)
             return self._report(event.site.foot, event.t, event.known_at, [finding])
         elif isinstance(event, DefectFound) and event.site.foot is not None:
-            self._check(event.site.foot).reported.append(event.defect)
+            self.feet[event.site.foot].reported.append(event.defect)
         return ()
 
     def reset(self, site: Site) -> None:
         """Forget what was found at a site, where another device is worn or the clock has restarted."""
-        if site.foot is LEFT:
-            self.left = SensorCheck()
-        elif site.foot is not None:
-            self.right = SensorCheck()
+        if site.foot is not None:
+            self.feet[site.foot] = SensorCheck()
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return wrong axes that too few strides have shown for them to be reported before."""
         found: list[PartOutput] = []
         for foot in Foot:
-            axes = self._check(foot).axes
+            axes = self.feet[foot].axes
             if axes.wrong:
                 found += self._report(foot, now, now, [axes.finding])
         return found
 
-    def _check(self, foot: Foot) -> SensorCheck:
-        return self.left if foot is LEFT else self.right
-
     def _report(self, foot: Foot, t: float, known_at: float, findings: Iterable[Finding | None]) -> list[DefectFound]:
         """Return the events for the findings that were not reported before."""
-        check, events, site = self._check(foot), [], SITE_OF_FOOT[foot]
+        check, events, site = self.feet[foot], [], SITE_OF_FOOT[foot]
         for finding in findings:
             if finding is None:
                 continue

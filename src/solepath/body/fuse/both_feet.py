@@ -2,12 +2,12 @@
 
 The world frame starts between the feet. Its x axis is the wearer's first heading, the mean of the first directions of
 both feet. At each stride, the foot that swung is compared with the foot that stood, and the difference of their errors
-is corrected (error_filter.py). Feet that are further apart than `BothFeetSettings.reach` are always pulled together.
-The errors that both feet share are those of the wearer's position (common_error.py); straight ways show the drift of
-the heading among them (straightness.py). A foot alone has no other errors than these.
+is corrected (error_filter.py). Feet that are further apart than `REACH` are always pulled together.
+The errors that both feet share are those of the wearer's position (common_error.py); rests, straight ways, a compass
+and reported positions show them, and ground that moves adds to them. A foot alone has no other errors than these.
 
-In the first metres, the comparison aligns the two tracks, whatever the directions of the first strides are
-(walking_direction.py), and leaves the feet unchanged. From then on, corrections go to the feet, to each at its own
+In the first metres, the comparison aligns the two tracks, whatever the directions of the first strides are, and leaves
+the feet unchanged. From then on, corrections go to the feet, to each at its own
 foot-flat (`Shift`). Live position and later strides of both feet then have the same heading.
 
 Corrections are divided between the feet by their variances; both feet have equal weight in the mean. A foot that loses
@@ -17,32 +17,47 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
-from math import atan2, cos, hypot, sin
-from typing import ClassVar
+from math import atan2, hypot
+from typing import TYPE_CHECKING, ClassVar, Final, Protocol, cast
 
 from ...calibration import Calibration
-from ...events import DefectFound, PositionReported, SampleGap, StrideTaken
+from ...events import Defect, DefectFound, PositionReported, SampleGap, StrideTaken
 from ...foot.stride import usual_strides
 from ...foot.view import AfterEvents, FootPose, FootView
-from ...types import Foot, Site, Vec3
+from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Phase, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen
-from ...types.vector import ZERO, sub
+from ...types.vector import ZERO, add, minus, rotated, sub, unit_at, wrap_angle
 from ..part import Notice, PartInput, PartOutput, Position, Shift, StartGiven
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
-from .error_filter import WIDTH, Pair, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
-from .learnt_bias import has_rested
-from .position import MeanOfFeet
-from .shared_evidence import SPACING, STATIONARY, SharedEvidence
-from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
+from .error_filter import FEET, RATE, WIDTH, TrackErrorFilter, feet_apart, standing_foot
+from .moving_ground import MovingGround
+from .position import ABSENCE_TIME, MeanOfFeet, mean_place
+from .straight_ways import StraightWays
+from .walked_path import WalkedPath
 
+if TYPE_CHECKING:
+    from .compass import Compass
+
+STATIONARY: Final = Phase.STATIONARY
+"""Local name of `Phase.STATIONARY`, because a look-up in the enum is slow."""
+SPACING = 0.2
+"""Least time between samples of both feet that the compass has, s: one to three in a stance, whose noise is small."""
+REACH = 1.5
+"""Largest distance between the feet, m."""
+MAX_PHASE_TIME = 1.0
+"""Longest stance or swing time over which a drift rate is integrated, s; a foot that rests longer learns its bias."""
+STRIDE_WEIGHT = 0.1
+"""Weight of one stride in the running mean of a foot's walking direction."""
+LEAST_DIVERGENCE = 0.5
+"""Least angle between two tracks that is corrected, rad; first strides of a straight walk may differ by less."""
+REPEAT_TOLERANCE = 0.25
+"""Largest difference between two angles that count as equal, rad."""
 MAX_TRACK_VALUE = 1e6
 """Largest coordinate of a track, m, and largest variance of a stride, m^2, that are used."""
 MAX_STANDING = 600.0
 """Longest time over which the bias of a foot that stands without a rest turns the heading, s."""
 FOOTPRINT_VARIANCE = 1e-4
 """Variance of a foot's position at foot-flat that is added to a stride's variance, m^2."""
-ALIGNMENT_ERROR = (0.15, 0.05)
-"""Standard deviations of position, m, and heading, rad, of a returned foot after its alignment with the other foot."""
 STANDING_WIDTH, WALKING_WIDTH = 0.18, 0.12
 """Lateral distance of the feet when standing, and first estimate of the walking width, m."""
 MIN_LENGTH, MAX_TURN, MAX_DIRECTION_DEVIATION = 0.5, 0.8, 0.6
@@ -56,16 +71,52 @@ UNSEEN_DISTANCE, ALIGNMENT_DISTANCE = 3.0, 5.0
 walked after which the tracks count as aligned and corrections go to the feet, m."""
 
 
+@define
+class DirectedStride:
+    """The newest stride of a foot."""
+
+    t_end: float
+    """End of the stride, s."""
+    end: Vec3
+    """Position at the end, on the foot's own track, m."""
+    direction: float | None
+    """Direction on the foot's own track, rad; None for a short, turning or degraded stride."""
+
+
+@define
+class WalkingDirection:
+    """The walking direction of a foot relative to its own heading.
+
+    It changes when the wearer walks backwards or sideways; the usual position of the other foot does not apply then."""
+
+    turn_sum: float = 0.0
+    """Sum of the foot's turns, rad."""
+    direction_offset: float | None = None
+    """Mean direction of the foot's strides minus `turn_sum`, rad; None before any stride."""
+
+    def add_stride(self, direction: float, turn: float) -> float:
+        """Add a stride with this direction (common frame) and turn, rad; return its deviation from the mean, rad."""
+        middle = self.turn_sum + 0.5 * turn
+        self.turn_sum = wrap_angle(self.turn_sum + turn)
+        if self.direction_offset is None:
+            self.direction_offset = wrap_angle(direction - middle)
+        deviation = wrap_angle(direction - middle - self.direction_offset)
+        self.direction_offset = wrap_angle(self.direction_offset + STRIDE_WEIGHT * deviation)
+        return deviation
+
+
+class Aid(Protocol):
+    """Outside help that has rows of its own in the filter of the common errors: the compass.
+
+    It is a protocol, so that its class (types/registry.py) is loaded only when it is needed."""
+
+
 @frozen
 class BothFeetSettings:
     """The settings of `BothFeet`."""
 
     straightness: bool = True
     """Flag: straight ways show the drift of the heading, and whether its calibration fits (straight_ways.py)."""
-    feedback: bool = True
-    """Flag: corrections are returned to the feet."""
-    reach: float = 1.5
-    """Largest distance between the feet, m."""
 
 
 @define
@@ -81,19 +132,32 @@ class BothFeet(MeanOfFeet):
     """Covariance of the errors of both tracks, of which only the differences are used."""
     common: CommonError = field(factory=CommonError, init=False)
     """Covariance of the errors that both tracks share."""
-    evidence: SharedEvidence = field(factory=SharedEvidence, init=False)
+    straight_ways: StraightWays = field(factory=StraightWays, init=False)
+    ground: MovingGround = field(factory=MovingGround, init=False)
+    aid: Aid | None = field(default=None, init=False)
+    """The compass; None until a sample has a magnetic field."""
+    measured_at: float = field(default=0.0, init=False)
+    """Time of the newest sample that the compass has, s."""
+    path: WalkedPath = field(factory=WalkedPath, init=False)
+    """Path of the wearer so far."""
     started: bool = field(default=False, init=False)
     """Flag: both feet have had samples."""
     distance: float = field(default=0.0, init=False)
     """Distance walked, m; it is counted up to `ALIGNMENT_DISTANCE`."""
     width: float = field(default=0.0, init=False)
     """Walking width, m."""
-    strides: list[DirectedStride | None] = field(factory=lambda: [None, None], init=False)
-    """Newest strides of the left foot and the right foot."""
-    divergence: TrackDivergence = field(factory=TrackDivergence, init=False)
-    directions: list[WalkingDirection] = field(factory=lambda: [WalkingDirection(), WalkingDirection()], init=False)
-    placements: list[tuple[float, Vec3]] = field(factory=lambda: [(0.0, ZERO), (0.0, ZERO)], init=False)
+    strides: PerFoot[DirectedStride | None] = field(factory=lambda: dict.fromkeys(Foot), init=False)
+    """Newest stride of each foot."""
+    divergence: float | None = field(default=None, init=False)
+    """The newest angle between the tracks, rad; None before any and after a correction."""
+    directions: PerFoot[WalkingDirection] = field(factory=lambda: per_foot(WalkingDirection), init=False)
+    placements: PerFoot[tuple[float, Vec3]] = field(factory=lambda: dict.fromkeys(Foot, (0.0, ZERO)), init=False)
     """Turn, rad, and offset, m, of each track when alignment ended; later corrections go to the feet themselves."""
+
+    @property
+    def compass(self) -> Compass | None:
+        """The compass; None until a sample has a magnetic field."""
+        return cast("Compass | None", self.aid)
 
     def calibrated(self, calibration: Calibration) -> BothFeet:
         """Return the part for a wearer whose feet remove a drift that a calibration walk has shown."""
@@ -101,203 +165,277 @@ class BothFeet(MeanOfFeet):
             return self
         part = BothFeet(self.settings)
         part.common.use_calibration(calibration.headings)
-        part.evidence.straight_ways.use_calibration(calibration.headings)
+        part.straight_ways.use_calibration(calibration.headings)
         return part
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
         if view is not None:
-            was_unplaced = self.left.unplaced or self.right.unplaced
+            returning = self.return_strides
             self.add_view(view)
             mag = view.sample.mag if view.phase is STATIONARY else None
-            if mag is not None and not 0.0 <= view.t - self.evidence.measured_at < SPACING:
-                self.evidence.add_stance_sample(view, mag)
-            if not self.started and self.left.t is not None and self.right.t is not None:
+            if mag is not None and not 0.0 <= view.t - self.measured_at < SPACING:
+                self._add_magnetic_field(view, mag)
+            if not self.started and None not in [track.t for track in self.tracks.values()]:
                 self._start()
-            if was_unplaced and not self.left.unplaced and not self.right.unplaced:
-                self.errors.align(0 if self.placed_last is Foot.LEFT else 1, *ALIGNMENT_ERROR)
+            if returning and not self.return_strides and self.is_aligned and self.placed_last is not None:
+                self.errors.align(self.placed_last)
                 self._keep_placements()
         return [output for event in events for output in self._receive(event, view)] if events else ()
 
     def _receive(self, event: PartInput, view: FootView | None) -> Sequence[PartOutput]:
         """Receive a stride or gap, a position that a person reports, or a defect that spoils straight ways."""
-        after = None if view is None or self._track(view.foot).unplaced else view.after
-        if isinstance(event, StrideTaken) and after is not None:
-            return self._add_stride(event, after)
-        if isinstance(event, SampleGap) and after is not None:
-            self.common.add_gap(event.duration, self.is_unseen(event))
+        if isinstance(event, (StrideTaken, SampleGap)):
+            if view is None or view.after is None or self.tracks[view.foot].unplaced:
+                return ()
+            if isinstance(event, StrideTaken):
+                return self._add_stride(event, view.after)
+            # unseen: the other foot had no samples either in the first half, or the first second, of the gap
+            other_t = self.tracks[OTHER[view.foot]].t
+            unseen = other_t is None or other_t < event.t + min(0.5 * event.duration, ABSENCE_TIME)
+            self.common.add_gap(event.duration, unseen)
         elif isinstance(event, DefectFound):
-            self.evidence.straight_ways.add_defect(event)
+            self.straight_ways.add_defect(event)
         elif isinstance(event, StartGiven):
             self.set_start(event.start)
         elif isinstance(event, PositionReported) and (self.common.started or event.place):
-            here = [not (track.absent or track.unplaced) for track in (self.left, self.right)]
-            shares = self.common.shares if here[0] == here[1] else (float(here[0]), float(here[1]))
-            place = partial(self.middle, shares)
-            return self.evidence.use_position(event, place, self.plan_start, self.common, self._move_both)
+            return self._use_position(event)
         return ()
+
+    def _add_magnetic_field(self, view: FootView, mag: Vec3) -> None:
+        """Add a sample of a foot that stands, with the magnetic flux density `mag`, T, sensor frame."""
+        self.measured_at, compass = view.t, self.compass
+        if compass is None:
+            from .compass import Compass
+
+            compass = self.aid = Compass()
+        compass.feet[view.foot].add_sample(view, mag)
+
+    def _use_position(self, event: PositionReported) -> Sequence[PartOutput]:
+        """Correct both tracks by a reported position, reject it, or note a new place without an event."""
+        from .reported_position import ReportedPosition, in_world_frame
+
+        here = {foot: float(track.is_here) for foot, track in self.tracks.items()}
+        shares = here if len({*here.values()}) > 1 else self.common.shares
+        in_world, place = in_world_frame(event, self.plan_start), partial(self.middle, shares)
+        if in_world is None:
+            return ()
+        return ReportedPosition(in_world, place, self.common, self.path, self._move_both).use()
 
     def reset(self, site: Site) -> None:
         """Reset a foot as `MeanOfFeet` does, and discard its newest stride; if both are, the wearer may have moved."""
-        was_unknown = self.left.t is self.right.t is None
+        was_known = any([track.t is not None for track in self.tracks.values()])
         MeanOfFeet.reset(self, site)
         if site.foot is not None:
-            self.strides[0 if site.foot is Foot.LEFT else 1] = None
-            self.evidence.reset(site.foot, self.common)
-            if not was_unknown and self.left.t is self.right.t is None:
+            self.strides[site.foot] = None
+            self.straight_ways.reset(site.foot)
+            self.ground, self.path.known_at = MovingGround(), None
+            if self.compass is not None:
+                self.compass.reset(site.foot, self.common)
+            if was_known and all([track.t is None for track in self.tracks.values()]):
                 self.common.inflate(UNSEEN_DISTANCE * UNSEEN_DISTANCE, UNSEEN_TURN)
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """Return the wearer's position, with the covariance at the newest stride; None before any sample."""
-        mean = MeanOfFeet.position(self, feet)
-        if mean is None or not self.common.started:
+        mean, common = MeanOfFeet.position(self, feet), self.common
+        if mean is None or not common.started:
             return mean
-        xx, xy, yy = self.evidence.covariance(mean.position, self.common)
+        xx, xy, yy = common.position_covariance(minus(mean.position[:2], self.path.known))
         # corrections make the covariance of height and horizontal position unknown: it is set to 0
         covariance = (xx + FOOTPRINT_VARIANCE, xy, 0.0, yy + FOOTPRINT_VARIANCE, 0.0, mean.covariance[5])
-        north = self.evidence.north(self.common)
-        return Position(mean.t, mean.position, covariance, self.common.heading_sigma, north)
+        north = None if self.compass is None else self.compass.north(common)
+        return Position(mean.t, mean.position, covariance, common.heading_sigma, north)
 
     def _start(self) -> None:
         self.started, self.width = True, WALKING_WIDTH
         self.errors.start()
-        if not self.left.unplaced and not self.right.unplaced:
-            for track, k in ((self.left, 0.5), (self.right, -0.5)):
-                x, y, z = track.offset
-                track.offset = (x, y + k * STANDING_WIDTH, z)
+        if self.is_aligned:
+            for foot, track in self.tracks.items():
+                track.offset = add(track.offset, (0.0, 0.5 * _side(foot) * STANDING_WIDTH, 0.0))
         self._keep_placements()
 
     def _keep_placements(self) -> None:
-        self.placements = [(track.turn, track.offset) for track in (self.left, self.right)]
+        self.placements = {foot: (track.turn, track.offset) for foot, track in self.tracks.items()}
 
     def _add_stride(self, event: StrideTaken, after: AfterEvents) -> Sequence[PartOutput]:
-        index = 0 if event.foot is Foot.LEFT else 1
-        this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
+        """Correct a stride by what was seen before it, compare it with the other foot, and learn from the way so far.
+
+        Returns what was found, and the correction of the foot."""
+        foot, common, length, turn = event.foot, self.common, event.length, event.heading_change
+        this, other = self.tracks[foot], self.tracks[OTHER[foot]]
         numbers = (*event.position, *event.displacement, *event.covariance)
-        if not all([abs(v) < MAX_TRACK_VALUE for v in numbers]) or self.errors.diverged:
+        if not all([abs(number) < MAX_TRACK_VALUE for number in numbers]) or self.errors.diverged:
             return self._restart()
-        share = self.common.start_stride(index, not self.started or other.unplaced or other.absent)
-        rested = has_rested(self.common, index, after.bias)
-        aligned = self.distance >= ALIGNMENT_DISTANCE
-        for move in self.evidence.before_stride(event, index, after, this, self.common, aligned):
+        share = common.start_stride(foot, not (self.started and other.is_here))
+
+        # what was seen before the stride; a compass waits until the tracks are aligned
+        ground = self.ground.add_stride(event, after.velocity_error)
+        common.inflate(self.ground.variance(event.t_end))
+        rested = common.has_rested(foot, after.bias)
+        self._move_both(common.add_rest(foot, event.t_end, after.bias))
+        fault = misfit = None
+        if self.compass is not None and self.distance >= ALIGNMENT_DISTANCE:
+            move, fault = self.compass.add_stride(event, this.turn, common)
             self._move_both(move)
-        own_position, c, s = event.position, cos(this.turn), sin(this.turn)
-        (x, y, _), (stance, swing) = event.displacement, phase_times(event)
-        dx, dy = c * x - s * y, s * x + c * y
-        # correct the drift of the heading, and the displacement by the drift up to mid-swing
-        rate, count = self.errors.rates[index], usual_strides(event.length)
+
+        # the drift of the heading in the stride, which turns its displacement by the drift up to mid-swing
+        stance, swing = _phase_times(event)
         duration = stance + swing if rested else min(event.t_end - event.t_start, MAX_STANDING)
-        drift = self.common.turn_of(index, count, event.heading_change, duration)
+        count, rate = usual_strides(length), self.errors.rates[foot]
+        drift = common.turn_of(foot, count, turn, duration)
         mid_turn = rate * (stance + 0.5 * swing) + 0.5 * drift
-        this.correct(own_position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
-        (dx, dy), (ex, ey, _) = (dx - mid_turn * dy, dy + mid_turn * dx), this.place(own_position)
+        dx, dy = rotated(event.displacement[:2], unit_at(this.turn))
+        this.correct(event.position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
+        moved = (dx - mid_turn * dy, dy + mid_turn * dx)
+
+        # the errors after the stride
         xx, xy, yy = this.turned_covariance(event.covariance)
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
-        self.common.propagate(index, count, event.heading_change, duration, (dx, dy), variance)
-        excess, defect = max(0.0, event.length - MAX_STRIDE_LENGTH), event.foot in self.evidence.straight_ways.spoiled
-        degraded = self.errors.judge_stride(index, event.degraded, defect) or excess > 0.0
+        common.propagate(foot, count, turn, duration, moved, variance)
+        excess = max(0.0, length - MAX_STRIDE_LENGTH)
+        degraded = self.errors.judge_stride(foot, event.degraded, foot in self.straight_ways.spoiled) or excess > 0.0
         if self.started:
-            self.errors.propagate(index, stance, swing, (ex, ey), (dx, dy), variance, degraded)
-        self.errors.inflate(index, excess)
-        self.common.inflate(share * share * excess * excess)
-        self.distance = min(ALIGNMENT_DISTANCE, self.distance + share * event.length)
-        straight = hypot(x, y) > MIN_LENGTH and abs(event.heading_change) < MAX_TURN and not degraded
-        self.strides[index] = DirectedStride(event.t_end, own_position, atan2(y, x) if straight else None)
-        realigned = self.started and self.distance < ALIGNMENT_DISTANCE and self._realign(index, event)
+            end = this.place(event.position)[:2]
+            self.errors.propagate(foot, (stance, swing), end, moved, variance, degraded)
+        self.errors.inflate(foot, excess)
+        common.inflate(share * share * excess * excess)
+
+        # the other foot
+        self.distance = min(ALIGNMENT_DISTANCE, self.distance + share * length)
+        x, y, _ = event.displacement
+        has_direction = hypot(x, y) > MIN_LENGTH and abs(turn) < MAX_TURN and not degraded
+        self.strides[foot] = DirectedStride(event.t_end, event.position, atan2(y, x) if has_direction else None)
+        realigned = self.started and self.distance < ALIGNMENT_DISTANCE and self._realign(event)
         if self.started and not realigned:
-            self._compare_feet(index, event, (dx, dy), (stance, swing), degraded)
-        place, straight = self.middle(self.common.shares), self.settings.straightness and not realigned
-        self._move_both(self.evidence.after_stride(event, index, count, (dx, dy), self.common, place, straight))
-        return [*self.evidence.found, *self._shift_foot(index, event.foot, after.takes_shifts)]
+            self._compare_feet(event, moved, (stance, swing), degraded)
+
+        # what the way so far shows
+        self.path.add_stride(event.t_end, self.middle(common.shares), share * length)
+        if self.settings.straightness and not realigned:
+            move, misfit = self.straight_ways.add_stride(event, count, moved, common)
+            self._move_both(move)
+        sentences = {Defect.MOVING_GROUND: ground, Defect.COMPASS: fault, Defect.CALIBRATION: misfit}
+        site = SITE_OF_FOOT[foot]
+        found = [
+            DefectFound(t=event.t, known_at=event.known_at, site=site, defect=defect, what=what, spoils=False)
+            for defect, what in sentences.items()
+            if what is not None
+        ]
+        return [*found, *self._shift_foot(foot, after.takes_shifts)]
 
     def _move_both(self, move: Move) -> None:
         """Move and turn both tracks about the position of the wearer."""
         if move == NO_MOVE:
             return
-        (lx, ly, _), (rx, ry, _) = self._end_of(0)[1], self._end_of(1)[1]
-        left, right = self.common.shares
-        self.evidence.turned(move[2])
-        self._move_tracks((left * lx + right * rx, left * ly + right * ry), (move, move))
+        ends = [track.place(self._end_of(foot)) for foot, track in self.tracks.items()]
+        if self.compass is not None:
+            self.compass.turned(move[2])
+        self._move_tracks(mean_place(self.common.shares, ends), dict.fromkeys(Foot, move))
 
-    def _move_tracks(self, centre: tuple[float, float], moves: tuple[Vec3, Vec3]) -> None:
+    def _move_tracks(self, centre: Vec2, moves: Mapping[Foot, Sequence[float]]) -> None:
         """Move each track by its x and y, m, and turn it by its third number, rad, about `centre`, m."""
-        for index, (track, (dx, dy, yaw)) in enumerate(zip((self.left, self.right), moves, strict=True)):
-            own, (x, y, _) = self._end_of(index)
-            track.correct(own, yaw, dx - yaw * (y - centre[1]), dy + yaw * (x - centre[0]))
+        for foot, (dx, dy, yaw) in moves.items():
+            track, own = self.tracks[foot], self._end_of(foot)
+            x, y = minus(track.place(own)[:2], centre)
+            track.correct(own, yaw, dx - yaw * y, dy + yaw * x)
 
-    def _end_of(self, index: int) -> tuple[Vec3, Vec3]:
-        """Return where foot 0 or 1 stood last, on its own track and in the common frame, m."""
-        track, stride = (self.left, self.right)[index], self.strides[index]
-        own = track.newest_place if stride is None else stride.end
-        return own, track.place(own)
+    def _end_of(self, foot: Foot) -> Vec3:
+        """Return where a foot stood last, on its own track, m."""
+        stride = self.strides[foot]
+        return self.tracks[foot].newest_place if stride is None else stride.end
 
-    def _realign(self, index: int, event: StrideTaken) -> bool:
-        """Align the tracks of both feet again if they diverge within the first metres; return whether that was done."""
-        stride, other_stride = self.strides[index], self.strides[1 - index]
+    def _realign(self, event: StrideTaken) -> bool:
+        """Align the tracks of both feet again if they diverge within the first metres; return whether that was done.
+
+        A foot's world frame has its x axis along the foot's own first stride. When that stride leads sideways or
+        backwards, the two tracks have a large angle between them, which small corrections cannot remove. Two walking
+        feet must have the same direction, so each track is turned by half of the angle if it is repeated, and both are
+        moved by equal distances, so that the other foot stands beside the middle of the stride."""
+        foot, side = event.foot, _side(event.foot)
+        this, other = self.tracks[foot], self.tracks[OTHER[foot]]
+        stride, other_stride = self.strides[foot], self.strides[OTHER[foot]]
         if stride is None or other_stride is None or not event.t_start < other_stride.t_end < event.t_end:
             return False
-        track, other_track, side = (self.left, self.right, 1.0) if index == 0 else (self.right, self.left, -1.0)
-        angle = self.divergence.update(stride, track.turn, other_stride, other_track.turn, side)
-        if angle is None:
+        if stride.direction is None or other_stride.direction is None:
             return False
-        align_tracks(track, stride, other_track, other_stride, angle, 0.5 * event.length, side * WALKING_WIDTH)
+        previous = self.divergence
+        angle = self.divergence = wrap_angle(
+            side * (stride.direction + this.turn - other_stride.direction - other.turn)
+        )
+        if previous is None or abs(angle) < LEAST_DIVERGENCE or abs(wrap_angle(angle - previous)) > REPEAT_TOLERANCE:
+            return False
+        this.correct(stride.end, -0.5 * side * angle, 0.0, 0.0)
+        other.correct(other_stride.end, 0.5 * side * angle, 0.0, 0.0)
+        half, across, (ux, uy) = 0.5 * event.length, side * WALKING_WIDTH, unit_at(this.turn + stride.direction)
+        (x, y, _), (ox, oy, _) = this.place(stride.end), other.place(other_stride.end)
+        dx = 0.5 * (x - half * ux + across * uy - ox)
+        dy = 0.5 * (y - half * uy - across * ux - oy)
+        this.correct(stride.end, 0.0, -dx, -dy)
+        other.correct(other_stride.end, 0.0, dx, dy)
         self.errors.start()
-        self.evidence.straight_ways.reset()
-        self.distance, self.directions = 0.0, [WalkingDirection(), WalkingDirection()]
+        self.straight_ways.reset()
+        self.distance, self.divergence, self.directions = 0.0, None, per_foot(WalkingDirection)
         self._keep_placements()
         return True
 
-    def _compare_feet(self, index: int, event: StrideTaken, moved: Pair, times: Pair, degraded: bool) -> None:
+    def _compare_feet(self, event: StrideTaken, moved: Vec2, times: Vec2, degraded: bool) -> None:
         """Compare a stride by `moved`, m, with where the other foot stood; `times` of its stance and swing are in s."""
-        this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
-        (dx, dy), turn, length = moved, event.heading_change, hypot(*moved)
-        deviation = self.directions[index].add_stride(atan2(dy, dx), turn) if length > MIN_LENGTH else 0.0
-        other_stride = self.strides[1 - index]
-        if other_stride is None or other.absent or other.unplaced:
+        foot, (dx, dy), turn, length = event.foot, moved, event.heading_change, hypot(*moved)
+        this, other, other_stride = self.tracks[foot], self.tracks[OTHER[foot]], self.strides[OTHER[foot]]
+        deviation = self.directions[foot].add_stride(atan2(dy, dx), turn) if length > MIN_LENGTH else 0.0
+        if other_stride is None or not other.is_here:
             return
-        ex, ey, _ = this.place(event.position)
         walks_on = length > MIN_LENGTH and abs(turn) < MAX_TURN and abs(deviation) < MAX_DIRECTION_DEVIATION
         if walks_on and event.t_start < other_stride.t_end < event.t_end and not degraded:
-            qx, qy, _ = other.place(other_stride.end)
-            for one in standing_foot(index, moved, (ex, ey), (qx, qy), turn, times, self.width):
-                self._correct(self.errors.correct(one.terms, one.z, one.variance, GATE_LIMIT))
             ex, ey, _ = this.place(event.position)
-        qx, qy, _ = other.place(other.newest_place)
-        separation = hypot(qx - ex, qy - ey)
-        if separation > self.settings.reach:
+            middle = minus(other.place(other_stride.end)[:2], (ex - 0.5 * dx, ey - 0.5 * dy))
+            for measured in standing_foot(foot, moved, middle, turn, times, self.width):
+                self._correct(self.errors.correct(measured, GATE_LIMIT))
+        to_other = minus(other.newest[:2], this.place(event.position)[:2])
+        if hypot(*to_other) > REACH:
             # a foot that moved far without a stride has a wrong track, which must not pull the other foot
             wx, wy, _ = sub(other.newest_place, other_stride.end)
-            self.errors.inflate(1 - index, max(0.0, hypot(wx, wy) - MAX_STRIDE_LENGTH))
+            self.errors.inflate(OTHER[foot], max(0.0, hypot(wx, wy) - MAX_STRIDE_LENGTH))
             if other_stride.t_end < event.t_start:  # no foot stands that long: its strides were not detected
-                self.errors.inflate(1 - index, event.length)
-            one = feet_apart(index, (ex, ey), (qx, qy), self.settings.reach)
-            self._correct(self.errors.correct(one.terms, one.z, one.variance, NO_GATE))
+                self.errors.inflate(OTHER[foot], event.length)
+            self._correct(self.errors.correct(feet_apart(foot, to_other, REACH), NO_GATE))
 
     def _correct(self, errors: list[float] | None) -> None:
         """Remove the estimated errors (None: no change) from both tracks."""
         if errors is not None:
             self.width += errors[WIDTH]
-            self._move_tracks(self.errors.centre, moves_of(errors))
+            self._move_tracks(self.errors.centre, {foot: errors[k : k + RATE] for foot, k in FEET.items()})
 
-    def _shift_foot(self, index: int, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
+    def _shift_foot(self, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
         """Return the correction that has accumulated for the foot since its last one, and reset its placement."""
-        this, stride = self.left if index == 0 else self.right, self.strides[index]
+        this, stride = self.tracks[foot], self.strides[foot]
         if stride is not None and self.distance < ALIGNMENT_DISTANCE:
-            self.placements[index] = (this.turn, this.offset)
-        elif stride is not None and self.settings.feedback and takes_shifts:
+            self.placements[foot] = (this.turn, this.offset)
+        elif stride is not None and takes_shifts:
             place, yaw = this.place(stride.end), this.turn
-            this.turn, this.offset = self.placements[index]
+            this.turn, this.offset = self.placements[foot]
             own_position = this.to_own(place)
             shift = sub(own_position, stride.end)
-            (x, y, z), (dx, dy, dz) = this.newest_place, shift
-            stride.end, this.newest_place = own_position, (x + dx, y + dy, z + dz)
+            stride.end, this.newest_place = own_position, add(this.newest_place, shift)
             return [Shift(foot, yaw - this.turn, shift)]
         return ()
 
     def _restart(self) -> Sequence[PartOutput]:
         """Restart the error filter, because its estimates or a stride have impossible values."""
         self.errors.start()
-        self.strides = [None, None]
-        self.evidence.straight_ways.reset()
-        (self.left.turn, self.left.offset), (self.right.turn, self.right.offset) = self.placements
+        self.strides = dict.fromkeys(Foot)
+        self.straight_ways.reset()
+        for foot, track in self.tracks.items():
+            track.turn, track.offset = self.placements[foot]
         return ()
+
+
+def _side(foot: Foot) -> float:
+    return 1.0 if foot is Foot.LEFT else -1.0
+
+
+def _phase_times(event: StrideTaken) -> Vec2:
+    """Return the stance time and the swing time of a stride, s, each up to `MAX_PHASE_TIME`."""
+    t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off
+    stance, swing = t_toe_off - event.t_start, event.t_end - t_toe_off
+    return max(0.0, min(stance, MAX_PHASE_TIME)), max(0.0, min(swing, MAX_PHASE_TIME))

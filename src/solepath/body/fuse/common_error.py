@@ -19,20 +19,22 @@ e = (x, y) and c, a rotation by +90 degrees:
     a = w (n drift + theta turning + T bias),   heading' = heading + a,   e' = e + w (heading + a / 2) c d
 
 where w is 1/2 for a stride of one of two feet, and 1 for a foot alone. Straight ways measure the drift with the bias
-(straightness.py), rests measure the bias (learnt_bias.py). The drift in which both tracks differ is another matter:
-error_filter.py finds it by comparing the feet. The equations are linear in the errors; what a heading error of any
-size does to the position is in position_covariance.py."""
+(straight_ways.py), and rests measure the bias: a foot that has learnt its bias at a rest, with a gain of 1 - q / p for
+the variance p before and q now, has measured it with the variance p q / (p - q), and with it the rate by which its own
+strides have turned the heading since the last rest. The drift in which both tracks differ is another matter:
+error_filter.py finds it by comparing the feet. The equations are linear in the errors, except for what a heading error
+of any size does to the position (`position_covariance`)."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import fsum, sqrt
+from math import exp, fsum, sqrt
 
 from ...calibration import HeadingCalibration
 from ...foot.gaps.gap import LONGEST_FILLED_GAP
-from ...foot.navigate.bias import FIRST_BIAS
-from ...types import Foot
-from ...types.attrs import define, field, frozen
+from ...foot.navigate.bias import BIAS_WANDER, FIRST_BIAS, Bias
+from ...types import Foot, PerFoot, Vec2
+from ...types.attrs import define, evolve, field, frozen
 
 DRIFT = 0.0014
 """Standard deviation of the drift of one foot, rad a stride (4.4 degrees a minute), unless it was calibrated.
@@ -56,12 +58,28 @@ UNSEEN_RATE, UNSEEN_TURN, UNSEEN_SPEED = 0.5, 1.5, 1.4
 corridor, for a tenth of the time), turn at the most, rad, and speed, m/s."""
 MAX_TURN_BACK = 1.0
 """Largest turn of both tracks by a rest or a dropped calibration, rad, because the equations are linear."""
+REST_GATE = 9.0
+"""Largest squared difference of a measured bias from the expected one, divided by its variance: above it, the bias has
+changed since the last rest."""
+POSITION_GATE = 11.8
+"""Largest squared distance of a report, divided by its variance: 99.7 % of right ones (chi square, 2 axes)."""
+LEAST_WAY = 10.0
+"""Least way from a rejected position to one that confirms it, m: to repeat it on the spot does not."""
+LENGTH_ERROR = 0.007
+"""Standard deviation of the relative error that all strides have in common, no unit.
+
+Emulated strides are up to 1.6 % too long or too short on average (rms 0.7 %)."""
 X, Y, HEADING = 0, 1, 2
 """Rows of the position and of the heading."""
-FEET = (3, 6)
-"""First row of the left foot and of the right foot: drift, turning and bias."""
+FEET = {Foot.LEFT: 3, Foot.RIGHT: 6}
+"""First row of each foot: its drift."""
+TURN, BIAS = 1, 2
+"""Rows of the turning and of the bias, from that of the drift on."""
 SIZE = 9
+"""Number of these rows; those of a compass and of named places follow."""
 
+Term = tuple[int, float]
+"""A row, and the factor of its error in a sum of errors."""
 Move = tuple[float, float, float]
 """Values to be added to x and y, m, and to the heading of both tracks, rad."""
 NO_MOVE: Move = (0.0, 0.0, 0.0)
@@ -84,6 +102,17 @@ class FootBias:
     """Number of times that another device may have been connected."""
 
 
+def column(covariance: list[list[float]], terms: Sequence[Term]) -> list[float]:
+    """Return the covariance of a sum of errors with all errors."""
+    found: list[float] = []
+    for row in covariance:
+        total = 0.0
+        for number, factor in terms:
+            total += row[number] * factor
+        found.append(total)
+    return found
+
+
 def _first_covariance() -> list[list[float]]:
     sigmas = (0.0, 0.0, 0.0, DRIFT, TURNING, FIRST_BIAS, DRIFT, TURNING, FIRST_BIAS)
     return [[sigma * sigma if j == k else 0.0 for j in range(SIZE)] for k, sigma in enumerate(sigmas)]
@@ -93,93 +122,117 @@ def _first_covariance() -> list[list[float]]:
 class CommonError:
     """The covariance of the errors, and what was estimated and removed of those of each foot."""
 
-    covariance: list[list[float]] = field(factory=_first_covariance, init=False)
+    covariance: list[list[float]] = field(factory=_first_covariance)
     """Covariance of the errors, symmetric; the rows are named above."""
-    drift: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
-    """Estimated drift of the left and the right foot, which is removed from both tracks, rad a stride."""
-    turning: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
-    """Estimated relative error of turns of the left and the right foot, which is removed, no unit."""
-    bias: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
-    """Estimated rate of the heading of the left and the right foot, which is removed, rad/s."""
-    shares: tuple[float, float] = field(default=(0.5, 0.5), init=False)
-    """Shares of the left and the right foot in the wearer's heading: 1 and 0 if the left foot is alone."""
-    aids: list[float] = field(factory=list, init=False)
-    """Estimates of a compass and of named places (body/aiding), whose errors have the rows from `SIZE` on."""
-    started: bool = field(default=False, init=False)
+    estimates: list[float] = field(factory=lambda: [0.0] * SIZE)
+    """Estimate of each row, 0 for position and heading. What is estimated of the feet is removed from both tracks."""
+    shares: PerFoot[float] = field(factory=lambda: dict.fromkeys(Foot, 0.5))
+    """Share of each foot in the wearer's heading: 1 and 0 if a foot is alone."""
+    started: bool = False
     """Flag: a foot has taken a stride."""
-    foot_biases: list[FootBias | None] = field(factory=lambda: [None, None], init=False)
-    """Bias of the left and the right foot at its newest stride."""
+    foot_biases: PerFoot[FootBias | None] = field(factory=lambda: dict.fromkeys(Foot))
+    """Bias of each foot at its newest stride."""
 
     def use_calibration(self, headings: Mapping[Foot, HeadingCalibration]) -> None:
         """Use the standard deviations of a calibration, before any stride; the feet remove the drift themselves."""
-        for row, foot in zip(FEET, Foot, strict=True):
-            if foot in headings:
-                drift, turning = headings[foot].drift_sigma, headings[foot].turning_sigma
-                self.covariance[row][row], self.covariance[row + 1][row + 1] = drift * drift, turning * turning
+        for foot, one in headings.items():
+            for row, sigma in enumerate((one.drift_sigma, one.turning_sigma), FEET[foot]):
+                self.covariance[row][row] = sigma * sigma
 
-    def renew_foot(self, foot: int) -> None:
-        """Give drift and turning of foot 0 (left) or 1 the variance of another device, which may be the same."""
-        for row, usual in ((FEET[foot], DRIFT), (FEET[foot] + 1, TURNING)):
-            self.renew(row, 2.0 * usual * usual)  # the new one and the old one are both off by it
-
-    def start_stride(self, foot: int, alone: bool) -> float:
-        """Set the shares for a stride of foot 0 (left) or 1, which has all of the heading if it is `alone`.
+    def start_stride(self, foot: Foot, alone: bool) -> float:
+        """Set the shares for a stride of a foot, which has all of the heading if it is `alone`.
 
         Returns the share of this foot, 0.5 or 1."""
         self.started = True
-        self.shares = ((1.0, 0.0), (0.0, 1.0))[foot] if alone else (0.5, 0.5)
-        return self.shares[foot]
+        share = 1.0 if alone else 0.5
+        self.shares = {one: share if one is foot else 1.0 - share for one in Foot}
+        return share
 
-    def drift_variance(self, stride_time: float) -> float:
-        """Return the variance of drift and bias together, (rad a stride)^2, with strides of this duration, s."""
-        return max(0.0, self._measured(self._drift_column(stride_time), stride_time))
+    def aid(self, first: int) -> Vec2:
+        """Return the estimates of two rows."""
+        return (self.estimates[first], self.estimates[first + 1])
 
-    def bias_variance(self) -> float:
-        """Return the variance of the rate at which the biases of the feet turn the heading, (rad/s)^2."""
-        (left, right), p, (a, b) = self.shares, self.covariance, (FEET[0] + 2, FEET[1] + 2)
-        return max(0.0, left * left * p[a][a] + 2.0 * left * right * p[a][b] + right * right * p[b][b])
+    def _drift(self, values: Sequence[float], stride_time: float) -> float:
+        """Return the drift with the bias, rad a stride, as straight ways measure it, of values by row."""
+        left, right = [
+            self.shares[foot] * (values[row] + stride_time * values[row + BIAS]) for foot, row in FEET.items()
+        ]
+        return left + right
 
     def drift_with_bias(self, stride_time: float) -> float:
         """Return the estimated drift with the bias, rad a stride, with strides of this duration, s."""
-        left, right = [drift + stride_time * bias for drift, bias in zip(self.drift, self.bias, strict=True)]
-        return self.shares[0] * left + self.shares[1] * right
+        return self._drift(self.estimates, stride_time)
+
+    def drift_variance(self, stride_time: float) -> float:
+        """Return the variance of drift and bias together, (rad a stride)^2, with strides of this duration, s."""
+        return max(0.0, self._drift([self._drift(row, stride_time) for row in self.covariance], stride_time))
+
+    def bias_variance(self) -> float:
+        """Return the variance of the rate at which the biases of the feet turn the heading, (rad/s)^2."""
+        (left, right), (a, b) = self.shares.values(), [self.covariance[row + BIAS] for row in FEET.values()]
+        i, j = [row + BIAS for row in FEET.values()]
+        return max(0.0, left * left * a[i] + 2.0 * left * right * a[j] + right * right * b[j])
 
     @property
     def heading_sigma(self) -> float:
         """Standard deviation of the heading, rad."""
         return sqrt(max(0.0, self.covariance[HEADING][HEADING]))  # below 0 only by rounding
 
+    def position_covariance(self, displacement: Vec2, since: int | None = None) -> tuple[float, float, float]:
+        """Return the covariance of the position: xx, xy, yy, m^2.
+
+        `displacement` is that from the first position, m; or from a place whose errors have the rows from `since` on,
+        and then the covariance is that of the displacement. The heading error h moves the position by h b + z, with
+        b = P_eh / P_hh and z independent of h. For a small h that is a turn of the arm a = -c b by h, and a large one
+        turns it too, by (R(h) - 1) a. With h normal and v its variance, E (cos h - 1)^2 = 3/2 - 2 exp(-v/2) +
+        exp(-2v)/2 and E sin^2 h = (1 - exp(-2v))/2."""
+        p = self.covariance
+        xx, xy, xh, yy, yh, v = p[X][X], p[X][Y], p[X][HEADING], p[Y][Y], p[Y][HEADING], p[HEADING][HEADING]
+        if since is not None:
+            k, j = since, since + 1
+            xx, yy = xx - 2.0 * p[X][k] + p[k][k], yy - 2.0 * p[Y][j] + p[j][j]
+            xy, xh, yh = xy - p[X][j] - p[Y][k] + p[k][j], xh - p[k][HEADING], yh - p[j][HEADING]
+        if v > 1e-9:
+            bx, by = xh / v, yh / v
+            half, twice = exp(-0.5 * v), exp(-2.0 * v)
+            # b b' v leaves, across b b' + along a a' enters, with a = (by, -bx)
+            across, along = 0.5 * (1.0 - twice) - v, 1.5 - 2.0 * half + 0.5 * twice
+            xx += across * bx * bx + along * by * by
+            xy += (across - along) * bx * by
+            yy += across * by * by + along * bx * bx
+        px, py = LENGTH_ERROR * displacement[0], LENGTH_ERROR * displacement[1]
+        xx, xy, yy = max(0.0, xx) + px * px, xy + px * py, max(0.0, yy) + py * py
+        bound = (xx * yy) ** 0.5  # |xy| exceeds it only by rounding
+        return (xx, min(max(xy, -bound), bound), yy)
+
     def propagate(
-        self, foot: int, strides: float, turn: float, duration: float, displacement: tuple[float, float],
+        self, foot: Foot, strides: float, turn: float, duration: float, displacement: Vec2,
         variance: tuple[float, float, float],
     ) -> None:  # fmt: skip
-        """Propagate the covariance over a stride of foot 0 (left) or 1 with this `displacement`, m.
+        """Propagate the covariance over a stride of a foot with this `displacement`, m.
 
         It counts as `strides` usual ones, turns by `turn` rad and takes `duration` s; `variance` is that of its
         displacement: xx, xy, yy, m^2."""
-        p, row, w = self.covariance, FEET[foot], self.shares[foot]
-        dx, dy = w * displacement[0], w * displacement[1]
+        p, row, w, rows = self.covariance, FEET[foot], self.shares[foot], range(HEADING + 1, len(self.covariance))
         n, k, t = w * strides, w * turn, w * duration
-        px, py, ph = p[X], p[Y], p[HEADING]
         # a: the turn of the heading in the stride; g: the heading in its middle; each with all errors
-        a = [n * r + k * q + t * b for r, q, b in zip(p[row], p[row + 1], p[row + 2], strict=True)]
-        g = [heading + 0.5 * half for heading, half in zip(ph, a, strict=True)]
-        aa = n * a[row] + k * a[row + 1] + t * a[row + 2]
-        ah, gx, gy = a[HEADING], g[X], g[Y]
-        gg, gh = ph[HEADING] + ah + 0.25 * aa, ph[HEADING] + 1.5 * ah + 0.5 * aa
-        xx, xy, yy = variance
-        px[X] += -2.0 * dy * gx + dy * dy * gg + w * w * xx
-        px[Y] += dx * gx - dy * gy - dx * dy * gg + w * w * xy
-        py[Y] += 2.0 * dx * gy + dx * dx * gg + w * w * yy
-        px[HEADING] += a[X] - dy * gh
-        py[HEADING] += a[Y] + dx * gh
-        ph[HEADING] += 2.0 * ah + aa + w * HEADING_NOISE * HEADING_NOISE * duration
-        py[X], ph[X], ph[Y] = px[Y], px[HEADING], py[HEADING]
-        for j in range(HEADING + 1, len(p)):
-            px[j] -= dy * g[j]
-            py[j] += dx * g[j]
-            ph[j] += a[j]
-            p[j][X], p[j][Y], p[j][HEADING] = px[j], py[j], ph[j]
+        a = [n * r + k * q + t * b for r, q, b in zip(*p[row : row + 3], strict=True)]
+        g = [heading + 0.5 * half for heading, half in zip(p[HEADING], a, strict=True)]
+        aa, ah, hh = n * a[row] + k * a[row + TURN] + t * a[row + BIAS], a[HEADING], p[HEADING][HEADING]
+        gg, gh = hh + ah + 0.25 * aa, hh + 1.5 * ah + 0.5 * aa
+        arms = (-w * displacement[1], w * displacement[0])
+        for i, arm in enumerate(arms):
+            for j in range(i, HEADING):
+                p[i][j] += arms[j] * g[i] + arm * g[j] + arm * arms[j] * gg + w * w * variance[i + j]
+            p[i][HEADING] += a[i] + arm * gh
+            for j in rows:
+                p[i][j] += arm * g[j]
+        p[HEADING][HEADING] += 2.0 * ah + aa + w * HEADING_NOISE * HEADING_NOISE * duration
+        for j in rows:
+            p[HEADING][j] += a[j]
+        for i in (X, Y, HEADING):
+            for j in range(i, len(p)):
+                p[j][i] = p[i][j]
         p[row][row] += DRIFT_CHANGE * DRIFT_CHANGE * duration
 
     def add_gap(self, duration: float, unseen: bool) -> None:
@@ -187,15 +240,16 @@ class CommonError:
 
         If it is `unseen`, the other foot had no samples either, so the wearer may have turned. A stride of a usual walk
         fills a shorter gap; in a longer one the wearer may have walked anywhere."""
-        one_foot = max(self.shares) * min(GAP_RATE * duration, MAX_GAP_ERROR)
+        one_foot = max(self.shares.values()) * min(GAP_RATE * duration, MAX_GAP_ERROR)
         distance = UNSEEN_SPEED * duration if unseen and duration > LONGEST_FILLED_GAP else 0.0
         self.inflate(distance * distance, min(UNSEEN_RATE * duration, UNSEEN_TURN) if unseen else one_foot)
 
-    def turn_of(self, foot: int, strides: float, turn: float, duration: float) -> float:
-        """Return the correction of the heading of foot 0 (left) or 1, rad, over a stride.
+    def turn_of(self, foot: Foot, strides: float, turn: float, duration: float) -> float:
+        """Return the correction of the heading of a foot, rad, over a stride.
 
         It counts as `strides` usual ones, turns by `turn` rad and takes `duration` s."""
-        return strides * self.drift[foot] + turn * self.turning[foot] + duration * self.bias[foot]
+        drift, turning, bias = self.estimates[FEET[foot] : FEET[foot] + 3]
+        return strides * drift + turn * turning + duration * bias
 
     def correct_drift(self, z: float, variance: float, weight: float, stride_time: float) -> Move:
         """Correct the errors by a measured drift that differs by `z` rad a stride from the estimate.
@@ -203,17 +257,8 @@ class CommonError:
         `variance` is that of the measurement and `stride_time` the duration of a stride, s, in which the bias adds to
         the drift; `weight` is the probability that it measures them at all. Returns what is to be added to x and y, m,
         and to the heading, rad."""
-        column = self._drift_column(stride_time)
-        return self.correct(column, z, variance + max(0.0, self._measured(column, stride_time)), weight)
-
-    def _drift_column(self, stride_time: float) -> list[float]:
-        """Return the covariance of the drift with the bias, as straight ways measure it, with all errors."""
-        (left, right), (a, b), p, t = self.shares, FEET, self.covariance, stride_time
-        return [left * (p[a][j] + t * p[a + 2][j]) + right * (p[b][j] + t * p[b + 2][j]) for j in range(len(p))]
-
-    def _measured(self, column: list[float], stride_time: float) -> float:
-        (left, right), (a, b), t = self.shares, FEET, stride_time
-        return left * (column[a] + t * column[a + 2]) + right * (column[b] + t * column[b + 2])
+        with_all = [self._drift(row, stride_time) for row in self.covariance]
+        return self.correct(with_all, z, variance + max(0.0, self._drift(with_all, stride_time)), weight)
 
     def correct(self, column: list[float], z: float, s: float, weight: float, rows: range | None = None) -> Move:
         """Correct the errors by a measurement with the innovation `z`, its variance `s` and P H' in `column`.
@@ -232,34 +277,25 @@ class CommonError:
             for j in (*range(chosen.start, i + 1), *others):
                 p[i][j] += f * one * gain[j]
                 p[j][i] = p[i][j]
-            if i >= SIZE:
-                self.aids[i - SIZE] += one * z
-        if rows is not None:
-            return NO_MOVE
-        for foot, row_of_foot in enumerate(FEET):
-            self.drift[foot] += gain[row_of_foot] * z
-            self.turning[foot] += gain[row_of_foot + 1] * z
-            self.bias[foot] += gain[row_of_foot + 2] * z
-        return (gain[X] * z, gain[Y] * z, gain[HEADING] * z)
+            if i > HEADING:
+                self.estimates[i] += one * z
+        return (gain[X] * z, gain[Y] * z, gain[HEADING] * z) if rows is None else NO_MOVE
 
-    def column(self, terms: Sequence[tuple[int, float]]) -> list[float]:
-        """Return the covariance of a sum of errors with all errors; each term has the row and the factor of one."""
-        p = self.covariance
-        first, *others = [(p[row], factor) for row, factor in terms]
-        column = [first[1] * value for value in first[0]]
-        for row, factor in others:
-            column = [value + factor * more for value, more in zip(column, row, strict=True)]
-        return column
+    def correct_by(self, terms: Sequence[Term], z: float, variance: float, rows: range | None = None) -> Move:
+        """Correct the errors by a measurement of a sum of them, with the innovation `z` and this `variance`."""
+        with_all = column(self.covariance, terms)
+        return self.correct(with_all, z, variance + _along(with_all, terms), 1.0, rows)
 
-    def along(self, column: list[float], terms: Sequence[tuple[int, float]]) -> float:
-        """Return the variance of the sum of errors of which `column` is the covariance with all."""
-        return max(0.0, fsum([factor * column[row] for row, factor in terms]))
+    def variance_of(self, terms: Sequence[Term]) -> float:
+        """Return the variance of a sum of errors."""
+        return _along(column(self.covariance, terms), terms)
 
     def add_aids(self, estimates: Sequence[float], variances: Sequence[float]) -> int:
         """Add the rows of the errors of these estimates, with these variances and independent of all others.
 
         Returns the first of them."""
-        self.aids, p = [*self.aids, *estimates], self.covariance
+        p = self.covariance
+        self.estimates += estimates
         for variance in variances:
             for row in p:
                 row.append(0.0)
@@ -272,21 +308,28 @@ class CommonError:
             self.covariance[row][j] = other[row] = 0.0
         self.covariance[row][row] = variance
 
-    def replace(self, foot: int, error: int, value: float, variance: float, moved: list[float]) -> Move:
-        """Replace the drift (`error` 0) or the turning (1) of foot 0 (left) or 1 by another one with its variance.
+    def renew_aid(self, first: int, values: Vec2, variance: float) -> None:
+        """Give two rows new estimates with this variance."""
+        for row, value in enumerate(values, first):
+            self.renew(row, variance)
+            self.estimates[row] = value
+
+    def replace(self, row: int, value: float, variance: float, moved: list[float]) -> Move:
+        """Replace the drift or the turning of a foot, which has this row, by another one with its variance.
 
         `moved` is the derivative of x and y, m, and of the heading, rad, by this error over the whole walk. Returns
         what is to be added to them."""
-        estimate, p, row = (self.drift, self.turning)[error], self.covariance, FEET[foot] + error
-        change, estimate[foot] = value - estimate[foot], value
+        p, change = self.covariance, value - self.estimates[row]
         # slopes: what this error has done to the estimates of aids
         slopes = [one / max(p[row][row], 1e-18) for one in p[row][SIZE:]]
-        self.aids = [aid + change * slope for aid, slope in zip(self.aids, slopes, strict=True)]
         self.renew(row, variance)
-        for i, one in [*enumerate(moved), *enumerate(slopes, SIZE)]:
+        all_moved = [*enumerate(moved), *enumerate(slopes, SIZE)]
+        for i, one in all_moved:
             p[row][i] = p[i][row] = variance * one
-            for j, other in [*enumerate(moved), *enumerate(slopes, SIZE)]:
+            for j, other in all_moved:
                 p[i][j] += variance * (one * other)
+        for i, one in [(row, 1.0), *enumerate(slopes, SIZE)]:
+            self.estimates[i] += change * one
         x, y, heading = moved
         return (change * x, change * y, change * heading)
 
@@ -295,3 +338,69 @@ class CommonError:
         self.covariance[X][X] += variance
         self.covariance[Y][Y] += variance
         self.covariance[HEADING][HEADING] += turn * turn
+
+    def has_rested(self, foot: Foot, bias: Bias) -> bool:
+        """Return whether a foot has learnt its `bias` since its last stride."""
+        newest = self.foot_biases[foot]
+        return newest is None or (bias.spans, bias.device) != (newest.spans, newest.device)
+
+    def add_rest(self, foot: Foot, t: float, bias: Bias) -> Move:
+        """Take in the `bias` of a foot at the end of a stride at `t`, s.
+
+        A bias far from the expected one has changed since the last rest, nobody knows when. Returns what is to be added
+        to x and y, m, and to the heading of both tracks, rad."""
+        newest, row, variance, p = self.foot_biases[foot], FEET[foot] + BIAS, bias.variances[0], self.covariance
+        now = self.foot_biases[foot] = FootBias(t, variance, bias.spans, bias.change, bias.device)
+        if newest is None or bias.device != newest.device:  # the first stride of this device
+            self._replace_bias(row, variance)
+            if bias.device:  # not the first device of this foot: the new one and the old one are both off by this
+                for number, usual in enumerate((DRIFT, TURNING), FEET[foot]):
+                    self.renew(number, 2.0 * usual * usual)
+            return NO_MOVE
+        wander = BIAS_WANDER * BIAS_WANDER * max(0.0, t - newest.t)
+        before = newest.variance + wander
+        p[row][row] += wander
+        if bias.spans == newest.spans:
+            self.foot_biases[foot] = evolve(now, variance=before)
+            return NO_MOVE
+        known, change, gain = self.estimates[row], bias.change - newest.change, 1.0 - variance / before
+        if gain > 0.0:
+            z, noise = -change / gain - known, variance / gain
+            s = p[row][row] + noise
+            if z * z > REST_GATE * s and not newest.spans and p[row][row] > 0.0:
+                # the bias was not known at all, and is larger than usual
+                self._add_to_bias(row, p[row][row] * (z * z / s - 1.0), len(p))
+                s = p[row][row] + noise
+            if z * z <= REST_GATE * s and abs(p[HEADING][row] * z) <= MAX_TURN_BACK * s:
+                move = self.correct(list(p[row]), z, s, 1.0)
+                self.estimates[row] += change  # which the foot has removed
+                return move
+        elif change * change <= REST_GATE * p[row][row]:  # the rest was too restless to show anything
+            self.estimates[row] += change
+            return NO_MOVE
+        self._replace_bias(row, variance, change + known)
+        return NO_MOVE
+
+    def _replace_bias(self, row: int, variance: float, change: float = 0.0) -> None:
+        """Replace the error of a foot's bias by a new one with its `variance`, (rad/s)^2.
+
+        The old one has changed by `change`, rad/s, at some time since the last rest: a variance of change^2 / 3."""
+        p = self.covariance
+        if p[row][row] > 0.0:
+            most = 2.0 * MAX_TURN_BACK * p[row][row] / (abs(p[HEADING][row]) + 1e-12)
+            self._add_to_bias(row, min(change * change / 3.0, most * most), HEADING + 1)
+        self.renew(row, variance)
+        self.estimates[row] = 0.0
+
+    def _add_to_bias(self, row: int, variance: float, count: int) -> None:
+        """Add `variance`, (rad/s)^2, to that of a bias, and what it has moved so far to the first `count` errors."""
+        p = self.covariance
+        moved = [value / p[row][row] for value in p[row][:count]]
+        for i, one in enumerate(moved):
+            for j, other in enumerate(moved):
+                p[i][j] += one * other * variance
+
+
+def _along(with_all: list[float], terms: Sequence[Term]) -> float:
+    """Return the variance of a sum of errors whose covariance with all errors is `with_all`."""
+    return max(0.0, fsum([factor * with_all[row] for row, factor in terms]))

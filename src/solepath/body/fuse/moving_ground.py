@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from math import hypot
 
-from ...events import Defect, DefectFound, StrideTaken
-from ...foot.view import AfterEvents
-from ...types import SITE_OF_FOOT
+from ...events import StrideTaken
+from ...types import OTHER, PerFoot, Vec2, Vec3, per_foot
 from ...types.attrs import define, field
+from ...types.vector import across, along, minus, plus, scaled
 
 LEAST_SPEED = 0.35
 """Least error of the velocity of both feet that shows moving ground, m/s; walkways run at 0.5 to 0.75 (EN 115-1)."""
@@ -34,6 +34,10 @@ LONGEST_RIDE = 300.0
 """Time after which ground that was not seen to stop counts as still, s: 200 m of walkway at 0.65 m/s."""
 
 
+STILL: Vec2 = (0.0, 0.0)
+"""Velocity of ground that does not move, and error of a usual stride, m/s."""
+
+
 @define
 class FootVelocity:
     """The velocity errors of one foot."""
@@ -43,16 +47,16 @@ class FootVelocity:
     """Usual size of the error, m/s."""
     t: float = 0.0
     """End of the newest stride, s."""
-    error: tuple[float, float] = (0.0, 0.0)
+    error: Vec2 = STILL
     """Error at the newest stride, along it and to the left of it, m/s; 0 unless it is unusual."""
 
-    def add(self, event: StrideTaken, error: tuple[float, float]) -> None:
+    def add(self, t: float, error: Vec2) -> None:
         """Add the error at the end of a stride."""
         size = hypot(*error)
-        self.t, is_unusual = event.t_end, self.count >= LEAST_STRIDES and size > UNUSUAL * self.usual
-        self.error = error if is_unusual and LEAST_SPEED < size < MOST_SPEED else (0.0, 0.0)
+        self.t, is_unusual = t, self.count >= LEAST_STRIDES and size > UNUSUAL * self.usual
+        self.error = error if is_unusual and LEAST_SPEED < size < MOST_SPEED else STILL
         self.count += 1
-        if not is_unusual or self.error == (0.0, 0.0):
+        if not is_unusual or self.error == STILL:
             self.usual += max(USUAL_RATE, 1.0 / self.count) * (size - self.usual)
 
 
@@ -60,42 +64,39 @@ class FootVelocity:
 class MovingGround:
     """The ground's velocity, from the strides of both feet."""
 
-    feet: tuple[FootVelocity, FootVelocity] = field(factory=lambda: (FootVelocity(), FootVelocity()), init=False)
-    velocity: tuple[float, float] = field(default=(0.0, 0.0), init=False)
-    """Velocity of the ground, along the strides and to the left of them, m/s; 0 while it stands still."""
-    since: float | None = field(default=None, init=False)
+    feet: PerFoot[FootVelocity] = field(factory=lambda: per_foot(FootVelocity))
+    velocity: Vec2 = STILL
+    """Velocity of the ground, along the strides and to the left of them, m/s."""
+    since: float | None = None
     """Time since which the ground moves, s; None while it stands still."""
-    t: float = field(default=0.0, init=False)
+    t: float = 0.0
     """Time up to which `variance` was given, s."""
 
-    def add_stride(self, index: int, event: StrideTaken, after: AfterEvents) -> DefectFound | None:
-        """Add a stride of foot 0 (left) or 1; return the event if it shows that the ground starts or stops to move."""
-        this, other = self.feet[index], self.feet[1 - index]
-        (dx, dy, _), (ex, ey, _) = event.displacement, after.velocity_error
-        length = hypot(dx, dy)
+    def add_stride(self, event: StrideTaken, velocity_error: Vec3) -> str | None:
+        """Add a stride; return a sentence if it shows that the ground starts or stops to move.
+
+        `velocity_error` is the integrated velocity of the foot when it came to stand, m/s."""
+        this, other, moved = self.feet[event.foot], self.feet[OTHER[event.foot]], event.displacement[:2]
+        length = hypot(*moved)
         if length <= 0.0:
             return None
-        this.add(event, ((ex * dx + ey * dy) / length, (ey * dx - ex * dy) / length))
+        error = velocity_error[:2]
+        this.add(event.t_end, (along(moved, error) / length, across(moved, error) / length))
         if self.since is not None and not 0.0 <= event.t_end - self.since < LONGEST_RIDE:
-            self.velocity, self.since = (0.0, 0.0), None
-        (ax, ay), (bx, by) = this.error, other.error
-        if not (ax or ay) or not (bx or by) or not 0.0 <= this.t - other.t < LONGEST_STEP:
+            self.velocity, self.since = STILL, None
+        a, b = this.error, other.error
+        if STILL in (a, b) or not 0.0 <= this.t - other.t < LONGEST_STEP or hypot(*minus(a, b)) > LARGEST_DIFFERENCE:
             return None
-        if hypot(ax - bx, ay - by) > LARGEST_DIFFERENCE:
-            return None
-        this.error = other.error = (0.0, 0.0)
-        x, y = self.velocity
-        seen = (0.5 * (ax + bx), 0.5 * (ay + by))
-        stops = self.since is not None and hypot(x + seen[0], y + seen[1]) < hypot(x, y)
-        started, self.since, self.t = self.since, None if stops else this.t, this.t
-        self.velocity = (0.0, 0.0) if stops else seen
-        if stops and started is not None:
-            distance = hypot(x, y) * (this.t - started)
-            return _found(
-                event, f"the ground stands still again; the track lacks about {distance:.0f} m that it has moved"
-            )
+        this.error = other.error = STILL
+        seen, speed, started = scaled(0.5, plus(a, b)), hypot(*self.velocity), self.since
+        self.t = this.t
+        if started is not None and hypot(*plus(self.velocity, seen)) < speed:
+            self.velocity, self.since = STILL, None
+            distance = speed * (this.t - started)
+            return f"the ground stands still again; the track lacks about {distance:.0f} m that it has moved"
+        self.velocity, self.since = seen, this.t
         text = "as a moving walkway does; the track lacks the way by which it carries the wearer"
-        return _found(event, f"the ground moves by {hypot(*seen):.1f} m/s, {text}")
+        return f"the ground moves by {hypot(*seen):.1f} m/s, {text}"
 
     def variance(self, t: float) -> float:
         """Return what to add to the variance of the position, m^2, for the ground's motion since the last call."""
@@ -104,10 +105,3 @@ class MovingGround:
         square = self.velocity[0] ** 2 + self.velocity[1] ** 2
         before, now, self.t = self.t - self.since, t - self.since, t
         return square * (now * now - before * before)
-
-
-def _found(event: StrideTaken, what: str) -> DefectFound:
-    return DefectFound(
-        t=event.t, known_at=event.known_at, site=SITE_OF_FOOT[event.foot], defect=Defect.MOVING_GROUND, what=what,
-        spoils=False,
-    )  # fmt: skip

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from ...events import Defect, DefectFound, FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...foot.view import FootView
-from ...types import SITE_OF_FOOT, Foot, Site
+from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, per_foot
 from ...types.attrs import define, field
 from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
 from .footfalls import Footfalls
@@ -37,17 +37,13 @@ class GaitCycles(Part):
     needs_samples: ClassVar[bool] = True
     notices: ClassVar[tuple[type[Notice], ...]] = (ClockUnsettled,)
 
-    left: Footfalls = field(factory=Footfalls, init=False)
-    right: Footfalls = field(factory=Footfalls, init=False)
-    left_progress: FootProgress = field(factory=FootProgress, init=False)
-    right_progress: FootProgress = field(factory=FootProgress, init=False)
+    feet: PerFoot[Footfalls] = field(factory=lambda: per_foot(Footfalls), init=False)
+    progress: PerFoot[FootProgress] = field(factory=lambda: per_foot(FootProgress), init=False)
     means: GaitMeans = field(factory=GaitMeans, init=False)
     idle: bool = field(default=True, init=False)
     """Flag: no cycle waits for samples of the other foot."""
-    left_unsettled: float | None = field(default=None, init=False)
-    """Time up to which the left foot's clock cannot be compared with the right one's, s; None: it can."""
-    right_unsettled: float | None = field(default=None, init=False)
-    """Time up to which the right foot's clock cannot be compared with the left one's, s; None: it can."""
+    unsettled: PerFoot[float | None] = field(factory=lambda: dict.fromkeys(Foot), init=False)
+    """Time up to which the clock of each foot cannot be compared with that of the other one, s; None: it can."""
     clocks_apart: bool = field(default=False, init=False)
     """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 
@@ -63,25 +59,19 @@ class GaitCycles(Part):
             if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
                 self.clocks_apart = True
                 self.means.separate_feet()
-            elif isinstance(event, ClockUnsettled) and event.site is Site.LEFT_FOOT:
-                self.left_unsettled = event.until
-            elif isinstance(event, ClockUnsettled) and event.site is Site.RIGHT_FOOT:
-                self.right_unsettled = event.until
+            elif isinstance(event, ClockUnsettled) and event.site.foot is not None:
+                self.unsettled[event.site.foot] = event.until
         return outputs
 
     def _add_sample(self, view: FootView, events: Sequence[PartInput]) -> Sequence[PartOutput]:
         if self.idle and view.after is None:
             return ()
-        is_left = view.foot is Foot.LEFT
-        progress, other = self.left_progress, self.right_progress
-        if not is_left:
-            progress, other = other, progress
+        this, progress = self.feet[view.foot], self.progress[view.foot]
         if progress.t is None or view.t > progress.t:
             progress.t = view.t
         if view.after is not None:
-            other.t = view.after.other_t
+            self.progress[OTHER[view.foot]].t = view.after.other_t
         progress.tracked = view.levelled
-        this = self.left if is_left else self.right
         for event in events:
             if isinstance(event, HeelStrike):
                 this.add_contact(event.t, event.inferred)
@@ -105,27 +95,25 @@ class GaitCycles(Part):
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return the cycles that still wait, because no more samples come."""
-        for falls in (self.left, self.right):
+        for falls in self.feet.values():
             falls.close_cycle()
         self.idle = True
-        counts = (len(self.left.waiting_cycles), len(self.right.waiting_cycles))
-        return [*self._measure(Foot.LEFT, now, counts[0]), *self._measure(Foot.RIGHT, now, counts[1])]
+        waiting = [(foot, len(falls.waiting_cycles)) for foot, falls in self.feet.items()]
+        return [output for foot, count in waiting for output in self._measure(foot, now, count)]
 
     def reset(self, site: Site) -> None:
         """Discard the cycles and the times of a foot whose clock restarts."""
         if site.foot is not None:
             self.clocks_apart = False
             self.means.reset(site.foot)
-            if site.foot is Foot.LEFT:
-                self.left, self.left_progress.t = Footfalls(count=self.left.count), None
-            else:
-                self.right, self.right_progress.t = Footfalls(count=self.right.count), None
+            self.feet[site.foot] = Footfalls(count=self.feet[site.foot].count)
+            self.progress[site.foot].t = None
 
     def _release(self, known_at: float) -> Sequence[PartOutput]:
         """Return the cycles that end before the other foot's newest sample, or that have waited for `MAX_WAIT`."""
         outputs: list[PartOutput] = []
-        left, right = self.left_progress.t, self.right_progress.t
-        for foot, falls, own, other in ((Foot.LEFT, self.left, left, right), (Foot.RIGHT, self.right, right, left)):
+        for foot, falls in self.feet.items():
+            own, other = self.progress[foot].t, self.progress[OTHER[foot]].t
             ready_count = 0
             for cycle in falls.waiting_cycles:
                 other_is_past = other is None or other >= cycle.end
@@ -135,22 +123,20 @@ class GaitCycles(Part):
                 ready_count += 1
             if ready_count:
                 outputs += self._measure(foot, known_at, ready_count)
-        self.idle = not (self.left.waiting_cycles or self.right.waiting_cycles)
+        self.idle = not any([falls.waiting_cycles for falls in self.feet.values()])
         return outputs
 
     def _measure(self, foot: Foot, known_at: float, count: int) -> list[PartOutput]:
         """Measure the first `count` of the waiting cycles and return their events."""
-        is_left = foot is Foot.LEFT
-        falls, other = (self.left, self.right) if is_left else (self.right, self.left)
+        falls, other = self.feet[foot], self.feet[OTHER[foot]]
         cycles, falls.waiting_cycles = falls.waiting_cycles[:count], falls.waiting_cycles[count:]
-        tracked = self.left_progress.tracked if is_left else self.right_progress.tracked
-        unsettled = (self.left_unsettled, self.right_unsettled)
+        tracked = self.progress[foot].tracked
         outputs: list[PartOutput] = []
         for cycle in cycles:
             falls.count += 1
-            is_unsettled = any([until is not None and until > cycle.start for until in unsettled])
+            is_unsettled = any([until is not None and until > cycle.start for until in self.unsettled.values()])
             comparable = not (self.clocks_apart or is_unsettled)
-            previous = self.means.left if is_left else self.means.right
+            previous = self.means.newest[foot]
             measured = measure_cycle(foot, falls.count, cycle, previous, other, tracked, comparable, known_at)
             self.means.add(measured)
             outputs.append(measured)

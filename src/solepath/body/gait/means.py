@@ -16,7 +16,7 @@ from math import fsum, sqrt
 from typing import Any
 
 from ...events import GaitCycleMeasured
-from ...types import Foot, Word
+from ...types import Foot, PerFoot, Word, per_foot
 from ...types.attrs import define, evolve, field, fields, frozen
 
 MEMORY_STRIDES = 120
@@ -174,16 +174,11 @@ class GaitParameters:
 class ParameterMeans:
     """Running means of walking or of running, by foot and parameter."""
 
-    left: dict[Parameter, RunningMean] = field(factory=dict)
-    right: dict[Parameter, RunningMean] = field(factory=dict)
-
-    def of_foot(self, foot: Foot) -> dict[Parameter, RunningMean]:
-        """Return the running means of a foot."""
-        return self.left if foot is Foot.LEFT else self.right
+    feet: PerFoot[dict[Parameter, RunningMean]] = field(factory=lambda: per_foot(dict))
 
     def add(self, stride: GaitCycleMeasured, memory: int) -> None:
         """Add a stride; older strides fade after `memory` strides."""
-        means = self.left if stride.foot is Foot.LEFT else self.right
+        means = self.feet[stride.foot]
         means_and_values: list[tuple[RunningMean, float]] = []
         for parameter in MEAN_PARAMETERS:
             value = getattr(stride, parameter.value)
@@ -196,7 +191,7 @@ class ParameterMeans:
     @property
     def coordination(self) -> float | None:
         """Phase coordination index, as defined in GaitParameters."""
-        known = [means for means in (self.left, self.right) if Parameter.PHASE in means]
+        known = [means for means in self.feet.values() if Parameter.PHASE in means]
         if len(known) < 2:
             return None
         reference = max(known, key=_swing)
@@ -226,10 +221,8 @@ class GaitMeans:
 
     A stride is added when the next stride of its foot follows, so that the last stride before a stop is left out."""
 
-    left: GaitCycleMeasured | None = field(default=None, init=False)
-    """Newest stride of the left foot."""
-    right: GaitCycleMeasured | None = field(default=None, init=False)
-    """Newest stride of the right foot."""
+    newest: PerFoot[GaitCycleMeasured | None] = field(factory=lambda: dict.fromkeys(Foot), init=False)
+    """Newest stride of each foot."""
     walking_means: ParameterMeans = field(factory=ParameterMeans, init=False)
     running_means: ParameterMeans = field(factory=ParameterMeans, init=False)
     """Running means of the strides of a runner."""
@@ -238,33 +231,23 @@ class GaitMeans:
 
     def add(self, stride: GaitCycleMeasured, memory: int = MEMORY_STRIDES) -> None:
         """Add a stride of either foot, in order of time; older strides of the foot fade after `memory` strides."""
-        if stride.foot is Foot.LEFT:
-            previous, self.left = self.left, stride
-        else:
-            previous, self.right = self.right, stride
+        previous, self.newest[stride.foot] = self.newest[stride.foot], stride
         if previous is not None and previous.steady and previous.t == stride.t_start:
             self.running = running = previous.running
             (self.running_means if running else self.walking_means).add(previous, memory)
 
     def separate_feet(self) -> None:
         """Discard the means that compare the times of the feet, because the feet have separate clocks."""
-        for means in (
-            self.walking_means.left,
-            self.walking_means.right,
-            self.running_means.left,
-            self.running_means.right,
-        ):
+        for means in (*self.walking_means.feet.values(), *self.running_means.feet.values()):
             for parameter in (*BETWEEN_FEET, Parameter.OFF_PHASE):
                 means.pop(parameter, None)
-        self.left = None if self.left is None else without_other_foot(self.left)
-        self.right = None if self.right is None else without_other_foot(self.right)
+        self.newest = {
+            foot: None if stride is None else without_other_foot(stride) for foot, stride in self.newest.items()
+        }
 
     def reset(self, foot: Foot) -> None:
         """Reset a foot, so that its next stride does not count as following the newest one."""
-        if foot is Foot.LEFT:
-            self.left = None
-        else:
-            self.right = None
+        self.newest[foot] = None
 
     @property
     def parameters(self) -> GaitParameters | None:
@@ -274,7 +257,7 @@ class GaitMeans:
     def of(self, running: bool) -> GaitParameters | None:
         """Return the running means of running or of walking; None when there were no such strides."""
         means = self.running_means if running else self.walking_means
-        feet = {foot: _figures(means.of_foot(foot)) for foot in Foot if means.of_foot(foot)}
+        feet = {foot: _figures(means.feet[foot]) for foot in Foot if means.feet[foot]}
         if not feet:
             return None
         both = {

@@ -13,7 +13,7 @@ from __future__ import annotations
 from math import fsum, pi
 
 from ...events import StrideTaken
-from ...types import Foot
+from ...types import OTHER, Foot, PerFoot, per_foot
 from ...types.attrs import define, field, frozen
 from .turning_steps import STRAIGHT_TOLERANCE, TurningStrideFilter
 
@@ -71,8 +71,7 @@ class TurnDetector:
     Latency: a turn is known after `STRAIGHT_STRIDES` straight strides of the feet (two strides when only one foot has
     samples), or after the feet have stood for `MIN_PAUSE`."""
 
-    left: FootTurn = field(factory=FootTurn, init=False)
-    right: FootTurn = field(factory=FootTurn, init=False)
+    feet: PerFoot[FootTurn] = field(factory=lambda: per_foot(FootTurn), init=False)
     t_start: float | None = field(default=None, init=False)
     """Start of the first turning stride of the process, s; None outside a turn."""
     t_end: float = field(default=0.0, init=False)
@@ -84,7 +83,7 @@ class TurnDetector:
 
     def add_stride(self, event: StrideTaken) -> TurnProcess | None:
         """Add a stride of either foot, in order of `known_at`, and return the turn that it ends."""
-        foot, other = self._feet(event.foot)
+        foot, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
         angle = foot.stride_filter.turn(event.heading_change)
         foot.stride_end = event.t_end
         if angle != 0.0:
@@ -103,14 +102,11 @@ class TurnDetector:
         """Add a pivot by `angle`, rad, between foot-flats at `t_start` and `t_end`, s; return the turn that it ends.
 
         A small angle is ignored."""
-        this, other = self._feet(foot)
+        this, other = self.feet[foot], self.feet[OTHER[foot]]
         if abs(angle) <= STRAIGHT_TOLERANCE:
             return None
         this.stride_end = t_end
         return self._add_turn(this, other, t_start, t_end, angle)
-
-    def _feet(self, foot: Foot) -> tuple[FootTurn, FootTurn]:
-        return (self.left, self.right) if foot is Foot.LEFT else (self.right, self.left)
 
     def _add_turn(
         self, foot: FootTurn, other: FootTurn, t_start: float, t_end: float, angle: float
@@ -135,7 +131,7 @@ class TurnDetector:
         """Return the turn that has ended at `t`, s, because the feet have paused."""
         if self.t_start is None or t - self.t_end <= self.pause:
             return None
-        newest = max(-1e12 if foot.stride_end is None else foot.stride_end for foot in (self.left, self.right))
+        newest = max(-1e12 if foot.stride_end is None else foot.stride_end for foot in self.feet.values())
         return self._end_turn() if t - newest > self.pause else None
 
     def finish(self) -> TurnProcess | None:
@@ -145,16 +141,15 @@ class TurnDetector:
     def reset(self, foot: Foot) -> None:
         """Reset a foot whose clock restarts, and discard the turn under way."""
         self.t_start = self.previous_end = None
-        (self.left if foot is Foot.LEFT else self.right).stride_end = None
+        self.feet[foot].stride_end = None
 
     def _end_turn(self) -> TurnProcess:
         start = self.t_end if self.t_start is None else self.t_start
-        process = TurnProcess(
-            start, self.t_end, *remove_whole_turns(self._angle_of(self.left, start), self._angle_of(self.right, start))
-        )
+        left, right = [self._angle_of(foot, start) for foot in self.feet.values()]
+        process = TurnProcess(start, self.t_end, *remove_whole_turns(left, right))
         self.t_start, self.previous_end = None, self.t_end
-        self.left.angle = self.right.angle = 0.0
-        self.left.straight_strides = self.right.straight_strides = 0
+        for foot in self.feet.values():
+            foot.angle, foot.straight_strides = 0.0, 0
         return process
 
     @staticmethod

@@ -1,6 +1,6 @@
 """Heading of the track on a plan by the compass in the feet, when the plan knows where north is.
 
-The compass knows magnetic north only after some turns (body/aiding/compass.py), and within some degrees; magnetic north
+The compass knows magnetic north only after some turns (body/fuse/compass.py), and within some degrees; magnetic north
 is not true north, and steel may turn it. So its heading decides between ends of a building that are a quarter-turn or
 more apart, and nothing finer. A part of the weight stays with all other headings, so that walls can contradict a north
 that is wrong; where the building is its own image after half a turn, they cannot."""

@@ -18,7 +18,7 @@ from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point, Start
 from ...foot.view import FootView
 from ...types.attrs import NOT_SAVED, define, field
-from ..fuse.position_covariance import LEAST_WAY
+from ..fuse.common_error import LEAST_WAY
 from ..part import MOVEMENTS, Notice, PartInput, PartOutput, StartGiven
 from .arrivals import START_HEADING_ERROR, spread_rows, start_error
 from .connectors.level_changes import DirectionRevised, LevelChangePossible, LevelReached

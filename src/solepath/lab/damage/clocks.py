@@ -108,7 +108,7 @@ def set_newest(part: FootClocks, event: GaitEvent, spans: dict[Foot, list[tuple[
     times = [min(event.known_at, last) for first, last in spans[other] if first <= event.known_at]
     newest = times[-1] if times else None
     part.lone.set_newest(foot, event.t, newest)
-    if newest is not None and not (part.lone.left if other is Foot.LEFT else part.lone.right).is_known:
+    if newest is not None and not part.lone.feet[other].is_known:
         part.lone.set_standing(other, newest)
 
 

@@ -137,7 +137,7 @@ def _placement(session: Session, foot: Foot) -> float:
     """Return the turn from the world frame of a foot to that of the wearer, rad."""
     for part in session._state.parts:
         if isinstance(part, BothFeet):
-            return part.left.turn if foot is Foot.LEFT else part.right.turn
+            return part.tracks[foot].turn
     return 0.0
 
 

@@ -117,7 +117,7 @@ class Modes(TrackPart):
 
     def reset(self, site: Site) -> None:
         self.places.chain.reset(site)
-        self.places.tracks.reset(site)
+        self.places.mean.reset(site)
         self.limb_sensors.reset(site)
         if site.foot is not None:
             self.recognition.reset(site.foot)

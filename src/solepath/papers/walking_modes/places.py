@@ -70,7 +70,7 @@ class FootPlaces:
     """Place by foot."""
     heading_settled: bool = field(init=False)
     """Flag: the first heading is final."""
-    tracks: MeanOfFeet = field(factory=MeanOfFeet, init=False)
+    mean: MeanOfFeet = field(factory=MeanOfFeet, init=False)
     """Part that puts a foot beside the other one after a silence."""
 
     def __attrs_post_init__(self) -> None:
@@ -84,22 +84,20 @@ class FootPlaces:
 
     def add_view(self, view: FootView) -> None:
         """Add the position of a foot by its own track."""
-        left, right = self.tracks.left, self.tracks.right
-        left_offset, right_offset, were_unplaced = left.offset, right.offset, (left.unplaced, right.unplaced)
-        self.tracks.add_view(view)
-        if left.offset is not left_offset:
-            self._move_track(Foot.LEFT, left, left_offset, were_unplaced[0])
-        if right.offset is not right_offset:
-            self._move_track(Foot.RIGHT, right, right_offset, were_unplaced[1])
+        before = {foot: (track.offset, track.unplaced) for foot, track in self.mean.tracks.items()}
+        self.mean.add_view(view)
+        for foot, track in self.mean.tracks.items():
+            offset, was_unplaced = before[foot]
+            if track.offset is not offset:
+                self._move_track(foot, track, offset, was_unplaced)
         if view.levelled:
-            placed = left if view.foot is Foot.LEFT else right
-            self.sides[view.foot].track = placed.place(placed.newest_place)
+            self.sides[view.foot].track = self.mean.tracks[view.foot].newest
 
     def _move_track(self, foot: Foot, placed_track: PlacedTrack, offset: Vec3, was_unplaced: bool) -> None:
         """Adapt the place of a foot to the offset of `placed_track`, which was `offset` before, world frame, m."""
         side, other = self.sides[foot], self.sides[OTHER[foot]]
         if was_unplaced and not placed_track.unplaced:  # placed again after a silence, as if the feet stood abreast
-            side.track = placed_track.place(placed_track.newest_place)
+            side.track = placed_track.newest
             x, y = self._side_offset(foot, other)
             side.offset = displace(other.offset, (x, y, 0.0))
             side.place = side.own_position
@@ -115,8 +113,7 @@ class FootPlaces:
 
     def is_lost(self, foot: Foot, t: float) -> bool:
         """Return whether neither its track nor the chain gives the place of the foot at `t` s."""
-        placed = self.tracks.left if foot is Foot.LEFT else self.tracks.right
-        return (placed.absent or placed.unplaced) and not self.chain.is_current(t)
+        return not self.mean.tracks[foot].is_here and not self.chain.is_current(t)
 
     def middle(self, foot: Foot) -> Vec3:
         """Return the middle between the feet, world frame, m, if the other foot stands beside `own_position`."""

@@ -96,7 +96,7 @@ class SceneGaitMeans:
 
     def frames(self, recent: GaitMeans, total: GaitMeans) -> dict[str, Any]:
         """Return the members "gait", of recent means, and "total", of those since the start; None before any stride."""
-        newest = (recent.left, recent.right)
+        newest = (recent.newest[Foot.LEFT], recent.newest[Foot.RIGHT])
         if newest[0] is not self._newest[0] or newest[1] is not self._newest[1]:
             self._newest = newest
             near, all_strides = recent.parameters, total.parameters

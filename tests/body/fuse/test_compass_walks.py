@@ -10,9 +10,9 @@ import pytest
 from attrs import evolve
 
 from solepath import DefectFound, Session
-from solepath.body.aiding.compass import Compass
 from solepath.body.fuse.both_feet import BothFeet
 from solepath.body.fuse.common_error import HEADING
+from solepath.body.fuse.compass import Compass
 from solepath.emulate import Insole, Route, sampled
 from solepath.emulate.sensors.magnetic_field import MagneticField
 from solepath.emulate.sensors.parts import AK8963
@@ -49,7 +49,7 @@ def test_a_compass_makes_the_heading_of_arcs_more_certain_and_is_saved_with_the_
     rest = with_compass.feed(samples[half:])
     assert restored.feed(samples[half:]) == rest == again.feed(samples[half:])
     assert not [event for event in events + rest if isinstance(event, DefectFound)]
-    compass = track_of(with_compass).evidence.compass
+    compass = track_of(with_compass).compass
     assert isinstance(compass, Compass) and compass.trust.is_proven
     sigma, without = (track_of(one).common.covariance[HEADING][HEADING] ** 0.5 for one in (with_compass, plain))
     assert sigma < 0.8 * without

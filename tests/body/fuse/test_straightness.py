@@ -10,9 +10,10 @@ import pytest
 from soak import soaked
 
 from solepath.body.fuse.common_error import DRIFT, FEET, CommonError
-from solepath.body.fuse.straightness import Straightness
+from solepath.body.fuse.straight_ways import Straightness
 from solepath.emulate.routes.wander import Wander
 from solepath.saving import codec as machine
+from solepath.types import Foot
 
 STEP = 0.65
 """Advance of the body from the stride of one foot to that of the other, m."""
@@ -31,7 +32,7 @@ class Walked:
         self.off, self.turned = 0.0, 0.0
         """Heading error of the track, rad, and turn of the way so far, rad."""
         place = true_place = np.zeros(2)
-        for row in FEET:  # the bias is known
+        for row in FEET.values():  # the bias is known
             self.error.covariance[row + 2][row + 2] = 0.0
         for k in range(int(length / STEP)):
             s = k * STEP
@@ -39,7 +40,7 @@ class Walked:
             aside = wander.at(s + 2.0 * STEP)[0] - wander.at(s)[0] + 0.01 * float(rng.standard_normal())
             direction = heading(s + STEP)
             step = np.array([2.0 * STEP, aside])
-            foot = k % 2
+            foot = (Foot.LEFT, Foot.RIGHT)[k % 2]
             self.off += 0.5 * (drift - self.error.turn_of(foot, 1.0, turn, 2.0 * STEP_TIME))
             c, q = cos(direction - self.off), sin(direction - self.off)
             moved = (c * step[0] - q * step[1], q * step[0] + c * step[1])

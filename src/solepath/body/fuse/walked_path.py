@@ -1,10 +1,12 @@
-"""Path of the wearer so far in a few nodes, where it begins on a floor plan, and the places that a person has named."""
+"""Path of the wearer so far in a few nodes, and the places on it that a person has named."""
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import fsum, hypot
 
 from ...events import TrackNode
+from ...types import Vec2
 from ...types.attrs import define, evolve, field, frozen
 
 FIRST_SPACING = 5.0
@@ -13,8 +15,6 @@ MOST_NODES = 40
 """Largest number of nodes."""
 LEAST_SPACING = 0.5
 """Distance from the newest node within which a report moves that node instead of adding one, m."""
-Pair = tuple[float, float]
-"""A position or a displacement in the horizontal plane, m."""
 
 
 @frozen
@@ -27,45 +27,40 @@ class NotedPlace:
     """Number of its node on the path."""
 
 
-@frozen
-class PlanStart:
-    """The wearer's first place on the floor plan, plan frame, and the first heading, which is the world's x axis."""
-
-    place: Pair
-    """Coordinates of the place, m."""
-    heading: float
-    """Angle from the plan's x axis to the world's, rad."""
-    spread: float
-    """Uncertainty of the place, m (rms)."""
-
-
 @define
 class WalkedPath:
     """Nodes at the ends of strides since the newest known position, common frame of both feet."""
 
-    nodes: list[TrackNode] = field(factory=list, init=False)
+    nodes: list[TrackNode] = field(factory=list)
     """Nodes, of which the first stays as it is."""
-    spacing: float = field(default=FIRST_SPACING, init=False)
+    spacing: float = FIRST_SPACING
     """Least distance from a node to the next one, m."""
-    walked: float = field(default=0.0, init=False)
+    walked: float = 0.0
     """Distance walked since the newest node, m."""
-    known: Pair = field(default=(0.0, 0.0), init=False)
+    known: Vec2 = (0.0, 0.0)
     """Newest position that was reported, m; that of the start before any."""
-    known_at: float | None = field(default=None, init=False)
+    known_at: float | None = None
     """Time of that report, s; None before any."""
-    heading_variance: float = field(default=0.0, init=False)
+    heading_variance: float = 0.0
     """Variance of the heading there, rad^2."""
-    places: dict[str, NotedPlace] = field(factory=dict, init=False)
+    places: dict[str, NotedPlace] = field(factory=dict)
     """Noted places by their names, the newest visited last; the empty name is that of the newest rejected position."""
-    rejected: Pair | None = field(default=None, init=False)
+    rejected: Vec2 | None = None
     """Newest rejected position as it was reported, m; None if none was rejected since the newest one that was used."""
 
-    def add_stride(self, t: float, position: Pair, length: float) -> None:
+    def add_stride(self, t: float, position: Vec2, length: float) -> None:
         """Add the wearer's position after a stride that moved the wearer by `length`, m."""
         self.walked += length
-        if self.nodes and self.walked < self.spacing:
-            return
-        self.add_node(TrackNode(t, *position))
+        if not self.nodes or self.walked >= self.spacing:
+            self.add_node(TrackNode(t, *position))
+
+    def visit(self, name: str) -> int | None:
+        """Return the first row of a noted place, which is the newest visited now; None if this name is new."""
+        place = self.places.pop(name, None)
+        if place is None:
+            return None
+        self.places[name] = place
+        return place.first
 
     def add_node(self, node: TrackNode) -> None:
         """Add a node; if there are too many, keep every second one and those that are needed."""
@@ -78,7 +73,7 @@ class WalkedPath:
             return
         needed = {len(self.nodes) - 1, *[place.node for place in self.places.values()]}
         kept = [k for k in range(len(self.nodes)) if k % 2 == 0 or k in needed]
-        length = fsum([hypot(b.x - a.x, b.y - a.y) for a, b in zip(self.nodes, self.nodes[1:], strict=False)])
+        length = fsum([hypot(b.x - a.x, b.y - a.y) for a, b in pairwise(self.nodes)])
         self.nodes = [self.nodes[k] for k in kept]
         self.places = {name: evolve(one, node=kept.index(one.node)) for name, one in self.places.items()}
         self.spacing = max(self.spacing, 2.0 * length / MOST_NODES)  # reports add nodes, which need no more distance

@@ -9,7 +9,7 @@ import pytest
 from attrs import evolve
 
 from solepath import recipes
-from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
+from solepath.body.fuse.both_feet import BothFeet
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
 from solepath.emulate.routes.route import Route
@@ -34,7 +34,7 @@ def _samples(seed: int) -> tuple[Sample, ...]:
 
 @cache
 def _walked(part: str) -> tuple[Session, list[Event]]:
-    body = {"both": BothFeet(), "mean": MeanOfFeet(), "apart": BothFeet(BothFeetSettings(feedback=False))}[part]
+    body = {"both": BothFeet(), "mean": MeanOfFeet()}[part]
     session = Session(recipes.DEFAULT.exchanged(TrackPart, body))
     events = [event for sample in _samples(102) for event in session.feed(sample)]
     return session, events
@@ -43,8 +43,7 @@ def _walked(part: str) -> tuple[Session, list[Event]]:
 def _apart(session: Session) -> float:
     """Return the distance between the feet as their body has placed them, m."""
     body = next(part for part in session._state.parts if isinstance(part, MeanOfFeet))
-    left = body.left.place(session.feet[Foot.LEFT].position)
-    right = body.right.place(session.feet[Foot.RIGHT].position)
+    left, right = [body.tracks[foot].place(session.feet[foot].position) for foot in Foot]
     return hypot(left[0] - right[0], left[1] - right[1])
 
 

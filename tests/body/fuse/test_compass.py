@@ -11,9 +11,8 @@ import pytest
 from soak import soaked
 from strides import stride
 
-from solepath.body.aiding.compass import Compass
-from solepath.body.aiding.stance_field import StanceField
 from solepath.body.fuse.common_error import FEET, HEADING, CommonError
+from solepath.body.fuse.compass import Compass, H, StanceField
 from solepath.emulate.sensors.magnetic_field import MagneticField
 from solepath.types import Foot
 from solepath.types.vector import IDENTITY, from_yaw
@@ -56,24 +55,25 @@ class Walked:
         field = MagneticField(radians(disturbance), seed, lengths=lengths)
         self.error, self.compass, self.faults, self.most_moved = CommonError(), Compass(), list[str](), 0.0
         self.iron = rng.normal(0.0, 8.0, (2, 3))
-        for row in FEET:  # the bias is known
+        for row in FEET.values():  # the bias is known
             self.error.covariance[row + 2][row + 2] = 0.0
         self.off = 0.0
         """Heading error, truth minus track, rad."""
         count = int(length / STEP)
         flux = 1e6 * field.at(places(heading, count)) if compass else np.zeros((count, 3))
         for k in range(count):
-            s, foot = k * STEP, k % 2
-            event = stride((Foot.LEFT, Foot.RIGHT)[foot], 0.5 * STRIDE_TIME * k, (2.0 * STEP, 0.0, 0.0))
+            s, number = k * STEP, k % 2
+            foot = (Foot.LEFT, Foot.RIGHT)[number]
+            event = stride(foot, 0.5 * STRIDE_TIME * k, (2.0 * STEP, 0.0, 0.0))
             self.error.start_stride(foot, False)
             if compass:
                 true_yaw = heading(s)
-                measured = turned(flux[k], -true_yaw) + self.iron[foot] + rng.normal(0.0, 0.3, 3)
+                measured = turned(flux[k], -true_yaw) + self.iron[number] + rng.normal(0.0, 0.3, 3)
                 if fault is not None:
-                    measured = fault(measured, foot, s)
+                    measured = fault(measured, number, s)
                 yaw = true_yaw - self.off
                 self.compass.feet[foot] = stance(turned(measured, yaw), yaw)
-                (_, _, yaw), sentence = self.compass.add_stride(event, foot, 0.0, self.error)
+                (_, _, yaw), sentence = self.compass.add_stride(event, 0.0, self.error)
                 self.compass.turned(yaw)
                 self.off -= yaw
                 self.most_moved = max(self.most_moved, abs(yaw))
@@ -144,9 +144,9 @@ def test_without_any_disturbance_nothing_is_strange_and_no_iron_has_changed() ->
 def test_the_iron_of_each_shoe_is_learnt() -> None:
     for seed in SEEDS:
         walked = Walked(turning, 1500.0, 12.0, seed=seed)
-        for foot in range(2):
-            learnt = walked.error.aids[4 + 2 * foot : 6 + 2 * foot]
-            assert np.hypot(*(np.array(learnt) - walked.iron[foot, :2])) < 3.0
+        for foot, iron in zip(Foot, walked.iron, strict=True):
+            learnt = walked.error.aid(walked.compass.first + H[foot])
+            assert np.hypot(*(np.array(learnt) - iron[:2])) < 3.0
 
 
 def test_on_a_straight_way_nothing_proves_a_compass_so_it_moves_nothing() -> None:

@@ -8,7 +8,7 @@ from lake import back_time, error, fed, loop, middle, session_back
 from walks import samples
 
 from solepath import Packet, Session, Site
-from solepath.body.aiding.walked_path import MOST_NODES
+from solepath.body.fuse.walked_path import MOST_NODES
 from solepath.events import PositionRejected, PositionReported, StrideTaken, TrackRevised
 from solepath.wire.receiver import PositionFrame, build_position
 
