@@ -41,7 +41,6 @@ from solepath import (
     recipes,
 )
 from solepath.body.part import Position, StartGiven
-from solepath.body.place.particles import Particles
 from solepath.body.place.place_hypotheses import PlaceSettings
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
@@ -218,5 +217,5 @@ def square(side: float) -> FloorPlan:
 
 def test_a_start_of_what_is_no_number_is_the_callers_mistake() -> None:
     for start in (Start("0", (10.0, LOW), nan), Start("0", (nan, LOW)), Start("0", (10.0, LOW), 0.0, inf)):
-        with pytest.raises(ValueError, match="numbers"):
-            told(Particles(), StartGiven(start))
+        with pytest.raises(ValueError, match="start: "):
+            Session(floorplan=square(30.0), start=start)
