@@ -24,8 +24,6 @@ HOT = (
     "types/vector.py",
     "foot/*.py",
     "foot/cues/*.py",
-    "foot/gaps/moment.py",
-    "foot/gaps/template.py",
     "foot/navigate/[bcelprs]*.py",
     "foot/pressure/*.py",
     "foot/stance/s*.py",

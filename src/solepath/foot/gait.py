@@ -10,11 +10,11 @@ from ..types import Foot, Phase, Vec3
 from ..types.attrs import define, field
 from ..types.vector import ZERO, from_yaw, heading_turned, multiply, sub
 from .cues.cues import Cues, TimedCue
-from .gaps.gap import Infill
-from .gaps.template import StrideTemplate
+from .gap import Infill
 from .navigate.corrector import Corrector
 from .phase import EVENT_OF_PHASE, PHASES, Cue
 from .stride import SHORTEST_STRIDE, StrideBuilder, usual_strides
+from .template import StrideTemplate
 from .world import Covariance3, PathCovariance, World
 
 FLAT_SPEED = 0.35

@@ -29,7 +29,7 @@ from collections.abc import Mapping, Sequence
 from math import fsum, sqrt
 
 from ...calibration import HeadingCalibration
-from ...foot.gaps.gap import LONGEST_FILLED_GAP
+from ...foot.gap import LONGEST_FILLED_GAP
 from ...foot.navigate.bias import FIRST_BIAS
 from ...types import Foot
 from ...types.attrs import define, field, frozen

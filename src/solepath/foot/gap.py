@@ -12,8 +12,8 @@ from enum import Enum
 from math import hypot
 from typing import NamedTuple
 
-from ...types import Quat, Vec3
-from ...types.vector import (
+from ..types import Quat, Vec3
+from ..types.vector import (
     GRAVITY,
     ZERO,
     from_yaw,
@@ -25,9 +25,16 @@ from ...types.vector import (
     sub,
     turned,
 )
-from ..navigate.corrector import LONGEST_BRIDGE, Corrector
-from .moment import RecordedStride, StrideMoment, interpolate_stride, limit_length, unpack_moments, vector_length
-from .template import StrideTemplate
+from .navigate.corrector import LONGEST_BRIDGE, Corrector
+from .template import (
+    RecordedStride,
+    StrideMoment,
+    StrideTemplate,
+    interpolate_stride,
+    limit_length,
+    unpack_moments,
+    vector_length,
+)
 
 SHORTEST_FILLED_GAP = 0.06
 """Gap above which infill is used, s; shorter gaps are bridged by a straight line."""

@@ -2,20 +2,197 @@
 
 Walking is periodic: the same part of two neighbouring strides of one wearer differs by some per cent, whereas a
 straight line over half a second of a swing gives an attitude that is wrong by a right angle. The end of a stride with a
-gap is repaired on the same assumption: the stride is about as long as the template, and goes straight on (straight.py).
+gap is repaired on the same assumption: it is about as long as the template, and goes straight on (`StraightOn`).
 
 The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from math import hypot
+from math import exp, hypot, pi
+from struct import Struct
 from typing import NamedTuple
 
-from ...types import Quat, Vec3
-from ...types.attrs import ROW_SIZE, define, field
-from ...types.vector import ZERO, single, sub, turned
-from .moment import MOMENT, RecordedStride, correction_distance, limit_length
-from .straight import StraightOn, correction_share
+from ..types import Quat, Vec3
+from ..types.attrs import ROW_SIZE, define, field, frozen
+from ..types.vector import ZERO, normalise, single, sub, turned
+
+MOMENT = Struct("<15f")
+"""Stored form of a moment: all numbers of `StrideMoment` in order, rounded to float32.
+
+The relative rounding error is below 1e-6, whereas strides differ by some per cent. A stride of 40 moments takes 2.4 kB;
+as tuples of floats it took 20 kB."""
+
+
+@frozen
+class StrideMoment:
+    """One moment of a stride, in the navigation frame; `rate` is in the sensor frame."""
+
+    since: float
+    """Time since heel-off, s."""
+    attitude: Quat
+    """Attitude, sensor to navigation frame."""
+    velocity: Vec3
+    """Velocity, navigation frame, m/s."""
+    position: Vec3
+    """Position, navigation frame, m; only differences within a stride have a meaning."""
+    rate: Vec3
+    """Angular rate, sensor frame, rad/s."""
+    force: float
+    """Norm of the specific force, m/s^2."""
+
+
+@define
+class RecordedStride:
+    """A stride without gaps."""
+
+    moments: bytes = field(metadata={ROW_SIZE: MOMENT.size})
+    """Moments from heel-off to just before foot-flat, in order, as `MOMENT` packs them; at least one."""
+    toe_off: float
+    """Time from heel-off to toe-off, s."""
+    heel_strike: float
+    """Time from heel-off to heel-strike, s."""
+    displacement: Vec3
+    """Displacement from foot-flat to foot-flat, m; x along the mean of both headings."""
+
+    @property
+    def duration(self) -> float:
+        """Time from heel-off to the last moment, s."""
+        since: float = MOMENT.unpack_from(self.moments, len(self.moments) - MOMENT.size)[0]
+        return since
+
+
+def unpack_moments(packed: bytes) -> list[StrideMoment]:
+    """Return stored moments, in order."""
+    return [
+        StrideMoment(t, (qw, qx, qy, qz), (vx, vy, vz), (px, py, pz), (rx, ry, rz), force)
+        for t, qw, qx, qy, qz, vx, vy, vz, px, py, pz, rx, ry, rz, force in MOMENT.iter_unpack(packed)
+    ]
+
+
+def interpolate_stride(moments: list[StrideMoment], since: float) -> StrideMoment:
+    """Return the interpolated moment at `since` s after heel-off; outside the stride the first or the last moment."""
+    before = moments[0]
+    for moment in moments:
+        if moment.since >= since:
+            if moment is before:
+                return moment
+            k = (since - before.since) / (moment.since - before.since)
+            return StrideMoment(
+                since,
+                normalise(_mix_attitudes(before.attitude, moment.attitude, k)),
+                _interpolate(before.velocity, moment.velocity, k),
+                _interpolate(before.position, moment.position, k),
+                _interpolate(before.rate, moment.rate, k),
+                before.force + k * (moment.force - before.force),
+            )
+        before = moment
+    return before
+
+
+def correction_distance(packed: bytes) -> float:
+    """Return the distance by which zero-velocity updates have moved the foot in a stride of these moments, m.
+
+    It is the length of the difference between displacement and integral of the velocity."""
+    rows = list(MOMENT.iter_unpack(packed))
+    first, last = rows[0], rows[-1]
+    before, ax, ay, az = first[0], *first[5:8]
+    x, y, z = sub(last[8:11], first[8:11])
+    for t, _, _, _, _, bx, by, bz, *_ in rows:
+        k = 0.5 * (t - before)
+        x, y, z = x - k * (ax + bx), y - k * (ay + by), z - k * (az + bz)
+        before, ax, ay, az = t, bx, by, bz
+    return hypot(x, y, z)
+
+
+def vector_length(v: Vec3) -> float:
+    """Return the length of a vector."""
+    return hypot(v[0], v[1], v[2])
+
+
+def limit_length(v: Vec3, longest: float) -> Vec3:
+    """Return a vector of the same direction that is at most `longest` long."""
+    v_length = vector_length(v)
+    return (
+        v if v_length <= longest else (v[0] * longest / v_length, v[1] * longest / v_length, v[2] * longest / v_length)
+    )
+
+
+def _interpolate(a: Vec3, b: Vec3, k: float) -> Vec3:
+    return (a[0] + k * (b[0] - a[0]), a[1] + k * (b[1] - a[1]), a[2] + k * (b[2] - a[2]))
+
+
+def _mix_attitudes(p: Quat, q: Quat, k: float) -> Quat:
+    if p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3] < 0.0:
+        q = (-q[0], -q[1], -q[2], -q[3])
+    w, x, y, z = (a + k * (b - a) for a, b in zip(p, q, strict=True))
+    return (w, x, y, z)
+
+
+STRAIGHT_SHARE = 0.8
+"""Prior probability that a stride goes straight on; otherwise it may have any heading."""
+FOOTFALL_SIGMA = 0.025
+"""Standard deviation of a footfall's heading from the mean heading in straight walking, rad."""
+HEADING_MEMORY = 0.3
+"""Weight of the newest footfall in the mean heading, 0 to 1."""
+NEW_HEADING_TURN, SAMPLED_NEW_HEADING_TURN = 0.12, 0.0625
+"""Smallest turn that starts a new mean heading, rad: for a stride with a gap, and without one."""
+GAP_TURN_SIGMA = 0.08
+"""Standard deviation of the heading after 0.3 s of infill, rad."""
+
+
+@define
+class StraightOn:
+    """The mean heading of the footfalls, and the difference of the newest footfall from it.
+
+    Wearers walk straight on most of the time. If a foot comes down after a gap with about the heading that it had
+    before, the gap has caused the difference, which is removed ("heuristic drift elimination": Borenstein, Ojeda,
+    Kwanmuang, J. Navigation 62, 2009). However many gaps there are, the error of the heading then stays as small as the
+    difference between one footfall and the next. A wearer who turns causes a larger difference, which is kept. Angles
+    are positive to the left."""
+
+    yaw: float = field(default=0.0, init=False)
+    """Heading of the newest footfall relative to the first, rad."""
+    heading: float = field(default=0.0, init=False)
+    """Heading of the newest footfall relative to the mean heading, rad."""
+    footfalls: int = field(default=0, init=False)
+    """Number of footfalls in the mean heading, counted up to 3, from which on it is used."""
+
+    def repair(self, turn: float, gap_share: float, sparse_interval: float) -> float:
+        """Return the most likely correction of a stride's turn, rad.
+
+        `turn`, rad, is measured from foot-flat to foot-flat. `gap_share`, 0 to 1, is the duration of infill in units of
+        0.3 s. `sparse_interval`, s, is the interval between samples if a swing has few of them, else 0."""
+        if self.footfalls < 3:
+            return 0.0
+        difference = self.heading + turn
+        # the error of a straight line between two samples grows with the square of the time
+        heading_sigma = GAP_TURN_SIGMA * min(2.0, gap_share + 200.0 * sparse_interval * sparse_interval)
+        return -difference * correction_share(difference * difference, heading_sigma, FOOTFALL_SIGMA, pi, 1)
+
+    def add_footfall(self, turn: float, repair: float, gap_share: float, sparse_interval: float) -> None:
+        """Add a foot-flat after a stride with this `turn`, which was corrected by `repair`, rad.
+
+        `gap_share` and `sparse_interval` are the same as in the method `repair`."""
+        difference = self.heading + turn + repair
+        self.yaw = (self.yaw + (turn + repair) + pi) % (2.0 * pi) - pi
+        # a stride without a gap that differs by more than footfalls do is a turn, which may go on in the next stride
+        new_heading_turn = NEW_HEADING_TURN if gap_share > 0.0 or sparse_interval > 0.0 else SAMPLED_NEW_HEADING_TURN
+        if abs(difference) > new_heading_turn * (1.0 + sparse_interval / 0.1):
+            self.heading, self.footfalls = 0.0, 1
+        else:
+            self.heading = difference * (1.0 - HEADING_MEMORY)
+            self.footfalls = min(self.footfalls + 1, 3)
+
+
+def correction_share(square: float, gap_sigma: float, sigma: float, possible_range: float, dimensions: int) -> float:
+    """Return the share of a difference from the usual value that is to be removed, 0 to 1.
+
+    It is the gain of a Kalman update, times the probability that the motion was as usual. Otherwise any value within
+    `possible_range` is equally likely. `square` is the square of the difference. `gap_sigma` is the standard deviation
+    that the gap causes and `sigma` that of usual motion, all in one unit."""
+    variance = gap_sigma * gap_sigma + sigma * sigma
+    likelihood = STRAIGHT_SHARE * exp(-0.5 * square / variance) / float((2.0 * pi * variance) ** (0.5 * dimensions))
+    return likelihood / (likelihood + (1.0 - STRAIGHT_SHARE) / possible_range) * gap_sigma * gap_sigma / variance
 
 
 class StrideRepair(NamedTuple):
@@ -87,10 +264,6 @@ class StrideTemplate:
         """Set the heel-off at `t_heel_off`, s, and add `duration` s of infill."""
         self.infilled += duration
         self.t_heel_off = self.t_next_moment = t_heel_off
-
-    def mark_bridged(self) -> None:
-        """Mark that a gap was bridged by a straight line."""
-        self.bridged = True
 
     def reset(self) -> None:
         """Discard the current stride, because the state of the foot is unknown."""
