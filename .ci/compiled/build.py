@@ -24,7 +24,7 @@ HOT = (
     "types/vector.py",
     "foot/*.py",
     "foot/cues/*.py",
-    "foot/navigate/[bcelprs]*.py",
+    "foot/navigate/[bcels]*.py",
     "foot/pressure/*.py",
     "foot/stance/s*.py",
     "foot/stance/cycle.py",

@@ -14,7 +14,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.pressure.insole import HIGHEST_DECAY, InsoleLoads
-from solepath.foot.pressure.layout_guess import LayoutGuess
+from solepath.foot.pressure.sole import LayoutGuess
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
 from solepath.foot.stance.stance import Load, Stance
 from solepath.types import Phase

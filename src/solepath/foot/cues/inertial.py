@@ -6,7 +6,7 @@ is negative for a long time while the leg swings, and returns through zero as th
 which the rate has fallen to half its peak, because there it falls most steeply. Such landmarks are common in gait
 analysis (Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013). The ground may
 stop the foot earlier or later than the rate returns through zero, so heel-strike is the middle of the impact
-(impact.py).
+(`Impact`).
 
 Numbers without a source were chosen by hand on the recordings of docs/accuracy.md, those of heel-strike and toe-off on
 recordings that contain such events. docs/settings.md has the effect of half and of twice each."""
@@ -21,7 +21,6 @@ from ...types.attrs import define, evolve, field
 from ...types.vector import TIE, ZERO
 from ..phase import Cue
 from .cues import TimedCue
-from .impact import Impact
 
 # Local names, because one look-up in the enum costs as much as five multiplications.
 SWING: Final = Phase.SWING
@@ -75,6 +74,76 @@ STILLNESS_DELAY = 0.02
 """Time from the start of stillness to its detection, s, because stillness is judged over a window."""
 HEEL_DOWN_RATE = 0.12
 """Sagittal rate below which the heel has not left the ground, rad/s."""
+
+
+LARGEST_SHOCK = 1e12
+"""Largest shock that one sample may add, m^2/s^5."""
+SHOCK_MEMORY_TIME = 0.02
+"""Time constant with which the shock decays before the foot lands, s."""
+SHORTEST_LANDING_DELAY = 0.1
+"""Shortest time from toe-off to the impact of landing, s; an earlier shock comes from leaving the ground."""
+
+
+@define
+class Impact:
+    """The impact that ends one swing. Call `add_sample` for every sample of the swing.
+
+    The turn of the foot, or the loss of its speed, shows that the foot has landed. The jerk, j = d acc / dt, shows the
+    time. The ground stops the foot within some hundredths of a second, and heel-strike is the middle of this interval:
+    the mean time weighted by the squared jerk,
+
+        t_HS = sum t |j|^2 dt / sum |j|^2 dt.
+
+    This needs no threshold on the force and works for any mounting and rate. It is not early when the sole turns down
+    well before it bears weight. "Shock" is the integral of the squared jerk, m^2/s^5."""
+
+    swing_start: float | None = field(default=None, init=False)
+    """Start of the swing, s; None before any."""
+    shock: float = field(default=0.0, init=False)
+    """Recent shock, m^2/s^5."""
+    mean_time: float = field(default=0.0, init=False)
+    """Mean time of `shock`, s."""
+    peak_speed: float = field(default=0.0, init=False)
+    """Largest speed of the swing so far, m/s."""
+    peak_shock: float = field(default=0.0, init=False)
+    """Largest shock since the foot had its largest speed, m^2/s^5."""
+    peak_shock_time: float = field(default=0.0, init=False)
+    """Mean time of `peak_shock`, s."""
+
+    def start_swing(self, t: float) -> None:
+        """Start a swing at toe-off at `t`, s."""
+        self.swing_start = self.mean_time = t
+        self.shock = self.peak_speed = self.peak_shock = 0.0
+
+    def add_sample(self, t: float, dt: float, previous_acc: Vec3, acc: Vec3, speed: float, landing: bool) -> None:
+        """Add one sample of the swing.
+
+        `previous_acc` and `acc` are the specific force of the last sample and of this one, m/s^2. `speed` is in m/s.
+        While `landing` is True the shock does not decay."""
+        if speed > self.peak_speed:
+            self.peak_speed = speed
+            self.peak_shock = 0.0
+        if dt <= 0.0:
+            return
+        x, y, z = acc
+        px, py, pz = previous_acc
+        x -= px
+        y -= py
+        z -= pz
+        sample_shock = (x * x + y * y + z * z) / dt
+        if sample_shock > LARGEST_SHOCK:
+            sample_shock = LARGEST_SHOCK
+        shock = self.shock
+        if not landing:
+            shock = shock * (1.0 - dt / SHOCK_MEMORY_TIME) if dt < SHOCK_MEMORY_TIME else 0.0
+        self.shock = shock = shock + sample_shock
+        if sample_shock > 0.0:
+            self.mean_time += (t - 0.5 * dt - self.mean_time) * sample_shock / shock
+        if shock > self.peak_shock and (
+            self.swing_start is None or self.mean_time - self.swing_start >= SHORTEST_LANDING_DELAY
+        ):
+            self.peak_shock = shock
+            self.peak_shock_time = self.mean_time
 
 
 @define

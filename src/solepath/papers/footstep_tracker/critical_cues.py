@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...foot.cues.cues import Cues, TimedCue
-from ...foot.cues.pressure import PressureCues
+from ...foot.cues.gait_cues import PressureCues
 from ...foot.phase import REMAINING_CUES, Cue
 from ...foot.stance.stance import Load, Stance
 from ...types import Phase, Vec3

@@ -26,7 +26,7 @@ from ...foot.cues.cues import Cues, TimedCue
 from ...foot.cues.inertial import SHUFFLE_SPEED, InertialCues
 from ...foot.cues.touch import Touch
 from ...foot.phase import Cue
-from ...foot.pressure.cells import centre
+from ...foot.pressure.insole import centre
 from ...foot.stance.stance import Load, Stance
 from ...types import Layout, Phase, Vec3
 from ...types.attrs import define, field, frozen
