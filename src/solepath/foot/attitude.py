@@ -105,20 +105,20 @@ class Levelling:
     after each stiller one, so that it has started in that stance when LONGEST_STRIDE has passed. The heading stays that
     of the sensor: the attitude is the smallest turn that takes the measured up to up."""
 
-    span: SampleSpan = field(factory=SampleSpan, init=False)
-    short_span: SampleSpan = field(factory=SampleSpan, init=False)
+    span: SampleSpan = field(factory=SampleSpan)
+    short_span: SampleSpan = field(factory=SampleSpan)
     """Sums over the current short span."""
-    short_span_start: float = field(default=0.0, init=False)
+    short_span_start: float = 0.0
     """Start of the current short span, s."""
-    least_motion: float = field(default=LARGEST_MOTION, init=False)
+    least_motion: float = LARGEST_MOTION
     """Least amount of motion of any short span so far, (m/s^2)^2."""
-    span_start: float = field(default=0.0, init=False)
+    span_start: float = 0.0
     """Start of the current span, s."""
-    started_at: float | None = field(default=None, init=False)
+    started_at: float | None = None
     """Time of the first sample, s; None before it."""
-    final: bool = field(default=False, init=False)
+    final: bool = False
     """Flag: the newest attitude is the first one; no other follows."""
-    walks: bool = field(default=True, init=False)
+    walks: bool = True
     """Flag: the foot was not still."""
 
     @property
@@ -164,23 +164,23 @@ class Levelling:
 class Rest:
     """The gyroscope bias and the accelerometer scale, learnt from spans of rest."""
 
-    span: SampleSpan = field(factory=SampleSpan, init=False)
-    span_start: float | None = field(default=None, init=False)
+    span: SampleSpan = field(factory=SampleSpan)
+    span_start: float | None = None
     """Start of the current span, s; None before the first sample."""
-    bias_filter: BiasFilter = field(factory=BiasFilter, init=False)
-    bias: Vec3 = field(default=ZERO, init=False)
+    bias_filter: BiasFilter = field(factory=BiasFilter)
+    bias: Vec3 = ZERO
     """Gyroscope bias by the filter, sensor frame, rad/s."""
-    block_end: float = field(default=0.0, init=False)
+    block_end: float = 0.0
     """End of the current block, s."""
-    blocks: list[tuple[int, Vec3]] = field(factory=list, init=False)
+    blocks: list[tuple[int, Vec3]] = field(factory=list)
     """Number of samples, and sum of their rates, rad/s, of the span up to the end of each of its blocks."""
-    scale: float = field(default=1.0, init=False)
+    scale: float = 1.0
     """Factor for acc that makes it read 1 g at rest."""
-    count: int = field(default=0, init=False)
+    count: int = 0
     """Number of spans of rest so far."""
-    grain: float = field(default=COARSEST_COUNT, init=False)
+    grain: float = COARSEST_COUNT
     """Value of one accelerometer count, m/s^2: the least difference of two readings so far."""
-    last: Vec3 = field(default=ZERO, init=False)
+    last: Vec3 = ZERO
     """Last acc without calibration, m/s^2."""
 
     def reset(self) -> None:
@@ -294,21 +294,21 @@ class WalkScale:
     the two is used if both have the same sign. A deviation is the difference between the reading of a standing foot and
     1 g, m/s^2."""
 
-    span: SampleSpan = field(factory=SampleSpan, init=False)
+    span: SampleSpan = field(factory=SampleSpan)
     """Sums over the current short span."""
-    span_start: float | None = field(default=None, init=False)
+    span_start: float | None = None
     """Start of the current short span, s; None before any sample."""
-    least_motion: float = field(default=LARGEST_MOTION, init=False)
+    least_motion: float = LARGEST_MOTION
     """Least amount of motion of a short span since the last stride, (m/s^2)^2."""
-    force: float = field(default=GRAVITY, init=False)
+    force: float = GRAVITY
     """Specific force in the short span of `least_motion`, m/s^2."""
-    accepted_at: float | None = field(default=None, init=False)
+    accepted_at: float | None = None
     """Time of the last accepted evidence, s; None before any."""
-    strides: int = field(default=0, init=False)
+    strides: int = 0
     """Number of strides in the means, at most MOST_STRIDES."""
-    stance_deviation: float = field(default=0.0, init=False)
+    stance_deviation: float = 0.0
     """Mean deviation in stance."""
-    drift_deviation: float = field(default=0.0, init=False)
+    drift_deviation: float = 0.0
     """Mean deviation from the drift of the vertical velocity."""
 
     def add_sample(self, t: float, acc: Vec3, gyro: Vec3) -> None:

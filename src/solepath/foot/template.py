@@ -150,11 +150,11 @@ class StraightOn:
     difference between one footfall and the next. A wearer who turns causes a larger difference, which is kept. Angles
     are positive to the left."""
 
-    yaw: float = field(default=0.0, init=False)
+    yaw: float = 0.0
     """Heading of the newest footfall relative to the first, rad."""
-    heading: float = field(default=0.0, init=False)
+    heading: float = 0.0
     """Heading of the newest footfall relative to the mean heading, rad."""
-    footfalls: int = field(default=0, init=False)
+    footfalls: int = 0
     """Number of footfalls in the mean heading, counted up to 3, from which on it is used."""
 
     def repair(self, turn: float, gap_share: float, sparse_interval: float) -> float:
@@ -227,31 +227,31 @@ class StrideTemplate:
     At most MOST_MOMENTS are stored of each, the template and the current stride. Between two stored moments a sample
     costs one comparison."""
 
-    last_stride: RecordedStride | None = field(default=None, init=False)
+    last_stride: RecordedStride | None = None
     """Last stride without a gap; None before any."""
-    age: int = field(default=1000, init=False)
+    age: int = 1000
     """Number of strides since `last_stride`."""
-    moments: bytes = field(default=b"", init=False, metadata={ROW_SIZE: MOMENT.size})
+    moments: bytes = field(default=b"", metadata={ROW_SIZE: MOMENT.size})
     """Moments of the current stride, as `MOMENT` packs them."""
-    first_position: Vec3 = field(default=ZERO, init=False)
+    first_position: Vec3 = ZERO
     """Position at the first of `moments`, navigation frame, m; the positions in `moments` are relative to it."""
-    stance_duration: float = field(default=0.0, init=False)
+    stance_duration: float = 0.0
     """Time from foot-flat to heel-off of the last stance without a gap, s."""
-    t_flat: float | None = field(default=None, init=False)
+    t_flat: float | None = None
     """Time of the last foot-flat, s; None before the first stride."""
-    t_heel_off: float | None = field(default=None, init=False)
+    t_heel_off: float | None = None
     """Time of heel-off, s; None while the foot stands."""
-    t_next_moment: float = field(default=0.0, init=False)
+    t_next_moment: float = 0.0
     """Time at which the next moment is stored, s."""
-    infilled: float = field(default=0.0, init=False)
+    infilled: float = 0.0
     """Duration of infill in the motion since heel-off, s."""
-    bridged: bool = field(default=False, init=False)
+    bridged: bool = False
     """A gap in this stride was bridged by a straight line."""
-    t_last_flat: float | None = field(default=None, init=False)
+    t_last_flat: float | None = None
     """End of the last stride, s; a gap does not clear it."""
-    longest_stride: float = field(default=0.0, init=False)
+    longest_stride: float = 0.0
     """Length of the longest recent stride without a gap, m."""
-    straight_on: StraightOn = field(factory=StraightOn, init=False)
+    straight_on: StraightOn = field(factory=StraightOn)
 
     def start_stride(self, t: float) -> None:
         """Start to store a stride at heel-off."""

@@ -49,13 +49,13 @@ class Rhythm:
 
     Many gaps of equal length in a row mean a new sampling rate."""
 
-    intervals: int = field(default=0, init=False)
+    intervals: int = 0
     """Number of intervals so far, up to FIRST_INTERVALS + 1."""
-    usual_interval: float | None = field(default=None, init=False)
+    usual_interval: float | None = None
     """Usual interval between samples, s; None before any."""
-    gaps_in_a_row: int = field(default=0, init=False)
+    gaps_in_a_row: int = 0
     """Number of equal gaps in a row."""
-    first_gap: float = field(default=0.0, init=False)
+    first_gap: float = 0.0
     """Duration of the first gap of the current row, s."""
 
     def update(self, dt: float) -> bool:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from ...types import Layout, Phase, Vec3
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, field
 from ..phase import Cue
 from ..stance.stance import Load, Stance
 from .cues import Cues, TimedCue
@@ -39,9 +39,9 @@ LONGEST_DATING_BACK = 0.3
 class PressureCues:
     """Detects CONTACT and CLEAR from the total load, FLAT and LIFT from heel and forefoot. Latency: one sample."""
 
-    previous_load: float = field(default=0.0, init=False)
+    previous_load: float = 0.0
     """Total load of the last sample, as a share of the full load."""
-    heel_loaded_at: float | None = field(default=None, init=False)
+    heel_loaded_at: float | None = None
     """Time at which the heel was last above AREA_UNLOADED, s; None before any."""
 
     def update(self, t: float, dt: float, load: Load, phase: Phase) -> TimedCue | None:
@@ -92,8 +92,8 @@ class GaitCues(Cues):
 
     Latency: that of `InertialCues`, or of `PressureCues` with pressure cells."""
 
-    inertial: InertialCues = field(factory=InertialCues)
-    pressure: PressureCues = field(factory=PressureCues)
+    inertial: InertialCues = field(factory=InertialCues, init=False)
+    pressure: PressureCues = field(factory=PressureCues, init=False)
     touch: Touch = field(factory=Touch)
     """Detector of ground contact for insoles of few cells."""
     sagittal: float = field(default=0.0, init=False)
@@ -147,5 +147,5 @@ class GaitCues(Cues):
     def restart(self) -> None:
         """Discard what depends on times, because times restart; what was learnt stays."""
         self.inertial = self.inertial.restart()
-        self.pressure = evolve(self.pressure)
+        self.pressure = PressureCues()
         self.touch = self.touch.restart()

@@ -17,7 +17,7 @@ from math import sqrt
 from typing import Final
 
 from ...types import Phase, Vec3
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, field
 from ...types.vector import TIE, ZERO
 from ..phase import Cue
 from .cues import TimedCue
@@ -97,17 +97,17 @@ class Impact:
     This needs no threshold on the force and works for any mounting and rate. It is not early when the sole turns down
     well before it bears weight. "Shock" is the integral of the squared jerk, m^2/s^5."""
 
-    swing_start: float | None = field(default=None, init=False)
+    swing_start: float | None = None
     """Start of the swing, s; None before any."""
-    shock: float = field(default=0.0, init=False)
+    shock: float = 0.0
     """Recent shock, m^2/s^5."""
-    mean_time: float = field(default=0.0, init=False)
+    mean_time: float = 0.0
     """Mean time of `shock`, s."""
-    peak_speed: float = field(default=0.0, init=False)
+    peak_speed: float = 0.0
     """Largest speed of the swing so far, m/s."""
-    peak_shock: float = field(default=0.0, init=False)
+    peak_shock: float = 0.0
     """Largest shock since the foot had its largest speed, m^2/s^5."""
-    peak_shock_time: float = field(default=0.0, init=False)
+    peak_shock_time: float = 0.0
     """Mean time of `peak_shock`, s."""
 
     def start_swing(self, t: float) -> None:
@@ -153,32 +153,32 @@ class InertialCues:
     Latency: toe-off one sample; heel-strike IMPACT_SETTLING_TIME, or until the foot is still if no impact is found;
     foot-flat and heel-off STILLNESS_DEBOUNCE."""
 
-    still_since: float | None = field(default=None, init=False)
+    still_since: float | None = None
     """Time since which zero velocity evidence is accepted, s; None while it is not."""
-    not_turning_at: float | None = field(default=None, init=False)
+    not_turning_at: float | None = None
     """Last time in this stance at which the foot did not turn, s; None before any."""
-    moving_since: float | None = field(default=None, init=False)
+    moving_since: float | None = None
     """Time since which zero velocity evidence is not accepted, s; None while it is."""
-    fast_since: float | None = field(default=None, init=False)
+    fast_since: float | None = None
     """Time since which the foot is faster than a shuffle, s; None while it is not."""
-    axis: Vec3 | None = field(default=None, init=False)
+    axis: Vec3 | None = None
     """Unit vector to the wearer's left, sensor frame, learnt from the turn of the foot at push-off; None at first."""
-    other_axis_push_offs: int = field(default=0, init=False)
+    other_axis_push_offs: int = 0
     """Number of push-offs in a row about another axis than `axis`."""
-    turn: Vec3 = field(default=ZERO, init=False)
+    turn: Vec3 = ZERO
     """Turn since the foot started to move, sensor frame, rad."""
-    peak_rate: float = field(default=0.0, init=False)
+    peak_rate: float = 0.0
     """Highest sagittal rate of this push-off, rad/s."""
-    lowest_rate: float = field(default=0.0, init=False)
+    lowest_rate: float = 0.0
     """Lowest sagittal rate of this swing, rad/s."""
-    swing_start: float | None = field(default=None, init=False)
+    swing_start: float | None = None
     """Start of the last swing, s; None before any."""
-    landing_at: float | None = field(default=None, init=False)
+    landing_at: float | None = None
     """Time at which the sagittal rate rose through LANDING_RATE, s; None before that and after heel-strike."""
-    force: Vec3 | None = field(default=None, init=False)
+    force: Vec3 | None = None
     """Specific force of the last sample, sensor frame, m/s^2."""
-    impact: Impact = field(factory=Impact, init=False)
-    sagittal: float = field(default=0.0, init=False)
+    impact: Impact = field(factory=Impact)
+    sagittal: float = 0.0
     """Sagittal rate of the last sample, rad/s; the norm of the rate while the axis is unknown."""
 
     def update(
@@ -292,9 +292,7 @@ class InertialCues:
 
     def restart(self) -> InertialCues:
         """Return cues for times that restart; the axis stays."""
-        fresh = evolve(self)
-        fresh.axis = self.axis
-        return fresh
+        return InertialCues(axis=self.axis)
 
     def make_hidden_toe_off(self, t: float) -> TimedCue:
         """Return a toe-off at `t`, s, which a gap has hidden; the swing may go on after the gap."""

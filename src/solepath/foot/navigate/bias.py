@@ -18,7 +18,7 @@ from __future__ import annotations
 from math import exp, fsum
 
 from ...types import Vec3
-from ...types.attrs import define, evolve, field, frozen
+from ...types.attrs import define, evolve, frozen
 from ...types.vector import ZERO
 
 FIRST_BIAS = 0.009
@@ -78,16 +78,16 @@ class Bias:
 class BiasFilter:
     """The bias of a gyroscope, from all rests so far."""
 
-    bias: Bias = field(factory=Bias, init=False)
-    before: Bias = field(factory=Bias, init=False)
+    bias: Bias = Bias()
+    before: Bias = Bias()
     """Bias before the current rest."""
-    count: int = field(default=0, init=False)
+    count: int = 0
     """Number of spans of the current rest that were used."""
-    rate: Vec3 = field(default=ZERO, init=False)
+    rate: Vec3 = ZERO
     """Mean rate over these spans, rad/s."""
-    noise: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    noise: tuple[float, float] = (0.0, 0.0)
     """Mean over these spans of the variance of the rate of one span, (rad/s)^2, about the axes of `Bias.variances`."""
-    newest: RestSpan | None = field(default=None, init=False)
+    newest: RestSpan | None = None
     """Newest span, which is used once the next one is at rest too."""
 
     def add(self, span: RestSpan) -> None:

@@ -293,9 +293,9 @@ class SwingSamples:
 
     and the zero velocity of the next stance shows its size."""
 
-    rows: list[Row] = field(factory=list, init=False)
+    rows: list[Row] = field(factory=list)
     """Samples in order of time."""
-    start_attitude: Quat = field(default=IDENTITY, init=False)
+    start_attitude: Quat = IDENTITY
     """Attitude before the first row, sensor to navigation frame."""
 
     def add_sample(self, dt: float, gyro: Vec3, previous_rate: Vec3, acc: Vec3, attitude: Quat) -> None:

@@ -89,11 +89,11 @@ class StanceRhythm:
     mid-swing lasted 0.05 to 0.07 s, where stances lasted 0.4 s. So the foot stands if evidence starts late enough after
     the last stance and lasts for half of the wearer's usual stance, whatever the pace."""
 
-    usual_stance: float = field(default=FIRST_STANCE, init=False)
+    usual_stance: float = FIRST_STANCE
     """Usual time from the first to the last accepted evidence of a stance, s."""
-    usual_swing: float = field(default=FIRST_SWING, init=False)
+    usual_swing: float = FIRST_SWING
     """Usual time without accepted evidence between two stances, s."""
-    stance_start: float | None = field(default=None, init=False)
+    stance_start: float | None = None
     """Time of the first accepted evidence of the current stance, s; None before any."""
 
     def add(self, t: float, last: float) -> None:
@@ -193,9 +193,9 @@ class IndependentInterval:
     The root is dt / sqrt(2) for readings that change at random. It does not depend on dt where the band is narrow
     against the rate, because the sums are integrals there."""
 
-    jerk_square: float = field(default=0.0, init=False)
+    jerk_square: float = 0.0
     """Fading sum of |j|^2 dt, m^2/s^5."""
-    snap_square: float = field(default=0.0, init=False)
+    snap_square: float = 0.0
     """Fading sum of |s|^2 dt, m^2/s^7."""
 
     def update(self, dt: float, acc: Vec3, dt_before: float, last: Vec3, earlier: Vec3) -> float:

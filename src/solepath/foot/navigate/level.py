@@ -27,7 +27,7 @@ from __future__ import annotations
 from math import exp, hypot, log, pi, sqrt
 
 from ...types import Quat, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define
 from ...types.vector import ZERO, rotate_back
 
 UP_VECTOR = (0.0, 0.0, 1.0)
@@ -70,29 +70,29 @@ MOST_AVERAGED_STRIDES = 25.0
 class LevelGround:
     """Estimates the height of every stride (`judge`) at the foot-flat that ends it. Units: m and rad."""
 
-    rise_bias: float = field(default=0.0, init=False)
+    rise_bias: float = 0.0
     """Height for each metre of path that the errors of this sensor cause."""
-    rise_bias_information: float = field(default=0.0, init=False)
+    rise_bias_information: float = 0.0
     """Inverse of the variance of the rise bias, without its prior."""
-    scale: float = field(default=0.25, init=False)
+    scale: float = 0.25
     """Square of the scatter of heights, as a share of the filter's variance of the height."""
-    scale_weight: float = field(default=4.0, init=False)
+    scale_weight: float = 4.0
     """Number of level strides in `scale`; four stand for the prior."""
-    upright: Vec3 = field(default=ZERO, init=False)
+    upright: Vec3 = ZERO
     """Mean of up at the foot-flats of level strides, sensor frame."""
-    upright_weight: float = field(default=0.0, init=False)
+    upright_weight: float = 0.0
     """Number of level strides in `upright`."""
-    pitch_variance: float = field(default=5e-4, init=False)
+    pitch_variance: float = 5e-4
     """Variance of the pitch of a flat foot from stride to stride, rad^2."""
-    slope_strides: int = field(default=0, init=False)
+    slope_strides: int = 0
     """Number of strides in a row on a slope, up to now."""
-    grade: float = field(default=0.0, init=False)
+    grade: float = 0.0
     """Mean rise for each metre of path of the `slope_strides`."""
-    slope_upright: Vec3 = field(default=ZERO, init=False)
+    slope_upright: Vec3 = ZERO
     """Mean of up at the foot-flats of the `slope_strides`, sensor frame."""
-    slope: float = field(default=0.02, init=False)
+    slope: float = 0.02
     """Probability that the last stride was on a slope."""
-    stair: float = field(default=0.02, init=False)
+    stair: float = 0.02
     """Probability that the last stride was on a stair."""
 
     def judge(self, displacement: Vec3, turn: float, variance: float, attitude: Quat) -> tuple[float, float]:

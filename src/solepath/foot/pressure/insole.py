@@ -57,15 +57,15 @@ def add_up_area(cells: tuple[float, ...], indices: tuple[int, ...]) -> float:
 class Extremes:
     """The lowest and highest value of the last 8 to 10 s, kept for each of five spans of 2 s; O(1) a sample."""
 
-    span_end: float | None = field(default=None, init=False)
+    span_end: float | None = None
     """End of the current span, s; None before any."""
-    lows: list[float] = field(factory=list, init=False)
+    lows: list[float] = field(factory=list)
     """Lowest value of each span."""
-    highs: list[float] = field(factory=list, init=False)
+    highs: list[float] = field(factory=list)
     """Highest value of each span."""
-    low: float = field(default=0.0, init=False)
+    low: float = 0.0
     """Lowest value of all spans."""
-    high: float = field(default=0.0, init=False)
+    high: float = 0.0
     """Highest value of all spans."""
 
     def update(self, t: float, value: float) -> float:

@@ -85,13 +85,13 @@ class SensorHeight:
     is fitted by least squares to each stance. h is pooled over the stances, with less weight for older ones. The
     numbers were chosen by hand on the recordings of docs/accuracy.md and not swept."""
 
-    height: float = field(default=INITIAL_HEIGHT, init=False)
+    height: float = INITIAL_HEIGHT
     """Current estimate of the height, m."""
-    product: float = field(default=INITIAL_HEIGHT * INITIAL_WEIGHT, init=False)
+    product: float = INITIAL_HEIGHT * INITIAL_WEIGHT
     """Weighted sum of u c dt over the stances, m (rad/s)^2 s."""
-    square: float = field(default=INITIAL_WEIGHT, init=False)
+    square: float = INITIAL_WEIGHT
     """Weighted sum of c^2 dt over the stances, (rad/s)^2 s."""
-    sums: Sums = field(default=EMPTY, init=False)
+    sums: Sums = EMPTY
     """State of the current stance."""
 
     def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> tuple[float, float]:

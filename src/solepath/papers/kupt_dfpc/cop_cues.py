@@ -68,7 +68,7 @@ class CopCues(Cues):
     uses_centre: ClassVar[bool] = True
 
     settings: CopCuesSettings = CopCuesSettings()
-    inertial: InertialCues = field(factory=InertialCues)
+    inertial: InertialCues = field(factory=InertialCues, init=False)
     touch: Touch = field(factory=Touch)
     sagittal: float = field(default=0.0, init=False)
     """Rate about the axis to the wearer's left in the last sample, positive toe down, rad/s (`Cues`)."""
