@@ -202,18 +202,10 @@ class Rest:
         """Add one sample without calibration; return whether a span of rest has just ended."""
         if self.span_start is None:
             self._start_span(t)
-        # SampleSpan.add without the cost of a call (tests/foot/test_alike.py checks that both are equal)
         span = self.span
-        gx, gy, gz = gyro
-        lx, ly, lz = span.gyro
-        span.gyro = (lx + gx, ly + gy, lz + gz)
-        span.gyro_squares += gx * gx + gy * gy + gz * gz
-        x, y, z = acc
-        lx, ly, lz = span.acc
-        span.acc = (lx + x, ly + y, lz + z)
-        span.acc_squares += x * x + y * y + z * z
-        span.count += 1
+        span.add(acc, gyro)
         # a steady reading flickers between two neighbouring counts on any axis, with a variance of up to 1/4 count^2
+        x, y, z = acc
         lx, ly, lz = self.last
         self.last = acc
         x -= lx

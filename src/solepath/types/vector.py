@@ -117,10 +117,13 @@ def from_yaw(yaw: float) -> Quat:
     return (cos(0.5 * yaw), 0.0, 0.0, sin(0.5 * yaw))
 
 
-def tipped(q: Quat, tx: float, ty: float) -> Quat:
-    """Return q after a small rotation by (2 tx, 2 ty, 0) rad, about horizontal axes of the world frame."""
+def tipped(q: Quat, tx: float, ty: float, tz: float = 0.0) -> Quat:
+    """Return q after a small rotation by (2 tx, 2 ty, 2 tz) rad, about the axes of the world frame."""
     w, x, y, z = q
-    return normalise((w - tx * x - ty * y, x + tx * w + ty * z, y + ty * w - tx * z, z + tx * y - ty * x))
+    return normalise(
+        (w - tx * x - ty * y - tz * z, x + tx * w + ty * z - tz * y,
+         y + ty * w + tz * x - tx * z, z + tz * w + tx * y - ty * x)
+    )  # fmt: skip
 
 
 def levelling(acc: Vec3) -> Quat:

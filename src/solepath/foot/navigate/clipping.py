@@ -391,14 +391,14 @@ State = tuple[Quat, Vec3, Vec3, Covariance]
 
 @define
 class Recovery:
-    """The clipping of both sensors of one foot; ErrorStateFilter calls `watch` only near the ends of their ranges."""
+    """Correction of the state of a filter for the clipped peaks of both sensors of one foot."""
 
     gyro_clipping: Clipping = field(factory=Clipping, init=False)
     """Clipping of the gyroscope."""
     acc_clipping: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
     """Clipping of the accelerometer."""
     last_acc: Vec3 = field(default=ZERO, init=False)
-    """Last acc, sensor frame, m/s^2; ErrorStateFilter sets it and the `earlier_...` fields between calls of `watch`."""
+    """Last acc, sensor frame, m/s^2."""
     earlier_acc: Vec3 = field(default=ZERO, init=False)
     """Acc before the last one, sensor frame, m/s^2."""
     swing: SwingSamples = field(factory=SwingSamples, init=False)

@@ -20,16 +20,13 @@ from typing import Final
 
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
+from ...types.vector import IDENTITY, TIE, ZERO
 from ..settings import CycleSettings
 from .shoe import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
 from .stance import Detector, Load, Stance
 
 ACC_SQUARE = SIGMA_ACC**2
 GYRO_SQUARE = SIGMA_GYRO**2
-TWO_G = 2.0 * GRAVITY
-SHOE_WINDOW = 0.025
-"""Duration of the window of the SHOE statistic, s."""
 
 # Local names, because one look-up in the enum costs as much as five multiplications.
 SWING: Final = Phase.SWING
@@ -180,31 +177,7 @@ class Cycle(Detector):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        # the sums of ShoeDetector.parts: a call would cost 4 % of this (tests/foot/test_alike.py checks both are equal)
-        ax, ay, az = acc
-        wx, wy, wz = gyro
-        a2, w2 = ax * ax + ay * ay + az * az, wx * wx + wy * wy + wz * wz
-        shoe = self.shoe
-        entries = shoe.entries
-        sx, sy, sz, s2, sw = shoe.sums
-        sx += ax
-        sy += ay
-        sz += az
-        s2 += a2
-        sw += w2
-        entries.append((t, ax, ay, az, a2, w2))
-        oldest = t - SHOE_WINDOW + 1e-9
-        while entries[0][0] < oldest and len(entries) > 1:
-            _, ax, ay, az, a2, w2 = entries.pop(0)
-            sx -= ax
-            sy -= ay
-            sz -= az
-            s2 -= a2
-            sw -= w2
-        shoe.sums = (sx, sy, sz, s2, sw)
-        n = len(entries)
-        force = s2 - TWO_G * sqrt(sx * sx + sy * sy + sz * sz) + n * GRAVITY * GRAVITY
-        force, rate = (force / n if force > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)
+        force, rate = self.shoe.mean_squares(t, acc, gyro)
         statistic = force / ACC_SQUARE + rate / GYRO_SQUARE
         # lowest and highest statistic of the current span
         if self.span_end is None or t >= self.span_end - TIE:
