@@ -12,7 +12,7 @@ from ..types.vector import ZERO, from_yaw, heading_turned, multiply, sub
 from .cues.cues import Cues, TimedCue
 from .gap import Infill
 from .navigate.corrector import Corrector
-from .phase import EVENT_OF_PHASE, PHASES, Cue
+from .phase import EVENT_OF_PHASE, PHASES, REMAINING_CUES, STRIDE, Cue
 from .stride import SHORTEST_STRIDE, StrideBuilder, usual_strides
 from .template import StrideTemplate
 from .world import Covariance3, PathCovariance, World
@@ -54,7 +54,7 @@ class Gait:
 
     def start_walking(self, on_ground: bool) -> None:
         """Start with a foot that walks already; its first stride starts at the next foot-flat."""
-        self.phase = Phase.LOADING if on_ground else Phase.SWING
+        self._change_phase(Cue.GROUND if on_ground else Cue.AIR)
         self.stride.t_start = None
 
     def shift(self, yaw: float, by: Vec3) -> Vec3:
@@ -71,6 +71,14 @@ class Gait:
         self.anchor_position = (px + x, py + y, pz + z)
         return (x, y, z)
 
+    def _change_phase(self, cue: Cue) -> Phase | None:
+        """Look up the phase after `cue` in the table and return it if it is another one; nothing else sets a phase."""
+        phase = PHASES[self.phase][cue]
+        if phase is self.phase:
+            return None
+        self.phase = phase
+        return phase
+
     def apply_cue(
         self, timed_cue: TimedCue, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
     ) -> list[Event]:
@@ -78,10 +86,9 @@ class Gait:
 
         `corrector` is None as long as the foot is not levelled. `interval` is the usual interval between samples, s.
         `inferred` marks a cue that no sample showed."""
-        phase = PHASES[self.phase][timed_cue.cue]
-        if phase is self.phase:
+        phase = self._change_phase(timed_cue.cue)
+        if phase is None:
             return []
-        self.phase = phase
         # cues are dated back by different times, but phases must not go back in time
         t = timed_cue.t if self.phase_start is None else max(timed_cue.t, self.phase_start)
         self.phase_start = t
@@ -104,23 +111,17 @@ class Gait:
     ) -> list[Event]:
         """Return the events of the phases that a gap has hidden."""
         self.template.add_infill(infill.t_heel_off, infill.duration)
-        hidden_cues: list[TimedCue] = []
-        phase = self.phase
-        if phase is Phase.STATIONARY:
-            hidden_cues.append(TimedCue(Cue.LIFT, infill.t_heel_off))
-            phase = Phase.PUSH_OFF
-        if infill.t_toe_off is not None and phase is not Phase.SWING and self.stride.t_toe_off is None:
-            hidden_cues.append(cues.make_hidden_toe_off(infill.t_toe_off))
-            phase = Phase.SWING
-        if infill.t_heel_strike is not None and phase is Phase.SWING:
-            hidden_cues.append(TimedCue(Cue.CONTACT, infill.t_heel_strike))
-        if infill.t_foot_flat is not None:
-            hidden_cues.append(TimedCue(Cue.FLAT, infill.t_foot_flat))
-        return [
-            event
-            for timed_cue in hidden_cues
-            for event in self.apply_cue(timed_cue, known_at, corrector, interval, inferred=True)
-        ]
+        path = REMAINING_CUES[self.phase]
+        if self.phase is Phase.PUSH_OFF or self.phase is Phase.LOADING:
+            # a runner's foot pushes off again without foot-flat; a heel may come down again before toe-off
+            path = REMAINING_CUES[Phase.PUSH_OFF if self.stride.t_toe_off is None else Phase.LOADING]
+        times = (infill.t_heel_off, infill.t_toe_off, infill.t_heel_strike, infill.t_foot_flat)
+        events: list[Event] = []
+        for cue, t in zip(STRIDE, times, strict=True):
+            if t is not None and cue in path:
+                timed_cue = cues.make_hidden_toe_off(t) if cue is Cue.CLEAR else TimedCue(cue, t)
+                events += self.apply_cue(timed_cue, known_at, corrector, interval, inferred=True)
+        return events
 
     def _end_stride(self, t: float, known_at: float, corrector: Corrector, interval: float) -> list[Event]:
         """End the stride at a foot-flat and start the next one; return its event, if there was a stride."""

@@ -1,7 +1,8 @@
 """Tables of the phases of a foot and of the support of the body.
 
-The tables contain all transitions and no numbers. The modules in cues/ turn samples into cues, with hysteresis and
-debounce."""
+The tables contain all transitions and no numbers: a foot that is found in the middle of a walk and one that a gap has
+hidden change their phase by them, too (`Gait` looks them up). The modules in cues/ turn samples into cues, with
+hysteresis and debounce."""
 
 from __future__ import annotations
 
@@ -23,43 +24,52 @@ class Cue(Enum):
     """Sign of heel-off: the heel left the ground."""
     CLEAR = "clear"
     """Sign of toe-off: the toe left the ground."""
+    GROUND = "ground"
+    """A foot that walks already when its navigation starts is on the ground."""
+    AIR = "air"
+    """A foot that walks already when its navigation starts is in the air."""
 
 
+_START = {Cue.GROUND: Phase.LOADING, Cue.AIR: Phase.SWING}
 PHASES: dict[Phase, dict[Cue, Phase]] = {
     Phase.LOADING: {
         Cue.CONTACT: Phase.LOADING,
         Cue.FLAT: Phase.STATIONARY,
         Cue.LIFT: Phase.PUSH_OFF,  # a runner's foot may never be flat
         Cue.CLEAR: Phase.SWING,
+        **_START,
     },
     Phase.STATIONARY: {
         Cue.CONTACT: Phase.STATIONARY,
         Cue.FLAT: Phase.STATIONARY,
         Cue.LIFT: Phase.PUSH_OFF,
         Cue.CLEAR: Phase.SWING,  # the foot was lifted as a whole
+        **_START,
     },
     Phase.PUSH_OFF: {
         Cue.CONTACT: Phase.LOADING,  # the heel came down again before toe-off
         Cue.FLAT: Phase.STATIONARY,
         Cue.LIFT: Phase.PUSH_OFF,
         Cue.CLEAR: Phase.SWING,
+        **_START,
     },
     Phase.SWING: {
         Cue.CONTACT: Phase.LOADING,
         Cue.FLAT: Phase.STATIONARY,  # the foot landed flat
         Cue.LIFT: Phase.SWING,
         Cue.CLEAR: Phase.SWING,
+        **_START,
     },
 }
 """Next phase for each phase and cue."""
 
+STRIDE = (Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT)
+"""Cues of a whole stride, in order."""
+
 REMAINING_CUES: dict[Phase, tuple[Cue, ...]] = {
-    Phase.STATIONARY: (Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
-    Phase.PUSH_OFF: (Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
-    Phase.SWING: (Cue.CONTACT, Cue.FLAT),
-    Phase.LOADING: (Cue.FLAT,),
+    phase: STRIDE[k:] for k, phase in enumerate((Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING))
 }
-"""Cues that a stride still needs in each phase, in order."""
+"""Cues that a stride still needs in each phase, in order: the path through PHASES that a gap may hide."""
 
 EVENT_OF_PHASE: dict[Phase, type[HeelStrike] | type[FootFlat] | type[HeelOff] | type[ToeOff]] = {
     Phase.LOADING: HeelStrike,
@@ -83,11 +93,14 @@ SUPPORT: dict[Phase, dict[Phase, Support]] = {
 
 
 def describe() -> str:
-    """Return both tables as text."""
+    """Return the tables as text: PHASES, REMAINING_CUES and SUPPORT."""
     return in_columns(
         [
             ["phase", *(cue.value for cue in Cue)],
             *([phase.name, *(row[cue].name for cue in Cue)] for phase, row in PHASES.items()),
+            [],
+            ["phase", "a gap may hide"],
+            *([phase.name, *(cue.value for cue in REMAINING_CUES[phase])] for phase in PHASES),
             [],
             ["left\\right", *(phase.name for phase in Phase)],
             *([left.name, *(joint[right].name for right in Phase)] for left, joint in SUPPORT.items()),
