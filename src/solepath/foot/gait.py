@@ -32,7 +32,7 @@ class Gait:
     phase_start: float | None = field(default=None, init=False)
     """Start of the current phase, s; None before the first change of phase and after times restarted."""
     template: StrideTemplate = field(factory=StrideTemplate, init=False)
-    stride: StrideBuilder = field(factory=StrideBuilder, init=False)
+    stride: StrideBuilder = field(init=False)
     path: PathCovariance = field(factory=PathCovariance, init=False)
     """Covariance of the path up to the last anchor, navigation frame; an anchor is the heel-off that ends a stretch."""
     anchor_position: Vec3 = field(default=ZERO, init=False)
@@ -40,6 +40,9 @@ class Gait:
     world: World = field(factory=World, init=False)
     heading_settled: bool = field(default=False, init=False)
     """The heading of the world frame is final."""
+
+    def __attrs_post_init__(self) -> None:
+        self.stride = StrideBuilder(self.foot)
 
     def covariance(self, corrector: Corrector) -> Covariance3:
         """Return the covariance of the live position, world frame, m^2."""
@@ -139,7 +142,7 @@ class Gait:
         if not self.heading_settled and stride.t_toe_off is not None:
             # the first stride gives the final heading; until then it is the direction from the origin to the foot
             self.heading_settled = world.find_heading(corrector.position, SHORTEST_STRIDE)
-        stride_event = stride.finish(self.foot, t, known_at, corrector, world, rise)
+        stride_event = stride.finish(t, known_at, corrector, world, rise)
         if stride_event is not None:
             # a reported stride is final, so its frame must not change, even if it was too short to give a direction
             self.heading_settled = True

@@ -52,6 +52,7 @@ def usual_strides(length: float) -> float:
 class StrideBuilder:
     """Collects the data of one foot's stride."""
 
+    foot: Foot
     number: int = 0
     """Number of the last stride, counted from 1."""
     t_start: float | None = None
@@ -231,10 +232,8 @@ class StrideBuilder:
             self.cop = self.cop[::2]
             self.cop_interval *= 2
 
-    def finish(
-        self, foot: Foot, t: float, known_at: float, corrector: Corrector, world: World, rise: float
-    ) -> StrideTaken | None:
-        """Return the stride of `foot` that ends at this foot-flat with the state of `corrector`; None if there is none.
+    def finish(self, t: float, known_at: float, corrector: Corrector, world: World, rise: float) -> StrideTaken | None:
+        """Return the stride that ends at this foot-flat with the state of `corrector`; None if there is none.
 
         `rise` is the change of height, m, before the corrector has corrected it."""
         if self.t_start is None or self.t_toe_off is None or max(self.t_start, self.t_toe_off) > t:
@@ -249,7 +248,7 @@ class StrideBuilder:
         return StrideTaken(
             t=t,
             known_at=known_at,
-            foot=foot,
+            foot=self.foot,
             number=self.number,
             t_start=self.t_start,
             t_end=t,
