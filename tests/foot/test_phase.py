@@ -11,6 +11,8 @@ from walks import SHORT, insoles
 
 from solepath import Foot, Phase, Session, Support
 from solepath.foot import phase
+from solepath.foot.cues import inertial
+from solepath.foot.cues.inertial import SIGNS
 from solepath.foot.phase import PHASES, SUPPORT, Cue, describe
 
 
@@ -59,6 +61,13 @@ def test_only_the_look_up_in_the_table_sets_a_phase() -> None:
                 setters += [function.name for text in inside if text.endswith(".phase")]
                 readers += [function.name for text in inside if text.startswith("PHASES[") and text.count("[") == 2]
     assert setters == readers == ["_change_phase"]
+
+
+def test_each_sign_of_the_inertial_sensor_has_a_cue_that_changes_its_phase() -> None:
+    assert set(SIGNS) == set(Phase)
+    assert all(PHASES[now][cue] is not now for now, signs in SIGNS.items() for _, cue in signs)
+    rows = [line.split() for line in inertial.describe().splitlines()[1:]]
+    assert ["SWING", "landed", "contact"] in rows and len(rows) == sum(map(len, SIGNS.values()))
 
 
 def test_walking_is_single_and_double_support_in_turn_and_never_flight() -> None:
