@@ -8,7 +8,7 @@ from ..calibration import HeadingCalibration
 from ..events import Event
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import define, field
-from ..types.vector import ZERO, from_yaw, heading_turned, multiply, sub
+from ..types.vector import ZERO, from_yaw, heading_turned, multiply, plus, sub
 from .cues.cues import Cues, TimedCue
 from .gap import Infill
 from .navigate.corrector import Corrector
@@ -66,13 +66,11 @@ class Gait:
         if self.world.north is not None:
             c, s = self.world.north  # inverse of the rotation from navigation to world frame
             x, y = c * x + s * y, c * y - s * x
-        stride = self.stride
-        px, py, pz = stride.start
-        stride.start = (px + x, py + y, pz + z)
+        stride, by = self.stride, (x, y, z)
+        stride.start = plus(stride.start, by)
         stride.attitude = multiply(from_yaw(yaw), stride.attitude)
-        px, py, pz = self.anchor_position
-        self.anchor_position = (px + x, py + y, pz + z)
-        return (x, y, z)
+        self.anchor_position = plus(self.anchor_position, by)
+        return by
 
     def _change_phase(self, cue: Cue) -> Phase | None:
         """Look up the phase after `cue` in the table and return it if it is another one; nothing else sets a phase."""
@@ -133,8 +131,7 @@ class Gait:
         path = sub(corrector.position, stride.start)
         repair = self.template.end_stride(t, stride.t_toe_off, stride.t_heel_strike, turn, path, interval)
         if repair is not None:
-            (x, y, z), (dx, dy, dz) = stride.start, repair.displacement
-            corrector.repair(repair.turn, (x + dx, y + dy, z + dz))
+            corrector.repair(repair.turn, plus(stride.start, repair.displacement))
         if self.heading is not None:
             self._turn_back(self.heading, corrector, path, turn)
         rise = corrector.position[2] - stride.start[2]
@@ -160,8 +157,7 @@ class Gait:
         if shift is not None:
             shift(yaw, by)
             return
-        (x, y, z), (dx, dy, _) = corrector.position, by
-        corrector.repair(yaw, (x + dx, y + dy, z))
+        corrector.repair(yaw, plus(corrector.position, by))
 
     def _anchor(self, corrector: Corrector) -> None:
         """Add the stretch since the last anchor to the path."""

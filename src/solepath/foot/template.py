@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from ..types import Quat, Vec3
 from ..types.attrs import ROW_SIZE, define, field, frozen
-from ..types.vector import ZERO, normalise, single, sub, turned
+from ..types.vector import ZERO, dot, normalise, plus, single, sub, turned
 
 MOMENT = Struct("<15f")
 """Stored form of a moment: all numbers of `StrideMoment` in order, rounded to float32.
@@ -80,9 +80,9 @@ def interpolate_stride(moments: list[StrideMoment], since: float) -> StrideMomen
             return StrideMoment(
                 since,
                 normalise(_mix_attitudes(before.attitude, moment.attitude, k)),
-                _interpolate(before.velocity, moment.velocity, k),
-                _interpolate(before.position, moment.position, k),
-                _interpolate(before.rate, moment.rate, k),
+                plus(before.velocity, sub(moment.velocity, before.velocity), k),
+                plus(before.position, sub(moment.position, before.position), k),
+                plus(before.rate, sub(moment.rate, before.rate), k),
                 before.force + k * (moment.force - before.force),
             )
         before = moment
@@ -104,21 +104,12 @@ def correction_distance(packed: bytes) -> float:
     return hypot(x, y, z)
 
 
-def vector_length(v: Vec3) -> float:
-    """Return the length of a vector."""
-    return hypot(v[0], v[1], v[2])
-
-
 def limit_length(v: Vec3, longest: float) -> Vec3:
     """Return a vector of the same direction that is at most `longest` long."""
-    v_length = vector_length(v)
+    v_length = hypot(*v)
     return (
         v if v_length <= longest else (v[0] * longest / v_length, v[1] * longest / v_length, v[2] * longest / v_length)
     )
-
-
-def _interpolate(a: Vec3, b: Vec3, k: float) -> Vec3:
-    return (a[0] + k * (b[0] - a[0]), a[1] + k * (b[1] - a[1]), a[2] + k * (b[2] - a[2]))
 
 
 def _mix_attitudes(p: Quat, q: Quat, k: float) -> Quat:
@@ -323,14 +314,13 @@ class StrideTemplate:
         yaw, repair = 0.0, None
         if toe_off is not None and infilled + sparse_interval > 0.0:
             yaw = straight_on.repair(turn, gap_share, sparse_interval)
-            x, y, z = turned(displacement, 0.5 * yaw)
+            way = turned(displacement, 0.5 * yaw)
             if self.last_stride is not None:
-                dx, dy, dz = sub(turned(self.last_stride.displacement, middle_heading + 0.5 * yaw), (x, y, z))
-                k = correction_share(
-                    dx * dx + dy * dy + dz * dz, GAP_POSITION_SIGMA * gap_share, STRIDE_POSITION_SIGMA, 3.0, 2
+                d = sub(turned(self.last_stride.displacement, middle_heading + 0.5 * yaw), way)
+                way = plus(
+                    way, d, correction_share(dot(d, d), GAP_POSITION_SIGMA * gap_share, STRIDE_POSITION_SIGMA, 3.0, 2)
                 )
-                x, y, z = x + k * dx, y + k * dy, z + k * dz
-            repair = StrideRepair(yaw, (x, y, z))
+            repair = StrideRepair(yaw, way)
         if toe_off is not None and duration is not None and (infilled > 0.0 or bridged):
             repair = self._bounded(StrideRepair(0.0, displacement) if repair is None else repair, duration)
         straight_on.add_footfall(turn, yaw, gap_share, sparse_interval)

@@ -40,6 +40,16 @@ def sub(a: Vec3, b: Vec3) -> Vec3:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
+def plus(a: Vec3, b: Vec3, k: float = 1.0) -> Vec3:
+    """Return a + k b."""
+    return (a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2])
+
+
+def dot(a: Vec3, b: Vec3) -> float:
+    """Return the scalar product a b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
 def cross(a: Vec3, b: Vec3) -> Vec3:
     """Return the vector product a x b."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])

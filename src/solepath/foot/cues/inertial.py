@@ -19,7 +19,7 @@ from typing import Final
 
 from ...types import Phase, Vec3
 from ...types.attrs import define, field
-from ...types.vector import TIE, ZERO
+from ...types.vector import TIE, ZERO, dot, plus, sub
 from ..phase import Cue, in_columns
 from .cues import TimedCue
 
@@ -332,19 +332,19 @@ class InertialCues:
         angle = sqrt(x * x + y * y + z * z)
         if angle < LEAST_PUSH_OFF_TURN:
             return False
-        x, y, z = x / angle, y / angle, z / angle
-        if self.axis is None:
-            self.axis = (x, y, z)
+        newest = (x / angle, y / angle, z / angle)
+        learnt = self.axis
+        if learnt is None:
+            self.axis = newest
             return True
-        u, v, w = self.axis
-        if u * x + v * y + w * z < SAME_AXIS_COSINE:
+        if dot(learnt, newest) < SAME_AXIS_COSINE:
             # a single turn about another axis is no push-off; several in a row mean that the sensor was turned
             self.other_axis_push_offs += 1
             if self.other_axis_push_offs < OTHER_AXIS_PUSH_OFFS:
                 return False
-            u, v, w = x, y, z
+            learnt = newest
         self.other_axis_push_offs = 0
-        u, v, w = u + AXIS_GAIN * (x - u), v + AXIS_GAIN * (y - v), w + AXIS_GAIN * (z - w)
+        u, v, w = plus(learnt, sub(newest, learnt), AXIS_GAIN)
         k = 1.0 / sqrt(u * u + v * v + w * w)
         self.axis = (u * k, v * k, w * k)
         return True

@@ -22,7 +22,18 @@ from typing import NamedTuple
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY, IDENTITY, ZERO, conjugate, from_rotation_vector, multiply, normalise, rotate
+from ...types.vector import (
+    GRAVITY,
+    IDENTITY,
+    ZERO,
+    conjugate,
+    from_rotation_vector,
+    multiply,
+    normalise,
+    plus,
+    rotate,
+    sub,
+)
 from .covariance import Covariance
 
 SAME_READING_SHARE = 0.025
@@ -360,14 +371,12 @@ def _join(a: Row, b: Row) -> Row:
 
 def difference(a: IntegratedMotion, b: IntegratedMotion) -> tuple[Vec3, Vec3, Vec3]:
     """Return position (m), velocity (m/s) and turn (rad) by which `b` differs from `a`, navigation frame."""
-    (ax, ay, az), (bx, by, bz) = a.position, b.position
-    (ux, uy, uz), (vx, vy, vz) = a.velocity, b.velocity
     w, x, y, z = multiply(b.attitude, conjugate(a.attitude))
     k = 2.0 if w >= 0.0 else -2.0
     n = sqrt(x * x + y * y + z * z)
     if n > 1e-6:
         k *= asin(min(n, 1.0)) / n
-    return (bx - ax, by - ay, bz - az), (vx - ux, vy - uy, vz - uz), (k * x, k * y, k * z)
+    return sub(b.position, a.position), sub(b.velocity, a.velocity), (k * x, k * y, k * z)
 
 
 def add_error(covariance: Covariance, p: Vec3, v: Vec3, turn: Vec3, sigma: float) -> Covariance:
@@ -443,29 +452,26 @@ class Recovery:
 
     def add_turns(self, gyro_peaks: tuple[ClippedPeak, ...], state: State) -> State:
         """Return the state corrected for clipped peaks of the gyroscope, with their uncertainty."""
-        attitude, (vx, vy, vz), (x, y, z), covariance = state
+        attitude, velocity, position, covariance = state
         for peak in gyro_peaks:
             measured, corrected, perturbed = (
                 self.swing.reintegrate(peak, integral)
                 for integral in (0.0, peak.integral, peak.integral + INTEGRAL_STEP)
             )
-            (px, py, pz), (ux, uy, uz), turn = difference(measured, corrected)
-            x, y, z = x + px, y + py, z + pz
-            vx, vy, vz = vx + ux, vy + uy, vz + uz
+            p, v, turn = difference(measured, corrected)
+            position, velocity = plus(position, p), plus(velocity, v)
             attitude = normalise(multiply(from_rotation_vector(turn), attitude))
             covariance = add_error(covariance, *difference(corrected, perturbed), peak.sigma / INTEGRAL_STEP)
-        return attitude, (vx, vy, vz), (x, y, z), covariance
+        return attitude, velocity, position, covariance
 
     @staticmethod
     def add_velocities(acc_peaks: tuple[ClippedPeak, ...], state: State) -> State:
         """Return the state corrected for clipped peaks of the accelerometer, with their uncertainty."""
-        attitude, (vx, vy, vz), (x, y, z), covariance = state
+        attitude, velocity, position, covariance = state
         for peak in acc_peaks:
             i, j, k = (1.0 if index == peak.axis else 0.0 for index in (0, 1, 2))
-            axis_x, axis_y, axis_z = axis = rotate(attitude, (i, j, k))
+            axis = rotate(attitude, (i, j, k))
             v, elapsed = peak.integral, peak.age + 0.5 * peak.duration  # elapsed since the middle of the peak
-            x, y, z = x + v * elapsed * axis_x, y + v * elapsed * axis_y, z + v * elapsed * axis_z
-            vx, vy, vz = vx + v * axis_x, vy + v * axis_y, vz + v * axis_z
-            shift = (elapsed * axis_x, elapsed * axis_y, elapsed * axis_z)
-            covariance = add_error(covariance, shift, axis, ZERO, peak.sigma)
-        return attitude, (vx, vy, vz), (x, y, z), covariance
+            position, velocity = plus(position, axis, v * elapsed), plus(velocity, axis, v)
+            covariance = add_error(covariance, plus(ZERO, axis, elapsed), axis, ZERO, peak.sigma)
+        return attitude, velocity, position, covariance

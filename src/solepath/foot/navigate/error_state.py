@@ -16,7 +16,7 @@ from typing import Final
 
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, TIE, ZERO, tipped
+from ...types.vector import GRAVITY, TIE, ZERO, sub, tipped
 from ..settings import ErrorStateSettings
 from ..stance.stance import Stance
 from .clipping import ClippedPeak, Recovery
@@ -361,7 +361,7 @@ class ErrorStateFilter(Strapdown):
         self._inject(error, tx, ty)
         self.rhythm.add(t, self.accepted_at)
         if self.accepted_at < self.evidence_since:
-            self.landing_error = (vx - rx, vy - ry, vz - rz)
+            self.landing_error = sub((vx, vy, vz), stance.v_ref)
         self.accepted_at = t
         self.least_gated_statistic = NO_STATISTIC
         return True
@@ -431,11 +431,11 @@ class ErrorStateFilter(Strapdown):
         if not self.settings.level:
             return
         self._propagate()
-        (x, y, z), (sx, sy, sz) = self.position, start
+        x, y, _ = self.position
         variance = self.uncertainty[HEIGHT]
-        height, level = self.level.judge((x - sx, y - sy, z - sz), turn, variance, self.attitude)
+        height, level = self.level.judge(sub(self.position, start), turn, variance, self.attitude)
         # tilt and velocity stay, because the removed height is a systematic error and not caused by theirs
-        self.position = self.start_position = (x, y, sz + height)
+        self.position = self.start_position = (x, y, start[2] + height)
         least = FLOOR_SIGMA * FLOOR_SIGMA
         if variance > least:
             self.uncertainty = constrain_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))

@@ -28,7 +28,7 @@ from math import exp, hypot, log, pi, sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define
-from ...types.vector import ZERO, rotate_back
+from ...types.vector import ZERO, dot, plus, rotate_back, sub
 
 UP_VECTOR = (0.0, 0.0, 1.0)
 """Up as a unit vector, navigation frame."""
@@ -154,10 +154,7 @@ class LevelGround:
         """Return the pitch relative to the mean, toe up positive, in the direction (x, y) of the stride, rad.
 
         It is the change of up along this direction."""
-        fx, fy, fz = rotate_back(attitude, (x, y, 0.0))
-        ux, uy, uz = up
-        rx, ry, rz = self.upright
-        return (ux - rx) * fx + (uy - ry) * fy + (uz - rz) * fz
+        return dot(sub(up, self.upright), rotate_back(attitude, (x, y, 0.0)))
 
     def _pitch_likelihood(self, difference: float, variance: float) -> float:
         """Return the likelihood of a pitch that differs by `difference` rad; outliers are uniform within a radian."""
@@ -182,10 +179,7 @@ class LevelGround:
             )
         self.upright_weight = min(self.upright_weight + level, MOST_AVERAGED_STRIDES)
         if self.upright_weight > 0.0:
-            k = level / self.upright_weight
-            x, y, z = self.upright
-            ux, uy, uz = up
-            self.upright = (x + k * (ux - x), y + k * (uy - y), z + k * (uz - z))
+            self.upright = plus(self.upright, sub(up, self.upright), level / self.upright_weight)
 
     def _follow_slope(self, slope: float, grade: float, up: Vec3) -> None:
         """Add a stride of `grade`, rise for each metre, that was on a slope with the probability `slope`.
@@ -198,9 +192,7 @@ class LevelGround:
         self.slope_strides = min(self.slope_strides + 1, MOST_SLOPE_STRIDES)
         k = 1.0 / self.slope_strides
         self.grade += k * (grade - self.grade)
-        x, y, z = self.slope_upright
-        ux, uy, uz = up
-        self.slope_upright = (x + k * (ux - x), y + k * (uy - y), z + k * (uz - z))
+        self.slope_upright = plus(self.slope_upright, sub(up, self.slope_upright), k)
         rise_bias, other_rise_bias = self.rise_bias, self.rise_bias + self.grade
         odds = 0.5 * (rise_bias * rise_bias - other_rise_bias * other_rise_bias) / (RISE_BIAS_SIGMA * RISE_BIAS_SIGMA)
         # a start on a slope has a probability, and each further stride on it the probability that the slope goes on

@@ -11,7 +11,7 @@ from math import cos, sin, sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, normalise, rotate, turned
+from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, normalise, plus, rotate, turned
 from .corrector import Corrector
 
 WIDEST_SERIES = 0.06
@@ -52,8 +52,7 @@ class Strapdown(Corrector):
         self.velocity = turned(self.velocity, yaw)
         if self.force is not None:
             self.force = turned(self.force, yaw)
-        (x, y, z), (dx, dy, dz) = self.position, by
-        self.position = (x + dx, y + dy, z + dz)
+        self.position = plus(self.position, by)
 
     def integrate(self, dt: float, acc: Vec3, gyro: Vec3) -> Vec3:
         """Integrate one sample; return the mean acceleration over dt, m/s^2."""
