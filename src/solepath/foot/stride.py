@@ -9,6 +9,7 @@ from ..types import Foot, Quat, Vec3
 from ..types.attrs import define, field
 from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, single, sub
 from .navigate.corrector import Corrector
+from .rhythm import follow
 from .world import World
 
 MOST_COP_POINTS = 32
@@ -34,8 +35,8 @@ MERGED_RATIO = 1.8
 
 Two swings and a stance take more than twice that time. On recordings without damage 99 % of the ratios are below 1.6.
 """
-MOTION_GAIN, LEAST_MOTION_RATIO, LARGEST_MOTION_RATIO = 0.2, 0.5, 1.3
-"""Weight of the newest time in the usual one, and the limits of its ratio to the usual one in the average."""
+MOTION_GAIN, LARGEST_MOTION_RATIO = 0.2, 1.3
+"""Weight of the newest time in the usual one, and the limit of its ratio to the usual one in the average."""
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
 
@@ -282,6 +283,5 @@ class StrideBuilder:
         usual = self.usual_motion
         motion = usual if self.t_heel_off is None else t - self.t_heel_off
         if not self.degraded:  # also of a merged one, so that a wearer who walks ever slower is learnt
-            limited = min(max(motion, LEAST_MOTION_RATIO * usual), LARGEST_MOTION_RATIO * usual)
-            self.usual_motion += MOTION_GAIN * (limited - usual)
+            self.usual_motion = follow(usual, motion, MOTION_GAIN, largest=LARGEST_MOTION_RATIO)
         return motion > MERGED_RATIO * usual

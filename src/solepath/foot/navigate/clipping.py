@@ -97,14 +97,10 @@ class ClippedPeak(NamedTuple):
 class ClippedAxis:
     """The clipping of one axis of a sensor."""
 
-    top: float
-    """Estimate of the upper end of the range from the largest reading, rad/s or m/s^2."""
-    bottom: float
-    """Estimate of the lower end of the range from the smallest reading, rad/s or m/s^2."""
-    top_known: bool = False
-    """The upper end of the range is `top`."""
-    bottom_known: bool = False
-    """The lower end of the range is `bottom`."""
+    ends: list[float]
+    """Estimates of the upper and the lower end of the range from the largest readings, rad/s or m/s^2."""
+    known: list[bool] = field(factory=lambda: [False, False])
+    """Flags: the upper, and the lower end of the range is that of `ends`."""
     side: int = 0
     """Side of the range: 1 above it, -1 below it, 0 within."""
     duration: float = 0.0
@@ -133,17 +129,17 @@ class Clipping:
     """An axis is beyond its range, or was one sample ago."""
 
     def __attrs_post_init__(self) -> None:
-        self.axes = [ClippedAxis(self.limits.least_end, -self.limits.least_end) for _ in range(3)]
+        self.axes = [ClippedAxis([self.limits.least_end, -self.limits.least_end]) for _ in range(3)]
         self._set_largest(self.limits.least_end)
 
     def end_stride(self) -> None:
         """Let the largest readings decay at the end of a stride."""
         self._set_largest(STRIDE_DECAY * self.largest)
         for axis in self.axes:
-            if not axis.top_known:
-                axis.top = max(self.limits.least_end, STRIDE_DECAY * axis.top)
-            if not axis.bottom_known:
-                axis.bottom = min(-self.limits.least_end, STRIDE_DECAY * axis.bottom)
+            for side in (0, 1):
+                if not axis.known[side]:
+                    sign = 1 - 2 * side
+                    axis.ends[side] = sign * max(self.limits.least_end, STRIDE_DECAY * (sign * axis.ends[side]))
 
     def reset(self) -> None:
         """Discard clipped peaks that a gap has interrupted."""
@@ -163,9 +159,9 @@ class Clipping:
         for i in (0, 1, 2):
             axis, reading = self.axes[i], readings[i]
             if axis.side == 0:
-                if abs(reading) > NEAR_END_RATIO * self.largest and not axis.bottom * (
+                if abs(reading) > NEAR_END_RATIO * self.largest and not axis.ends[1] * (
                     1.0 - SAME_READING_SHARE
-                ) < reading < axis.top * (1.0 - SAME_READING_SHARE):
+                ) < reading < axis.ends[0] * (1.0 - SAME_READING_SHARE):
                     _enter_clipping(
                         axis, dt, reading, previous[i], earlier[i], earlier_dt, saturated, self.limits.largest_slope
                     )
@@ -196,17 +192,14 @@ def _enter_clipping(
 ) -> None:
     sign = 1 if reading > 0.0 else -1
     reading, previous, earlier = sign * reading, sign * previous, sign * earlier
-    end = axis.top if sign > 0 else -axis.bottom
-    end_known = axis.top_known if sign > 0 else axis.bottom_known
+    side = 0 if sign > 0 else 1
+    end, end_known = sign * axis.ends[side], axis.known[side]
     unchanged = reading * (1.0 - SAME_READING_SHARE) <= previous <= reading * (1.0 + SAME_READING_SHARE)
     if reading > end * (1.0 + SAME_READING_SHARE):
         end_known = saturated  # the range is larger than estimated
     end = max(end, min(reading, LARGEST_GROWTH * end))
     end_known = end_known or saturated
-    if sign > 0:
-        axis.top, axis.top_known = end, end_known
-    else:
-        axis.bottom, axis.bottom_known = -end, end_known
+    axis.ends[side], axis.known[side] = sign * end, end_known
     if not (end_known or unchanged):
         return
     axis.side, axis.first_inside, axis.first_inside_dt = sign, None, 0.0
@@ -221,12 +214,10 @@ def _enter_clipping(
 def _follow_clipping(axis: ClippedAxis, i: int, dt: float, reading: float, largest_slope: float) -> ClippedPeak | None:
     sign = axis.side
     reading *= sign
-    end = axis.top if sign > 0 else -axis.bottom
+    side = 0 if sign > 0 else 1
+    end = sign * axis.ends[side]
     if reading > end * (1.0 + SAME_READING_SHARE):  # not the end of the range
-        if sign > 0:
-            axis.top, axis.top_known = min(reading, LARGEST_GROWTH * end), False
-        else:
-            axis.bottom, axis.bottom_known = -min(reading, LARGEST_GROWTH * end), False
+        axis.ends[side], axis.known[side] = sign * min(reading, LARGEST_GROWTH * end), False
         axis.side = 0
         return None
     if reading >= end * (1.0 - SAME_READING_SHARE):
@@ -242,14 +233,11 @@ def _follow_clipping(axis: ClippedAxis, i: int, dt: float, reading: float, large
         _slope(end - axis.first_inside, axis.first_inside_dt, largest_slope),
         _slope(axis.first_inside - reading, dt, largest_slope),
     )
-    if not (axis.top_known if sign > 0 else axis.bottom_known):
+    if not axis.known[side]:
         if axis.duration * sqrt(axis.rise * fall) < 4.0 * LEAST_BULGE_RATIO * SAME_READING_SHARE * end:
             axis.side, axis.first_inside, axis.first_inside_dt = 0, None, 0.0
             return None
-        if sign > 0:
-            axis.top_known = True
-        else:
-            axis.bottom_known = True
+        axis.known[side] = True
     tail = min((end - axis.first_inside) / fall, axis.first_inside_dt)
     duration = axis.duration + axis.first_inside_dt - tail
     integral = min(

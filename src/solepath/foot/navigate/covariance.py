@@ -20,7 +20,7 @@ from math import sqrt
 Covariance = tuple[float, ...]
 """Upper triangle of the covariance, 45 numbers: blocks pp, pv, pt, vv, vt, tt."""
 
-Correction = tuple[float, float, float, float, float, float, float, float, float]
+Correction = tuple[float, ...]
 """Values to add to the nine states: position (m), velocity (m/s) and attitude (rad), each x, y, z."""
 
 VARIANCES = (0, 3, 5, 24, 27, 29, 39, 42, 44)

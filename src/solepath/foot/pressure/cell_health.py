@@ -209,41 +209,41 @@ class CellHealth:
     12 times a second a sample also updates the extremes of each cell."""
 
     site: Site
-    count: int = field(default=0, init=False)
+    count: int = 0
     """Number of cells; 0 before any."""
-    span: CellSpan = field(factory=CellSpan, init=False)
+    span: CellSpan = field(factory=CellSpan)
     """Extremes of the cells in the current window."""
-    checked_at: float | None = field(default=None, init=False)
+    checked_at: float | None = None
     """Time of the last check of the cells, s; None before any."""
-    window_start: float | None = field(default=None, init=False)
+    window_start: float | None = None
     """Start of the current window, s; None before any."""
-    swings: int = field(default=0, init=False)
+    swings: int = 0
     """Number of swings in the current window."""
-    swing_start: float | None = field(default=None, init=False)
+    swing_start: float | None = None
     """Start of the last swing, s; None before any."""
-    airborne: bool = field(default=False, init=False)
+    airborne: bool = False
     """The foot was in the air in the last sample without an angular rate."""
-    suspected: dict[CellFault, list[int]] = field(factory=dict, init=False)
+    suspected: dict[CellFault, list[int]] = field(factory=dict)
     """Faults that the last window showed, each with the indices of its cells."""
-    failed: dict[CellFault, list[int]] = field(factory=dict, init=False)
+    failed: dict[CellFault, list[int]] = field(factory=dict)
     """Faults that were reported and last, each with the indices of its cells."""
-    excluded: list[int] = field(factory=list, init=False)
+    excluded: list[int] = field(factory=list)
     """Indices of all failed cells."""
-    lively_windows: list[int] = field(factory=list, init=False)
+    lively_windows: list[int] = field(factory=list)
     """For each cell, number of windows in a row in which it was lively."""
-    non_numeric: list[tuple[int, float]] = field(factory=list, init=False)
+    non_numeric: list[tuple[int, float]] = field(factory=list)
     """Index of each cell that gives no number now, and the time since which it gives none, s."""
-    wrong_count: int | None = field(default=None, init=False)
+    wrong_count: int | None = None
     """Number of cells of the current samples if it is wrong; None otherwise."""
-    wrong_count_since: float = field(default=0.0, init=False)
+    wrong_count_since: float = 0.0
     """Time since which the number of cells is wrong, s."""
-    wrong_count_reported: bool = field(default=False, init=False)
+    wrong_count_reported: bool = False
     """The wrong number of cells was reported."""
-    loaded_windows: int = field(default=0, init=False)
+    loaded_windows: int = 0
     """Number of windows in a row in which the insole did not unload."""
-    loaded_windows_start: float = field(default=0.0, init=False)
+    loaded_windows_start: float = 0.0
     """Start of the first window in which the insole did not unload, s."""
-    constant_windows: int = field(default=0, init=False)
+    constant_windows: int = 0
     """Number of windows in a row in which no cell showed any load."""
 
     def reset(self) -> None:

@@ -43,19 +43,19 @@ class LayoutGuess:
     Call `update` with every sample until it returns a layout. A sample costs two additions a cell."""
 
     foot: Foot
-    stance_start: float | None = field(default=None, init=False)
+    stance_start: float | None = None
     """Start of the current stance, s; None while the foot is in the air."""
-    was_airborne: bool = field(default=False, init=False)
+    was_airborne: bool = False
     """The foot was in the air before this stance, so the start of the stance is known."""
-    loads: list[float] = field(factory=list, init=False)
+    loads: list[float] = field(factory=list)
     """For each cell, sum of its load over this stance."""
-    moments: list[float] = field(factory=list, init=False)
+    moments: list[float] = field(factory=list)
     """For each cell, sum of its load times the time since the start of this stance, s."""
-    weights: list[float] = field(factory=list, init=False)
+    weights: list[float] = field(factory=list)
     """For each cell, sum of its load over all stances."""
-    relative_times: list[float] = field(factory=list, init=False)
+    relative_times: list[float] = field(factory=list)
     """For each cell, sum over all stances of its load times the relative time in the stance (0 to 1)."""
-    stances: int = field(default=0, init=False)
+    stances: int = 0
     """Number of complete stances so far."""
 
     def update(self, t: float, cells: tuple[float, ...], load_share: float) -> Layout | None:

@@ -39,15 +39,12 @@ NO_STATISTIC = 1e12
 """Upper bound of any statistic, which stands for the lowest one before any sample."""
 
 
-Sums = tuple[
-    float, float, float, float, float, float, float, float, float,
-    float, float, float, float, float, float, float, float, float,
-]  # fmt: skip
+Sums = tuple[float, ...]
 """State of a stance, 18 numbers, in the units of `SensorHeight`.
 
 They are: number of samples, time; last acceleration x, y; u x, y; sums of t and t^2; sums of c^2 and u c over both
 axes; sums of u, t u, c and t c, each on x and on y."""
-EMPTY: Sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+EMPTY: Sums = (0.0,) * 18
 """State of a stance without samples."""
 
 INITIAL_HEIGHT = 0.05
