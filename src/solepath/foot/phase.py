@@ -8,9 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from enum import Enum
+from typing import Final
 
 from ..events import FootFlat, HeelOff, HeelStrike, ToeOff
 from ..types import Phase, Support
+
+LOADING: Final = Phase.LOADING
+STATIONARY: Final = Phase.STATIONARY
+PUSH_OFF: Final = Phase.PUSH_OFF
+SWING: Final = Phase.SWING
+"""Names for code that runs for every sample, because one look-up in the enum costs as much as five multiplications."""
 
 
 class Cue(Enum):
@@ -30,34 +37,34 @@ class Cue(Enum):
     """A foot that walks already when its navigation starts is in the air."""
 
 
-_START = {Cue.GROUND: Phase.LOADING, Cue.AIR: Phase.SWING}
+_START = {Cue.GROUND: LOADING, Cue.AIR: SWING}
 PHASES: dict[Phase, dict[Cue, Phase]] = {
-    Phase.LOADING: {
-        Cue.CONTACT: Phase.LOADING,
-        Cue.FLAT: Phase.STATIONARY,
-        Cue.LIFT: Phase.PUSH_OFF,  # a runner's foot may never be flat
-        Cue.CLEAR: Phase.SWING,
+    LOADING: {
+        Cue.CONTACT: LOADING,
+        Cue.FLAT: STATIONARY,
+        Cue.LIFT: PUSH_OFF,  # a runner's foot may never be flat
+        Cue.CLEAR: SWING,
         **_START,
     },
-    Phase.STATIONARY: {
-        Cue.CONTACT: Phase.STATIONARY,
-        Cue.FLAT: Phase.STATIONARY,
-        Cue.LIFT: Phase.PUSH_OFF,
-        Cue.CLEAR: Phase.SWING,  # the foot was lifted as a whole
+    STATIONARY: {
+        Cue.CONTACT: STATIONARY,
+        Cue.FLAT: STATIONARY,
+        Cue.LIFT: PUSH_OFF,
+        Cue.CLEAR: SWING,  # the foot was lifted as a whole
         **_START,
     },
-    Phase.PUSH_OFF: {
-        Cue.CONTACT: Phase.LOADING,  # the heel came down again before toe-off
-        Cue.FLAT: Phase.STATIONARY,
-        Cue.LIFT: Phase.PUSH_OFF,
-        Cue.CLEAR: Phase.SWING,
+    PUSH_OFF: {
+        Cue.CONTACT: LOADING,  # the heel came down again before toe-off
+        Cue.FLAT: STATIONARY,
+        Cue.LIFT: PUSH_OFF,
+        Cue.CLEAR: SWING,
         **_START,
     },
-    Phase.SWING: {
-        Cue.CONTACT: Phase.LOADING,
-        Cue.FLAT: Phase.STATIONARY,  # the foot landed flat
-        Cue.LIFT: Phase.SWING,
-        Cue.CLEAR: Phase.SWING,
+    SWING: {
+        Cue.CONTACT: LOADING,
+        Cue.FLAT: STATIONARY,  # the foot landed flat
+        Cue.LIFT: SWING,
+        Cue.CLEAR: SWING,
         **_START,
     },
 }
@@ -67,26 +74,26 @@ STRIDE = (Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT)
 """Cues of a whole stride, in order."""
 
 REMAINING_CUES: dict[Phase, tuple[Cue, ...]] = {
-    phase: STRIDE[k:] for k, phase in enumerate((Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING))
+    phase: STRIDE[k:] for k, phase in enumerate((STATIONARY, PUSH_OFF, SWING, LOADING))
 }
 """Cues that a stride still needs in each phase, in order: the path through PHASES that a gap may hide."""
 
 EVENT_OF_PHASE: dict[Phase, type[HeelStrike] | type[FootFlat] | type[HeelOff] | type[ToeOff]] = {
-    Phase.LOADING: HeelStrike,
-    Phase.STATIONARY: FootFlat,
-    Phase.PUSH_OFF: HeelOff,
-    Phase.SWING: ToeOff,
+    LOADING: HeelStrike,
+    STATIONARY: FootFlat,
+    PUSH_OFF: HeelOff,
+    SWING: ToeOff,
 }
 """Event that starts each phase."""
 
 _BOTH, _LEFT, _RIGHT, _NONE = Support.DOUBLE, Support.LEFT, Support.RIGHT, Support.FLIGHT
 SUPPORT: dict[Phase, dict[Phase, Support]] = {
-    left: dict(zip((Phase.LOADING, Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING), row, strict=True))
+    left: dict(zip((LOADING, STATIONARY, PUSH_OFF, SWING), row, strict=True))
     for left, row in (
-        (Phase.LOADING, (_BOTH, _BOTH, _BOTH, _LEFT)),
-        (Phase.STATIONARY, (_BOTH, _BOTH, _BOTH, _LEFT)),
-        (Phase.PUSH_OFF, (_BOTH, _BOTH, _BOTH, _LEFT)),
-        (Phase.SWING, (_RIGHT, _RIGHT, _RIGHT, _NONE)),
+        (LOADING, (_BOTH, _BOTH, _BOTH, _LEFT)),
+        (STATIONARY, (_BOTH, _BOTH, _BOTH, _LEFT)),
+        (PUSH_OFF, (_BOTH, _BOTH, _BOTH, _LEFT)),
+        (SWING, (_RIGHT, _RIGHT, _RIGHT, _NONE)),
     )
 }
 """Support of the body for the phases of the left foot, then of the right foot."""

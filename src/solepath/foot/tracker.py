@@ -6,7 +6,7 @@ The results are events; `position` is the live position after each sample."""
 from __future__ import annotations
 
 from math import inf, sqrt
-from typing import Any, Final
+from typing import Any
 
 from ..events import Event, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
@@ -19,6 +19,7 @@ from .gait import FLAT_SPEED, Gait
 from .gap import SHORTEST_FILLED_GAP, NoInfill, find_infill
 from .limitations import LACKING_TIME, Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
+from .phase import SWING
 from .pressure.insole import InsoleLoads
 from .pressure.sole import Sole
 from .rejection import ABSURD_TIME, rejected, rejection_reason
@@ -27,9 +28,6 @@ from .settings import FootSettings
 from .stance.stance import Detector, Load
 from .view import NOTHING_HAPPENED, AfterEvents, FootPose, FootView, PressedCells
 from .world import Covariance3
-
-SWING: Final = Phase.SWING
-"""Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 
 
 @define

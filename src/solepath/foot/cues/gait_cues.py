@@ -7,21 +7,14 @@ time of LIFT."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final
 
 from ...types import Layout, Phase, Vec3
 from ...types.attrs import define, field
-from ..phase import Cue
+from ..phase import LOADING, PUSH_OFF, STATIONARY, SWING, Cue
 from ..stance.stance import Load, Stance
 from .cues import Cues, TimedCue
 from .inertial import InertialCues
 from .touch import MOST_SINGLE_CELLS, Touch
-
-# Local names, because one look-up in the enum costs as much as five multiplications.
-SWING: Final = Phase.SWING
-STATIONARY: Final = Phase.STATIONARY
-PUSH_OFF: Final = Phase.PUSH_OFF
-LOADING: Final = Phase.LOADING
 
 CONTACT_LOAD, CLEAR_LOAD = 0.05, 0.03
 """Total loads above which the foot has touched the ground, and below which it has left it (shares of the full load).

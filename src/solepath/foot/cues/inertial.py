@@ -15,19 +15,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import sqrt
-from typing import Final
 
 from ...types import Phase, Vec3
 from ...types.attrs import define, field
 from ...types.vector import TIE, ZERO, dot, plus, sub
-from ..phase import Cue, in_columns
+from ..phase import LOADING, PUSH_OFF, STATIONARY, SWING, Cue, in_columns
 from .cues import TimedCue
-
-# Local names, because one look-up in the enum costs as much as five multiplications.
-SWING: Final = Phase.SWING
-STATIONARY: Final = Phase.STATIONARY
-PUSH_OFF: Final = Phase.PUSH_OFF
-LOADING: Final = Phase.LOADING
 
 LEAST_PUSH_OFF_TURN = 0.25
 """Smallest turn of the foot in a push-off, rad."""

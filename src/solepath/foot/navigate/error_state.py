@@ -12,11 +12,11 @@ lost. It then accepts the stillest moment that comes."""
 from __future__ import annotations
 
 from math import inf, sqrt
-from typing import Final
 
-from ...types import Phase, Quat, Vec3
+from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, TIE, ZERO, sub, tipped
+from ..phase import STATIONARY
 from ..rhythm import StanceRhythm
 from ..settings import ErrorStateSettings
 from ..stance.stance import Stance
@@ -35,9 +35,6 @@ from .covariance import (
 )
 from .level import FLOOR_SIGMA, LevelGround
 from .strapdown import Strapdown
-
-STATIONARY: Final = Phase.STATIONARY
-"""Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
 
 REFERENCE_INTERVAL = 0.005
 """Interval between updates to which `Stance.sigma` refers, s; at other intervals the variance is scaled."""

@@ -16,11 +16,11 @@ that rolls, no extra noise for a foot that brakes."""
 from __future__ import annotations
 
 from math import exp, inf, log, sqrt
-from typing import Final
 
-from ...types import Phase, Quat, Vec3
+from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import IDENTITY, TIE, ZERO
+from ..phase import STATIONARY, SWING
 from ..settings import CycleSettings
 from .shoe import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
 from .stance import Detector, Load, Stance
@@ -28,9 +28,6 @@ from .stance import Detector, Load, Stance
 ACC_SQUARE = SIGMA_ACC**2
 GYRO_SQUARE = SIGMA_GYRO**2
 
-# Local names, because one look-up in the enum costs as much as five multiplications.
-SWING: Final = Phase.SWING
-STATIONARY: Final = Phase.STATIONARY
 
 make_stance = tuple.__new__
 """Constructor of a Stance from its five fields, which takes half the time of the class's own."""
