@@ -39,7 +39,6 @@ HOT = (
     "wire/envelope.py",
     "wire/insole.py",
     "session/state.py",
-    "session/wearer.py",
     "body/part.py",
     "body/activity/*.py",
     "body/activity/blocks/[fsv]*.py",

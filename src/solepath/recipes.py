@@ -8,15 +8,15 @@ this module."""
 
 from __future__ import annotations
 
-from copy import deepcopy
 from functools import cached_property
 from importlib import import_module
 from math import pi
 from typing import Any
 
 from .body.activity.activities import Activities
+from .body.altitude import Altitude
 from .body.checks.air_pressure import AirPressure
-from .body.checks.clocks.foot_clocks import FootClocks
+from .body.checks.foot_clocks import FootClocks
 from .body.checks.looseness import Looseness
 from .body.checks.motion import PossibleMotion
 from .body.checks.sensors import SensorChecks
@@ -24,9 +24,8 @@ from .body.fuse.both_feet import BothFeet
 from .body.fuse.position import MeanOfFeet
 from .body.gait.cycles import GaitCycles
 from .body.gait.turns import Turns
-from .body.height.altitude import Altitude
 from .body.part import ActivityPart, Part, TrackPart
-from .body.worn.wear import Wear
+from .body.wear import Wear
 from .foot.cues.cues import Cues
 from .foot.cues.gait_cues import GaitCues
 from .foot.navigate.corrector import Corrector
@@ -35,7 +34,7 @@ from .foot.pressure.insole import InsoleLoads
 from .foot.stance.cycle import Cycle
 from .foot.stance.stance import Detector
 from .types.attrs import evolve, field, frozen
-from .types.plain import make_plain
+from .types.plain import plain_copy
 
 
 def usual_parts(
@@ -86,14 +85,14 @@ class Recipe:
         parts = tuple([part for part in replaced if part is not None])
         return evolve(self, name=self.name if name is None else name, parts=parts)
 
-    def headed(self, heading: float) -> Recipe:
+    def with_heading(self, heading: float) -> Recipe:
         """Return the recipe for a wearer who starts with this heading, rad, left positive, in the world of all sensors.
 
         LookupError is raised when no part has a use for it, TypeError or ValueError for a heading that is no angle."""
         heading = float(heading)
         if not abs(heading) <= 2.0 * pi:
             raise ValueError(f"a heading is an angle from -2 pi to 2 pi, not {heading:g} rad")
-        found = [part.headed(heading) for part in self.parts]
+        found = [part.with_heading(heading) for part in self.parts]
         if all([part is None for part in found]):
             raise LookupError(f"recipe {self.name} finds the first heading by itself and takes none")
         parts = [part if new is None else new for part, new in zip(self.parts, found, strict=True)]
@@ -151,11 +150,6 @@ LINKS: dict[str, str] = {
 PARTS: dict[str, str] = {
     "Cycle": _FOOT + "stance.cycle",
     "ShoeDetector": _FOOT + "stance.shoe",
-    "AngularRate": _FOOT + "stance.classic",
-    "MovingVariance": _FOOT + "stance.classic",
-    "Graph": _FOOT + "stance.classic",
-    "TwoArea": _FOOT + "stance.pressure",
-    "MaximumPressure": _FOOT + "stance.pressure",
     "ErrorStateFilter": _FOOT + "navigate.error_state",
     "LinearDedrift": _FOOT + "navigate.dedrift",
     "GaitCues": _FOOT + "cues.gait_cues",
@@ -163,13 +157,13 @@ PARTS: dict[str, str] = {
     "PossibleMotion": _BODY + "checks.motion",
     "Looseness": _BODY + "checks.looseness",
     "AirPressure": _BODY + "checks.air_pressure",
-    "Wear": _BODY + "worn.wear",
+    "Wear": _BODY + "wear",
     "MeanOfFeet": _BODY + "fuse.position",
     "BothFeet": _BODY + "fuse.both_feet",
     "Activities": _BODY + "activity.activities",
     "Turns": _BODY + "gait.turns",
-    "Altitude": _BODY + "height.altitude",
-    "FootClocks": _BODY + "checks.clocks.foot_clocks",
+    "Altitude": _BODY + "altitude",
+    "FootClocks": _BODY + "checks.foot_clocks",
     "GaitCycles": _BODY + "gait.cycles",
     "Particles": _BODY + "place.particles",
     "KnownVelocity": _KUPT + "known_velocity",
@@ -197,7 +191,7 @@ PARTS: dict[str, str] = {
 }
 """Module below solepath of each class of parts by its name; a saved state names only these and those of an app."""
 
-AIDS: dict[str, str] = {"Compass": _BODY + "aiding.compass", "BetweenFeet": _BODY + "width.between_feet"}
+AIDS: dict[str, str] = {"Compass": _BODY + "aiding.compass"}
 """Module below solepath of each class that a part loads when the first sample needs it."""
 
 
@@ -239,11 +233,11 @@ def own(recipe: Recipe) -> Recipe:
         copies = tuple([copy for copy in copies if copy.text is not None])
         text = _Copy(recipe, extra_state).text
         if text is None:
-            return make_plain(deepcopy(recipe))
+            return plain_copy(recipe)
         for copy in copies:
             if copy.text == text:
                 return copy.recipe
-    new_copy = _Copy(make_plain(deepcopy(recipe)), extra_state)
+    new_copy = _Copy(plain_copy(recipe), extra_state)
     _copies = (new_copy, *copies[: _MAX_COPIES - 1])
     return new_copy.recipe
 

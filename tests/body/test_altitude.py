@@ -11,8 +11,7 @@ from attrs import evolve
 from walks import samples
 
 from solepath import ClockReset, Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
-from solepath.body.height.altitude import Altitude
-from solepath.body.height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE
+from solepath.body.altitude import SCALE_HEIGHT, STANDARD_PRESSURE, Altitude
 from solepath.body.part import HeightShift, Replacement
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
@@ -91,7 +90,7 @@ def ride_with_new_clock(
             sample = evolve(sample, air_pressure=sample.air_pressure * exp(-off / SCALE_HEIGHT))
         while waiting and sample.t >= t:
             site = waiting.pop(0)
-            session._state.wearer.receive(site, ClockReset(t=sample.t, known_at=sample.t, site=site, restarted=True))
+            session._state.report(site, ClockReset(t=sample.t, known_at=sample.t, site=site, restarted=True))
         fed_sample = sample if sample.site in read else evolve(sample, air_pressure=None)
         rides += [event for event in session.feed(fed_sample) if isinstance(event, LiftRidden)]
     rides += [event for event in session.finish() if isinstance(event, LiftRidden)]

@@ -42,7 +42,7 @@ def _walked(part: str) -> tuple[Session, list[Event]]:
 
 def _apart(session: Session) -> float:
     """Return the distance between the feet as their body has placed them, m."""
-    body = next(part for part in session._state.wearer.parts if isinstance(part, MeanOfFeet))
+    body = next(part for part in session._state.parts if isinstance(part, MeanOfFeet))
     left = body.left.place(session.feet[Foot.LEFT].position)
     right = body.right.place(session.feet[Foot.RIGHT].position)
     return hypot(left[0] - right[0], left[1] - right[1])

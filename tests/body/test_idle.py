@@ -26,14 +26,11 @@ class WakingPart(Part):
     idle: bool = field(default=True, init=False)
     eventless: int = field(default=0, init=False)
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        if isinstance(event, PositionReported):
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        if any(isinstance(event, PositionReported) for event in events):
             self.idle = False
-        return ()
-
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
         if not self.idle:
-            self.eventless += not view.events
+            self.eventless += not events
         return ()
 
     def reset(self, site: Site) -> None:
@@ -48,8 +45,8 @@ class SatisfiedPart(Part):
     idle: bool = field(default=False, init=False)
     eventless: int = field(default=0, init=False)
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        self.eventless += not view.events
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        self.eventless += not events
         self.idle = self.eventless >= 3
         return ()
 
@@ -58,10 +55,10 @@ class SatisfiedPart(Part):
 class EventPart(Part):
     """A part that declares no need of samples."""
 
-    fed: int = field(default=0, init=False)
+    eventless: int = field(default=0, init=False)
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        self.fed += 1
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        self.eventless += not events
         return ()
 
 
@@ -70,7 +67,7 @@ def with_part(part: Part) -> Session:
 
 
 def last_part(session: Session) -> Part:
-    return session._state.wearer.parts[-1]
+    return session._state.parts[-1]
 
 
 def report_position(session: Session) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from attrs import evolve
+from views import told
 from walks import LEFT, RIGHT, of, samples
 
 from solepath import Session
@@ -52,32 +53,32 @@ def test_a_stride_of_four_metres_a_second_is_a_run_with_flight_but_no_walk(
 
 def test_a_stride_of_six_metres_is_impossible_and_reported_even_if_it_is_degraded() -> None:
     part, merged = PossibleMotion(), evolve(changed(6.0), t_end=4.0, t=4.0, known_at=4.0, degraded=True)
-    (found,) = part.receive(merged)
+    (found,) = told(part, merged)
     assert isinstance(found, DefectFound) and "a length of 6 m" in found.what and not found.spoils
-    (found,) = part.receive(merged)
+    (found,) = told(part, merged)
     assert isinstance(found, DefectFound) and "several strides" in found.what and found.spoils
-    assert not part.receive(merged)
+    assert not told(part, merged)
 
 
 def test_one_impossible_stride_is_degraded_and_reported_and_the_others_stay_as_they_are() -> None:
     part = PossibleMotion()
-    assert [part.receive(changed()) for _ in range(6)] == [()] * 6
+    assert [told(part, changed()) for _ in range(6)] == [()] * 6
     wrong = changed(rise=1.5)
-    replacement, found = part.receive(wrong)
+    replacement, found = told(part, wrong)
     assert replacement == Replacement(wrong, evolve(wrong, degraded=True))
     assert isinstance(found, DefectFound) and found.defect is Defect.IMPOSSIBLE_MOTION and not found.spoils
-    assert part.receive(changed()) == ()
-    assert [type(output) for output in part.receive(wrong)] == [Replacement], "it is reported once"
+    assert told(part, changed()) == ()
+    assert [type(output) for output in told(part, wrong)] == [Replacement], "it is reported once"
 
 
 def test_a_foot_with_mostly_impossible_strides_is_reported_as_spoilt_once() -> None:
     part = PossibleMotion()
-    outputs = [output for _ in range(9) for output in part.receive(changed(speed=20.0))]
+    outputs = [output for _ in range(9) for output in told(part, changed(speed=20.0))]
     found = [output for output in outputs if isinstance(output, DefectFound)]
     assert [event.spoils for event in found] == [False, True]
     assert "20 m/s" in found[1].what and "Check the units" in found[1].what
     part.reset(LEFT)
-    assert any(isinstance(output, DefectFound) for output in part.receive(changed(speed=20.0)))
+    assert any(isinstance(output, DefectFound) for output in told(part, changed(speed=20.0)))
 
 
 def test_a_walk_has_no_impossible_stride() -> None:

@@ -15,7 +15,7 @@ from walks import LEFT, RIGHT, insoles, of, samples
 from solepath import Recipe, Session, recipes
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
-from solepath.body.worn.sides import RunningAverage
+from solepath.body.wear import RunningAverage
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
@@ -159,7 +159,7 @@ def test_devices_that_report_the_right_feet_are_trusted() -> None:
     session = Session()
     events = session.feed(insoles(WALK, cells=96).packets)
     assert of(FeetSwapped, events) == []
-    sides = session._state.wearer.find_attribute("sides")
+    sides = session._state.find_attribute("sides")
     assert sides.left.declared and sides.right.declared
     assert not sides.left.turn_integral.instants and not sides.right.turn_integral.instants, (
         "what their feet do need not be remembered"

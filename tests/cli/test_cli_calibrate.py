@@ -13,7 +13,7 @@ from recordings import recorded
 
 from solepath.calibration import Calibration, InsoleCalibration, Limbs
 from solepath.calibration.file import read_calibration, write_calibration
-from solepath.emulate.routes.laps import marked, marks, square, straight, write_marks
+from solepath.emulate.routes.laps import marked, marks, square, straight
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole, boot
 from solepath.emulate.sensors.suit import suit
@@ -112,7 +112,9 @@ def test_each_kind_learns_from_its_walk_for_the_feet_that_wear_a_sensor(tmp_path
     walk, out = emulate(route, devices=devices, seed=2), tmp_path / "me.json"
     more = []
     if kind == "modes":
-        write_marks(tmp_path / "marks.csv", marks(walk.walker))
+        found = [one for one in marks(walk.walker) if one.mode is not WalkingMode.STANDING]
+        rows = [f"{one.foot.value},{one.x:.4f},{one.y:.4f},{one.mode.name},{one.t:.3f}" for one in found]
+        (tmp_path / "marks.csv").write_text("\n".join(["foot,x,y,mode,t", *rows]))
         more = [tmp_path / "marks.csv", "--heading", "0"]
     result = run("calibrate", kind, recorded(tmp_path / "walk.jsonl", walk.packets), *more, "--out", out)
     assert (result.returncode, result.stderr) == (0, "")

@@ -27,12 +27,12 @@ from solepath import (
 )
 from solepath.calibration import InsoleCalibration, Limbs, Newtons, SensorCalibration, ShoeGeometry
 from solepath.calibration.file import write_calibration
-from solepath.calibration.limits import find_fault
 from solepath.calibration.records import TriadCalibration
 from solepath.emulate.sensors.insoles import layout
 from solepath.events import CellsFailed, Limitation
 from solepath.foot.pressure.insole import in_newtons
 from solepath.recipes import Recipe
+from solepath.types.checking import find_fault
 
 FULL_CALIBRATION = Calibration(
     insoles={
@@ -136,9 +136,9 @@ def insole(**known: Any) -> Calibration:
 
 ABSURD_CALIBRATIONS = {
     "shoe.steepest": Calibration(shoe=ShoeGeometry(steepest=1e200)),
-    "coefficients in shoe.pivot_to_toe": Calibration(shoe=ShoeGeometry(pivot_to_toe=())),
+    "shoe.pivot_to_toe has 0 values": Calibration(shoe=ShoeGeometry(pivot_to_toe=())),
     "modes.right.LEFT_TIGHT": Calibration(modes={Foot.RIGHT: {WalkingMode.LEFT_TIGHT: (1e200, 0.0)}}),
-    "cells in insoles.left.layout": cells(),
+    "insoles.left.layout has 0 cells": cells(),
 }
 
 
@@ -153,11 +153,11 @@ def test_a_calibration_of_what_cannot_be_is_rejected_with_its_file_and_its_key(t
 
 
 MISSHAPEN: list[tuple[dict[str, Any], str]] = [
-    ({"toe_out": {"left": 1.0}}, "toe_out has the key 'left', no Foot"),
+    ({"toe_out": {"left": 1.0}}, "toe_out has the key 'left', not of type Foot"),
     ({"toe_out": {Foot.LEFT: 10**5000}}, "toe_out.left is a huge number; it can be -1 to 1 rad"),
-    ({"shoe": "brown"}, "shoe is 'brown', no ShoeGeometry"),
-    ({"drift": {Foot.LEFT: (0.1,)}}, "drift.left is a tuple, not a tuple of 2 numbers"),
-    ({"modes": {Foot.LEFT: None}}, "modes.left is None, no dict"),
+    ({"shoe": "brown"}, "shoe is 'brown', not of type ShoeGeometry"),
+    ({"drift": {Foot.LEFT: (0.1,)}}, "drift.left has 1 values, not 2"),
+    ({"modes": {Foot.LEFT: None}}, "modes.left is None, not of type dict"),
 ]
 
 
@@ -171,10 +171,10 @@ def test_a_calibration_of_something_else_than_records_is_rejected_by_the_session
 
 
 def test_what_can_be_is_not_rejected() -> None:
-    assert find_fault(FULL_CALIBRATION) is None
-    assert find_fault(Calibration()) is None
+    assert find_fault(FULL_CALIBRATION, Calibration) is None
+    assert find_fault(Calibration(), Calibration) is None
     for size in (24, 35, 96, 99):
-        assert find_fault(insole(layout=layout(size, Foot.LEFT))) is None
+        assert find_fault(insole(layout=layout(size, Foot.LEFT)), Calibration) is None
 
 
 OF_OTHER_INSOLES = Calibration({foot: InsoleCalibration(layout=layout(35, foot), noise=(0.5,) * 35) for foot in Foot})

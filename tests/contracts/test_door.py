@@ -33,8 +33,7 @@ from solepath import (
 )
 from solepath.body.checks.sensors import SensorChecks, SensorChecksSettings
 from solepath.calibration import ShoeGeometry
-from solepath.link.driver import Measured, Reading
-from solepath.link.reading_check import check_reading
+from solepath.link.driver import Measured, Reading, check_reading
 from solepath.recipes import DEFAULT
 from solepath.wire.error import WireError
 
@@ -173,13 +172,13 @@ def test_settings_and_calibrations_may_hold_numbers_of_numpy() -> None:
 def test_a_reader_that_gives_numbers_of_numpy_is_rejected_in_words() -> None:
     cells = (Cell(np.float64(0.1), 0.0),)
     for reading, words in (
-        (Reading(samples=(Measured(acc=(np.float64(0.0), 0.0, 9.81)),)), "acc is a float64"),
-        (Reading(battery=np.float64(0.5)), "battery is a float64"),
-        (Reading(layout=Layout(1, Foot.LEFT, cells, 0.28)), "layout is a float64"),
-        (Reading(layout=Layout(1, "left", (), 0.28)), "layout's foot is a str"),
-        (Reading(layout=Layout(IntEnum("Sizes", "SMALL")(1), Foot.LEFT, (), 0.28)), "layout's id is a Sizes"),
+        (Reading(samples=(Measured(acc=(np.float64(0.0), 0.0, 9.81)),)), r"acc\[0\] is float64\(0\)"),
+        (Reading(battery=np.float64(0.5)), r"battery is float64\(0.5\)"),
+        (Reading(layout=Layout(1, Foot.LEFT, cells, 0.28)), r"layout.cells\[0\].x is float64\(0.1\)"),
+        (Reading(layout=Layout(1, "left", (), 0.28)), "layout.foot is 'left', not of type Foot"),
+        (Reading(layout=Layout(IntEnum("Sizes", "SMALL")(1), Foot.LEFT, (), 0.28)), "layout.id is a Sizes"),
         (Reading(known={"a\ud800": 1.0}), "known has the name"),
-        (Reading(known={f"number {k}": 1.0 for k in range(65)}), "65 known numbers"),
+        (Reading(known={f"number {k}": 1.0 for k in range(65)}), "known has 65 values"),
     ):
         with pytest.raises(WireError, match=words):
             check_reading(reading)

@@ -116,7 +116,9 @@ _VALUES = st.one_of(
 )
 
 
-@pytest.mark.parametrize("name", ["session, whole frames", "session, cc2650", "session, cc2541", "session, Graph"])
+@pytest.mark.parametrize(
+    "name", ["session, whole frames", "session, cc2650", "session, cc2541", "session, ShoeDetector"]
+)
 @given(st.data(), _VALUES, st.sampled_from(["replace", "remove", "add"]))
 @settings(max_examples=30)
 def test_a_damaged_snapshot_is_rejected_and_never_used_in_part(

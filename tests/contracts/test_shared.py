@@ -76,4 +76,4 @@ def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_the_equalit
         again = Session.unpack(session.pack(), recipe)
         assert repr(again.recipe) == repr(session.recipe)
         assert repr(again.feet[Foot.LEFT].detector) == repr(session.feet[Foot.LEFT].detector)
-        assert again._state.wearer.settings.recipe is own(recipe), "and it is held once"
+        assert again._state.settings.recipe is own(recipe), "and it is held once"

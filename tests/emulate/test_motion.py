@@ -205,7 +205,7 @@ def test_a_foot_on_stairs_skips_every_other_tread_clears_the_edges_and_stands_on
             x, y, z = motion.at(t, at).position.T
             assert (z - stride.flight.clear_height(x, y, np.full(len(t), radius))).min() > -2e-3
         stood = one.kinematics(foot, np.array([stride.foot_flat + 0.01]), IN_SOLE).position[0, 2] - IN_SOLE.position[2]
-        tread = stride.flight.ground_height(np.array([stride.end.x]), np.array([stride.end.y]))[0]
+        tread = stride.flight.clear_height(np.array([stride.end.x]), np.array([stride.end.y]), np.zeros(1))[0]
         assert stood == pytest.approx(float(tread), abs=2e-4)
 
 

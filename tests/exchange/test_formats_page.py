@@ -17,7 +17,7 @@ def names() -> dict[str, Any]:
 
 
 def test_the_programs_are_whole(names: dict[str, Any], tmp_path) -> None:
-    assert inspect.iscoroutinefunction(names["run"]) and inspect.iscoroutinefunction(names["speeds"])
+    assert inspect.iscoroutinefunction(names["run"])
     source = recorded(tmp_path / "walk.jsonl", walks.insoles().packets)
     assert names["to_opensim"](str(source), str(tmp_path / "walk.sto")) > 350
     with pytest.raises(ValueError, match="no label"):

@@ -12,10 +12,10 @@ import pytest
 from floorplans import FILES, archive, plans
 from hypothesis import given
 from hypothesis import strategies as st
+from plan_files import format_floorplan
 
 from solepath.floorplan.checks import find_warnings
 from solepath.floorplan.importers import reading
-from solepath.floorplan.importers.geojson import format_floorplan
 from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, FloorPlanError

@@ -56,7 +56,7 @@ UNUSABLE = [
         stairs(ConnectorStop("1", (1.0, 1.0)), ConnectorStop("0", (1.0, 1.0))),
         "stairs 'A': its stops are not from the lowest to the highest",
     ),
-    (evolve(HOUSE, anchor=Anchor(91.0, 0.0)), "the anchor is at latitude 91, longitude 0"),
+    (evolve(HOUSE, anchor=Anchor(91.0, 0.0)), "anchor.latitude is 91; it can be -89 to 89 degrees"),
 ]
 
 
@@ -142,10 +142,10 @@ def test_one_walks_through_the_middle_of_a_door_in_a_wall_of_any_direction(turn:
 HUGE_NUMBER = 10**400
 
 MISSHAPEN = [
-    (evolve(HOUSE, levels=None), "the plan's levels are None, not a tuple"),
-    (with_level(id=0), "a level's id is 0, not a text"),
-    (with_level(walls=(Wall((0, 0), (1,)),)), "level '0': wall 0 is ((0, 0), (1)), not from (x, y) to (x, y)"),
-    (with_level(rooms=(((0, 0), (1, 0), (1, None)),)), "level '0': room 0 has a corner (1, None), not (x, y)"),
+    (evolve(HOUSE, levels=None), "levels is None, not of type tuple"),
+    (with_level(id=0), "levels[0].id is 0, not of type str"),
+    (with_level(walls=(Wall((0, 0), (1,)),)), "levels[0].walls[0].end has 1 values, not 2"),
+    (with_level(rooms=(((0, 0), (1, 0), (1, None)),)), "levels[0].rooms[0][2][1] is None, not of type float"),
 ]
 
 
@@ -160,10 +160,10 @@ def test_a_plan_of_something_else_than_records_is_rejected_by_the_session_in_one
 
 
 INVALID_STARTS = [
-    (Start("0", (HUGE_NUMBER, 1)), "its place is (a huge number, 1), not (x, y) in m"),
-    (Start("0", (math.nan, 1.0)), "its place is (nan, 1), not (x, y) in m"),
-    (Start("0", (1.0, 2.0), 1e308), "its heading is 1e+308, not in rad"),
-    (Start("0", (1.0, 2.0), spread=-1.0), "its spread is -1; it can be 0 to 5000 m"),
+    (Start("0", (HUGE_NUMBER, 1)), "place[0] is a huge number; it can be -1e+07 to 1e+07 m"),
+    (Start("0", (math.nan, 1.0)), "place[0] is nan; it can be -1e+07 to 1e+07 m"),
+    (Start("0", (1.0, 2.0), 1e308), "heading is 1e+308; it can be -1000 to 1000 rad"),
+    (Start("0", (1.0, 2.0), spread=-1.0), "spread is -1; it can be 0 to 5000 m"),
 ]
 
 

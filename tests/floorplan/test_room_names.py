@@ -9,10 +9,10 @@ import pytest
 from attrs import evolve
 from floorplans import FILES, archive
 from floors import METHODS, Method, Pedestrian, follow, placed
+from plan_files import format_floorplan
 
 from solepath.emulate.routes.building import BUILDING
 from solepath.floorplan.checks import find_fault
-from solepath.floorplan.importers.geojson import format_floorplan
 from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.outlines import Ring
@@ -61,9 +61,9 @@ def test_a_booth_in_a_hall_is_the_booth_in_whatever_order_and_direction_they_are
 
 
 @pytest.mark.parametrize(("names", "message"), [
-    (("A",), "level '0': has 1 names of rooms and 5 rooms"),
-    (("A", "B", "C", "D", 5), "level '0': the names of its rooms: one is 5, no str"),
-    (["A", "B", "C", "D", "E"], "level '0': the names of its rooms are a list, not a tuple"),
+    (("A",), "levels[0] has 1 names of rooms and 5 rooms"),
+    (("A", "B", "C", "D", 5), "levels[0].room_names[4] is 5, not of type str"),
+    (["A", "B", "C", "D", "E"], "levels[0].room_names is a list, not of type tuple"),
 ])  # fmt: skip
 def test_names_that_are_no_texts_or_too_few_are_rejected_in_one_line(names: object, message: str) -> None:
     ground = evolve(HOUSE.levels[0], room_names=names)  # type: ignore[arg-type]

@@ -164,7 +164,7 @@ def test_saving_a_part_that_cannot_be_saved_raises() -> None:
     Same = define(type("ShoeDetector", (), {"__annotations__": {}, "update": StillDetector.update}))
     for detector, message in ((Bare(), "no attrs class"), (Same(), "give it another name")):
         session = Session(evolve(recipes.DEFAULT, detector=detector))
-        session._state.wearer._add_tracker(session._state.wearer._tracker(Foot.LEFT))
+        session._state._add_tracker(session._state._tracker(Foot.LEFT))
         for save_it in (session.snapshot, session.pack):
             with pytest.raises(TypeError, match=message):
                 save_it()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import cache
 from itertools import pairwise
-from math import inf
 
 import pytest
 from walks import LEFT, SHORT, insoles, of, samples
@@ -13,11 +12,8 @@ from solepath import Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Sessio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.pressure.insole import HIGHEST_DECAY, InsoleLoads
+from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.pressure.sole import LayoutGuess
-from solepath.foot.stance.pressure import MaximumPressure, TwoArea
-from solepath.foot.stance.stance import Load, Stance
-from solepath.types import Phase
 
 
 def test_an_insole_without_an_inertial_sensor_still_gives_the_phases() -> None:
@@ -92,29 +88,3 @@ def test_heel_and_forefoot_are_distinguished_after_two_stances() -> None:
                 assert learnt.x > 0.55 * estimate.length, cell
             placed += 1
         assert placed > 0.7 * cells
-
-
-ACC_REST, GYRO_REST = (0.0, 0.0, 9.81), (0.0, 0.0, 0.0)
-
-
-def test_two_loaded_areas_are_a_flat_foot() -> None:
-    def evidence(heel: float | None, forefoot: float | None, airborne: bool = False) -> Stance:
-        return TwoArea().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.5, heel, forefoot, airborne))
-
-    assert evidence(0.3, 0.2) == Stance((0.0, 0.0, 0.0), 0.01, 0.2, Phase.STATIONARY)
-    assert evidence(0.05, 0.9).hint is Phase.STATIONARY
-    assert evidence(0.049, 0.9).sigma == inf and evidence(0.9, 0.0).sigma == inf
-    assert evidence(0.0, 0.0, airborne=True).hint is Phase.SWING
-    assert evidence(None, None).sigma == inf
-
-
-def test_a_heavily_loaded_cell_is_a_foot_on_the_ground() -> None:
-    def evidence(share: float, airborne: bool = False) -> Stance:
-        detector = MaximumPressure()
-        detector.update(0.0, 0.01, ACC_REST, GYRO_REST, Load(1.0, None, None, False, (4.0, 80.0 / HIGHEST_DECAY)))
-        load = Load(0.5, None, None, airborne, (80.0 * share, 3.0))
-        return detector.update(0.01, 0.01, ACC_REST, GYRO_REST, load)
-
-    assert evidence(0.26).sigma == 0.05 and evidence(0.26).statistic == 0.26
-    assert evidence(0.25).sigma == inf
-    assert evidence(0.9, airborne=True) == Stance((0.0, 0.0, 0.0), inf, 0.9, Phase.SWING)

@@ -234,8 +234,8 @@ class Lasting(Part):
     count: int = 0
     newest: float | None = field(default=None, init=False)
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        self.count += 1
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        self.count += len(events)
         return ()
 
 
@@ -243,8 +243,10 @@ class Lasting(Part):
 class Foreseeing(Part):
     needs_samples: ClassVar[bool] = True
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        return [WearerMoved(t=view.t + 1.0, known_at=view.t, position=ZERO, covariance=(0.0,) * 6)]
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        return (
+            [] if view is None else [WearerMoved(t=view.t + 1.0, known_at=view.t, position=ZERO, covariance=(0.0,) * 6)]
+        )
 
 
 @define
@@ -253,9 +255,10 @@ class Lingering(Part):
 
     cells: int = field(default=0, init=False)
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        if isinstance(event, LayoutReported):
-            self.cells = len(event.layout.cells)
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        for event in events:
+            if isinstance(event, LayoutReported):
+                self.cells = len(event.layout.cells)
         return ()
 
     def finish(self, now: float) -> Sequence[PartOutput]:

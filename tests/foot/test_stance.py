@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from attrs import evolve
 
-from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance
+from solepath.foot.settings import ShoeSettings
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.stance.stance import Stance
@@ -29,26 +28,6 @@ def shoe(acc: Rows, gyro: Rows) -> float:
     return float((residual + (w**2).sum() / SIGMA_GYRO**2) / len(a))
 
 
-def are(acc: Rows, gyro: Rows) -> float:
-    """T = 1/W sum |w|^2 / s_w^2."""
-    return float((np.array(gyro) ** 2).sum() / SIGMA_GYRO**2 / len(gyro))
-
-
-def mv(acc: Rows, gyro: Rows) -> float:
-    """T = 1/W sum |a - m|^2 / s_a^2."""
-    a = np.array(acc)
-    return float(((a - a.mean(axis=0)) ** 2).sum() / SIGMA_ACC**2 / len(a))
-
-
-def mbgtd(acc: Rows, gyro: Rows) -> float:
-    """T = max over cuts a < b of sum over i <= a, j >= b of |a_i - a_j| / ((b - a) (W - b + 1)), counted from 0."""
-    v, w = np.array(acc), len(acc)
-    distances = np.linalg.norm(v[:, None] - v[None, :], axis=2)
-    return max(
-        float(distances[: a + 1, b:].sum() / ((b - a) * (w - b + 1))) for a in range(w - 1) for b in range(a + 1, w)
-    )
-
-
 ACC: Rows = [(0.0, 0.0, 9.80665), (0.3, 0.0, 9.80665), (0.0, -0.4, 9.50665), (0.1, 0.2, 10.30665)]
 GYRO: Rows = [(0.0, 0.0, 0.0), (0.0, 0.02, 0.0), (0.01, 0.0, -0.03), (0.1, 0.2, 0.2)]
 
@@ -58,20 +37,10 @@ def run(detector: Any, acc: Rows, gyro: Rows, dt: float = 0.01) -> list[Stance]:
 
 
 @pytest.mark.parametrize(
-    ("detector", "formula", "length"),
-    [
-        (ShoeDetector(evolve(ShoeDetector().settings, window=0.035)), shoe, 4),
-        (ShoeDetector(evolve(ShoeDetector().settings, window=0.025)), shoe, 3),
-        (AngularRate(evolve(AngularRate().settings, window=0.035)), are, 4),
-        (AngularRate(evolve(AngularRate().settings, window=0.025)), are, 3),
-        (MovingVariance(evolve(MovingVariance().settings, window=0.035)), mv, 4),
-        (MovingVariance(evolve(MovingVariance().settings, window=0.025)), mv, 3),
-        (Graph(evolve(Graph().settings, count=4)), mbgtd, 4),
-        (Graph(evolve(Graph().settings, count=3)), mbgtd, 3),
-        (Cycle(), shoe, 3),
-    ],
+    ("detector", "length"),
+    [(ShoeDetector(ShoeSettings(window=0.035)), 4), (ShoeDetector(), 3), (Cycle(), 3)],
     ids=lambda value: type(value).__name__ if hasattr(value, "update") else None,
 )
-def test_the_statistic_follows_its_formula(detector: Any, formula: Any, length: int) -> None:
+def test_the_statistic_follows_its_formula(detector: Any, length: int) -> None:
     evidences = run(detector, ACC, GYRO)[-1].statistic
-    assert evidences == pytest.approx(formula(ACC[-length:], GYRO[-length:]), rel=1e-9)
+    assert evidences == pytest.approx(shoe(ACC[-length:], GYRO[-length:]), rel=1e-9)

@@ -12,13 +12,11 @@ from changes import LEFT, RIGHT, added, calls, cells, clipped, draws, each, late
 from corpus import Case, given, kept
 
 from solepath import Calibration, Cell, Foot, Layout, Sample, Session
-from solepath.body.activity.early import printed_table
 from solepath.calibration.records import HeadingCalibration, InsoleCalibration
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.phase import describe
-from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance
-from solepath.foot.stance.pressure import MaximumPressure, TwoArea
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.papers.walking_modes.mode import regions
 from solepath.recipes import Recipe
 
@@ -147,7 +145,7 @@ ASIDE = each(lambda item: added(item, gyro=(0.0, 0.0, 3.0)), 3.0, 3.4, RIGHT)
 
 
 def figures() -> Iterator[Any]:
-    """Yield what the means of a walk and of a run say, the table of phases, and that of activities."""
+    """Yield what the means of a walk and of a run say, and the table of phases."""
     for name in ("stroll", "running"):
         session = Session()
         session.feed(list(given(name)[:3000]))
@@ -158,22 +156,20 @@ def figures() -> Iterator[Any]:
                 continue
             yield [one.cadence, one.coordination]
             for figure in (one.both, *one.feet.values()):
-                yield [figure.share("stance_time"), figure.share("step_width"), figure.double_support]
+                yield [figure.share("stance_time"), figure.double_support]
                 yield evolve(figure, stride_time=None).share("stance_time")
-            yield [one.asymmetry(name) for name in ("swing_time", "step_time", "step_width", "stride_length")]
+            yield [one.asymmetry(name) for name in ("swing_time", "step_time", "stride_length")]
     yield describe()
-    yield printed_table()
     for foot in Foot:
         yield [regions(sole(count, foot)) for count in (6, 7, 24, 48, 90)]
 
 
-def detectors() -> Iterator[Any]:
-    """Yield the events with each detector and corrector of the textbooks, and the numbers that they keep."""
-    for detector in (AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
-        for corrector in (ErrorStateFilter(), LinearDedrift()):
-            session = Session(Recipe("textbook", detector, corrector))
-            yield from session.feed(half(until=5.0)())
-            yield kept(session.snapshot())
+def textbook() -> Iterator[Any]:
+    """Yield the events with the detector and each corrector of the textbooks, and the numbers that they keep."""
+    for corrector in (ErrorStateFilter(), LinearDedrift()):
+        session = Session(Recipe("textbook", ShoeDetector(), corrector))
+        yield from session.feed(half(until=5.0)())
+        yield kept(session.snapshot())
 
 
 def wrong(count: int) -> dict[str, Any]:
@@ -211,7 +207,7 @@ BODY: tuple[Case, ...] = (
             until=25.0), "default"),
     Case("cut off at 400 samples a second",
          of("stroll", fourfold, each(lambda item: clipped(item, 25.0, 5.0)), until=5.0), "default"),
-    Case("textbook detectors", detectors),
+    Case("textbook detector", textbook),
     Case("figures of a walk", figures),
 )  # fmt: skip
 """What joins the table of cases.py."""

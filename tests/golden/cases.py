@@ -282,7 +282,6 @@ FAULTS: tuple[Case, ...] = tuple(
             field_changed(lambda mag: (mag[0] + 8e-5, mag[1], mag[2] - 5e-5), since=30.0, site=LEFT),
             until=70.0,
         ),
-        "distances between the feet": of("ranged"),
         "lifts and stairs with barometers": of("lifts"),
         "reports of a person": half(calls(here(6.0, (3.0, 1.0), 0.5), here(15.0, (8.0, 2.0), 1.0), here(20.0, None))),
     }.items()

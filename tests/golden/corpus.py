@@ -118,7 +118,7 @@ def said(case: Case) -> Iterator[dict[str, Any]]:
     plan, profiles = options.get("floorplan"), options.get("profiles", ())
     recipe = recipes.by_name(case.recipe)
     if case.heading is not None:
-        recipe = recipe.headed(case.heading)
+        recipe = recipe.with_heading(case.heading)
     session = Session(recipe, **options)
     items = list(case.make())
     saved, packed = len(items) * 2 // 5, len(items) * 3 // 5

@@ -13,6 +13,7 @@ from typing import Any
 import declared
 from attrs import evolve
 from corpus import FOLDER
+from plan_files import format_floorplan
 
 from solepath import Foot, Packet, Sample, Site
 from solepath.emulate import CC2541, CC2650, Insole, Route, Walker, emulate, sampled
@@ -23,9 +24,7 @@ from solepath.emulate.sensors.dot import Dot
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.magnetic_field import MagneticField
 from solepath.emulate.sensors.parts import AK8963, LSM6DSOX
-from solepath.emulate.sensors.ranging import ULTRASOUND, measure_ranges
 from solepath.emulate.sensors.suit import limb_samples
-from solepath.floorplan.importers.geojson import format_floorplan
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ROUGH = Radio(loss=0.03, duplicate=0.01, corrupt=0.01, truncate=0.01, latency=0.01, jitter=0.04)
@@ -39,7 +38,7 @@ DAY = (
 """Everything that a wearer does, in about two minutes."""
 STROLL = Route().stand(2.0).walk(9.0, 1.3).turn(pi, radius=2.5).walk(9.0, 1.1).turn(radians(-90)).walk(3.0).stop(2.0)
 """A walk of about half a minute, which cases damage."""
-DIGITS = {"acc": 3, "gyro": 4, "quat": 5, "mag": 9, "pressure": 1, "air_pressure": 1, "range": 3, "t": 6, "known_at": 6}
+DIGITS = {"acc": 3, "gyro": 4, "quat": 5, "mag": 9, "pressure": 1, "air_pressure": 1, "t": 6, "known_at": 6}
 """Decimals that are kept of a sample, beyond the noise of its sensor."""
 
 
@@ -106,12 +105,6 @@ def building(seed: int) -> Iterable[Sample]:
     return both(Walker(wandering(seed).route, seed=seed), 50.0)
 
 
-def ranged() -> Iterable[Sample]:
-    """Return a walk with the distance between the feet."""
-    walker = Walker(STROLL, seed=5)
-    return sorted([*both(walker, 50.0), *measure_ranges(walker, ULTRASOUND)], key=lambda sample: sample.t)
-
-
 INPUTS: dict[str, Callable[[], Iterable[Packet | Sample]]] = {
     "insole": lambda: packets(Insole(cells=16, rate=50.0)),
     "insole-fragments": lambda: packets(Insole(cells=24, rate=50.0, mtu=23), STROLL),
@@ -130,7 +123,6 @@ INPUTS: dict[str, Callable[[], Iterable[Packet | Sample]]] = {
         worn.driver.name: lambda worn=worn: declared.walked(worn, STROLL, ROUGH)
         for worn in (declared.ORPHE, declared.DOT, declared.THINGY)
     },
-    "ranged": ranged,
     "stroll": lambda: both(Walker(STROLL, seed=5), 100.0, cells=12),
     "running": lambda: both(
         Walker(Route().stand(2.0).walk(6.0, 1.3).jog(25.0).walk(4.0).stairs(10).walk(4.0).stop(2.0), seed=6), 100.0
@@ -150,7 +142,7 @@ def as_line(item: Packet | Sample) -> str:
             {"t": round(item.t, 6), "site": item.site.value, "channel": item.channel, "data": item.data.hex()}
         )
     values: dict[str, Any] = {}
-    for name in ("t", "acc", "gyro", "pressure", "quat", "mag", "air_pressure", "known_at", "range"):
+    for name in ("t", "acc", "gyro", "pressure", "quat", "mag", "air_pressure", "known_at"):
         value = getattr(item, name)
         if value is None or (name == "known_at" and value == item.t):
             continue

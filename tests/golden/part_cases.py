@@ -5,7 +5,7 @@ would never come to it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from copy import deepcopy
 from functools import partial
 from typing import Any, ClassVar
@@ -16,7 +16,7 @@ from changes import LEFT, RIGHT, draws
 from corpus import Case, given, kept, plain
 
 from solepath import Calibration, DefectFound, SampleGap, Session, Site, WearerMoved, recipes
-from solepath.body.part import LayoutReported, Part
+from solepath.body.part import ClockUnsettled, Notice, Part, PartInput, StartGiven
 from solepath.body.place.particles import Particles
 from solepath.events import Defect
 from solepath.foot.view import FootView
@@ -29,20 +29,16 @@ class Notes(Part):
     """The last part of a recipe, which notes what reaches it."""
 
     needs_samples = needs_position = True
-    noted: ClassVar[list[Any]] = []
+    noted: ClassVar[list[tuple[Sequence[PartInput], FootView | None]]] = []
     """Of the class, since a session works with a copy of the part."""
 
-    def feed(self, view: FootView) -> tuple[()]:
-        self.noted.append(view)
-        return ()
-
-    def receive(self, event: Any) -> tuple[()]:
-        self.noted.append(event)
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> tuple[()]:
+        self.noted.append((events, view))
         return ()
 
 
 def noted(name: str, recipe: str, until: float) -> tuple[Any, ...]:
-    """Return the views and events of a walk in their order."""
+    """Return the events and views of a walk in their order."""
     Notes.noted.clear()
     usual = recipes.by_name(recipe)
     session = Session(evolve(usual, parts=(*usual.parts, Notes())), **posed())
@@ -51,8 +47,8 @@ def noted(name: str, recipe: str, until: float) -> tuple[Any, ...]:
 
 
 def meddled(event: Any, draw: float) -> list[Any]:
-    """Return what becomes of an event; a layout is reported twice."""
-    if isinstance(event, LayoutReported):
+    """Return what becomes of an event; a notice comes twice."""
+    if isinstance(event, Notice):
         return [event, event]
     if draw < 0.1:
         return []
@@ -87,23 +83,18 @@ def parts(name: str, recipe: str, until: float) -> Iterator[Any]:
         own.ready()
         if hasattr(own, "plan"):
             own.plan = building()
-            own.set_out(STARTS[8])
-        for k, one in enumerate(stream):
-            if isinstance(one, FootView):
-                view = copy_of(one, tuple(after for event in one.events for after in meddled(event, next(drawn))))
-                yield from map(plain, own.feed(view) if own.needs_samples else ())
-            else:
-                for event in meddled(one, next(drawn)):
-                    yield from map(plain, own.receive(event))
+            own.feed((StartGiven(STARTS[8]),), None)
+        t = 0.0
+        for k, (events, view) in enumerate(stream):
+            t = t if view is None else view.t
+            changed = tuple(after for event in events for after in meddled(event, next(drawn)))
+            if changed or (view is not None and own.needs_samples):
+                yield from map(plain, own.feed(changed, view))
             if k % 250 == 249:
-                reset(own, k // 250, one.t)
+                reset(own, k // 250, t)
                 yield numbers(own)
-        yield from map(plain, own.finish(stream[-1].t))
+        yield from map(plain, own.finish(t))
         yield numbers(own)
-
-
-def copy_of(view: FootView, events: tuple[Any, ...]) -> FootView:
-    return FootView(**{field: getattr(view, field) for field in FootView.__annotations__} | {"events": events})
 
 
 def reset(part: Part, number: int, t: float) -> None:
@@ -112,7 +103,7 @@ def reset(part: Part, number: int, t: float) -> None:
     if number % 3 == 2:
         part.reset(site)
     else:
-        part.unsettle(site, t + 1.0 if number % 3 else None)
+        part.feed((ClockUnsettled(site, t + 1.0 if number % 3 else None),), None)
 
 
 def numbers(part: Any) -> dict[str, Any]:
@@ -129,7 +120,7 @@ def numbers(part: Any) -> dict[str, Any]:
 PARTS_ALONE: tuple[Case, ...] = tuple(
     Case(f"parts of {recipe} that are misled, {name}", partial(parts, name, recipe, until))
     for name, recipe, until in (
-        ("ranged", "default", 12.0), ("compass", "default", 16.0),
+        ("stroll", "default", 12.0), ("compass", "default", 16.0),
         ("lifts", "default", 60.0), ("building-8", "default", 12.0),
         ("stroll", "kupt-dfpc", 12.0), ("stroll", "footstep-tracker", 12.0), ("stroll", "shoe-sensing", 10.0),
         ("suit", "walking-modes", 16.0), ("insole", "walking-modes", 14.0),

@@ -29,6 +29,7 @@ from floors import (
     office,
     round_to,
 )
+from plan_files import format_floorplan
 
 from solepath import (
     Activity,
@@ -43,13 +44,13 @@ from solepath import (
     TurnMade,
     read_floorplan,
 )
+from solepath.body.part import StartGiven
 from solepath.body.place.particles import Particles  # a track with known errors is given to it, without a session
 from solepath.floorplan.checks import find_fault, find_warnings
-from solepath.floorplan.importers.geojson import format_floorplan
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlanError, Level, Wall
-from solepath.floorplan.records import find_start_fault
 from solepath.papers.footstep_tracker.snake import SnakeGame  # as Particles
+from solepath.types import checking
 
 Place = tuple[float, float]
 PROTOCOL = Path(__file__).resolve().parents[2] / "protocol"
@@ -326,15 +327,14 @@ def told(numbers: range, method: Callable[[], Particles | SnakeGame] = Particles
             tale.happen()
         part.plan = plan
         if tale.start is not None:
-            part.set_out(tale.start)
+            part.feed((StartGiven(tale.start),), None)
         compass = tale.random.choice([None, None, 0.1, 0.2, 0.4])
         off = tale.random.choice([0.0, 0.0, 0.15, 0.5 * pi])
         for count, item in enumerate(tale.told):
             if not isinstance(item, FloorEvents):
-                yield from part.receive(item)
+                yield from part.feed((item,), None)
                 continue
-            for event in item.events:
-                yield from part.receive(event)
+            yield from part.feed(item.events, None)
             north = None if compass is None or count < 20 else (0.5 * pi + BEARING + tale.one.turned + off, compass)
             here = evolve(item.here, north=north, heading_sigma=tale.random.choice([None, 0.002 * count]))
             yield from part.follow(plan, item.events, here)
@@ -381,8 +381,8 @@ def reported_again() -> Iterator[Any]:
     t = one.t
     wrong = PositionReported(t=t, known_at=t, site=Site.LEFT_FOOT, position=(20.0, 23.8), level="0", sigma=1.0)
     for by in ((-9.0, 14.0), (3.0, -5.0)):
-        yield from part.receive(wrong)
-        yield from part.receive(TrackRevised(t=t, known_at=t, by=by, turn=0.3, nodes=()))
+        yield from part.feed((wrong,), None)
+        yield from part.feed((TrackRevised(t=t, known_at=t, by=by, turn=0.3, nodes=()),), None)
 
 
 # --- floor plans ------------------------------------------------------------------------------------------------------
@@ -603,7 +603,7 @@ def limits() -> Iterator[Any]:
         *[Start("0"), Start(), Start("0", heading=1.0), Start(0, near)],  # type: ignore[arg-type]
     ]
     for start in starts:
-        yield find_start_fault(start)
+        yield str(checking.find_fault(start, Start))
 
 
 def landmarks() -> Iterator[Any]:

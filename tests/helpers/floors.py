@@ -11,6 +11,7 @@ from math import cos, hypot, pi, radians, sin
 from random import Random
 
 from attrs import define, field
+from views import told
 
 from solepath import (
     Activity,
@@ -25,7 +26,7 @@ from solepath import (
     StrideTaken,
     Vec3,
 )
-from solepath.body.part import Position
+from solepath.body.part import Position, StartGiven
 from solepath.body.place.particles import Particles
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import (
@@ -163,7 +164,7 @@ class Pedestrian:
 
     def known_to(self, part: Method) -> Pedestrian:
         """Set the place of the start and the heading of the track in the part."""
-        part.set_out(Start(self.level, self.place, -self.turned))
+        told(part, StartGiven(Start(self.level, self.place, -self.turned)))
         return self
 
     def here(self) -> Position:

@@ -57,21 +57,19 @@ WALKING_MODES = tuple(name for name in recipes.NAMES if name.startswith(("walkin
 
 @kept
 def worn(route: Route = LEVEL, field: Vec3 = FIELD) -> tuple[Sample, ...]:
-    """Return a walk with everything that a foot can send: inertial sensor, cells, compass, barometer, range.
+    """Return a walk with everything that a foot can send: inertial sensor, cells, compass, barometer.
 
     The right foot's samples lie between those of the left, so that no two are of one time."""
     walker, noise, samples = Walker(route, seed=3), Random(5), []
     for foot, later in zip(Foot, (0.0, 0.5 / RATE), strict=True):
         measured = walker.samples(foot, RATE, LSM6DSOX, layout=layout(24, foot))
         t = np.array([sample.t for sample in measured])
-        moved = {each: walker.kinematics(each, t) for each in Foot}
-        ranges = np.linalg.norm(moved[Foot.LEFT].position - moved[Foot.RIGHT].position, axis=1).tolist()
+        moved = walker.kinematics(foot, t)
         for k, sample in enumerate(measured):
-            place, attitude = moved[foot].position[k].tolist(), tuple(moved[foot].attitude[k].tolist())
+            place, attitude = moved.position[k].tolist(), tuple(moved.attitude[k].tolist())
             air = 101_325.0 + PASCALS_PER_METRE * place[2] + noise.gauss(0.0, 1.0)
-            apart = ranges[k] if foot is Foot.RIGHT and k % 2 else None
             mag, at = rotate_back(attitude, field), sample.t + later
-            samples.append(evolve(sample, t=at, known_at=at, mag=mag, air_pressure=air, range=apart))
+            samples.append(evolve(sample, t=at, known_at=at, mag=mag, air_pressure=air))
     return tuple(sorted(samples, key=lambda sample: sample.t))
 
 

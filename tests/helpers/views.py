@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from solepath.body.part import Part
+from solepath.body.part import Part, PartInput
 from solepath.events import Event, StrideTaken
 from solepath.foot.tracker import FootTracker
 from solepath.foot.view import FootView
@@ -17,14 +17,16 @@ def seen(tracker: FootTracker, sample: Sample, events: Iterable[Event], other: f
     known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
     event_tuple = tuple(events)
     stride = any(isinstance(event, StrideTaken) for event in event_tuple)
-    return tracker.view(sample, known_at, event_tuple, stride, other)
+    return tracker.view(sample, known_at, bool(event_tuple), stride, other)
 
 
 def fed(
     part: Part, tracker: FootTracker, sample: Sample, events: Sequence[Event], other: float | None = None
 ) -> list[Any]:
     """Return the outputs of a part for a sample of a foot and its events."""
-    outputs = [*part.feed(seen(tracker, sample, events, other))] if part.needs_samples else []
-    for event in events:
-        outputs += part.receive(event)
-    return outputs
+    return [*part.feed(events, seen(tracker, sample, events, other))] if events or part.needs_samples else []
+
+
+def told(part: Part, *events: PartInput) -> list[Any]:
+    """Return the outputs of a part for events that no sample brought."""
+    return [*part.feed(events, None)]

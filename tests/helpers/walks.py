@@ -29,11 +29,10 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Start
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.navigate.error_state import ErrorStateFilter
-from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance
 from solepath.foot.stance.cycle import Cycle
-from solepath.foot.stance.pressure import MaximumPressure, TwoArea
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.link.decoder import Decoder
+from solepath.papers.kupt_dfpc.known_velocity import KnownVelocity
 from solepath.recipes import DEFAULT, Recipe
 from solepath.saving import codec
 from solepath.session import Session
@@ -182,12 +181,11 @@ def machines() -> dict[str, Machine]:
     all_machines = [_session(name, items) for name, items in packets().items()]
     all_machines += [_decoder(name, items) for name, items in packets().items()]
     all_machines += [_session("samples", samples(cells=0)), _session("samples with pressure", samples())]
-    for detector in (ShoeDetector(), AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
-        name = type(detector).__name__
-        items = pressed if isinstance(detector, TwoArea | MaximumPressure) else plain
-        all_machines.append(_session(name, items, Recipe(name, detector, ErrorStateFilter())))
+    all_machines.append(_session("ShoeDetector", plain, Recipe("shoe", ShoeDetector(), ErrorStateFilter())))
     all_machines.append(_session("LinearDedrift", plain, Recipe("LinearDedrift", Cycle(), LinearDedrift())))
-    all_machines.append(_session("LinearDedrift with pressure", pressed, Recipe("pressed", TwoArea(), LinearDedrift())))
+    all_machines.append(
+        _session("LinearDedrift with pressure", pressed, Recipe("pressed", KnownVelocity(), LinearDedrift()))
+    )
     for name in RECIPES:
         all_machines.append(_session(name, packets()["few frames"], recipes.by_name(name)))
     all_machines.append(_session("seven sites", suited(), recipes.by_name("walking-modes")))
@@ -275,11 +273,6 @@ SAMPLE_NAMES = tuple(
         "samples",
         "samples with pressure",
         "ShoeDetector",
-        "AngularRate",
-        "MovingVariance",
-        "Graph",
-        "TwoArea",
-        "MaximumPressure",
         "LinearDedrift",
         "LinearDedrift with pressure",
         "seven sites",
@@ -303,11 +296,6 @@ SELDOM = {
     "shoe-sensing-printed",
     "acceleration-magnitude",
     "cc2541 at 20 Hz",
-    "AngularRate",
-    "MovingVariance",
-    "Graph",
-    "TwoArea",
-    "MaximumPressure",
     "LinearDedrift with pressure",
 }
 """Recipes, devices and detectors that share all but a part or a setting with another one."""

@@ -33,7 +33,6 @@ EXAMPLES_OF_A_KIND = {
     "solepath.fleet.spark",
     "solepath.foot.attitude",
     "solepath.foot.stance.cycle",
-    "solepath.foot.stance.pressure",
     "solepath.link.devices.insole",
     "solepath.papers.kupt_dfpc.noise",
     "solepath.wire.receiver",

@@ -41,7 +41,7 @@ def test_the_parts_of_the_page_work_together_and_go_on_from_a_snapshot() -> None
         exec(compile("\n".join(below(name)), f"architecture.md, {name}", "exec", dont_inherit=True), page)
     session = page["session"]
     assert isinstance(session, Session)
-    session._state.wearer.parts[-1].distance = dict.fromkeys(solepath.Foot, 99.0)  # type: ignore[attr-defined]
+    session._state.parts[-1].distance = dict.fromkeys(solepath.Foot, 99.0)  # type: ignore[attr-defined]
     events = session.feed(samples(cells=0))
     assert len([event for event in events if isinstance(event, StrideTaken)]) > 4
     assert [type(event).__name__ for event in events].count("HundredMetres") == 2

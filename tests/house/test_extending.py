@@ -43,7 +43,7 @@ def test_a_corrector_and_cues_of_ones_own_keep_their_promises_and_find_the_walk(
         assert last.startswith(f"{steps(10)} {what}")
 
 
-@pytest.mark.parametrize("what", ["default", "no rolling foot", "stance by cells", "mean of both feet"])
+@pytest.mark.parametrize("what", ["default", "no rolling foot", "mean of both feet"])
 def test_each_recipe_of_the_page_finds_the_walk(what: str) -> None:
     truth = emulate(Route().stand(2).walk(6, speed=1.3).stop(1), seed=1).truth
     (line,) = [line for line in output(RECIPE) if line.startswith(what)]

@@ -25,7 +25,7 @@ from solepath.emulate.routes.route import Route
 MODULES = (
     "types/plain.py", "types/records.py", "types/vector.py", "foot/settings.py", "foot/phase.py", "foot/view.py",
     "foot/stance/stance.py", "foot/stance/cycle.py", "foot/stance/shoe.py", "foot/navigate/corrector.py",
-    "foot/navigate/strapdown.py", "session/wearer.py", "body/part.py",
+    "foot/navigate/strapdown.py", "session/state.py", "body/part.py",
 )  # fmt: skip
 """Modules of classes that derive from protocols, are frozen, are made at every sample, or hold the state of others."""
 PACKETS = insoles(Route().stand(2.0).walk(15.0, 1.3).stop(2.0), seed=4).packets

@@ -259,38 +259,7 @@ receiver/position : 0000803f 01 0000000000000000 0000000000000000
 0 | f32 | sigma | v |  | 1e-45 <= v <= 10000.0
 32 | u8 |  |  |  | =
 40 | f64 | position.0 | v |  | -1e6 <= v <= 1e6
-104 | f64 | position.1 | v |  | -1e6 <= v <= 1e6
-
-rsc/measurement : 03 0000 00 0000 00000000
-0 | u2 |  |  |  | v == 3 | oversized if 0 <= v <= 2 else malformed
-2 | u1 | running | v
-3 | u5 | reserved | v
-8 | u16 | speed | v / 256
-24 | u8 | cadence | v
-32 | u16 | stride_length | v / 100
-48 | u32 | distance | v / 10
-
-rsc/feature : 0000
-0 | u1 | stride_length | v
-1 | u1 | distance | v
-2 | u1 | running | v
-3 | u1 | calibration | v
-4 | u1 | locations | v
-5 | u11 | reserved | v
-
-rsc/control : 01 00000000
-0 | u8 |  |  |  | =
-8 | u32 | value | v
-
-rsc/control : 03 00
-0 | u8 |  |  |  | =
-8 | u8 | value | v
-
-rsc/response : 10 00 01 00 <
-0 | u8 |  |  |  | v == 16
-8 | u8 | operation | v
-16 | u8 | result | v |  | 1 <= v <= 4
-24 | u8 | locations.0 | v"""
+104 | f64 | position.1 | v |  | -1e6 <= v <= 1e6"""
 REASONS = {one.name.lower(): one.value for one in Rejection}
 NAMES = {"g": 9.80665, "deg": pi / 180.0, "uT": 1e-6, "inf": inf, **REASONS}
 """Names in the table: units in SI units, and reasons."""
@@ -387,8 +356,6 @@ FIELDS = fields()
 
 def received(field: Field, data: bytes) -> list[Any]:
     """Return what a receiver gives for the value and those before and after it, until the stream is silent."""
-    if field.channel.startswith("rsc/"):
-        return [FORMATS[field.channel.replace("/", "-")].parse(data)]
     site = Site.RIGHT_FOOT if "site right" in field.options else Site.LEFT_FOOT
     decoder, output = Decoder(site), []
     for item in (field.before, None, field.after):

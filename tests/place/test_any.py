@@ -25,6 +25,7 @@ from floors import (
 )
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from views import told
 from walks import insoles
 
 from solepath import (
@@ -39,7 +40,7 @@ from solepath import (
     Session,
     recipes,
 )
-from solepath.body.part import Position
+from solepath.body.part import Position, StartGiven
 from solepath.body.place.particles import Particles
 from solepath.body.place.place_hypotheses import PlaceSettings
 from solepath.floorplan.index import IndexedPlan
@@ -97,7 +98,7 @@ STARTS = st.one_of(
 def test_any_events_and_any_track_give_sound_events_and_no_exception(method, start, updates) -> None:  # type: ignore[no-untyped-def]
     part = method(PlaceSettings(max_rows=60))
     if start is not None:
-        part.set_out(start)
+        told(part, StartGiven(start))
     for events, t, position in updates:
         here = Position(t, position, (0.0,) * 6)  # type: ignore[arg-type]
         received = part.follow(indexed_office(), events, here)
@@ -153,7 +154,7 @@ def test_a_start_outside_of_the_plan_is_reported_once_and_the_wearer_is_found_la
     pedestrian.step(-0.1, 0.0)
     pedestrian.ride("0")
     pedestrian.walk(beside(pedestrian.place), (RIGHT, LOW), (RIGHT, HIGH))
-    part.set_out(start)
+    told(part, StartGiven(start))
     events = follow(part, pedestrian.received)
     assert len(lost(events)) == 1 and lost(events)[0].startswith(reason)
     assert part.place is not None and part.place.level == "0"
@@ -219,4 +220,4 @@ def square(side: float) -> FloorPlan:
 def test_a_start_of_what_is_no_number_is_the_callers_mistake() -> None:
     for start in (Start("0", (10.0, LOW), nan), Start("0", (nan, LOW)), Start("0", (10.0, LOW), 0.0, inf)):
         with pytest.raises(ValueError, match="numbers"):
-            Particles().set_out(start)
+            told(Particles(), StartGiven(start))

@@ -7,8 +7,10 @@ from math import dist, pi
 import pytest
 from floors import LIFTS, LOW, RIGHT, STOREY, Method, Pedestrian, beside, follow, placed, round_to, tour
 from soak import soaked
+from views import told
 
 from solepath import Event, LiftRidden, PlanContradicted, Start
+from solepath.body.part import StartGiven
 
 SEEDS = range(1, 5)
 LIFT = LIFTS["lift south"]
@@ -44,7 +46,7 @@ def test_a_first_heading_that_was_wrong_is_reported_once_with_the_angle_to_add(p
     new, found = type(part), []
     for seed in SEEDS:
         pedestrian, one = tour(seed), new()
-        one.set_out(Start(heading=-pedestrian.turned + off))
+        told(one, StartGiven(Start(heading=-pedestrian.turned + off)))
         events = contradicted(follow(one, pedestrian.received))
         assert len(events) <= 1
         found += [event for event in events if event.heading_off == pytest.approx(-off, abs=0.35)]
@@ -55,7 +57,7 @@ def test_a_first_heading_that_was_wrong_is_reported_once_with_the_angle_to_add(p
 def test_a_first_heading_that_was_right_is_not_reported(part: Method) -> None:
     for seed in SEEDS:
         pedestrian, one = tour(seed), type(part)()
-        one.set_out(Start(heading=-pedestrian.turned + 0.1))
+        told(one, StartGiven(Start(heading=-pedestrian.turned + 0.1)))
         assert not contradicted(follow(one, pedestrian.received))
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import pytest
 from floors import LOW, RIGHT, Method, Pedestrian, follow, lost, placed, tour
+from views import told
 
 from solepath import Session, Start, read_floorplan
+from solepath.body.part import StartGiven
 from solepath.floorplan.plan import FloorPlanError
 
 SEEDS = range(1, 4)
@@ -15,7 +17,7 @@ def decided(part: Method, seed: int, off: float | None) -> int:
     """Return the number of places until one candidate was left, with a first heading that is `off` by so much, rad."""
     pedestrian = tour(seed)
     if off is not None:
-        part.set_out(Start(heading=-pedestrian.turned + off))
+        told(part, StartGiven(Start(heading=-pedestrian.turned + off)))
     places = placed(follow(part, pedestrian.received))
     return next((k for k, place in enumerate(places) if len(place.candidates) == 1), len(places))
 
@@ -27,7 +29,7 @@ def test_with_the_heading_fewer_strides_decide_where_the_wearer_is(part: Method)
 
 
 def test_a_heading_alone_is_no_place_before_the_first_stairs_or_lift(part: Method) -> None:
-    part.set_out(Start(heading=1.0))
+    told(part, StartGiven(Start(heading=1.0)))
     pedestrian = Pedestrian(7, "0", (12.0, LOW))
     pedestrian.walk((RIGHT, LOW))
     events = follow(part, pedestrian.received)

@@ -8,15 +8,14 @@ from pathlib import Path
 import commands
 import pytest
 from floors import office
+from plan_files import format_floorplan
 from programs import emulator, run
-
-from solepath.floorplan.importers.geojson import write_floorplan
 
 
 @pytest.mark.long
 def test_live_prints_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> None:
     plan, out_directory = tmp_path / "office.geojson", tmp_path / "out"
-    write_floorplan(plan, office())
+    plan.write_text(format_floorplan(office()))
     with emulator("--distance", 20) as (_, where):
         options = ["--floorplan", plan, "--start", "0,9,6.2,0", "--out", out_directory, "--duration", 12]
         result = run("live", "--via", where, *options)
@@ -28,6 +27,6 @@ def test_live_prints_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> 
 
 def test_live_rejects_a_start_outside_of_the_plan_before_it_connects(tmp_path: Path) -> None:
     plan = tmp_path / "office.geojson"
-    write_floorplan(plan, office())
+    plan.write_text(format_floorplan(office()))
     result = commands.run("live", "--floorplan", plan, "--start", "7,1,1", "--via", "tcp:127.0.0.1:1")
     assert result.returncode == 2 and "the plan has no level '7'" in result.stderr

@@ -11,14 +11,16 @@ from xml.etree import ElementTree
 import pytest
 from commands import run, run_failing
 from floors import Pedestrian, follow, indexed_office, office, tour
+from plan_files import format_floorplan
 from recordings import recorded
+from views import told
 from walks import insoles
 
+from solepath.body.part import StartGiven
 from solepath.body.place.particles import Particles
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
 from solepath.emulate import Route
-from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall, with_rooms
 from solepath.show.places import PlaceCounts
 from solepath.show.tables.plan import PlanPicture
@@ -30,7 +32,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 def pictured(plan: FloorPlan, one: Pedestrian, start: Start | None = None) -> ElementTree.Element:
     part, picture = Particles(), PlanPicture(plan)
     if start is not None:
-        part.set_out(start)
+        told(part, StartGiven(start))
     for event in follow(part, one.received):
         picture.add(event)
     return ElementTree.fromstring(ElementTree.tostring(picture.drawn("a tour <of two> floors & a lift")))
@@ -80,7 +82,7 @@ def hall(tmp_path_factory: pytest.TempPathFactory) -> Path:
         with_rooms(Level(str(k), f"floor {k}", k, 3.0 * k, walls), [(tuple(corners), f"hall {k + 1}")]) for k in (0, 1)
     )
     stops = tuple(ConnectorStop(level.id, (28.0, 18.0)) for level in levels)
-    write_floorplan(path, FloorPlan("hall", levels, (Connector(ConnectorKind.STAIRS, "stairs", stops),)))
+    path.write_text(format_floorplan(FloorPlan("hall", levels, (Connector(ConnectorKind.STAIRS, "stairs", stops),))))
     return path
 
 

@@ -6,8 +6,10 @@ from math import cos, dist, hypot, inf, sin
 
 import pytest
 from floors import HIGH, LOW, RIGHT, Method, Pedestrian, follow, indexed_office, lost, placed
+from views import told
 
 from solepath import Session, Site
+from solepath.body.part import StartGiven
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.ways import corridor
 from solepath.emulate.walk import sampled
@@ -26,7 +28,7 @@ def off(part: Method, place: Point) -> float:
 def test_a_report_finds_a_wearer_without_a_start(part: Method) -> None:
     part.plan = indexed_office()
     pedestrian = Pedestrian(3, "0", (12.0, LOW))
-    assert not part.receive(reported(0.0, pedestrian.place))
+    assert not told(part, reported(0.0, pedestrian.place))
     pedestrian.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
     events = follow(part, pedestrian.received)
     assert lost(events) == [] and off(part, pedestrian.place) < 1.0
@@ -36,11 +38,11 @@ def test_a_report_finds_a_wearer_without_a_start(part: Method) -> None:
 def test_a_report_decides_between_places_that_walls_cannot(part: Method) -> None:
     pedestrian = Pedestrian(4, "0", (12.0, LOW))
     part.plan = indexed_office()
-    part.set_out(Start("0", (14.0, LOW), None, 6.0))
+    told(part, StartGiven(Start("0", (14.0, LOW), None, 6.0)))
     pedestrian.walk((16.0, LOW))
     follow(part, pedestrian.received)
     assert part.place is not None and (before := part.place.spread) > 1.5
-    assert not part.receive(reported(pedestrian.t, pedestrian.place, 0.5))
+    assert not told(part, reported(pedestrian.t, pedestrian.place, 0.5))
     pedestrian.received.clear()
     pedestrian.walk((17.0, LOW))
     follow(part, pedestrian.received)
@@ -52,16 +54,16 @@ def test_a_place_where_the_track_cannot_have_led_is_rejected_and_a_second_one_is
     part.plan = indexed_office()
     pedestrian.walk((20.0, LOW))
     follow(part, pedestrian.received)
-    (rejected,) = part.receive(reported(pedestrian.t, (20.0, HIGH)))
+    (rejected,) = told(part, reported(pedestrian.t, (20.0, HIGH)))
     assert isinstance(rejected, PositionRejected) and rejected.distance > 10.0 and "away" in rejected.what
-    (again,) = part.receive(reported(pedestrian.t, (20.0, HIGH)))
+    (again,) = told(part, reported(pedestrian.t, (20.0, HIGH)))
     assert isinstance(again, PositionRejected), "on the spot it confirms nothing"
     pedestrian.received.clear()
     pedestrian.walk((31.0, LOW))
     follow(part, pedestrian.received)
     assert off(part, pedestrian.place) < 1.0, "one report moves nothing"
     elsewhere = (pedestrian.place[0], pedestrian.place[1] + HIGH - LOW)
-    assert not part.receive(reported(pedestrian.t, elsewhere))
+    assert not told(part, reported(pedestrian.t, elsewhere))
     pedestrian.received.clear()
     pedestrian.walk((34.0, LOW))
     follow(part, pedestrian.received)
@@ -73,7 +75,7 @@ def test_a_place_that_is_not_on_the_plan_is_rejected_with_the_reason(
     part: Method, level: str, place: Point, word: str
 ) -> None:
     part.plan = indexed_office()
-    (rejected,) = part.receive(reported(1.0, place, level=level))
+    (rejected,) = told(part, reported(1.0, place, level=level))
     assert isinstance(rejected, PositionRejected) and word in rejected.what and not part.rows
 
 
@@ -83,7 +85,7 @@ def test_a_revision_of_the_track_moves_nobody_on_the_plan(part: Method) -> None:
     pedestrian.walk((20.0, LOW))
     follow(part, pedestrian.received)
     by, turn = (-9.0, 14.0), 0.7
-    part.receive(TrackRevised(t=pedestrian.t, known_at=pedestrian.t, by=by, turn=turn, nodes=()))
+    told(part, TrackRevised(t=pedestrian.t, known_at=pedestrian.t, by=by, turn=turn, nodes=()))
     x, y, z = pedestrian.track
     pedestrian.track = (x + by[0], y + by[1], z)
     pedestrian.turned += turn

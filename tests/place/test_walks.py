@@ -26,8 +26,10 @@ from floors import (
     round_to,
     tour,
 )
+from views import told
 
 from solepath import Activity, Event
+from solepath.body.part import StartGiven
 from solepath.floorplan.plan import Start
 
 SURE = 0.99
@@ -108,7 +110,7 @@ def test_a_known_start_finds_the_wearer_with_or_without_the_heading(part: Method
     pedestrian = Pedestrian(7, "0", (12.0, LOW))
     start = Start("0", pedestrian.place, -pedestrian.turned if known else None)
     pedestrian.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
-    part.set_out(start)
+    told(part, StartGiven(start))
     result = follow_and_score(part, pedestrian.received)
     assert result.dropped == 0 and lost(result.events) == []
     assert result.errors[-1] <= 1.0
@@ -170,7 +172,7 @@ def test_a_few_steps_that_look_like_stairs_on_level_ground_change_nothing(part: 
 
 def test_a_ride_far_from_the_estimated_place_restarts_the_search(part: Method) -> None:
     pedestrian = Pedestrian(12, "0", (14.0, HIGH))
-    part.set_out(Start("0", (20.0, HIGH), None))  # wrong by 6 m, and far from every lift
+    told(part, StartGiven(Start("0", (20.0, HIGH), None)))  # wrong by 6 m, and far from every lift
     pedestrian.walk((18.0, HIGH))
     pedestrian.place, pedestrian.level = LIFTS["lift east"], "1"
     pedestrian.ride("0")

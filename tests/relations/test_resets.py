@@ -35,7 +35,6 @@ Activities.reset: left* right* apart flights.reset() left.restart() pressure_hei
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now* inputs_kept.clear()
 AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* flights.reset()
-BetweenFeet.reset: usual_width apart
 BiasFilter.forget: before bias* noise rate
 BiasFilter.reset: before bias* noise rate
 BothFeet._restart: common directions distance divergence errors* evidence* left* placements right started width
@@ -65,8 +64,7 @@ Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
 GaitCues.reset: inertial* pressure sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
-GaitCycles.reset: between* idle left* left_progress* left_unsettled right_progress* right_unsettled apart
-  between.reset() means.reset()
+GaitCycles.reset: left* left_progress* left_unsettled right_progress* right_unsettled apart means.reset()
 GaitMeans.reset: running walking_means apart
 InertialCues.reset: axis force impact landing_at lowest_rate moving_since not_turning_at peak_rate sagittal
   swing_start turn
@@ -93,7 +91,8 @@ Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping 
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
 SensorChecks.reset: apart
-SessionState.restart_clock: decoders* now* wearer*
+SessionState.reset: decoders feet* height now parts* sampled* unsettled
+SessionState.restart_clock: decoders* feet* height now* parts* sampled* unsettled
 SharedEvidence.reset: compass* measured_at path straight_ways* compass.reset() straight_ways.reset()
 Sides.reset:
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
@@ -115,7 +114,6 @@ TurnDetector.reset: left* pause right* t_end apart
 Turns.reset: detector* detector.reset()
 TwoSecondWindows.reset: limitation_reported moving_windows
 WalkScale.reset: drift_deviation force stance_deviation strides
-WearerParts.reset: feet* height parts* sampled* unsettled
 """
 """For each class and method the fields that stay, with a * if they change; the resets of its parts that it makes, with
 (); and `apart` where the reset of one foot leaves the other's fields alone.

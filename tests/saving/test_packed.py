@@ -16,7 +16,7 @@ from own import StillDetector
 from walks import LEFT, RIGHT, ROUGH, SHORT, machines, samples
 
 from solepath import Foot, Session, SnapshotError, recipes
-from solepath.body.height.altitude import Altitude
+from solepath.body.altitude import Altitude
 from solepath.body.part import TrackPart
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650

@@ -15,7 +15,7 @@ from here import PROTOCOL
 
 from solepath import Foot, Phase, Session
 from solepath.foot.navigate.error_state import ErrorStateFilter
-from solepath.foot.stance.pressure import TwoArea
+from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude
 from solepath.saving.packed import Lists, identify_record, write
 from solepath.saving.schema import MADE_AGAIN, NOT_SAVED, describe, record_of, schema_checksum
 from solepath.saving.streams import from_bytes, to_bytes
@@ -106,7 +106,7 @@ def test_a_packed_session_names_the_schema_that_the_command_prints(capsys: pytes
     assert (magic, form, version) == (b"sole", 3, printed["version"])
     assert made_with == zlib.crc32(json.dumps(printed["session"], separators=(",", ":")).encode())
     assert check == zlib.crc32(data[:12] + bytes(4) + data[16:])
-    for part, has_state in ((ErrorStateFilter, True), (TwoArea, False)):
+    for part, has_state in ((ErrorStateFilter, True), (AccelerationMagnitude, False)):
         assert identify_record(record_of(part, made=has_state)) in printed["parts"]
     for name, schema in printed["parts"].items():
         assert name.split(" ")[1] == f"{schema_checksum(schema):08x}"

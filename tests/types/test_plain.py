@@ -13,7 +13,7 @@ from solepath.types.plain import has_floats, with_floats  # internal: which samp
 
 numpy = pytest.importorskip("numpy", reason="numpy is not installed")
 SAMPLE = Sample(1.0, Site.PELVIS, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), (7.0, 8), (0.5, 0.5, 0.5, -0.5), (1e-5, 2e-5, 3e-5),
-                1e5, 2.0, True, 0.25)  # fmt: skip
+                1e5, 2.0, True)  # fmt: skip
 NUMBERS = [one.name for one in fields(Sample) if one.name != "site"]
 
 

@@ -11,12 +11,12 @@ from typing import Any
 import pytest
 from browsers import Browser, Window
 from plain_tabs import OPEN_FILE, plain_tab
+from plan_files import format_floorplan
 from scripted_sensors import WALK_AT_ONCE, connect
 from web_pages import PATIENCE, WORDS, open_site, ready
 
 from solepath.emulate.routes.ways import BuildingWalk, case_study
 from solepath.emulate.walk import EmulatedWalk
-from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.lab.reproduce.footstep.wearers import WearerJob
 from solepath.link.devices.cc2541 import PROFILE_20HZ
 from solepath.show.web.serve import serving
@@ -51,7 +51,7 @@ def recorded(text: str) -> int:
 
 def written_plan(folder: Path) -> Path:
     path = folder / "building.geojson"
-    write_floorplan(path, walk()[0].building.plan)
+    path.write_text(format_floorplan(walk()[0].building.plan))
     return path
 
 

@@ -1,8 +1,9 @@
 """The contract of body parts: the parts of a recipe that do not belong to one foot.
 
-A recipe has its parts in a tuple. The output of a foot or of a link reaches the parts in the order of the
-tuple. The output of a part reaches the parts after it, also at the end of a session. Parts never write into a foot. A
-part returns a correction as a value (`Shift`, `HeightShift`, `Replacement`), and the wearer applies it."""
+A recipe has its parts in a tuple. What a foot, a link or a person reports reaches the parts in the order of the tuple,
+by `Part.feed` alone. The output of a part reaches the parts after it, also at the end of a session. Parts never write
+into a foot. A part returns a correction as a value (`Shift`, `HeightShift`, `Replacement`), and the wearer applies
+it."""
 
 from __future__ import annotations
 
@@ -55,10 +56,35 @@ class Replacement:
 class LayoutReported:
     """A notice that the device at a site has reported its cell layout, which is that of a left or a right insole.
 
-    A layout that comes from a calibration is not reported this way."""
+    A layout that comes from a calibration, or that was guessed, is not reported this way."""
 
     site: Site
     layout: Layout
+
+
+@frozen
+class ClockUnsettled:
+    """A notice that the times of a site cannot be compared with those of other sites yet (link/clock.py).
+
+    It comes with each packet as long as the clock of the site's device is not settled, and once when it is."""
+
+    site: Site
+    until: float | None
+    """Time up to which the times of the site cannot be compared, s; None when all can."""
+
+
+@frozen
+class StartGiven:
+    """A notice of the wearer's first place on the floor plan, before any sample, if the app gives one."""
+
+    start: Start
+
+
+@frozen
+class LimbSampled:
+    """A notice of a sample from above the ankle; only a part that names its site in `Part.sites` receives it."""
+
+    sample: Sample
 
 
 @frozen
@@ -81,8 +107,10 @@ class Position:
 
 PartOutput = Happening | Shift | HeightShift | Replacement
 """Everything that a part may return: corrections and events, including events of an app."""
-PartInput = Event | LayoutReported
-"""Everything that a part may receive: events, and reported layouts."""
+Notice = LayoutReported | ClockUnsettled | StartGiven | LimbSampled
+"""What parts are told and an app is not."""
+PartInput = Event | Notice
+"""Everything that a part may receive."""
 MOVEMENTS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
 """Events after which the wearer's position is given to the parts that follow (`Part.needs_position`)."""
 
@@ -90,65 +118,50 @@ MOVEMENTS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
 class Part(Protocol):
     """A body part that does nothing: derive a plain record (`@define`) from it and override its methods.
 
-    For each sample of a foot, a part first gets the foot's view, if it declares `needs_samples`, and then every event
-    of that sample, from the foot and from the parts before. Times are in s. No method may raise an exception for any
-    input, use memory that grows with time, or read a clock or random numbers."""
+    Times are in s. No method may raise an exception for any input, use memory that grows with time, or read a clock or
+    random numbers."""
 
     __slots__ = ()
 
     needs_samples: ClassVar[bool] = False
-    """Flag: the part needs the samples of the feet, so `feed` is called."""
+    """Flag: the part needs the samples of the feet, so `feed` is called for samples without events too."""
     idle: bool = False
-    """Flag: `feed` is not called for a sample with neither events nor air pressure, because it would do nothing.
+    """Flag: a sample with neither events nor air pressure would do nothing, so `feed` is not called for it.
 
-    It is either always true, or a field that changes only in `receive`, `reset` and `feed`."""
+    It is either always true, or a field that changes only in `feed` and `reset`."""
     sites: ClassVar[tuple[Site, ...]] = ()
-    """Sites of limbs whose samples the part needs, so `feed_limb` is called."""
+    """Sites of limbs whose samples the part needs, each as a `LimbSampled`."""
     needs_position: ClassVar[bool] = False
-    """Flag: the part needs the wearer's position (WearerMoved) after each event of `MOVEMENTS`."""
+    """Flag: WearerMoved with the wearer's position comes after the events, if one of `MOVEMENTS` is among them."""
 
     def calibrated(self, calibration: Calibration) -> Self:
         """Return the part for a wearer with this calibration; called once, before any other method."""
         return self
 
-    def headed(self, heading: float) -> Self | None:
+    def ready(self) -> None:
+        """Load the files that the part needs; called for a new wearer and for a wearer restored from a saved state.
+
+        `feed` must import nothing and open no file, but for what the first sample or event of a new kind needs (a
+        compass, a reported position)."""
+        return
+
+    def with_heading(self, heading: float) -> Self | None:
         """Return the part for a wearer who starts with this heading, rad, left positive, in the world of all sensors.
 
         None if the part has no use for it."""
         return None
 
-    def ready(self) -> None:
-        """Load the files that the part needs; called for a new wearer and for a wearer restored from a saved state.
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        """Take the events that became known, in their order, and return the outputs that follow from them.
 
-        `feed` and `receive` must import nothing and open no file, but for what the first sample or event of a new kind
-        needs (a compass, a reported position)."""
-        return
-
-    def set_out(self, start: Start) -> None:
-        """Take the wearer's first place on the floor plan; called once, before any sample, if the app gives one."""
-        return
-
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive an event or a notice and return the outputs that follow from it."""
-        return ()
-
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Take the view of a foot after a sample and return the outputs that follow from it."""
-        return ()
-
-    def feed_limb(self, sample: Sample) -> Sequence[PartOutput]:
-        """Take a sample of one of `sites` and return the outputs that follow from it."""
+        The events of the parts before are among them. `view` is that of the foot after the sample that brought them;
+        None for events that no sample brought, as those of a link or a person. A sample without events is fed to parts
+        that need samples and are not idle."""
         return ()
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return the outputs that were held back, because the data ends at `now`, s."""
         return ()
-
-    def unsettle(self, site: Site, until: float | None) -> None:
-        """Take the time up to which times of a site cannot be compared with those of others, s; None when all can.
-
-        Called with each packet as long as the clock of the site's device is not settled (link/clock.py)."""
-        return
 
     def reset(self, site: Site) -> None:
         """Reset what depends on the clock or the device of a site, because one of them has changed."""

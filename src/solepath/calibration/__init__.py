@@ -1,4 +1,4 @@
-"""Calibration of wearer, shoes, insoles and sensors: records; their limits, file and merging are modules."""
+"""Calibration of wearer, shoes, insoles and sensors: its records, and its files (file.py)."""
 
 from .records import (
     Calibration,

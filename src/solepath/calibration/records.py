@@ -4,8 +4,15 @@ All of it is optional: a session without a calibration uses defaults and what it
 
 from __future__ import annotations
 
+from typing import Any
+
 from ..types import Foot, Layout, Sample, Vec3, WalkingMode
-from ..types.attrs import evolve, field, frozen
+from ..types.attrs import COUNT, evolve, field, fields, frozen, limits
+
+MAX_CELLS = 4096
+"""Largest number of cells of an insole."""
+MAX_TILT = 0.3
+"""Largest error of the scale of a sensor, and largest share of one axis in another."""
 
 
 class CalibrationError(ValueError):
@@ -18,12 +25,16 @@ class Newtons:
 
     It is fitted to measurements with a force gauge (Gong et al. 2023, Sensors 23, 5417, fig. 6)."""
 
-    coefficients: tuple[float, float, float, float]
+    coefficients: tuple[float, float, float, float] = field(metadata=limits(-1e12, 1e12))
     """Coefficients a, b, c2 and c3, N per power of the raw value."""
-    threshold: float = 5.0
+    threshold: float = field(default=5.0, metadata=limits(0.0, 1e5, "N"))
     """Force below which the result is 0, N."""
-    most: float = 200.0
+    most: float = field(default=200.0, metadata=limits(0.001, 1e5, "N"))
     """Largest force, N: the result for every force above it."""
+
+    def contradiction(self) -> str | None:
+        """Return what is wrong with the two forces (types/checking.py)."""
+        return " has a threshold that is more than its most" if self.threshold > self.most else None
 
 
 @frozen
@@ -34,9 +45,18 @@ class InsoleCalibration:
     """Positions of the cells, for devices and files that do not send them."""
     newtons: Newtons | None = None
     """Conversion of raw values to N; None when the values stay in their own unit."""
-    noise: tuple[float, ...] = ()
+    noise: tuple[float, ...] = field(default=(), metadata=limits(0.0, 1e6))
     """Value of each unloaded cell, in N if there are `newtons`, otherwise in the unit of the samples (Chen et al. 2019,
     equation (1))."""
+
+    def contradiction(self) -> str | None:
+        """Return what is wrong with the number of cells."""
+        count = 1 if self.layout is None else len(self.layout.cells)
+        return None if 1 <= count <= MAX_CELLS else f".layout has {count} cells; it can have 1 to {MAX_CELLS}"
+
+
+POLYNOMIAL = {COUNT: (1, 16), **limits(-100.0, 100.0)}
+"""Limits of a polynomial of a shoe: the number of its coefficients, and each of them."""
 
 
 @frozen
@@ -50,16 +70,35 @@ class ShoeGeometry:
     is the line where plane and ground meet: L_r = 0.070 + R tan(p/2) and L_p2t = 0.090 - R p + R tan(p/2), m, exactly.
     The series p/2 + p^3/24 + p^5/240 + ... of tan(p/2) makes them polynomials, to 0.2 mm up to `steepest`."""
 
-    heel_radius: float = 0.125
+    heel_radius: float = field(default=0.125, metadata=limits(0.001, 1.0, "m"))
     """Radius L_r of the heel, from its rear end to the point of the sole below the sensor, m."""
-    height: float = 0.029
+    height: float = field(default=0.029, metadata=limits(0.0, 1.0, "m"))
     """Height H_imu of the sensor above that point of the sole, m."""
-    forefoot_radius: tuple[float, ...] = (0.070, 0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0)
+    forefoot_radius: tuple[float, ...] = field(
+        default=(0.070, 0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0), metadata=POLYNOMIAL
+    )
     """Radius L_r of the forefoot, m, as a polynomial of the pitch (rad, heel up positive), constant first."""
-    pivot_to_toe: tuple[float, ...] = (0.090, -0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0)
+    pivot_to_toe: tuple[float, ...] = field(
+        default=(0.090, -0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0), metadata=POLYNOMIAL
+    )
     """Distance L_p2t of the forefoot, m, as a polynomial of the pitch (rad, heel up positive), constant first."""
-    steepest: float = 1.3
+    steepest: float = field(default=1.3, metadata=limits(0.01, 1.6, "rad"))
     """Largest pitch for which the polynomials hold, rad; the smallest is 0."""
+
+    def contradiction(self) -> str | None:
+        """Return which polynomial gives a length above 1 m at one of five pitches to `steepest`."""
+        for name, polynomial in (("forefoot_radius", self.forefoot_radius), ("pivot_to_toe", self.pivot_to_toe)):
+            for k in range(5):
+                pitch, length = 0.25 * k * self.steepest, 0.0
+                for coefficient in reversed(polynomial):
+                    length = length * pitch + coefficient
+                if abs(length) > 1.0:
+                    return f".{name} is {length:g} m at {pitch:.2g} rad; it can be -1 to 1 m"
+        return None
+
+
+LIMB = limits(0.001, 1.5, "m")
+"""Limits of the length of a limb."""
 
 
 @frozen
@@ -72,15 +111,15 @@ class Limbs:
     joints. The anterior iliac spines are 0.24 m apart, and each joint lies inward of its spine by 14 % of that distance
     (Bell, Brand and Pedersen 1989, Human Movement Science 8)."""
 
-    hip_width: float = 0.173
+    hip_width: float = field(default=0.173, metadata=LIMB)
     """Distance between the hip joints, m."""
-    thigh: float = 0.429
+    thigh: float = field(default=0.429, metadata=LIMB)
     """Length of the thigh, m."""
-    shank: float = 0.431
+    shank: float = field(default=0.431, metadata=LIMB)
     """Length of the shank, m."""
-    foot: float = 0.200
+    foot: float = field(default=0.200, metadata=LIMB)
     """Length from below the ankle to the end of the foot, m."""
-    ankle_height: float = 0.068
+    ankle_height: float = field(default=0.068, metadata=LIMB)
     """Height of the ankle above the ground, m."""
 
 
@@ -91,13 +130,13 @@ class HeadingCalibration:
     The errors of a gyroscope turn the track by nearly the same angle in every stride, and by a share of every turn.
     They belong to this sensor on this shoe of this wearer. Standard deviations include what changes from day to day."""
 
-    drift: float
+    drift: float = field(metadata=limits(-0.05, 0.05, "rad"))
     """Angle by which the track must be turned in a usual stride, rad, positive to the left."""
-    turning: float
+    turning: float = field(metadata=limits(-0.1, 0.1))
     """Angle by which the track must be turned for a turn of 1 rad, no unit."""
-    drift_sigma: float
+    drift_sigma: float = field(metadata=limits(1e-6, 0.05, "rad"))
     """Standard deviation of `drift` on another day, rad."""
-    turning_sigma: float
+    turning_sigma: float = field(metadata=limits(1e-6, 0.2))
     """Standard deviation of `turning` on another day, no unit."""
 
 
@@ -105,15 +144,15 @@ class HeadingCalibration:
 class RestNoise:
     """Noise of one sensor at rest (`solepath calibrate rest`), for the filter of Bebek et al. 2010."""
 
-    acc_density: float
+    acc_density: float = field(metadata=limits(1e-6, 1.0, "m/s^2/sqrt(Hz)"))
     """Density of the accelerometer's white noise, m/s^2/sqrt(Hz), as in data sheets."""
-    acc_wander: float
+    acc_wander: float = field(metadata=limits(0.0, 0.1, "m/s^2/sqrt(s)"))
     """Standard deviation by which the accelerometer's bias changes in one second, m/s^2/sqrt(s)."""
-    gyro_density: float
+    gyro_density: float = field(metadata=limits(1e-7, 0.1, "rad/s/sqrt(Hz)"))
     """Density of the gyroscope's white noise, rad/s/sqrt(Hz)."""
-    gyro_wander: float
+    gyro_wander: float = field(metadata=limits(0.0, 0.01, "rad/s/sqrt(s)"))
     """Standard deviation by which the gyroscope's bias changes in one second, rad/s/sqrt(s)."""
-    rate: float
+    rate: float = field(metadata=limits(1.0, 10_000.0, "Hz"))
     """Sampling rate of the recording, Hz."""
 
 
@@ -121,13 +160,13 @@ class RestNoise:
 class TriadCalibration:
     """Correction of a three-axis sensor: the true values are `matrix` times (reading - `bias`)."""
 
-    matrix: tuple[float, ...]
+    matrix: tuple[float, ...] = field(metadata={COUNT: (9, 9), **limits(-MAX_TILT, 1.0 + MAX_TILT)})
     """Nine elements, row by row, no unit."""
-    bias: Vec3
+    bias: Vec3 = field(metadata=limits(-5.0, 5.0, "m/s^2"))
     """Reading where the true value is 0, m/s^2 or rad/s."""
-    matrix_sigma: tuple[float, ...]
+    matrix_sigma: tuple[float, ...] = field(metadata={COUNT: (9, 9), **limits(0.0, 0.1)})
     """Standard deviations of `matrix`, no unit."""
-    bias_sigma: Vec3
+    bias_sigma: Vec3 = field(metadata=limits(0.0, 5.0, "m/s^2"))
     """Standard deviations of `bias` on the day of the calibration, m/s^2 or rad/s."""
 
     def correct(self, reading: Vec3) -> Vec3:
@@ -135,6 +174,14 @@ class TriadCalibration:
         (a, b, c), (xx, xy, xz, yx, yy, yz, zx, zy, zz) = self.bias, self.matrix
         x, y, z = reading[0] - a, reading[1] - b, reading[2] - c
         return xx * x + xy * y + xz * z, yx * x + yy * y + yz * z, zx * x + zy * y + zz * z
+
+    def contradiction(self) -> str | None:
+        """Return which element of `matrix` is too far from that of a sensor without errors."""
+        for k, value in enumerate(self.matrix):
+            least, most = (1.0 - MAX_TILT, 1.0 + MAX_TILT) if k % 4 == 0 else (-MAX_TILT, MAX_TILT)
+            if not least <= value <= most:
+                return f".matrix[{k}] is {value:g}; it can be {least:g} to {most:g}"
+        return None
 
 
 @frozen
@@ -151,6 +198,11 @@ class SensorCalibration:
         acc, gyro = sample.acc, sample.gyro
         return evolve(sample, acc=acc and self.acc.correct(acc), gyro=gyro and self.gyro.correct(gyro))
 
+    def contradiction(self) -> str | None:
+        """Return what is wrong with the bias of the gyroscope, which is smaller than that of an accelerometer."""
+        largest = max(map(abs, (*self.gyro.bias, *self.gyro.bias_sigma)))
+        return None if largest <= 1.0 else f".gyro has a bias or bias_sigma of {largest:g}; it can be up to 1 rad/s"
+
 
 @frozen
 class Calibration:
@@ -160,16 +212,18 @@ class Calibration:
     """Calibrations of the insoles by foot."""
     shoe: ShoeGeometry | None = None
     """Geometry of the shoes."""
-    drift: dict[Foot, tuple[float, float]] = field(factory=dict)
+    drift: dict[Foot, tuple[float, float]] = field(factory=dict, metadata=limits(-1.0, 1.0, "m/s"))
     """Rate at which the position of each foot drifts, (x, y), m/s, world frame of a device that sends its attitude, or
     else navigation frame, so that it holds for walks that start with the heading of the calibration."""
     limbs: Limbs | None = None
     """Lengths of the wearer's lower limbs."""
-    weight: float | None = None
+    weight: float | None = field(default=None, metadata=limits(50.0, 5000.0, "N"))
     """Weight of the wearer, N."""
-    modes: dict[Foot, dict[WalkingMode, tuple[float, float]]] | None = None
+    modes: dict[Foot, dict[WalkingMode, tuple[float, float]]] | None = field(
+        default=None, metadata=limits(-0.5, 0.5, "m")
+    )
     """Compensation of a touchdown by foot and walking mode, (forward, left), m."""
-    toe_out: dict[Foot, float] = field(factory=dict)
+    toe_out: dict[Foot, float] = field(factory=dict, metadata=limits(-1.0, 1.0, "rad"))
     """Angle from the direction of walking to each foot's long axis, outwards positive, rad (Liu et al. 2015, equation
     (1))."""
     headings: dict[Foot, HeadingCalibration] = field(factory=dict)
@@ -182,3 +236,33 @@ class Calibration:
     def insole(self, foot: Foot) -> InsoleCalibration:
         """Return the calibration of this foot's insole, or an empty one."""
         return self.insoles.get(foot, InsoleCalibration())
+
+
+def merged(known: Calibration, newer: Calibration) -> Calibration:
+    """Return `known` with its values replaced by those that `newer` has, field by field and insole by insole.
+
+    Known noise is discarded when `newer` changes the conversion to newtons, because it was measured in another unit. So
+    are a foot's heading and drift when its sensor is corrected otherwise, because they are what its errors caused."""
+    stale = stale_feet(known, newer)
+    values: dict[str, Any] = {}
+    for one in fields(Calibration):
+        old, new = getattr(known, one.name), getattr(newer, one.name)
+        if one.name == "insoles":
+            new = {foot: _merged_insoles(known.insole(foot), insole) for foot, insole in new.items()}
+        if one.name in ("headings", "drift"):
+            old = {foot: value for foot, value in old.items() if foot not in stale}
+        if one.default is None:
+            values[one.name] = new or old
+        else:  # values by foot
+            values[one.name] = {foot: (old | new)[foot] for foot in Foot if foot in old | new}
+    return Calibration(**values)
+
+
+def _merged_insoles(known: InsoleCalibration, newer: InsoleCalibration) -> InsoleCalibration:
+    noise = known.noise if newer.newtons in (None, known.newtons) else ()
+    return InsoleCalibration(newer.layout or known.layout, newer.newtons or known.newtons, newer.noise or noise)
+
+
+def stale_feet(known: Calibration, newer: Calibration) -> list[Foot]:
+    """Return the feet whose sensor `newer` corrects otherwise than `known`."""
+    return [foot for foot, sensor in newer.sensors.items() if known.sensors.get(foot) != sensor]

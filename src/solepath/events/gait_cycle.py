@@ -16,8 +16,8 @@ class GaitCycleMeasured(Happening):
     event is reported at the next foot-flat, 0.1 to 0.2 s after `t`. If the other foot's data have not reached `t` then,
     the event waits for them until 0.5 s after `t` at most.
 
-    A value that cannot be measured is None: lengths and angles without an inertial sensor; values between the feet
-    while only one foot has data; step length and width without ranges between the feet (docs/gait.md).
+    A value that cannot be measured is None: lengths and angles without an inertial sensor; times between the feet
+    while only one foot has data.
 
     Times between the feet (`step_time`, double and single support, `phase`) compare two devices' clocks. They are None
     if one of the two clocks was not settled during the cycle. A clock is settled 5 s after its stream started or its
@@ -61,16 +61,6 @@ class GaitCycleMeasured(Happening):
     """Horizontal distance from the foot-flat before the swing to the next, m (Mariani et al. 2010, J. Biomech. 43)."""
     speed: float | None
     """Speed of walking, `stride_length` / `stride_time`, m/s."""
-    step_length: float | None
-    """Distance from the other foot's position to this foot's landing position, along this foot's stride, m (Huxham et
-    al. 2006, Gait & Posture 23). It is the distance of the sensors, which is correct if both are mounted alike. It is
-    None unless samples have the range from one foot to the other (`Sample.range`)."""
-    step_width: float | None
-    """Distance of the other foot from the line of this stride, m (Huxham et al. 2006); negative when the feet cross."""
-    step_length_sigma: float | None = None
-    """Standard deviation of `step_length`, m; None when that is None."""
-    step_width_sigma: float | None = None
-    """Standard deviation of `step_width`, m; None when that is None."""
     clearance: float | None
     """Highest rise of the sensor above the higher of the two foot-flats, m. It is not the minimum toe clearance, which
     a sensor on the instep cannot measure (Mariani et al. 2012, IEEE Trans. Biomed. Eng. 59, use the shoe's size)."""

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import fsum, hypot
 
+from ..types import checking
 from ..types.attrs import evolve
+from ..types.checking import describe
 from .crossing import MAX_CELLS, Walls
 from .enclosure import MAX_LATTICE_POINTS, Enclosure
 from .grid import MAX_CELLS_PER_PLAN, MAX_LATTICE_POINTS_PER_PLAN, share_limit
-from .plan import Connector, FloorPlan, Level, Point
-from .records import MAX_COORDINATE, describe, find_type_faults
+from .plan import MAX_COORDINATE, Connector, FloorPlan, Level, Point
 from .rooms import Rooms
 
 MAX_BUILDING_WIDTH = 5000.0
@@ -21,10 +22,6 @@ MIN_BUILDING_WIDTH = 1.0
 MAX_STOREY_HEIGHT = 50.0
 """Largest height from one level to the next, m."""
 
-MAX_BEARING = 10.0
-"""Largest absolute bearing of an anchor, rad: more than a full turn."""
-MAX_LATITUDE = 89.0
-"""Largest absolute latitude of an anchor, degrees: east is not defined at a pole."""
 MIN_RISE, MAX_RISE = 0.02, 0.6
 """Range of the height of one tread of stairs, m."""
 MAX_FLIGHTS = 100
@@ -46,7 +43,9 @@ def find_fault(plan: FloorPlan) -> str | None:
 
 
 def _find_faults(plan: FloorPlan) -> Iterator[str]:
-    yield from find_type_faults(plan)
+    fault = checking.find_fault(plan, FloorPlan)
+    if fault is not None:
+        yield str(fault)
     if not plan.levels:
         yield "the plan has no levels"
     yield from _faults_of_size(plan)
@@ -64,13 +63,6 @@ def _find_faults(plan: FloorPlan) -> Iterator[str]:
     for connector in plan.connectors:
         yield from _faults_of_connector(connector, elevations)
     yield from _faults_of_length(plan)
-    anchor = plan.anchor
-    if anchor is not None:
-        if not abs(anchor.bearing) <= MAX_BEARING:
-            yield f"the anchor's bearing is {describe(anchor.bearing)} rad"
-        if not (abs(anchor.latitude) <= MAX_LATITUDE and abs(anchor.longitude) <= 180.0):
-            latitude, longitude = describe(anchor.latitude), describe(anchor.longitude)
-            yield f"the anchor is at latitude {latitude}, longitude {longitude}"
 
 
 def _faults_of_size(plan: FloorPlan) -> Iterator[str]:

@@ -10,10 +10,14 @@ from collections.abc import Sequence
 from enum import Enum
 
 from ..saving.codec import checksum, save
-from ..types.attrs import evolve, field, frozen
+from ..types.attrs import evolve, field, frozen, limits
 
 Point = tuple[float, float]
 """(x, y) in m, plan frame."""
+MAX_COORDINATE = 1e7
+"""Largest absolute coordinate from the plan's origin, m: national grids have up to 1e7."""
+MAX_LATITUDE = 89.0
+"""Largest absolute latitude of an anchor, degrees: east is not defined at a pole."""
 
 
 class FloorPlanError(ValueError):
@@ -80,12 +84,17 @@ class Level:
 
     id: str
     name: str
-    ordinal: int
+    ordinal: int = field(metadata=limits(-100_000, 100_000))
     elevation: float
     walls: tuple[Wall, ...]
     doors: tuple[Door, ...] = ()
     rooms: tuple[tuple[Point, ...], ...] = ()
     room_names: tuple[str, ...] = ()
+
+    def contradiction(self) -> str | None:
+        """Return what is wrong with the number of names (types/checking.py)."""
+        names, rooms = len(self.room_names), len(self.rooms)
+        return None if names in (0, rooms) else f" has {names} names of rooms and {rooms} rooms"
 
 
 def with_rooms(level: Level, rooms: Sequence[tuple[tuple[Point, ...], str]]) -> Level:
@@ -101,9 +110,9 @@ class Anchor:
     `latitude` and `longitude` are those of the plan's origin (0, 0), degrees, WGS84. `bearing` is the angle from true
     north clockwise to the plan's +y, rad; with 0, +x is east and +y is north."""
 
-    latitude: float
-    longitude: float
-    bearing: float = 0.0
+    latitude: float = field(metadata=limits(-MAX_LATITUDE, MAX_LATITUDE, "degrees"))
+    longitude: float = field(metadata=limits(-180.0, 180.0, "degrees"))
+    bearing: float = field(default=0.0, metadata=limits(-10.0, 10.0, "rad"))
 
 
 @frozen
@@ -174,6 +183,12 @@ class Start:
     compass of a phone may give it, fewer candidates are possible after the first stairs or lift."""
 
     level: str = ""
-    place: Point | None = None
-    heading: float | None = None
-    spread: float = 0.5
+    place: Point | None = field(default=None, metadata=limits(-MAX_COORDINATE, MAX_COORDINATE, "m"))
+    heading: float | None = field(default=None, metadata=limits(-1000.0, 1000.0, "rad"))
+    spread: float = field(default=0.5, metadata=limits(0.0, 5000.0, "m"))
+
+    def contradiction(self) -> str | None:
+        """Return what is missing: a place, or the heading alone."""
+        if self.place is not None or (self.heading is not None and self.level == ""):
+            return None
+        return " has no place: give level and place, or the heading alone"

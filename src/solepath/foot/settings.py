@@ -60,34 +60,18 @@ class CycleSettings:
     """The reference velocity is that of a foot that rolls (`sensor_height`); if False, it is zero."""
 
 
-@frozen(kw_only=True)
-class StanceThreshold:
-    """The settings of a detector with a fixed threshold, in the unit of its own statistic.
+@frozen
+class ShoeSettings:
+    """The settings of `ShoeDetector`."""
 
-    Each detector needs its own values."""
-
-    rest_statistic: float
-    """Statistic up to which the foot is certainly at rest."""
-    motion_statistic: float
-    """Statistic from which on the foot is not at rest, so that there is no evidence."""
+    rest_statistic: float = 1e4
+    """Statistic up to which the foot is certainly at rest, no unit."""
+    motion_statistic: float = 3.5e5
+    """Statistic from which on the foot is not at rest, so that there is no evidence, no unit."""
     sigma: float = 0.01
     """Standard deviation of the zero velocity of a foot at rest, m/s."""
-
-
-@frozen(kw_only=True)
-class WindowThreshold(StanceThreshold):
-    """The settings of `ShoeDetector`, `AngularRate` and `MovingVariance`."""
-
-    window: float
+    window: float = 0.025
     """Duration of the window that ends with the current sample, s."""
-
-
-@frozen(kw_only=True)
-class CountThreshold(StanceThreshold):
-    """The settings of `Graph`."""
-
-    count: int
-    """Number of samples in the window."""
 
 
 @frozen

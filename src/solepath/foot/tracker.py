@@ -26,7 +26,7 @@ from .rejection import ABSURD_TIME, rejected, rejection_reason
 from .rhythm import Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load
-from .view import NOTHING_HAPPENED, AfterEvents, FootPose, FootView, PressedCells
+from .view import AfterEvents, FootPose, FootView, PressedCells
 from .world import Covariance3
 
 
@@ -99,12 +99,12 @@ class FootTracker:
         return None if self.t is None else FootPose(self.foot, self.t, self.moved_at, self.position, self.covariance)
 
     def view(
-        self, sample: Sample, known_at: float, events: tuple[Event, ...], with_covariance: bool, other_t: float | None
+        self, sample: Sample, known_at: float, happened: bool, with_covariance: bool, other_t: float | None
     ) -> FootView:
-        """Return the view after `sample`, which caused `events`; `other_t` is `viewed_at` of the other foot, s."""
+        """Return the view after `sample`; if events `happened`, `other_t` is `viewed_at` of the other foot, s."""
         corrector, gait, cells, rest = self.corrector, self.gait, self.sole.insole.cells, self.rest
-        after, pressed = NOTHING_HAPPENED, None
-        if events:
+        after, pressed = None, None
+        if happened:
             layout, error = self.sole.insole.layout, gait.world.rotate_vector(corrector.velocity_error)
             takes_shifts = with_covariance and hasattr(corrector, "shift")
             covariance = gait.covariance(corrector) if with_covariance else None
@@ -117,7 +117,7 @@ class FootTracker:
             centre = insole.centre_of_pressure(cells) if without_inertial else None
             pressed = PressedCells(cells, layout, newtons, centre)
         return FootView(
-            self.foot, sample, sample.t, known_at, events, self.moved_at, self.levelled, gait.phase,
+            self.foot, sample, sample.t, known_at, self.moved_at, self.levelled, gait.phase,
             corrector.position, corrector.velocity, corrector.attitude, gait.world.north,
             rest.bias, rest.grain if rest.count else 0.0, pressed, after,
         )  # fmt: skip

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
-from ..events import Event
 from ..types import Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import define
-from ..types.vector import IDENTITY, ZERO
 from .navigate.bias import Bias
 from .world import Covariance3
 
@@ -26,7 +24,7 @@ class PressedCells(NamedTuple):
 
 
 class AfterEvents(NamedTuple):
-    """The data that a view has in addition if its sample caused events."""
+    """The data that a view has in addition if its sample caused events of the foot."""
 
     flat_attitude: Quat
     """Attitude at the start of the current stride, its foot-flat, sensor to navigation frame."""
@@ -42,10 +40,6 @@ class AfterEvents(NamedTuple):
     """Gyroscope bias by the rests of the foot, and its variances."""
     velocity_error: Vec3
     """Integrated velocity of the foot when it came to stand, world frame, m/s; 0 if it was right or is not known."""
-
-
-NOTHING_HAPPENED: Final = AfterEvents(IDENTITY, None, None, False, None, Bias(), ZERO)
-"""Value of `FootView.after` for a sample without events."""
 
 
 @define(eq=False)
@@ -64,14 +58,12 @@ class FootView:
     """Time of the sample, s."""
     known_at: Final[float]
     """Time at which the sample was known, s; never earlier than `t`."""
-    events: Final[tuple[Event, ...]]
-    """Events of the foot that this sample caused, in order."""
     moved_at: Final[float | None]
     """Time of the newest sample with both acc and gyro, s; `t` if this one has both; None before any."""
     levelled: Final[bool]
     """The first attitude is known, so the foot is tracked."""
     phase: Final[Phase]
-    """Phase of the foot after `events`."""
+    """Phase of the foot after the sample."""
     position: Final[Vec3]
     """Position of the sensor, navigation frame, m."""
     velocity: Final[Vec3]
@@ -86,8 +78,8 @@ class FootView:
     """Value of one accelerometer count, m/s^2; 0 when it is unknown."""
     pressed: Final[PressedCells | None]
     """Pressure cells of the sample; None if it has no cells that can be used."""
-    after: Final[AfterEvents]
-    """Additional data if `events` is not empty; NOTHING_HAPPENED otherwise."""
+    after: Final[AfterEvents | None]
+    """Additional data if the sample caused events of the foot; None otherwise."""
 
 
 class FootPose(NamedTuple):

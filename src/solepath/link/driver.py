@@ -15,21 +15,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from enum import Enum
-from math import inf
+from math import inf, isfinite
 from struct import error as StructError
 from types import MappingProxyType
 from typing import Any
 
+from ..events import Rejection
 from ..types import Foot, Layout, Quat, Vec3
-from ..types.attrs import field, frozen
+from ..types.attrs import COUNT, field, frozen, limits
+from ..types.checking import find_fault
 from ..wire.error import WireError
-from ..wire.fields import Definition, build_whole, malformed, parse_whole
+from ..wire.fields import LONGEST_VALUE, Definition, build_whole, malformed, parse_whole
 from .profile import Profile, Write
 
 FULL_SCALE_COUNTS = 32768
 """Counts that are the full scale of a sensor with 16 bits."""
 MAX_COUNTER = 1 << 64
 """Number of values of the largest counter, which has 64 bits."""
+MIN_RATE, MAX_RATE = 0.1, 10_000.0
+"""Smallest and largest rate that a reading may have, samples a second."""
+MOST_KNOWN, LONGEST_NAME = 64, 80
+"""Largest number of known numbers of a device, and length of their names, characters, both chosen by hand."""
 READING_ERRORS = (ValueError, LookupError, ArithmeticError, StructError)
 """Exceptions by which a construct or a reader rejects a value."""
 FINE_SAMPLE_TICKS = 20.0
@@ -38,6 +44,13 @@ MIN_SAMPLE_TICKS = 2.0
 """Smallest number of ticks per sample with which a device's time is better than arrivals.
 
 It is for devices without sequence numbers. With fewer ticks, samples would have the same tick (protocol/clock.md)."""
+
+SENSOR_VALUE = limits(-1e8, 1e8)
+"""Limits of a sensor value, SI units; the largest of a known device is 24 bits of Pa, which are 1.7e7."""
+COUNTER = limits(1 - MAX_COUNTER, MAX_COUNTER - 1)
+"""Limits of a counter."""
+ITEMS = {COUNT: (0, LONGEST_VALUE)}
+"""Limits of a number of items: a value has at most as many as it may have bytes."""
 
 
 @frozen
@@ -48,7 +61,7 @@ class Measured:
     """Specific force, m/s^2."""
     gyro: Vec3 | None = None
     """Angular rate, rad/s."""
-    pressure: tuple[float, ...] | None = None
+    pressure: tuple[float, ...] | None = field(default=None, metadata=ITEMS)
     """Value of each cell, as in types.Sample: N when the device declares a scale, otherwise counts."""
     quat: Quat | None = None
     """Attitude, sensor to world, as a quaternion of any length; all zero when the device does not know it."""
@@ -64,35 +77,44 @@ class Measured:
 class Reading:
     """The content of one value of a channel; a field that the value does not hold is None."""
 
-    samples: tuple[Measured, ...] = ()
+    samples: tuple[Measured, ...] = field(default=(), metadata=ITEMS | SENSOR_VALUE)
     """Samples at equal time intervals, the oldest first."""
-    sequence: int | None = None
+    sequence: int | None = field(default=None, metadata=COUNTER)
     """Sequence number of the notification."""
-    ticks: int | None = None
+    ticks: int | None = field(default=None, metadata=COUNTER)
     """The device's time of the first sample, in ticks."""
-    interval: int | None = None
+    interval: int | None = field(default=None, metadata=COUNTER)
     """Number of ticks from one sample to the next, if the packet has it."""
-    mag: Vec3 | None = None
+    mag: Vec3 | None = field(default=None, metadata=SENSOR_VALUE)
     """Magnetic flux density, T, measured separately; it is attached to the next sample."""
-    air_pressure: float | None = None
+    air_pressure: float | None = field(default=None, metadata=SENSOR_VALUE)
     """Air pressure, Pa, measured separately; it is attached to the next sample."""
-    battery: float | None = None
+    battery: float | None = field(default=None, metadata=limits(0.0, 1.0))
     """Battery level, 0 to 1."""
-    keys: tuple[str, ...] | None = None
+    keys: tuple[str, ...] | None = field(default=None, metadata=ITEMS)
     """Names of the keys that are down."""
     foot: Foot | None = None
     """Foot that wears the device."""
-    layout: Layout | None = None
+    layout: Layout | None = field(default=None, metadata=SENSOR_VALUE)
     """Layout of the pressure cells."""
-    rate: float | None = None
+    rate: float | None = field(default=None, metadata=limits(MIN_RATE, MAX_RATE, "Hz"))
     """Samples a second from this value on, Hz."""
-    period: float | None = None
+    period: float | None = field(default=None, metadata=limits(1.0 / MAX_RATE, 1.0 / MIN_RATE, "s"))
     """Time from one notification to the next, s, for a device without counters."""
     silent: bool | None = None
     """True when the device may be silent from now on, because it is off or waits for motion."""
-    known: Mapping[str, float] = field(factory=dict)
+    known: Mapping[str, float] = field(factory=dict, metadata={COUNT: (0, MOST_KNOWN), **SENSOR_VALUE})
     """Numbers that are passed to the readers of later values, by name; "acc_range" is the accelerometer's full scale in
     g."""
+
+    def contradiction(self) -> str | None:
+        """Return what is wrong with the layout and with what is known (types/checking.py)."""
+        if self.layout is not None and len(self.layout.cells) > LONGEST_VALUE:
+            return f".layout has {len(self.layout.cells)} cells; it can have up to {LONGEST_VALUE}"
+        if self.layout is not None and abs(self.layout.id) >= MAX_COUNTER:
+            return ".layout.id has more than 64 bits"
+        scale = self.known.get("acc_range", 1.0)
+        return None if scale > 0.0 else f".known.acc_range is {scale:g} g; it is above 0"
 
 
 Known = Mapping[str, float]
@@ -101,7 +123,7 @@ Reader = Callable[[Any, Known], Reading]
 """A function that turns a parsed value and the numbers of earlier values (`Reading.known`) into a Reading.
 
 A reader holds no state. It raises ValueError, LookupError, ArithmeticError or struct.error for a value that cannot be
-used. Any other exception is a bug of the reader and is passed on. reading_check.py checks the Reading."""
+used. Any other exception is a bug of the reader and is passed on. `Driver.read` checks the Reading."""
 
 
 class TimeAxis(Enum):
@@ -208,14 +230,17 @@ class Driver:
             raise malformed(str(error) or type(error).__name__) from error
 
     def read(self, channel: str, data: bytes, known: Known) -> Reading:
-        """Return the content of `data`; WireError when it cannot be read."""
+        """Return the content of `data`; WireError when it cannot be read, or cannot be."""
         parsed, reader = self.parse(channel, data), self.readers.get(channel)
+        if reader is None:
+            return Reading()
         try:
-            return Reading() if reader is None else reader(parsed, MappingProxyType(known))
+            reading = reader(parsed, MappingProxyType(known))
         except WireError:
             raise
         except READING_ERRORS as error:
             raise malformed(str(error) or type(error).__name__) from error
+        return check_reading(reading)
 
     def write(self, channel: str, value: Any) -> bytes:
         """Return the bytes of a value that the channel's construct accepts; ValueError when it does not fit."""
@@ -223,3 +248,23 @@ class Driver:
             return build_whole(self.formats[channel], value)
         except (TypeError, AttributeError, *READING_ERRORS) as error:  # a field is missing or of a wrong type
             raise ValueError(str(error) or type(error).__name__) from error
+
+
+def check_reading(reading: Any) -> Reading:
+    """Return the reading; WireError for one that cannot be, because the readers of an app are not trusted."""
+    if not isinstance(reading, Reading):
+        raise malformed(f"a reader gave a {type(reading).__name__}, not a Reading")
+    fault = find_fault(reading, Reading, exact=True)
+    if fault is not None and fault.is_outside:
+        no_number = isinstance(fault.value, float) and not isfinite(fault.value)
+        raise WireError(Rejection.NOT_FINITE if no_number else Rejection.ABSURD, str(fault))
+    if fault is not None:
+        raise malformed(str(fault))
+    if reading.interval is not None and reading.interval < 1:
+        raise malformed(f"an interval of {reading.interval} ticks")
+    if reading.layout is not None and type(reading.layout.id) is not int:  # an enum is an int, and cannot be saved
+        raise malformed(f"layout.id is a {type(reading.layout.id).__name__}, not an int")
+    for name in reading.known:
+        if type(name) is not str or len(name) > LONGEST_NAME or not name.isprintable():
+            raise malformed(f"known has the name {name!r:.80}")
+    return reading

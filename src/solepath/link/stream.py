@@ -19,9 +19,8 @@ from ..wire.fields import malformed
 from .clock import MIN_INCREMENT
 from .counters import PacketPosition, PacketRun, SampleTimes, signed_difference
 from .device_link import DeviceLink, Output
-from .driver import MIN_SAMPLE_TICKS, Driver, DriverSignature, Reading, TimeAxis
+from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, DriverSignature, Reading, TimeAxis
 from .periodic import PeriodicClock, make_periodic_clock
-from .reading_check import MIN_RATE, MOST_KNOWN, check_reading
 
 MAX_PRESSURE_WAIT = 1.0
 """Time without samples after which air pressure no longer waits for a sample, s."""
@@ -86,7 +85,7 @@ class StreamLink(DeviceLink):
 
     def feed(self, channel: str, data: bytes, arrival: float, driver: Driver) -> Output:
         """Return the samples and events of one value that arrived at `arrival`, s."""
-        reading = check_reading(driver.read(channel, data, self.known))
+        reading = driver.read(channel, data, self.known)
         self._check(driver, channel, reading)
         out = self._make_samples(driver, channel, reading, arrival) if reading.samples else []
         self._update_settings(driver, reading)

@@ -68,7 +68,6 @@ SCHEMAS: dict[str, dict[str, Any]] = {
         quat=_object(w=NUMBER, x=NUMBER, y=NUMBER, z=NUMBER),
         pressure=NUMBER,
         air_pressure=NUMBER,
-        range=NUMBER,
         saturated={"type": "boolean"},
     ),
     "solepath.Pose": _object(t=NUMBER, position=VECTOR, velocity=VECTOR, phase=TEXT, phase_number=INTEGER),
@@ -203,8 +202,6 @@ class McapWriter:
             data["pressure"] = sum(sample.pressure)
         if sample.air_pressure is not None:
             data["air_pressure"] = sample.air_pressure
-        if sample.range is not None:
-            data["range"] = sample.range
         if sample.saturated:
             data["saturated"] = True
         self._write_message(f"/{sample.site.value}/samples", "solepath.Sample", sample.t, sample.known_at, data)

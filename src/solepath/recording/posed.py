@@ -8,7 +8,7 @@ from ..events import Event, FootMoved
 from ..session import Session
 from ..session.state import SessionState
 from ..types import Phase, Quat, Sample, Site, Vec3
-from ..types.attrs import define, field, frozen
+from ..types.attrs import define, field, fields, frozen
 
 
 @frozen
@@ -55,7 +55,7 @@ class PoseKeepingState(SessionState):
             events += found
 
     def _keep(self, sample: Sample, events: list[Event]) -> None:
-        tracker = None if sample.site.foot is None else self.wearer.feet.get(sample.site.foot)
+        tracker = None if sample.site.foot is None else self.feet.get(sample.site.foot)
         state = None
         if tracker is not None and tracker.levelled:
             for event in events:
@@ -78,7 +78,10 @@ class PosedSession:
         if session.now is not None:
             raise ValueError("the samples of a session are kept from its start")
         self.session = session
-        self._state = session._state = PoseKeepingState(session._state.wearer)
+        old, self._state = session._state, PoseKeepingState(session._state.settings)
+        for one in fields(SessionState):
+            setattr(self._state, one.name, getattr(old, one.name))
+        session._state = self._state
 
     def take(self) -> list[PosedSample]:
         """Return the samples since the last call, in the order in which the session used them."""

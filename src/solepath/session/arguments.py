@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from copy import deepcopy
 from math import isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from ..calibration import Calibration, CalibrationError
 from ..events import Event
-from ..types.plain import make_plain, number
+from ..types.plain import number, plain_copy
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
     from ..floorplan.plan import FloorPlan, Start
+
+_Record = TypeVar("_Record")
 
 
 class ItemError(TypeError):
@@ -30,15 +31,9 @@ def check_calibration(calibration: Calibration) -> Calibration:
     """Return a copy of the calibration.
 
     Raises TypeError for another type, CalibrationError for impossible values."""
-    from ..calibration.limits import find_fault
-
     if not isinstance(calibration, Calibration):
         raise TypeError(f"calibration must be a Calibration, not {type(calibration).__name__}")
-    own_calibration = make_plain(deepcopy(calibration))
-    fault = find_fault(own_calibration)
-    if fault is not None:
-        raise CalibrationError(f"calibration: {fault}")
-    return own_calibration
+    return _checked(calibration, Calibration, CalibrationError)
 
 
 def index_floorplan(floorplan: FloorPlan | IndexedPlan | None) -> IndexedPlan | None:
@@ -60,15 +55,21 @@ def check_start(start: Start, plan: IndexedPlan | None) -> Start:
 
     Raises TypeError for another type or without a floor plan, FloorPlanError for impossible values."""
     from ..floorplan import plan as plans
-    from ..floorplan.records import find_start_fault
 
     if not isinstance(start, plans.Start) or plan is None:
         raise TypeError("start must be a Start, on a floor plan")
-    own_start = make_plain(deepcopy(start))
-    fault = find_start_fault(own_start)
+    return _checked(start, plans.Start, plans.FloorPlanError)
+
+
+def _checked(record: _Record, cls: type[_Record], error: type[Exception]) -> _Record:
+    """Return a copy of the record with plain numbers; raise `error` for impossible values."""
+    from ..types.checking import find_fault  # a session without a calibration and a start needs no check
+
+    own_record = plain_copy(record)
+    fault = find_fault(own_record, cls)
     if fault is not None:
-        raise plans.FloorPlanError(f"start: {fault}")
-    return own_start
+        raise error(f"{cls.__name__.lower()}: {fault}")
+    return own_record
 
 
 def check_now(now: float) -> float:

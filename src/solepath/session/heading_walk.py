@@ -16,13 +16,13 @@ from ..body.fuse.both_feet import BothFeet
 from ..body.fuse.common_error import DRIFT, HEADING_NOISE, TURNING
 from ..body.fuse.position import MeanOfFeet
 from ..calibration import Calibration, CalibrationError, HeadingCalibration
-from ..calibration.limits import find_fault
 from ..events import Event, StrideTaken
 from ..foot.navigate.bias import BIAS_WANDER, Bias
 from ..foot.stride import usual_strides
 from ..recipes import DEFAULT
 from ..types import Foot, Packet, Sample
 from ..types.attrs import evolve, frozen
+from ..types.checking import find_fault
 from .session import Session
 
 MIN_LEG, MIN_LEGS = 6.0, 4
@@ -133,10 +133,12 @@ def fit_heading(foot: Foot, strides: Sequence[StrideTaken], before: Bias, after:
         drift_sigma=hypot(sqrt(drift_variance), DAY_DRIFT, bias_sigma * stride_time),
         turning_sigma=hypot(sqrt(turning_variance), DAY_TURNING),
     )
-    fault = find_fault(Calibration(headings={foot: heading}))
-    if fault is None and heading.drift_sigma >= DRIFT:
-        fault = "the walk is too short, or turns to one side only: it shows less than is known of any foot"
-    return fault or HeadingFit(foot, heading, len(legs), last.t - first.t, _spread(directions), _spread(left))
+    fault = find_fault(heading, HeadingCalibration)
+    if fault is not None:
+        return str(fault)
+    if heading.drift_sigma >= DRIFT:
+        return "the walk is too short, or turns to one side only: it shows less than is known of any foot"
+    return HeadingFit(foot, heading, len(legs), last.t - first.t, _spread(directions), _spread(left))
 
 
 def _bias_error(before: Bias, after: Bias, duration: float) -> tuple[float, float]:

@@ -32,7 +32,7 @@ def report_position(
     position, place = (None, where or "") if where is None or isinstance(where, str) else (_pair(where), "")
     # the values that a packet would have, so that a replay of one is exact
     frame = parse_position(build_position(PositionFrame(position, sigma, place, text(level))))
-    site = SITE_OF_FOOT[next(iter(state.wearer.feet), Foot.LEFT)]
+    site = SITE_OF_FOOT[next(iter(state.feet), Foot.LEFT)]
     return reported_position(frame, state.now, site), site
 
 

@@ -24,8 +24,7 @@ from ..saving.streams import from_bytes, to_bytes
 from ..types import Foot, shared
 from ..types.attrs import define
 from .snapshot import check_names, make_class_lookup
-from .state import VERSION, SessionState
-from .wearer import WearerParts, WearerSettings
+from .state import VERSION, SessionSettings, SessionState
 
 MAGIC = b"sole"
 FORM = 3
@@ -68,8 +67,7 @@ def pack(state: SessionState) -> bytes:
 
     Raises TypeError when an app's part has a field of a type that cannot be saved, and SnapshotError when the field's
     value cannot be saved."""
-    wearer = state.wearer
-    settings = wearer.settings
+    settings = state.settings
     check_names(settings.recipe)
     head = Head(settings.recipe.name, settings.calibration, settings.poses, settings.pressures, settings.plan)
     lists: Lists = ([], [], [], [])
@@ -136,7 +134,7 @@ def _read_state(streams: Streams, recipe: Recipe, classes: Classes) -> SessionSt
         raise SnapshotError(f"packed with the recipe {shorten(head.recipe)}, and this is {recipe.name!r}")
     state: SessionState = read(STATE, streams, classes, _make_initial_state(recipe, head))
     streams.end()
-    for foot in state.wearer.feet.values():
+    for foot in state.feet.values():
         layout = foot.sole.insole.layout
         if layout is not None:
             foot.sole.insole.layout = shared(layout)
@@ -151,8 +149,7 @@ def _make_initial_state(recipe: Recipe, head: Head) -> SessionState:
     for kept_recipe, kept_head, state in _templates:
         if kept_recipe is recipe and repr(kept_head) == repr(head):
             return state
-    wearer = WearerParts(WearerSettings(recipe, head.calibration, head.poses, head.pressures, head.plan))
-    state = SessionState(wearer)
-    state.wearer.feet = {foot: state.wearer._tracker(foot) for foot in Foot}
+    state = SessionState(SessionSettings(recipe, head.calibration, head.poses, head.pressures, head.plan))
+    state.feet = {foot: state._tracker(foot) for foot in Foot}
     _templates = ((recipe, head, state), *_templates[: MAX_TEMPLATES - 1])
     return state

@@ -10,7 +10,7 @@ from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
 from ..body.gait.means import GaitParameters
-from ..body.part import Position
+from ..body.part import Position, StartGiven
 from ..calibration import Calibration
 from ..events import Event, Placed
 from ..foot.phase import SUPPORT
@@ -21,8 +21,7 @@ from ..recipes import DEFAULT, Recipe, own
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from ..types.plain import flag, text
 from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
-from .state import SessionState
-from .wearer import WearerParts, WearerSettings, sort_by_key
+from .state import SessionSettings, SessionState, sort_by_key
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -68,18 +67,16 @@ class Session:
         self._plan = index_floorplan(floorplan)
         plan = None if self._plan is None else self._plan.fingerprint
         with_poses, with_pressures = flag("poses", poses), flag("pressures", pressures)
-        wearer = WearerParts(WearerSettings(own(recipe), own_calibration, with_poses, with_pressures, plan))
+        settings = SessionSettings(own(recipe), own_calibration, with_poses, with_pressures, plan)
+        state = self._state = SessionState(settings)
         if start is not None:
-            checked = check_start(start, self._plan)
-            for part in wearer.parts:
-                part.set_out(checked)
-        wearer.set_plan(self._plan)
-        self._state = SessionState(wearer)
+            state.notify(StartGiven(check_start(start, self._plan)))
+        state.set_plan(self._plan)
         for site, device in (devices or {}).items():
             self.bind(site, device)
 
     def __repr__(self) -> str:
-        return f"<Session {self._state.wearer.settings.recipe.name} at {self._state.now} s>"
+        return f"<Session {self._state.settings.recipe.name} at {self._state.now} s>"
 
     def feed(self, data: Packet | Sample | Iterable[Packet | Sample]) -> list[Event]:
         """Add packets (as they arrive) or samples (in the order of their time) and return the events."""
@@ -121,7 +118,7 @@ class Session:
 
         state = self._state
         event, site = report_position(state, self._plan, where, sigma, level)
-        return state.wearer.receive(site, event)
+        return state.report(site, event)
 
     def finish(self) -> list[Event]:
         """Return the events that were held back; the session can still be read, but not fed."""
@@ -138,7 +135,7 @@ class Session:
         decoder = state.decoders.get(site)
         if decoder is None or not decoder.is_bound_to(device):
             state.decoders = sort_by_key({**state.decoders, site: Decoder(site, device)}, Site)
-            state.wearer.reset(site)
+            state.reset(site)
 
     @property
     def now(self) -> float | None:
@@ -148,34 +145,34 @@ class Session:
     @property
     def recipe(self) -> Recipe:
         """A copy of the recipe of this session."""
-        return deepcopy(self._state.wearer.settings.recipe)
+        return deepcopy(self._state.settings.recipe)
 
     @property
     def feet(self) -> dict[Foot, FootTracker]:
         """Read-only trackers of the feet that sent samples: position, velocity, attitude, covariance, phase."""
-        return dict(self._state.wearer.feet)
+        return dict(self._state.feet)
 
     @property
     def position(self) -> Position | None:
         """Position of the wearer in the world frame, with its covariance; None before any sample."""
-        return self._state.wearer.position
+        return self._state.position
 
     @property
     def place(self) -> Placed | None:
         """Place of the wearer on the floor plan; None without a plan, and while unknown."""
-        place: Placed | None = self._state.wearer.find_attribute("place")
+        place: Placed | None = self._state.find_attribute("place")
         return place
 
     @property
     def activity(self) -> Activity:
         """Activity of the newest ActivityChanged; UNKNOWN before the first."""
-        activity: Activity | None = self._state.wearer.find_attribute("activity")
+        activity: Activity | None = self._state.find_attribute("activity")
         return Activity.UNKNOWN if activity is None else activity
 
     @property
     def gait(self) -> GaitParameters | None:
         """Means over the steady gait cycles of walking or running, whichever came last; None before the first."""
-        gait: GaitParameters | None = self._state.wearer.find_attribute("parameters")
+        gait: GaitParameters | None = self._state.find_attribute("parameters")
         return gait
 
     @property
@@ -186,11 +183,11 @@ class Session:
 
     def phase(self, foot: Foot) -> Phase | None:
         """Return the phase of the foot; None until it has sent samples."""
-        tracker = self._state.wearer.feet.get(foot)
+        tracker = self._state.feet.get(foot)
         return None if tracker is None else tracker.phase
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Session:
-        memo.update({id(one): one for one in (self._plan, self._state.wearer.settings)})
+        memo.update({id(one): one for one in (self._plan, self._state.settings)})
         copied = type(self).__new__(type(self))
         copied._kinds, copied._plan, copied._state = self._kinds, self._plan, deepcopy(self._state, memo)
         if type(self) is not Session:
@@ -272,7 +269,7 @@ class Session:
         session._plan = index_floorplan(floorplan)
         session._state = state
         check_fit(state, session._kinds, session._plan)
-        state.wearer.set_plan(session._plan)
+        state.set_plan(session._plan)
         return session
 
 

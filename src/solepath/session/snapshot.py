@@ -12,8 +12,7 @@ from ..saving.limits import check_size, shorten
 from ..saving.schema import is_record
 from ..types import Foot, Site
 from ..types.attrs import evolve
-from .state import VERSION, SessionState
-from .wearer import sort_by_key
+from .state import VERSION, SessionState, sort_by_key
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 
 def take_snapshot(state: SessionState) -> dict[str, Json]:
     """Return the state with a checksum, since damaged numbers could cause any fault later."""
-    check_names(state.wearer.settings.recipe)
+    check_names(state.settings.recipe)
     saved_state = save(state)
     try:
         check_size(saved_state)
@@ -40,17 +39,17 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
         raise SnapshotError(f"a snapshot of version {shorten(version)}; this release reads version {VERSION} alone")
     state = load(SessionState, saved["state"], classes)
     state.decoders = sort_by_key(state.decoders, Site)
-    state.wearer.feet = sort_by_key(state.wearer.feet, Foot)
+    state.feet = sort_by_key(state.feet, Foot)
     if checksum(save(state)) != saved["check"]:
         raise SnapshotError("the snapshot was damaged: its checksum is another")
-    settings = state.wearer.settings
-    state.wearer.settings = evolve(settings, recipe=own(settings.recipe))
+    settings = state.settings
+    state.settings = evolve(settings, recipe=own(settings.recipe))
     return state
 
 
 def own_classes(state: SessionState) -> tuple[type, ...]:
     """Return the classes of the parts of a session that are those of an app."""
-    classes = dict.fromkeys([type(part) for part in _parts(state.wearer.settings.recipe)])
+    classes = dict.fromkeys([type(part) for part in _parts(state.settings.recipe)])
     return tuple([cls for cls in classes if cls.__name__ not in PARTS])
 
 
@@ -83,7 +82,7 @@ def make_class_lookup(parts: Iterable[type]) -> Classes:
 
 def check_fit(state: SessionState, kinds: DeviceKinds, plan: IndexedPlan | None) -> None:
     """Raise SnapshotError if the state needs another floor plan than `plan`, or a device that is not in `kinds`."""
-    saved_plan = state.wearer.settings.plan
+    saved_plan = state.settings.plan
     if saved_plan != (None if plan is None else plan.fingerprint):
         condition = "with the floor plan that it had" if saved_plan is not None else "without a floor plan"
         raise SnapshotError(f"a snapshot of a session is restored {condition}")

@@ -22,7 +22,7 @@ from ..foot.stance.cycle import Cycle
 from ..foot.stance.stance import Detector, Stance
 from ..foot.tracker import FootTracker
 from ..recipes import DEFAULT
-from ..session.wearer import WearerParts, WearerSettings
+from ..session.state import SessionSettings, SessionState
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
 from ..types.vector import IDENTITY, ZERO
 
@@ -180,28 +180,28 @@ class CuesHarness(FootHarness):
 class WearerHarness(WalkHarness):
     """Runs a part of the body, after the parts of the default recipe."""
 
-    wearer: WearerParts
+    state: SessionState
 
     @property
     def part(self) -> Any:
-        """Part under test, the last of the wearer's parts."""
-        return self.wearer.parts[-1]
+        """Part under test, the last of the session's parts."""
+        return self.state.parts[-1]
 
     @part.setter
     def part(self, part: Any) -> None:
-        self.wearer.parts[-1] = part
-        self.wearer.set_plan(None)
+        self.state.parts[-1] = part
+        self.state.set_plan(None)
 
     def restart(self) -> None:
-        for foot in self.wearer.feet:
-            self.wearer.reset(SITE_OF_FOOT[foot])
+        for foot in self.state.feet:
+            self.state.reset(SITE_OF_FOOT[foot])
 
     def feed(self, sample: Sample) -> Any:
         self.t = sample.t
-        return self.wearer.feed(sample)
+        return self.state.feed_sample(sample)
 
     def finish(self) -> list[Any]:
-        return [self.wearer.finish(self.t)]
+        return [self.state.finish()]
 
     def problems(self, events: Any) -> Iterator[str]:
         """Yield a sentence for every output that is no event, or that has `t` after `known_at`."""
@@ -227,12 +227,12 @@ def harness_for(part: Any, foot: Foot, layout: Layout | None) -> DetectorHarness
     elif Cues in kinds:
         harness = CuesHarness(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
     elif Part in kinds:
-        wearer = WearerParts(WearerSettings(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration()))
-        wearer.set_plan(None)
+        state = SessionState(SessionSettings(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration()))
+        state.set_plan(None)
         if layout is not None:
             site = SITE_OF_FOOT[foot]
-            wearer.receive(site, LayoutKnown(t=0.0, known_at=0.0, site=site, layout=layout))
-        return WearerHarness(wearer)
+            state.report(site, LayoutKnown(t=0.0, known_at=0.0, site=site, layout=layout))
+        return WearerHarness(state)
     else:
         raise TypeError(f"{type(part).__name__} extends neither Detector nor Corrector nor Cues nor Part")
     if layout is not None:

@@ -9,7 +9,6 @@ from typing import Any
 import attrs
 
 from ..link.driver import Driver, Reading
-from ..link.reading_check import check_reading
 from ..wire.error import WireError
 
 SCHEMA = "solepath vectors 1"
@@ -23,7 +22,7 @@ def disagreements(driver: Driver, file: Mapping[str, Any]) -> list[str]:
     `file` is the result of json.load. The bytes of a valid vector must parse to its `fields`, by the construct of the
     channel, and `fields` must build the same bytes. `physical` may contain expected fields of the Reading; they must
     agree within `tolerance`, and `known` is passed to the driver's `read`. An invalid vector must be rejected for its
-    `reason`: by the construct, by the reader, or because no device can send it (reading_check.py)."""
+    `reason`: by the construct, by the reader, or because no device can send it (`Driver.read`)."""
     if not isinstance(file, Mapping):
         return ["a vector file is an object"]
     sentences = [] if file.get("schema") == SCHEMA else [f"the schema is {SCHEMA!r}, not {file.get('schema')!r}"]
@@ -64,7 +63,7 @@ def _check_vector(driver: Driver, channel: str, vector: Mapping[str, Any]) -> It
         return
     try:
         parsed = plain(driver.parse(channel, data))
-        reading = check_reading(driver.read(channel, data, physical.get("known", {})))
+        reading = driver.read(channel, data, physical.get("known", {}))
     except WireError as error:
         if result == "valid" or error.reason.value != vector["reason"]:
             yield str(error)

@@ -21,6 +21,17 @@ MADE_AGAIN = {"saving": "made again"}
 """Mark of a field of state whose parts are created again by the object that has the field."""
 ROW_SIZE = "row size"
 """Key of the metadata of a field of bytes that holds whole rows; its value is their size, bytes."""
+# types/checking.py reads these
+LIMITS = "limits"
+"""Key of the metadata of a field: smallest and largest number in its value, and their unit."""
+COUNT = "count"
+"""Key of the metadata of a field with a tuple or dict: smallest and largest number of values in it."""
+
+
+def limits(least: float, most: float, unit: str = "") -> dict[str, Any]:
+    """Return the metadata of a field whose numbers can be from `least` to `most`."""
+    return {LIMITS: (least, most, unit)}
+
 
 if TYPE_CHECKING:
     from attrs import define, frozen
@@ -63,4 +74,17 @@ else:
     define = partial(_decorate, attrs_decorator=attrs.define, hashed=False)
     frozen = partial(_decorate, attrs_decorator=attrs.frozen, hashed=True)
 
-__all__ = ["MADE_AGAIN", "NOT_SAVED", "ROW_SIZE", "astuple", "define", "evolve", "field", "fields", "frozen"]
+__all__ = [
+    "COUNT",
+    "LIMITS",
+    "MADE_AGAIN",
+    "NOT_SAVED",
+    "ROW_SIZE",
+    "astuple",
+    "define",
+    "evolve",
+    "field",
+    "fields",
+    "frozen",
+    "limits",
+]

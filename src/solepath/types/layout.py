@@ -6,7 +6,7 @@ from functools import cached_property, lru_cache
 from math import dist
 from struct import pack
 
-from .attrs import field, frozen
+from .attrs import field, frozen, limits
 from .records import Foot
 
 
@@ -16,11 +16,11 @@ class Cell:
 
     The foot frame has x to the toe, y to the left, and its origin at the heel's rear end on the insole's midline."""
 
-    x: float
+    x: float = field(metadata=limits(-1.0, 1.0, "m"))
     """Position of the centre along the foot's x axis, to the toe, m."""
-    y: float
+    y: float = field(metadata=limits(-1.0, 1.0, "m"))
     """Position of the centre along the foot's y axis, to the left, m."""
-    area: float = 1e-4
+    area: float = field(default=1e-4, metadata=limits(0.0, 1.0, "m^2"))
     """Area of the cell, m^2."""
 
 
@@ -34,12 +34,12 @@ class Layout:
     """Foot that wears the insole."""
     cells: tuple[Cell, ...]
     """Cells in the order in which samples have them."""
-    length: float
+    length: float = field(metadata=limits(0.01, 1.0, "m"))
     """Distance from heel to toe, m."""
-    scale: float | None = None
+    scale: float | None = field(default=None, metadata=limits(1e-9, 1e6, "N"))
     """Force of one transmitted count, N: 1.0 when the device sends newtons, None when it is unknown, so that loads are
     in counts."""
-    full_scale: float = 4095.0
+    full_scale: float = field(default=4095.0, metadata=limits(1e-6, 1e9))
     """Largest value that a cell can report, in the unit of the samples (N or counts)."""
 
     @cached_property

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Mapping, Set
+from copy import deepcopy
 from math import inf
 from typing import Any, TypeVar
 
@@ -53,8 +54,6 @@ def has_floats(sample: Sample) -> bool:
         return False
     if sample.air_pressure is not None and type(sample.air_pressure) is not float:
         return False
-    if sample.range is not None and type(sample.range) is not float:
-        return False
     return type(sample.t) is type(sample.known_at) is float and type(sample.saturated) is bool
 
 
@@ -66,14 +65,13 @@ def with_floats(sample: Sample) -> Sample:
         sample,
         t=number("t of a sample", sample.t),
         known_at=number("known_at of a sample", sample.t if sample.known_at is None else sample.known_at),
-        acc=_floats("acc", sample.acc, 3),
-        gyro=_floats("gyro", sample.gyro, 3),
-        quat=_floats("quat", sample.quat, 4),
-        mag=_floats("mag", sample.mag, 3),
-        pressure=_cells(sample.pressure),
+        acc=_floats("acc of a sample", sample.acc, 3),
+        gyro=_floats("gyro of a sample", sample.gyro, 3),
+        quat=_floats("quat of a sample", sample.quat, 4),
+        mag=_floats("mag of a sample", sample.mag, 3),
+        pressure=_floats("pressure of a sample", sample.pressure, None),
         air_pressure=None if sample.air_pressure is None else number("air_pressure of a sample", sample.air_pressure),
         saturated=flag("saturated of a sample", sample.saturated),
-        range=None if sample.range is None else number("range of a sample", sample.range),
     )
 
 
@@ -88,29 +86,15 @@ def number(what: str, value: Any) -> float:
     raise TypeError(f"{what} is a number, not {value!r:.80}")
 
 
-def _floats(name: str, values: Any, count: int) -> Any:
-    """Return a vector of `count` floats; None stays None."""
+def _floats(what: str, values: Any, count: int | None) -> Any:
+    """Return a vector of `count` floats, or the loads of cells, of which one that was not measured stays None."""
     if values is None:
         return None
-    numbers = tuple(values) if _is_sequence(values) else ()
-    if len(numbers) != count:
-        raise TypeError(f"{name} of a sample is {count} numbers, not {values!r:.80}")
-    return tuple([number(f"{name} of a sample", value) for value in numbers])
-
-
-def _is_sequence(values: Any) -> bool:
-    """Return whether there are values in an order; arrays have no common class."""
-    return isinstance(values, Iterable) and not isinstance(values, str | bytes | bytearray | Set | Mapping)
-
-
-def _cells(values: Any) -> tuple[float, ...] | None:
-    """Return the loads of pressure cells as floats; a cell that was not measured stays None."""
-    if values is None:
-        return None
-    if not _is_sequence(values):
-        raise TypeError(f"pressure of a sample is a number for each cell, not {values!r:.80}")
-    cells: Any = [None if value is None else number("pressure of a sample", value) for value in values]
-    return tuple(cells)
+    is_sequence = isinstance(values, Iterable) and not isinstance(values, str | bytes | bytearray | Set | Mapping)
+    numbers: Any = tuple(values) if is_sequence else None  # arrays have no common class
+    if numbers is None or count not in (None, len(numbers)):
+        raise TypeError(f"{what} is {count or 'a row of'} numbers, not {values!r:.80}")
+    return tuple([None if value is None and count is None else number(what, value) for value in numbers])
 
 
 def text(value: str) -> str:
@@ -130,10 +114,10 @@ def flag(what: str, value: Any) -> bool:
     raise TypeError(f"{what} is True or False, not {value!r:.80}")
 
 
-def make_plain(value: _Value) -> _Value:
-    """Return the value with plain numbers in all its records, tuples, lists and dicts; records are changed in place."""
-    plain: _Value = _make_plain(value)
-    return plain
+def plain_copy(value: _Value) -> _Value:
+    """Return a copy of the value with plain numbers in all its records, tuples, lists and dicts."""
+    copy: _Value = _make_plain(deepcopy(value))
+    return copy
 
 
 def _make_plain(value: Any) -> Any:

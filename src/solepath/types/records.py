@@ -172,8 +172,6 @@ class Sample:
     """Time at which the measurement was known, s, by default `t`."""
     saturated: bool = False
     """True when the device reports that a sensor was at the end of its range."""
-    range: float | None = None
-    """Distance to the sensor on the other foot, m; either foot's sample may have it (docs/gait.md)."""
 
     @known_at.default
     def _at_once(self) -> float:

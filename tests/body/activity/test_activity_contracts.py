@@ -8,9 +8,8 @@ from functools import cache
 from views import fed
 
 from solepath.body.activity.activities import Activities
-from solepath.body.activity.blocks.features import FEATURE_COUNT, FIRST_GYRO_FEATURE
-from solepath.body.activity.blocks.motion import load_released_model
-from solepath.body.activity.blocks.votes import motion_votes
+from solepath.body.activity.foot_blocks import FEATURE_COUNT, FIRST_GYRO_FEATURE
+from solepath.body.activity.motion import load_released_model, motion_votes
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker

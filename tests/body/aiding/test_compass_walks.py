@@ -34,7 +34,7 @@ def arcs() -> SampledWalk:
 
 
 def track_of(session: Session) -> BothFeet:
-    return next(part for part in session._state.wearer.parts if isinstance(part, BothFeet))
+    return next(part for part in session._state.parts if isinstance(part, BothFeet))
 
 
 @pytest.mark.long

@@ -11,7 +11,7 @@ from attrs import evolve
 from soak import soaked
 
 from solepath import ActivityChanged, DefectFound, LiftRidden, Sample, Session, StrideTaken
-from solepath.body.height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE
+from solepath.body.altitude import SCALE_HEIGHT, STANDARD_PRESSURE
 from solepath.emulate import Insole, Route, sampled
 from solepath.emulate.walk import SampledWalk
 from solepath.events import Defect, Event, FlightClimbed

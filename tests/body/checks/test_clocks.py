@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from attrs import evolve
 from soak import soaked
+from views import told
 from walks import RIGHT, of, samples
 
 from solepath import Foot, GaitCycleMeasured, HeelStrike, Sample, Session, ToeOff
-from solepath.body.checks.clocks.foot_clocks import FootClocks
-from solepath.body.checks.clocks.offset import MIN_COMPARISONS
+from solepath.body.checks.foot_clocks import MIN_COMPARISONS, FootClocks
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
@@ -75,7 +75,7 @@ def steps(
 
 def of_steps(events: Iterator[Event], part: FootClocks | None = None) -> list[DefectFound]:
     part = FootClocks() if part is None else part
-    return [output for event in events for output in part.receive(event) if isinstance(output, DefectFound)]
+    return [output for event in events for output in told(part, event) if isinstance(output, DefectFound)]
 
 
 @pytest.mark.parametrize("delay", [-0.4, *soaked(0.05)])
@@ -112,7 +112,7 @@ def test_clocks_half_a_second_apart_are_found_although_the_steps_look_nearly_sim
 def test_feet_on_one_clock_are_not_reported(route: Route) -> None:
     session = Session()
     assert not found(session.feed(samples(route, cells=0)))
-    assert len(session._state.wearer.find_attribute("comparisons")) >= MIN_COMPARISONS, "enough for a report"
+    assert len(session._state.find_attribute("comparisons")) >= MIN_COMPARISONS, "enough for a report"
 
 
 @pytest.mark.parametrize("foot", [Foot.RIGHT, *soaked(Foot.LEFT)])

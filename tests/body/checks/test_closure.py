@@ -6,7 +6,7 @@ from math import cos, exp, sin
 
 import pytest
 
-from solepath.body.checks.closure import AXES, LEAST_RESIDUAL, closure_residuals
+from solepath.body.checks.axes import AXES, LEAST_RESIDUAL, closure_residuals
 from solepath.body.checks.stances import FORCE, TICK, TURN, ClosedStride
 from solepath.types.vector import GRAVITY
 

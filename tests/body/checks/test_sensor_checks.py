@@ -65,7 +65,7 @@ def without_gravity(samples: list[Sample]) -> list[Sample]:
     session, removed = Session(poses=True), []
     for sample in samples:
         session.feed(sample)
-        w, x, y, z = session._state.wearer.feet[Foot.LEFT].corrector.attitude
+        w, x, y, z = session._state.feet[Foot.LEFT].corrector.attitude
         ax, ay, az = sample.acc or (0.0, 0.0, 0.0)
         ux, uy, uz = rotate((w, -x, -y, -z), (0.0, 0.0, GRAVITY))
         removed.append(evolve(sample, acc=(ax - ux, ay - uy, az - uz)))
@@ -117,7 +117,7 @@ def test_a_defect_is_reported_again_only_for_another_device() -> None:
     first = session.feed(damaged)
     later = session.feed([evolve(sample, t=sample.t + 100.0) for sample in damaged])
     assert len(of(DefectFound, first)) == 1 and of(DefectFound, later) == []
-    session._state.wearer.reset(Site.LEFT_FOOT)
+    session._state.reset(Site.LEFT_FOOT)
     again = session.feed([evolve(sample, t=sample.t + 200.0) for sample in damaged])
     assert [event.defect for event in of(DefectFound, again)] == [Defect.GYRO_UNIT]
 

@@ -26,7 +26,7 @@ STRONG_LANDING = 10
 def fed(walk: SampledWalk) -> tuple[BothFeet, Session, list[Event]]:
     session = Session()
     events = [event for sample in walk.samples for event in session.feed(sample)]
-    (part,) = [part for part in session._state.wearer.parts if isinstance(part, BothFeet)]
+    (part,) = [part for part in session._state.parts if isinstance(part, BothFeet)]
     return part, session, events
 
 

@@ -11,8 +11,6 @@ from solepath.emulate import CC2541, CC2650, Insole, Route, emulate, sampled
 from solepath.emulate.sensors.air import STILL_AIR, Air, PressureStep
 from solepath.emulate.sensors.magnetic_field import EARTH, MagneticField
 from solepath.emulate.sensors.parts import AK8963
-from solepath.emulate.sensors.ranging import RangeErrors, measure_ranges
-from solepath.emulate.wearers.walker import Walker
 from solepath.types import SITE_OF_FOOT
 
 ROUTE = Route().stand(2.0).walk(8.0, 1.3).stop(2.0)
@@ -82,24 +80,3 @@ def test_a_standing_foot_measures_the_field_of_the_earth_and_a_magnetometer_chan
     plain = sampled(ROUTE, insoles={Site.LEFT_FOOT: evolve(insole, mag=None)}, seed=2).samples
     assert [one.mag for one in disturbed] != [one.mag for one in samples]
     assert tuple(evolve(one, mag=None) for one in disturbed) == plain
-
-
-def test_ranges_are_the_distances_of_the_sensors_but_for_noise_a_cone_and_what_is_in_the_way() -> None:
-    walker = Walker(ROUTE, seed=4)
-
-    def ranges(**errors: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return what is measured and what is true."""
-        given = {"noise": 0.0, "bias": 0.0, "blocked": 0.0} | errors
-        found = measure_ranges(walker, RangeErrors("", **given), foot=Foot.LEFT)
-        t = np.array([one.t for one in found])
-        left, right = (walker.kinematics(foot, t).position for foot in Foot)
-        assert {one.site for one in found} == {Site.LEFT_FOOT}
-        return np.array([one.range for one in found]), np.linalg.norm(left - right, axis=1)
-
-    measured, true = ranges()
-    assert len(measured) > 0.9 * 50.0 * walker.duration and measured == pytest.approx(true)
-    noisy, without = ranges(noise=0.02, bias=0.05, rate=200.0)
-    assert np.std(noisy - without) == pytest.approx(0.02, rel=0.1) and 0.0 < abs(np.mean(noisy - without)) < 0.2
-    assert ranges(cone=1.0)[0].max() < 0.45 < true.max()
-    free, blocked = (len(ranges(rate=400.0, blocked=share, blocked_time=0.05)[0]) for share in (0.0, 0.3))
-    assert blocked / free == pytest.approx(0.7, abs=0.1)

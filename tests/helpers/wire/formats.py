@@ -15,7 +15,7 @@ from solepath.link.devices import cc2541
 from solepath.saving import codec
 from solepath.testing.vectors import plain
 from solepath.types import Cell, Foot
-from solepath.wire import device, fragment, insole, insole_control, insole_info, receiver, running
+from solepath.wire import device, fragment, insole, insole_control, insole_info, receiver
 from solepath.wire.fields import build_text, build_whole, parse_text, parse_whole
 
 VECTORS = PROTOCOL / "vectors"
@@ -92,11 +92,6 @@ FORMATS = {
     "receiver-restarted": single("words", parse_text, build_text),
     "receiver-tick": Format(receiver.parse_nothing, lambda _: b"", lambda _: {}, lambda _: None),
     "receiver-trouble": single("words", parse_text, build_text),
-    "rsc-measurement": record(running.RscMeasurement, running.parse_measurement, running.build_measurement),
-    "rsc-feature": record(running.RscFeature, running.parse_feature, running.build_feature),
-    "rsc-location": single("location", running.parse_location, running.build_location),
-    "rsc-control": record(running.RscRequest, running.parse_request, running.build_request),
-    "rsc-response": record(running.RscResponse, running.parse_response, running.build_response),
 }
 
 PERIODS = ("cc2650/barometer-period", *[channel for channel in cc2541.FORMATS if channel.endswith("-period")])

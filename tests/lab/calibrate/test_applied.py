@@ -9,8 +9,7 @@ from walks import of, samples
 
 from solepath import Calibration, Foot, HeelStrike, Sample, Session, StrideTaken, recipes
 from solepath.calibration import HeadingCalibration, RestNoise, SensorCalibration
-from solepath.calibration.merging import merged, stale_feet
-from solepath.calibration.records import TriadCalibration
+from solepath.calibration.records import TriadCalibration, merged, stale_feet
 
 NO_SIGMA = ((0.0,) * 9, (0.0, 0.0, 0.0))
 SENSOR = SensorCalibration(

@@ -7,7 +7,7 @@ from math import atan, degrees, inf, radians
 import pytest
 from hypothesis import strategies as st
 
-from solepath.body.activity.steepness import DOWNSTAIRS_THRESHOLD, UPSTAIRS_THRESHOLD, angle_per_metre, steepness
+from solepath.body.activity.flights import DOWNSTAIRS_THRESHOLD, UPSTAIRS_THRESHOLD, angle_per_metre, steepness
 from solepath.foot.stance.stance import Stance
 from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude, EnergySettings, ShortTimeEnergy
 from solepath.types import Phase

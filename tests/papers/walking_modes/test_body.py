@@ -148,13 +148,13 @@ def test_a_wearers_own_compensation_takes_the_place_of_table_1_mode_by_mode() ->
 
 
 def test_a_first_heading_is_taken_by_the_recipes_with_body_sensors_and_by_no_other() -> None:
-    modes = next(part for part in WALKING_MODES.headed(1.5).parts if isinstance(part, Modes))
+    modes = next(part for part in WALKING_MODES.with_heading(1.5).parts if isinstance(part, Modes))
     assert modes.settings.heading == 1.5
     with pytest.raises(LookupError, match="recipe default finds the first heading by itself"):
-        DEFAULT.headed(1.5)
+        DEFAULT.with_heading(1.5)
     for wrong in (float("nan"), float("inf"), 7.0):
         with pytest.raises(ValueError, match="a heading is an angle"):
-            WALKING_MODES.headed(wrong)
+            WALKING_MODES.with_heading(wrong)
 
 
 NUMBERS = st.floats() | st.sampled_from((0.0, 1.0, -9.8, 1e300))

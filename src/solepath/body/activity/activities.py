@@ -24,16 +24,12 @@ from ...types import Activity, Foot, Site, Vec3
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartInput, PartOutput
-from .activity_report import ActivityReport
-from .blocks.features import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, WINDOW_REACH
-from .blocks.foot_blocks import MAX_STRIDE_TIME, FootBlocks
-from .blocks.motion import MotionModel, load_released_model
-from .blocks.stride_slope import slope_evidence
-from .blocks.votes import block_force, motion_votes
-from .early import ActivityCue, BlockSigns, EarlyActivities, cue_of_stride
+from .early import ActivityCue, ActivityReport, BlockSigns, EarlyActivities, cue_of_stride
 from .elevator_evidence import BlockForce, ElevatorEvidence
 from .flights import Flights
+from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, FootBlocks
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
+from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
 from .pressure_height import BLOCKS_BEFORE, NO_EVIDENCE, PressureHeight
 
 LEFT: Final = Foot.LEFT
@@ -108,38 +104,39 @@ class Activities(ActivityPart):
         if self.left.index is None and self.right.index is None:
             self._restart()
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Leave out a barometer that contradicts the strides."""
-        if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
-            self.pressure_height.leave_out(event.site.foot)
-        return ()
-
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a sample of a foot with its air pressure and events; return activities, flights and rides."""
+        outputs: list[PartOutput] = [] if view is None else self._add_sample(view, events)
+        for event in events:  # a barometer that contradicts the strides is left out
+            if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
+                self.pressure_height.leave_out(event.site.foot)
+        return outputs
+
+    def _add_sample(self, view: FootView, events: Sequence[PartInput]) -> list[PartOutput]:
         sample = view.sample
         acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
         t, origin = view.t, self.origin
         side = self.left if view.foot is LEFT else self.right
+        outputs: list[PartOutput] = []
         if origin is None:
             if acc is None:
-                return ()
+                return outputs
             self.origin = origin = t
         block_number = (t - origin + TIE) / BLOCK_DURATION
-        events: Sequence[PartOutput] = ()
         if sample.air_pressure is not None and side.index is not None:
             self.pressure_height.add(view.foot, floor(block_number), sample.air_pressure)
         if acc is not None:
             if side.index is None or block_number >= side.index + 1:
                 side.close()
                 side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
-                events = self._judge(t, view.known_at)
+                outputs += self._judge(t, view.known_at)
             side.add(acc, sample.gyro, view.velocity if view.levelled else None, view.position[2])
-        if view.events:
-            side.add_events(view.events, view.position[2])
-            for event in view.events:
+        if events:
+            side.add_events(events, view.position[2])
+            for event in events:
                 if isinstance(event, StrideTaken):
-                    events = [*events, *self._add_stride(event, floor(block_number))]
-        return events
+                    outputs += self._add_stride(event, floor(block_number))
+        return outputs
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return the final activities, including the last second, because no more samples come."""

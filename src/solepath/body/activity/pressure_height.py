@@ -12,7 +12,7 @@ from math import exp, fsum, log, sqrt
 
 from ...types import Foot
 from ...types.attrs import define, field
-from ..height.barometric import height_of
+from ..altitude import height_of
 from .chain import (
     ELEVATOR_CREEPS_DOWN,
     ELEVATOR_CREEPS_UP,

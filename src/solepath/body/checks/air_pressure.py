@@ -15,7 +15,7 @@ from ...events import Defect, DefectFound, StrideTaken
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
-from ..height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE, height_of
+from ..altitude import SCALE_HEIGHT, STANDARD_PRESSURE, height_of
 from ..part import Part, PartInput, PartOutput
 
 STRIDE_PAUSE = 2.5
@@ -85,8 +85,15 @@ class AirPressure(Part):
     degraded: bool = field(default=False, init=False)
     """Flag: that stride is degraded."""
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add the reading of a foot's barometer, if the sample has one."""
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        """Add the reading of a foot's barometer, if the sample has one, and strides, which show that people walk."""
+        outputs = () if view is None else self._add_reading(view)
+        for event in events:
+            if isinstance(event, StrideTaken):
+                self.stride_at, self.degraded = event.t, event.degraded
+        return outputs
+
+    def _add_reading(self, view: FootView) -> Sequence[PartOutput]:
         pressure = view.sample.air_pressure
         if pressure is None:
             return ()
@@ -102,12 +109,6 @@ class AirPressure(Part):
             return ()
         barometer.reported = True
         return [_found(t, view.known_at, SITE_OF_FOOT[view.foot], barometer.change)]
-
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive strides, which show that the wearer walks."""
-        if isinstance(event, StrideTaken):
-            self.stride_at, self.degraded = event.t, event.degraded
-        return ()
 
     def reset(self, site: Site) -> None:
         """Forget what was found at a site, where another device is worn or the clock has restarted."""

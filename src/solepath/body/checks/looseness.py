@@ -13,7 +13,7 @@ from ...events import Defect, DefectFound, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
-from ..part import Part, PartOutput
+from ..part import Part, PartInput, PartOutput
 
 FIRST_STRIDES = 20
 """Number of strides from which the usual error of the velocity is learnt."""
@@ -70,11 +70,11 @@ class Looseness(Part):
     left: LandingErrors = field(factory=LandingErrors, init=False)
     right: LandingErrors = field(factory=LandingErrors, init=False)
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a stride of the foot; return the event if its sensor came loose."""
         found: list[PartOutput] = []
-        for event in view.events:
-            if not isinstance(event, StrideTaken):
+        for event in events:
+            if not isinstance(event, StrideTaken) or view is None or view.after is None:
                 continue
             this, other = self._errors(event.foot), self._errors(OTHER[event.foot])
             x, y, z = view.after.velocity_error

@@ -11,10 +11,11 @@ from typing import assert_never
 
 from ...events import Defect, DefectFound, SampleGap, StrideTaken
 from ...foot.stride import FASTEST_RUN
+from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, evolve, field
 from ...types.vector import GRAVITY
-from ..activity.steepness import HIGHEST_RISE
+from ..activity.flights import HIGHEST_RISE
 from ..part import Part, PartInput, PartOutput, Replacement
 
 LONGEST_LEG = 1.15
@@ -80,7 +81,10 @@ class PossibleMotion(Part):
     left: FootRecord = field(factory=FootRecord, init=False)
     right: FootRecord = field(factory=FootRecord, init=False)
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        return [output for event in events for output in self._receive(event)]
+
+    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         if isinstance(event, DefectFound) and event.spoils and event.site.foot is not None:
             record = self._record(event.site.foot)
             record.one_reported = record.all_reported = True  # the cause is known

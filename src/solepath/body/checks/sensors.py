@@ -10,15 +10,19 @@ from ...foot.view import FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ..part import Part, PartInput, PartOutput
-from .axes import AxesCheck
-from .bandwidth import BandwidthCheck
-from .closure import Axes
-from .finding import Finding
-from .gravity import MOVING_GYRO, GravityCheck
-from .loads import LoadCheck
-from .ranges import ACCELEROMETER, GYROSCOPE, RangeCheck, find_extremes
-from .rates import LEAST_RATE, RateCheck
-from .stances import Row, StanceFinder
+from .axes import AxesCheck, BandwidthCheck
+from .readings import (
+    ACCELEROMETER,
+    GYROSCOPE,
+    LEAST_RATE,
+    MOVING_GYRO,
+    GravityCheck,
+    LoadCheck,
+    RangeCheck,
+    RateCheck,
+    find_extremes,
+)
+from .stances import Axes, Finding, Row, StanceFinder
 
 LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""
@@ -98,8 +102,12 @@ class SensorChecks(Part):
     left: SensorCheck = field(factory=SensorCheck, init=False)
     right: SensorCheck = field(factory=SensorCheck, init=False)
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add a sample; return the defects that its block shows."""
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        """Add a sample and events; return the defects that they show."""
+        outputs = () if view is None else self._add_sample(view)
+        return [*outputs, *[output for event in events for output in self._receive(event)]] if events else outputs
+
+    def _add_sample(self, view: FootView) -> Sequence[PartOutput]:
         sample = view.sample
         acc, gyro = sample.acc, sample.gyro
         if acc is None or gyro is None:
@@ -114,7 +122,7 @@ class SensorChecks(Part):
         check.in_newtons = pressed is not None and pressed.in_newtons
         return self._report(view.foot, view.t, view.known_at, self._examine(check, rows, view.gyro_bias))
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive contacts and strides, which an insole or a stuck sensor may contradict, and rejected samples."""
         if isinstance(event, HeelStrike):
             self._check(event.foot).loads.new_contacts += 1

@@ -9,8 +9,24 @@ from collections.abc import Iterable
 from math import sqrt
 from typing import NamedTuple
 
+from ...events import Defect
 from ...types import Vec3
 from ...types.attrs import define, field
+
+# The finding of a check of a foot's sensors.
+
+Axes = tuple[int, int, int]
+"""Gyroscope axis, 1 to 3, for each accelerometer axis; negative for the opposite direction."""
+
+
+class Finding(NamedTuple):
+    """A defect of a foot's samples; the fields are those of `DefectFound`."""
+
+    defect: Defect
+    what: str
+    spoils: bool = True
+    axes: Axes | None = None
+
 
 INTERVAL = 0.0185
 """Shortest duration of an interval, s: two samples at 100 Hz, four at 200 Hz."""

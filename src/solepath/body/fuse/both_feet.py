@@ -26,7 +26,7 @@ from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
-from ..part import PartInput, PartOutput, Position, Shift
+from ..part import PartInput, PartOutput, Position, Shift, StartGiven
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import WIDTH, Pair, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
 from .learnt_bias import has_rested
@@ -101,32 +101,32 @@ class BothFeet(MeanOfFeet):
         part.evidence.straight_ways.use_calibration(calibration.headings)
         return part
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
-        was_unplaced = self.left.unplaced or self.right.unplaced
-        MeanOfFeet.feed(self, view)
-        mag = view.sample.mag if view.phase is STATIONARY else None
-        if mag is not None and not 0.0 <= view.t - self.evidence.measured_at < SPACING:
-            self.evidence.add_stance_sample(view, mag)
-        if not self.started and self.left.t is not None and self.right.t is not None:
-            self._start()
-        if not view.events or (self.left if view.foot is Foot.LEFT else self.right).unplaced:
-            return ()
-        if was_unplaced and not self.left.unplaced and not self.right.unplaced:
-            self.errors.align(0 if self.placed_last is Foot.LEFT else 1, *ALIGNMENT_ERROR)
-            self._keep_placements()
-        outputs: list[PartOutput] = []
-        for event in view.events:
-            if isinstance(event, StrideTaken):
-                outputs += self._add_stride(event, view.after)
-            elif isinstance(event, SampleGap):
-                self.common.add_gap(event.duration, self.is_unseen(event))
-        return outputs
+        if view is not None:
+            was_unplaced = self.left.unplaced or self.right.unplaced
+            self.add_view(view)
+            mag = view.sample.mag if view.phase is STATIONARY else None
+            if mag is not None and not 0.0 <= view.t - self.evidence.measured_at < SPACING:
+                self.evidence.add_stance_sample(view, mag)
+            if not self.started and self.left.t is not None and self.right.t is not None:
+                self._start()
+            if was_unplaced and not self.left.unplaced and not self.right.unplaced:
+                self.errors.align(0 if self.placed_last is Foot.LEFT else 1, *ALIGNMENT_ERROR)
+                self._keep_placements()
+        return [output for event in events for output in self._receive(event, view)] if events else ()
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive an event: a position that a person reports, or a defect that spoils the straight ways of a foot."""
-        if isinstance(event, DefectFound):
+    def _receive(self, event: PartInput, view: FootView | None) -> Sequence[PartOutput]:
+        """Receive a stride or gap, a position that a person reports, or a defect that spoils straight ways."""
+        after = None if view is None or self._track(view.foot).unplaced else view.after
+        if isinstance(event, StrideTaken) and after is not None:
+            return self._add_stride(event, after)
+        if isinstance(event, SampleGap) and after is not None:
+            self.common.add_gap(event.duration, self.is_unseen(event))
+        elif isinstance(event, DefectFound):
             self.evidence.straight_ways.add_defect(event)
+        elif isinstance(event, StartGiven):
+            self.set_start(event.start)
         elif isinstance(event, PositionReported) and (self.common.started or event.place):
             here = [not (track.absent or track.unplaced) for track in (self.left, self.right)]
             shares = self.common.shares if here[0] == here[1] else (float(here[0]), float(here[1]))

@@ -19,7 +19,7 @@ from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, sub, turned
 from ..aiding.walked_path import PlanStart
-from ..part import PartOutput, Position, TrackPart
+from ..part import PartInput, PartOutput, Position, TrackPart
 
 if TYPE_CHECKING:
     from ...floorplan.plan import Start
@@ -123,7 +123,7 @@ class MeanOfFeet(TrackPart):
     Each has a flag for the left foot, the unplaced foot's position on its own track, and the other foot's position in
     the common frame, m."""
 
-    def set_out(self, start: Start) -> None:
+    def set_start(self, start: Start) -> None:
         """Take the wearer's first place on the floor plan, in whose frame a person may report positions."""
         if start.heading is not None and start.place is not None:
             self.plan_start = PlanStart(start.place, start.heading, start.spread)
@@ -134,11 +134,17 @@ class MeanOfFeet(TrackPart):
         left, right = shares
         return (left * lx + right * rx, left * ly + right * ry)
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add one sample of a foot and detect an absent or returned foot; returns no output."""
+        if view is not None:
+            self.add_view(view)
+        return ()
+
+    def add_view(self, view: FootView) -> None:
+        """Add one sample of a foot and detect an absent or returned foot."""
         t, is_left = view.t, view.foot is LEFT
         if view.sample.acc is None or view.sample.gyro is None:
-            return ()
+            return
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
         has_returned = False
         if this.t is None:
@@ -158,12 +164,11 @@ class MeanOfFeet(TrackPart):
         this.t, this.absent_for, this.newest_place = t, 0.0, newest_place
         if has_returned:
             self._start_return(this, other)
-        if view.events and (covariance := view.after.covariance) is not None:  # a stride has ended
+        if view.after is not None and (covariance := view.after.covariance) is not None:  # a stride has ended
             xx, _, _, yy, _, zz = covariance
             this.variance = (0.5 * (xx + yy), zz)
             if other.t is not None and other.absent_for < ABSENCE_TIME:
                 self._place_returned(is_left, this)
-        return ()
 
     def reset(self, site: Site) -> None:
         """Reset the times of a foot, so that its next sample counts as its first."""

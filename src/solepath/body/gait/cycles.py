@@ -8,11 +8,10 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from ...events import Defect, DefectFound, FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
-from ...events.gait_cycle import GaitCycleMeasured
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
-from ..part import Part, PartInput, PartOutput
+from ..part import ClockUnsettled, Part, PartInput, PartOutput
 from .footfalls import Footfalls
 from .means import GaitMeans, GaitParameters
 from .measuring import measure_cycle
@@ -48,9 +47,6 @@ class GaitCycles(Part):
     """Time up to which the left foot's clock cannot be compared with the right one's, s; None: it can."""
     right_unsettled: float | None = field(default=None, init=False)
     """Time up to which the right foot's clock cannot be compared with the left one's, s; None: it can."""
-
-    between: Part | None = field(default=None, init=False)
-    """Measurement of steps by ranges between the feet (`recipes.AIDS`); None until a sample has a range."""
     clocks_apart: bool = field(default=False, init=False)
     """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 
@@ -59,15 +55,21 @@ class GaitCycles(Part):
         """Running means of walking or of running, by the newest cycle in the means; None before any."""
         return self.means.parameters
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a sample of a foot with its events and return the cycles that are complete."""
-        if self.between is None and view.sample.range is not None:
-            from ..width.between_feet import BetweenFeet
+        outputs = () if view is None else self._add_sample(view, events)
+        for event in events:
+            if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
+                self.clocks_apart = True
+                self.means.separate_feet()
+            elif isinstance(event, ClockUnsettled) and event.site is Site.LEFT_FOOT:
+                self.left_unsettled = event.until
+            elif isinstance(event, ClockUnsettled) and event.site is Site.RIGHT_FOOT:
+                self.right_unsettled = event.until
+        return outputs
 
-            self.between = BetweenFeet()
-        if self.between is not None and self.left_unsettled is self.right_unsettled is None and not self.clocks_apart:
-            self.between.feed(view)
-        elif self.idle and not view.events:
+    def _add_sample(self, view: FootView, events: Sequence[PartInput]) -> Sequence[PartOutput]:
+        if self.idle and view.after is None:
             return ()
         is_left = view.foot is Foot.LEFT
         progress, other = self.left_progress, self.right_progress
@@ -75,11 +77,11 @@ class GaitCycles(Part):
             progress, other = other, progress
         if progress.t is None or view.t > progress.t:
             progress.t = view.t
-        if view.events:
+        if view.after is not None:
             other.t = view.after.other_t
         progress.tracked = view.levelled
         this = self.left if is_left else self.right
-        for event in view.events:
+        for event in events:
             if isinstance(event, HeelStrike):
                 this.add_contact(event.t, event.inferred)
             elif isinstance(event, FootFlat):
@@ -104,30 +106,14 @@ class GaitCycles(Part):
         """Return the cycles that still wait, because no more samples come."""
         for falls in (self.left, self.right):
             falls.close_cycle()
-        self.idle = self.between is None
+        self.idle = True
         counts = (len(self.left.waiting_cycles), len(self.right.waiting_cycles))
         return [*self._measure(Foot.LEFT, now, counts[0]), *self._measure(Foot.RIGHT, now, counts[1])]
-
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Store that the clocks of both feet cannot be compared."""
-        if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
-            self.clocks_apart = True
-            self.means.separate_feet()
-        return ()
-
-    def unsettle(self, site: Site, until: float | None) -> None:
-        """Store up to which time a foot's clock cannot be compared with the other foot's."""
-        if site is Site.LEFT_FOOT:
-            self.left_unsettled = until
-        elif site is Site.RIGHT_FOOT:
-            self.right_unsettled = until
 
     def reset(self, site: Site) -> None:
         """Discard the cycles and the times of a foot whose clock restarts."""
         if site.foot is not None:
             self.clocks_apart = False
-            if self.between is not None:
-                self.between.reset(site)
             self.means.reset(site.foot)
             if site.foot is Foot.LEFT:
                 self.left, self.left_progress.t = Footfalls(count=self.left.count), None
@@ -148,7 +134,7 @@ class GaitCycles(Part):
                 ready_count += 1
             if ready_count:
                 outputs += self._measure(foot, known_at, ready_count)
-        self.idle = self.between is None and not (self.left.waiting_cycles or self.right.waiting_cycles)
+        self.idle = not (self.left.waiting_cycles or self.right.waiting_cycles)
         return outputs
 
     def _measure(self, foot: Foot, known_at: float, count: int) -> list[PartOutput]:
@@ -165,8 +151,6 @@ class GaitCycles(Part):
             comparable = not (self.clocks_apart or is_unsettled)
             previous = self.means.left if is_left else self.means.right
             measured = measure_cycle(foot, falls.count, cycle, previous, other, tracked, comparable, known_at)
-            for one in (measured,) if self.between is None or not comparable else self.between.receive(measured):
-                if isinstance(one, GaitCycleMeasured):
-                    self.means.add(one)
-                outputs.append(one)
+            self.means.add(measured)
+            outputs.append(measured)
         return outputs

@@ -81,8 +81,6 @@ class StrideFigures:
     phase: Figure | None = None
     stride_length: Figure | None = None
     speed: Figure | None = None
-    step_length: Figure | None = None
-    step_width: Figure | None = None
     clearance: Figure | None = None
     toe_off_angle: Figure | None = None
     heel_strike_angle: Figure | None = None
@@ -120,8 +118,6 @@ class Parameter(Word):
     PHASE = "phase"
     STRIDE_LENGTH = "stride_length"
     SPEED = "speed"
-    STEP_LENGTH = "step_length"
-    STEP_WIDTH = "step_width"
     CLEARANCE = "clearance"
     TOE_OFF_ANGLE = "toe_off_angle"
     HEEL_STRIKE_ANGLE = "heel_strike_angle"

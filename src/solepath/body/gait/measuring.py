@@ -94,8 +94,6 @@ def measure_cycle(
         phase=None if contact is None else (contact - start) / time,
         stride_length=length,
         speed=None if length is None else length / time,
-        step_length=None,
-        step_width=None,
         clearance=clearance,
         toe_off_angle=off_angle,
         heel_strike_angle=strike_angle,

@@ -14,11 +14,11 @@ from math import fsum, pi
 from typing import ClassVar
 
 from ...events import FootFlat, StrideTaken, TurnMade
-from ...foot.view import FootView
+from ...foot.view import AfterEvents, FootView
 from ...types import Foot, Quat, Site, Turn
 from ...types.attrs import define, field
 from ...types.vector import heading_turned
-from ..part import Part, PartOutput
+from ..part import Part, PartInput, PartOutput
 from .turn_detector import TurnDetector, TurnProcess
 
 MIN_CLASSIFIED_TURN = 0.61
@@ -72,18 +72,19 @@ class Turns(Part):
     idle: bool = field(default=True, init=False)
     """Flag: no turn is under way."""
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a sample of a foot with its events and return the turns that have ended."""
+        if view is None:
+            return ()
         ended_turns: list[TurnProcess] = []
         known_at = view.known_at
-        for event in view.events:
+        for event in events:
             process = None
             if isinstance(event, StrideTaken):
                 process = self.detector.add_stride(event)
-            elif isinstance(event, FootFlat) and view.levelled:
-                process = self._add_foot_flat(view, event)
+            elif isinstance(event, FootFlat) and view.levelled and view.after is not None:
+                process = self._add_foot_flat(events, view.after, event)
             if process is not None:
-                known_at = event.known_at
                 ended_turns.append(process)
         if not ended_turns and self.detector.t_start is not None:
             process = self.detector.advance(view.t)
@@ -92,14 +93,11 @@ class Turns(Part):
         self.idle = self.detector.t_start is None
         return [turn_event(process, known_at) for process in ended_turns if abs(process.angle) > MIN_REPORTED_TURN]
 
-    def _add_foot_flat(self, view: FootView, event: FootFlat) -> TurnProcess | None:
+    def _add_foot_flat(self, events: Sequence[PartInput], after: AfterEvents, event: FootFlat) -> TurnProcess | None:
         """Add a foot-flat, before which the foot may have pivoted without a stride."""
-        previous, attitude = self.last_flat.get(event.foot), view.after.flat_attitude
+        previous, attitude = self.last_flat.get(event.foot), after.flat_attitude
         self.last_flat[event.foot] = FlatFoot(event.t, attitude)
-        # only a view with a stride has a covariance: check it first, because it is faster
-        has_stride = view.after.covariance is not None and any(
-            [isinstance(other, StrideTaken) and other.t == event.t for other in view.events]
-        )
+        has_stride = any([isinstance(other, StrideTaken) and other.t == event.t for other in events])
         if previous is None or has_stride or event.t < previous.t:
             return None
         return self.detector.add_pivot(event.foot, previous.t, event.t, heading_turned(previous.attitude, attitude))

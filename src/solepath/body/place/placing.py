@@ -16,9 +16,10 @@ from typing import ClassVar
 from ...events import Event, Placed, PlaceLost, PositionReported, StrideTaken, TrackRevised, TurnMade, WearerMoved
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point, Start
+from ...foot.view import FootView
 from ...types.attrs import NOT_SAVED, define, field
 from ..fuse.position_covariance import LEAST_WAY
-from ..part import MOVEMENTS, PartInput, PartOutput
+from ..part import MOVEMENTS, PartInput, PartOutput, StartGiven
 from .arrivals import START_HEADING_ERROR, spread_rows, start_error
 from .connectors.level_changes import DirectionRevised, LevelChangePossible, LevelReached
 from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
@@ -82,18 +83,17 @@ class Placing(LevelChanges):
         """Place of the wearer on the plan; None while it is not known."""
         return self.newest_placed
 
-    def set_out(self, start: Start) -> None:
-        """Set the start of the wearer before the first `follow`; raises ValueError for values that are not finite."""
-        numbers = (*(start.place or ()), start.spread, start.heading or 0.0)
-        if not all([isfinite(number) for number in numbers]):
-            raise ValueError(f"a start's place, heading and spread are numbers, not {numbers}")
+    def _set_start(self, start: Start) -> None:
         self.start = start
         if start.heading is not None:
             self.known_heading = (start.heading, START_HEADING_ERROR)
             self.heading_source = HeadingSource.GIVEN
 
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive an event and hold it back until the wearer's position after it is known."""
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        """Hold events back until the wearer's position after them is known, and return the place then."""
+        return [output for event in events for output in self._receive(event)]
+
+    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         if isinstance(event, MOVEMENTS):
             self.pending_events.append(event)
         elif isinstance(event, WearerMoved) and self.plan is not None:
@@ -101,6 +101,8 @@ class Placing(LevelChanges):
             return self.follow(self.plan, events, event)
         elif isinstance(event, PositionReported) and event.position is not None and event.level and self.plan:
             return self._use_report(self.plan, event, event.position)
+        elif isinstance(event, StartGiven):
+            self._set_start(event.start)
         elif isinstance(event, TrackRevised):
             self.revise_track(event)
             if self.rejected is not None:

@@ -53,11 +53,6 @@ def add_to(commands: Any) -> None:
         "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
     )
     command.add_argument("--mtu", metavar="N", type=int, default=247, help="MTU of insoles, bytes (default: 247)")
-    command.add_argument(
-        "--rsc",
-        action="store_true",
-        help="serve a sensor of running speed and cadence (Bluetooth service 0x1814) too, with what solepath measures",
-    )
     command.add_argument("--faults", metavar="FILE", type=Path, help="a script of what goes wrong")
     add_duration(command, SERVE_TIME)
     command.set_defaults(run=run)

@@ -38,8 +38,6 @@ POLL_INTERVAL = 0.01
 """Time between two checks of the connections, s."""
 SLOW_DISTANCE = 500.0
 """Distance above which computing the walk takes some seconds, m."""
-RSC_ADDRESS = "F0:5E:00:00:00:0A"
-"""Address of the sensor of running speed and cadence."""
 WALK_DELAY = 1.0
 """Time from the first connection to the start of the walk, s; the wearer stands at first."""
 
@@ -77,22 +75,7 @@ def prepare_bench(options: argparse.Namespace) -> Bench:
     if options.postures is not None:
         bench.walker.motions = dict.fromkeys(Foot, held_shoe(PITCHES, options.postures))
     bench.prepare()
-    if options.rsc:
-        bench.peripherals = (*bench.peripherals, _running_sensor(bench, options))
     return bench
-
-
-def _running_sensor(bench: Bench, options: argparse.Namespace) -> Peripheral:
-    """Return a sensor that serves what a session measures on the walk of these devices."""
-    from ...emulate.devices.peripheral import Placement
-    from ...emulate.devices.running import RunningPeripheral
-    from ...emulate.devices.running_meter import ReplayedMeter
-    from ...emulate.walk import emulate
-
-    if options.postures is not None:
-        raise Failure("--rsc: shoes that are held in postures have no speed")
-    walk = emulate(straight(options.distance), devices=bench.devices, seed=options.seed)
-    return RunningPeripheral(ReplayedMeter(walk.packets), Placement(Site.RIGHT_FOOT, RSC_ADDRESS))
 
 
 async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio.Event) -> int:

@@ -7,12 +7,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..common.failure import host_and_port, require
 from ..common.files import RECORDING, OutputFile, add_force, check_outputs, check_writable, files_of_track
 from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibration_of, floorplan_of, recipe_of
 from ..common.view import add_view, need_page, page_address_of
 from .devices import add_devices, need_bleak
-from .live_pod import run_pod
 from .live_streams import need_lsl, run_streams, stream_names_of
 
 
@@ -55,20 +53,6 @@ def add_to(commands: Any) -> None:
     live.add_argument(
         "--units", metavar="ACC,GYRO", help="the units of acc and gyro of such streams, where they do not say: g,deg/s"
     )
-    live.add_argument(
-        "--pod",
-        metavar="DEVICE",
-        nargs="?",
-        const="",
-        help="read a foot pod instead: a sensor of running speed and cadence (0x1814), of any maker (default: the "
-        "nearest one)",
-    )
-    live.add_argument(
-        "--rsc",
-        metavar="HOST:PORT",
-        help="serve speed, cadence and distance as a sensor of running speed and cadence (0x1814), on a virtual "
-        "Bluetooth controller there",
-    )
     add_force(live)
     live.set_defaults(run=run)
 
@@ -92,8 +76,6 @@ def add_to(commands: Any) -> None:
         start=None,
         view=None,
         lsl=None,
-        pod=None,
-        rsc=None,
     )
 
 
@@ -108,13 +90,8 @@ def run(options: argparse.Namespace) -> int:
     if stream_names_of(options):
         return run_streams(options, recipe, calibration)
     need_bleak()
-    if options.pod is not None:
-        return run_pod(options)
     if options.lsl is not None:
         need_lsl("--lsl needs")
-    if options.rsc is not None:
-        require("--rsc needs", "loopback", "bumble")
-        host_and_port("--rsc", options.rsc)
     from .backend import listen_to_end
     from .live_run import listen
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import AsyncExitStack, contextmanager
 
 from attrs import define
@@ -24,10 +24,9 @@ from ...show.page.live_commands import position_of
 from ...show.page.scene.scales import newtons_of
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
-from ...types import Packet, Site
-from ..common.failure import Failure, host_and_port, is_installed, note
+from ...types import Packet
+from ..common.failure import Failure, is_installed, note
 from ..common.loop import unless_stopped
-from ..common.os_errors import address_error_text
 from ..common.own_devices import drivers_of
 from ..common.view import PageAddress, serve_page
 from .backend import backend_of, packets_until
@@ -69,7 +68,7 @@ async def listen(
                 devices = choose_devices(await scan(SCAN_TIME, backend=backend), options.profile, drivers)
             connections = Devices(devices, backend=backend, pair=options.pair, profiles=drivers)
             packets = await stack.enter_async_context(connections)
-        publishers = await _publishers_of(options, session, stack)
+        publish = _publisher_of(options, session)
         if address is not None:
             floor_plan, newtons = None if plan is None else plan.plan, newtons_of(calibration)
             scene = Scene("Live", recipe.name, "live", plan=floor_plan, newtons=newtons, observer=observer)
@@ -77,7 +76,7 @@ async def listen(
             await stack.enter_async_context(
                 serve_page(scene, address, lambda command: packets.report_position(position_of(command, floor_plan)))
             )
-        live = LiveSession(session, observer if scene is None else scene, files, publishers)
+        live = LiveSession(session, observer if scene is None else scene, files, publish)
         end_hint = "Ctrl-C ends" if seconds is None else f"{seconds:g} s"
         try:
             with show_state(observer, end_hint) as report:
@@ -112,8 +111,8 @@ class LiveSession:
     session: Session
     collector: Observer | Scene
     files: LiveFiles
-    publishers: Sequence[Callable[[list[Event]], None]] = ()
-    """Functions that get the events after each packet."""
+    publish: Callable[[list[Event]], None] | None = None
+    """Function that gets the events after each packet."""
 
     def take(self, packet: Packet) -> None:
         """Feed the next packet to the session; write and show the packet and its events."""
@@ -129,40 +128,21 @@ class LiveSession:
         self.collector.take(packet, events)
         for event in events:
             self.files.write_event(event)
-        for publish in self.publishers:
-            publish(events)
+        if self.publish is not None:
+            self.publish(events)
 
 
-async def _publishers_of(
-    options: argparse.Namespace, session: Session, stack: AsyncExitStack
-) -> list[Callable[[list[Event]], None]]:
-    """Return the functions that publish samples, poses and events as --lsl says, and speed as --rsc says."""
-    publishers: list[Callable[[list[Event]], None]] = []
-    loop = asyncio.get_running_loop()
-    if options.lsl is not None:
-        from ...recording.lsl.clock import clock_offset
-        from ...recording.lsl.outlet import LslOutlets
-        from ...recording.posed import PosedSession
+def _publisher_of(options: argparse.Namespace, session: Session) -> Callable[[list[Event]], None] | None:
+    """Return the function that publishes samples, poses and events as --lsl says; None without --lsl."""
+    if options.lsl is None:
+        return None
+    from ...recording.lsl.clock import clock_offset
+    from ...recording.lsl.outlet import LslOutlets
+    from ...recording.posed import PosedSession
 
-        outlets, posed = LslOutlets(clock_offset(loop.time), options.lsl), PosedSession(session)
-        publishers.append(lambda events: outlets.push(posed.take(), events))
-    if options.rsc is not None:
-        from ...emulate.controllers import serve
-        from ...emulate.devices.peripheral import Placement
-        from ...emulate.devices.running import RunningPeripheral
-        from ...emulate.devices.running_meter import RunningMeter
-        from .emulate_run import RSC_ADDRESS
-
-        meter = RunningMeter()
-        publishers.append(meter.add)
-        # the walk starts at 0 of the loop's clock, which is also that of the session
-        sensor = RunningPeripheral(meter, Placement(Site.RIGHT_FOOT, RSC_ADDRESS))
-        try:
-            host, port = await stack.enter_async_context(serve([sensor], *host_and_port("--rsc", options.rsc)))
-        except OSError as error:
-            raise Failure(f"--rsc {options.rsc}: {address_error_text(error)}") from None
-        print(f"serving running speed and cadence at tcp:{host}:{port}", flush=True)
-    return publishers
+    outlets = LslOutlets(clock_offset(asyncio.get_running_loop().time), options.lsl)
+    posed = PosedSession(session)
+    return lambda events: outlets.push(posed.take(), events)
 
 
 REPORT_INTERVAL = 5.0

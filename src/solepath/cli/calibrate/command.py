@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ...calibration import Calibration
-from ...calibration.merging import merged
+from ...calibration.records import merged
 from ...recording import printable
 from ...saving.files import identity
 from ..common.failure import Failure
@@ -66,13 +66,13 @@ class _FileChanged(Exception):
 def _try_to_complete(path: Path, learnt: Calibration) -> bool:
     """Add what was learnt to what the file holds; return False when another `calibrate` wrote it just now."""
     from ...calibration.file import write_calibration
-    from ...calibration.limits import find_fault
+    from ...types.checking import find_fault
 
     found = identity(path)
     whole = merged(_read(path), learnt)
-    problem = find_fault(whole)  # a reason, or None
-    if problem is not None:
-        raise Failure(f"nothing is written, for this cannot be: {problem}")
+    fault = find_fault(whole, Calibration)
+    if fault is not None:
+        raise Failure(f"nothing is written, for this cannot be: {fault}")
 
     def check_again(path: Path) -> None:
         if identity(path) != found:

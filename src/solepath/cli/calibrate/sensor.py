@@ -7,8 +7,7 @@ from math import degrees, hypot
 from typing import Any
 
 from ...calibration import Calibration
-from ...calibration.merging import stale_feet
-from ...calibration.records import TriadCalibration
+from ...calibration.records import TriadCalibration, stale_feet
 from ...show.tables.table import number, table
 from ..common.inputs import source_of
 from ..common.own_devices import add_own_devices, drivers_of

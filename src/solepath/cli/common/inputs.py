@@ -80,7 +80,7 @@ def _headed(recipe: Recipe, options: argparse.Namespace) -> Recipe:
     if options.heading is None:
         return recipe
     try:
-        return recipe.headed(options.heading)
+        return recipe.with_heading(options.heading)
     except (LookupError, ValueError) as error:
         raise Failure(f"--heading: {error}") from None
 
@@ -243,7 +243,7 @@ def start_of(text: str) -> Start:
 
     The name of the level may contain commas."""
     from ...floorplan.plan import Start
-    from ...floorplan.records import find_start_fault
+    from ...types.checking import find_fault
 
     only = _finite(text.removeprefix("heading=")) if text.startswith("heading=") else None
     if only is not None and abs(only) <= 360.0:
@@ -256,7 +256,7 @@ def start_of(text: str) -> Start:
             if heading and not abs(heading[0]) <= 360.0:
                 raise Failure(f"--start {printable(text, 80)}: a heading can be -360 to 360 degrees")
             start = Start(level.strip(), (x, y), radians(heading[0]) if heading else None)
-            problem = find_start_fault(start)
+            problem = find_fault(start, Start)
             if problem is not None:
                 raise Failure(f"--start {printable(text, 80)}: {problem}")
             return start

@@ -25,7 +25,7 @@ OPTION_GROUPS = {
     "sensors": ("--left", "--right", "--at", "--profile", "--pair", "--via", "--live"),
     "what is written": ("--out", "--record", "--report", "--json", "--figure", "--resume", "--force"),
     "page": ("--view", "--no-browser", "--speed", "--terminal"),
-    "other programs": ("--lsl", "live --channels", "live --units", "--pod", "live --rsc"),
+    "other programs": ("--lsl", "live --channels", "live --units"),
     "phone's log": ("--site", "--handle"),
     "OpenSim and Motion-BIDS": ("--positions", "convert --subject", "--session", "--task", "--run", "--validate"),
 }

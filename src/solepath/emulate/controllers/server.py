@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Callable, Iterable
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 from functools import partial
 from typing import TypeVar
 
@@ -37,7 +37,7 @@ _T = TypeVar("_T")
 ADVERTISING_INTERVAL = 62.5
 """Advertising interval given to bumble's host, ms: 100 HCI units. Its controller takes a unit for 1 ms: 100 ms."""
 _CENTRAL_ADDRESS = "C0:50:1E:9A:74:01"
-_STANDARD_SERVICES = ("0000180a", "0000180f", "00001814")
+_STANDARD_SERVICES = ("0000180a", "0000180f")
 """Starts of the UUIDs of services whose characteristics need no description; the Bluetooth SIG defines them."""
 
 
@@ -89,7 +89,6 @@ class Server:
         self._due = 0.0
         self._link_end: asyncio.Future[bytes] | None = None  # never gets a result; cancelled when the link ends
         self._advertising: asyncio.Task[None] | None = None
-        self._indications: list[asyncio.Task[None]] = []
         self._stopped = False
         self._controller = VirtualController(
             peripheral.name, medium, lambda: self._advertised() if peripheral.visible(self._loop.time()) else None
@@ -147,8 +146,6 @@ class Server:
             await end_link(self._link)
         if self._advertising is not None:
             await self._advertising
-        for task in self._indications:
-            task.cancel()
         self._disarm()
         self.peripheral.on_change = None
         await self._device.power_off()
@@ -202,8 +199,8 @@ class Server:
             await self._no_answer()
 
     def subscribe(self, channel: str, link: Connection, notify: bool, indicate: bool) -> None:
-        """Start or stop the notifications of a channel."""
-        self._request(partial(self.peripheral.subscribe, channel, notify or indicate))
+        """Start or stop the notifications of a channel; no device indicates."""
+        self._request(partial(self.peripheral.subscribe, channel, notify))
 
     def _request(self, request: Callable[[float], _T]) -> _T:
         """Return the device's answer, or raise its error as an ATT error; then set the timer (`_arm`)."""
@@ -236,12 +233,6 @@ class Server:
             self._due = due
             self._timer = self._loop.call_at(due, self._send)
 
-    async def _indicate(self, link: Connection, served: Characteristic[bytes], value: bytes) -> None:
-        """Send an indication and wait until the host confirms it, or the link ends."""
-        with suppress(TimeoutError, asyncio.CancelledError):
-            await self._device.gatt_server.indicate_subscriber(link, served, value)
-        self._indications = [task for task in self._indications if not task.done()]
-
     def _send(self) -> None:
         link = self._link
         if link is None:
@@ -249,9 +240,6 @@ class Server:
         now = max(self._loop.time(), self._due)  # a timer may fire a clock's resolution early
         for outgoing in self.peripheral.poll(now):
             served = self._served[outgoing.channel]
-            if not served.properties & Characteristic.Properties.NOTIFY:
-                self._indications.append(self._loop.create_task(self._indicate(link, served, outgoing.value)))
-                continue
             pdu = att.ATT_Handle_Value_Notification(
                 attribute_handle=served.handle,
                 # Longer values are cut without an error, as GATT servers do.

@@ -22,8 +22,6 @@ class AttCode(IntEnum):
     WRONG_LENGTH = 0x0D
     APPLICATION_ERROR = 0x80
     """First of the codes that an application may define."""
-    NOT_SUBSCRIBED = 0xFD
-    """The host must subscribe first (Core Specification Supplement, part B, 1.2)."""
 
 
 SMALLEST_MTU = 23
@@ -53,7 +51,7 @@ class Characteristic:
     channel: str
     """Name of the channel whose values are read, written or notified here."""
     properties: frozenset[str]
-    """Subset of "read", "write", "write-without-response", "notify" and "indicate"."""
+    """Subset of "read", "write", "write-without-response" and "notify"."""
 
 
 @frozen
@@ -98,11 +96,6 @@ BATTERY_STEP = 600.0
 _INFORMATION_NUMBERS = {"manufacturer": 0x2A29, "model": 0x2A24, "hardware": 0x2A27, "software": 0x2A28}
 
 
-def information(*names: str) -> tuple[Characteristic, ...]:
-    """Return the characteristics of Device Information with these names of `_INFORMATION_NUMBERS`."""
-    return tuple(Characteristic(standard_uuid(_INFORMATION_NUMBERS[one]), f"device/{one}", READ) for one in names)
-
-
 def services(
     profile: Profile,
     properties: Mapping[str, frozenset[str]],
@@ -112,10 +105,14 @@ def services(
     """Return the services of a device.
 
     They contain the channels of `profile`, with their `properties` by name, the pairs (UUID of the service,
-    characteristic) of `more`, and the characteristics of Device Information with the names `information_names`."""
+    characteristic) of `more`, and the characteristics of Device Information with the names `information_names`, which
+    are those of `_INFORMATION_NUMBERS`."""
     table = [(c.service, Characteristic(c.characteristic, c.name, properties[c.name])) for c in profile.channels]
     table += more
-    table += [(FIRMWARE.service, characteristic) for characteristic in information(*information_names)]
+    table += [
+        (FIRMWARE.service, Characteristic(standard_uuid(_INFORMATION_NUMBERS[name]), f"device/{name}", READ))
+        for name in information_names
+    ]
     found: dict[str, list[Characteristic]] = {}
     for service, characteristic in table:
         found.setdefault(service, []).append(characteristic)

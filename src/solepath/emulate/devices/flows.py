@@ -53,10 +53,6 @@ class Flows:
         elif not on:
             self._subscribed.discard(channel)
 
-    def is_subscribed(self, channel: str) -> bool:
-        """Return whether the host has subscribed to the channel."""
-        return channel in self._subscribed
-
     def go_to(self, t: float) -> None:
         """Continue every channel at time `t` of the walk."""
         for flow in self._flows.values():

@@ -93,10 +93,6 @@ class Peripheral:
         """Set the source of the channel's values from `t` s of the walk on; None stops the channel."""
         self._flows.put(channel, source, t)
 
-    def is_subscribed(self, channel: str) -> bool:
-        """Return whether the host has subscribed to the channel."""
-        return self._flows.is_subscribed(channel)
-
     # methods that the server calls
 
     @property
@@ -157,8 +153,8 @@ class Peripheral:
         self.stop()
 
     def subscribe(self, channel: str, on: bool, now: float) -> None:
-        """Start or stop the notifications or indications of a channel; raise AttError when it has none."""
-        if not self._properties.get(channel, frozenset()) & {"notify", "indicate"}:
+        """Start or stop the notifications of a channel; raise AttError when it has none."""
+        if "notify" not in self._properties.get(channel, ()):
             raise AttError(AttCode.REQUEST_NOT_SUPPORTED)
         t = self._advance(now)
         self._check_paired(channel)

@@ -6,11 +6,9 @@ world frame of the walk (origin between the feet at the start, x along the first
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from math import atan2, hypot, pi, tan
 from operator import attrgetter
-from pathlib import Path
 
 import numpy as np
 from attrs import evolve, frozen
@@ -257,18 +255,6 @@ def _corner(walker: Walker, name: str, t: float, place: Vec3) -> LapCorner:
         stride_numbers[foot] = k + 1
         footprints[foot] = (strides[k].end.x, strides[k].end.y, strides[k].end.z)
     return LapCorner(name, t, place, (x, y, 0.0), stride_numbers, footprints)
-
-
-def write_marks(path: Path | str, found: Iterable[FloorMark]) -> None:
-    """Write marks for `solepath calibrate modes`: a csv file with the columns foot, x, y, mode and t.
-
-    Strides with the mode STANDING are left out."""
-    with Path(path).open("w", newline="", encoding="utf-8") as file:
-        rows = csv.writer(file)
-        rows.writerow(("foot", "x", "y", "mode", "t"))
-        for mark in found:
-            if mark.mode is not WalkingMode.STANDING:
-                rows.writerow((mark.foot.value, f"{mark.x:.4f}", f"{mark.y:.4f}", mark.mode.name, f"{mark.t:.3f}"))
 
 
 def _is_walkable(previous: Point, position: Point, target: Point) -> bool:

@@ -56,10 +56,6 @@ class Flight:
         """Return the distance along the flight from the first edge to points, m; negative before that edge."""
         return np.asarray((x - self.x) * cos(self.heading) + (y - self.y) * sin(self.heading))
 
-    def ground_height(self, x: Array, y: Array) -> Array:
-        """Return the height of the tread or floor at points, m."""
-        return self._tread(self.along(x, y))
-
     def clear_height(self, x: Array, y: Array, radius: Array) -> Array:
         """Return the least height, m, at which the centre of a disc above (x, y) clears treads and edges.
 

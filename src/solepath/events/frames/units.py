@@ -6,8 +6,8 @@ _NAMES = {
     "s": "t known_at t_start t_end t_toe_off t_heel_strike revises stride_time stance_time swing_time step_time "
     "initial_double_support terminal_double_support single_support offset offset_sigma duration silent_for seconds",
     "m": "height stride_length own_length distance position by sigma compensation displacement length height_change "
-    "features_clearance features_rise features_cop clearance rise step_length step_width centre spread height_off "
-    "layout_length legs step_length_sigma step_width_sigma range",
+    "features_clearance features_rise features_cop clearance rise centre spread height_off "
+    "layout_length legs",
     "m^2": "covariance",
     "m/s": "error_index features_peak_speed features_error_index speed velocity",
     "m/s^2": "acc",

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from math import cos, degrees, isfinite, radians, sin, sqrt
 
-from ..checks import MAX_LATITUDE
-from ..plan import Anchor, FloorPlanError, Point
+from ..plan import MAX_LATITUDE, Anchor, FloorPlanError, Point
 
 _A = 6378137.0
 _F = 1.0 / 298.257223563

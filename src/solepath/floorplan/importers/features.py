@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NoReturn
 
 from ...types.attrs import evolve, frozen
+from ...types.checking import describe
 from ..outlines import MAX_CLOSING_DISTANCE, Ring, describe_open_ring, make_ring
 from ..plan import Anchor, FloorPlanError, Point
-from ..records import describe
 from .earth import south_west
 
 MAX_CORNERS = 1_000_000

@@ -1,15 +1,11 @@
-"""Import and export of the GeoJSON profile of protocol/floorplan.md."""
+"""Import of the GeoJSON profile of protocol/floorplan.md."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable
-from pathlib import Path
 from typing import Any
 
-from ...saving.files import write_whole
 from ...types.attrs import evolve
-from ..checks import MAX_BEARING, MAX_LATITUDE
+from ...types.checking import find_fault
 from ..doors import cut_doors
 from ..outlines import Ring, find_inner_point, join_holes, without_repeats
 from ..plan import (
@@ -69,11 +65,9 @@ def _anchor(raw_anchor: object) -> Anchor:
     values = [parse_number(raw_anchor.get(key, 0.0 if key == "bearing" else None), f"the anchor's {key}")
               for key in ("latitude", "longitude", "bearing")]  # fmt: skip
     anchor = Anchor(*values)
-    if not (
-        abs(anchor.latitude) <= MAX_LATITUDE and abs(anchor.longitude) <= 180.0 and abs(anchor.bearing) <= MAX_BEARING
-    ):
-        raise FloorPlanError(f"its anchor is at latitude {anchor.latitude:g}, longitude {anchor.longitude:g}, "
-                             f"bearing {anchor.bearing:g} rad")  # fmt: skip
+    fault = find_fault(anchor, Anchor)
+    if fault is not None:
+        raise FloorPlanError(f"its anchor's {fault}")
     return anchor
 
 
@@ -195,55 +189,3 @@ class _GeoJsonReader:
         kind = ConnectorKind.STAIRS if first.kind == "stairs" else ConnectorKind.LIFT
         name, flight, rise = first.text("name", ""), flights[0] if flights else None, rises[0] if rises else None
         return Connector(kind, name, tuple(ordered), flight, rise)
-
-
-def write_floorplan(path: Path | str, plan: FloorPlan) -> None:
-    """Write the plan to a file in the plan frame; reading it returns an equal plan, if doors are cut out of the walls.
-
-    Raises OSError when the file cannot be written, ValueError for numbers that JSON does not have."""
-    write_whole(path, format_floorplan(plan))
-
-
-def format_floorplan(plan: FloorPlan) -> str:
-    """Return the file's text, with one feature a line."""
-    head: dict[str, Any] = {"type": "FeatureCollection", "format": FORMAT, "version": VERSION, "name": plan.name,
-                            "frame": "local", "elevations": "known" if plan.heights_known else "assumed"}  # fmt: skip
-    if plan.anchor is not None:
-        head["anchor"] = {"latitude": plan.anchor.latitude, "longitude": plan.anchor.longitude,
-                          "bearing": plan.anchor.bearing}  # fmt: skip
-    head_text = json.dumps(head, allow_nan=False)
-    lines = ",\n".join(json.dumps(feature, allow_nan=False) for feature in _written(plan))
-    return f'{head_text[:-1]}, "features": [\n{lines}\n]}}\n'
-
-
-def _written(plan: FloorPlan) -> Iterable[dict[str, Any]]:
-    for level in plan.levels:
-        properties = {"name": level.name, "ordinal": level.ordinal, "elevation": level.elevation}
-        yield {**_feature("level", None, properties), "id": level.id}
-    for level in plan.levels:
-        on_level = {"level": level.id}
-        for wall in level.walls:
-            yield _feature("wall", _geometry("LineString", [wall.start, wall.end]), on_level)
-        for door in level.doors:
-            yield _feature("door", _geometry("LineString", [door.start, door.end]), {**on_level, "name": door.name})
-        for i, room in enumerate(level.rooms):
-            named = {**on_level, "name": level.room_names[i]} if level.room_names else on_level
-            yield _feature("room", _geometry("Polygon", [[*room, room[0]]]), named)
-    for i, connector in enumerate(plan.connectors):
-        counts = {"flights": connector.flights, "rise": connector.rise}
-        known = {key: value for key, value in counts.items() if value is not None}
-        for stop in connector.stops:
-            properties = {"level": stop.level, "name": connector.name, "connector": str(i), **known}
-            if stop.outline:
-                outline = _geometry("Polygon", [[*stop.outline, stop.outline[0]]])
-                yield _feature(connector.kind.value, outline, {**properties, "place": stop.place})
-            else:
-                yield _feature(connector.kind.value, _geometry("Point", stop.place), properties)
-
-
-def _geometry(kind: str, coordinates: object) -> dict[str, Any]:
-    return {"type": kind, "coordinates": coordinates}
-
-
-def _feature(kind: str, geometry: dict[str, Any] | None, properties: dict[str, Any]) -> dict[str, Any]:
-    return {"type": "Feature", "properties": {"feature": kind, **properties}, "geometry": geometry}

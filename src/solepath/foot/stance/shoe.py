@@ -6,13 +6,13 @@ causal and uses a window that ends with the current sample; it is the only laten
 
 from __future__ import annotations
 
-from math import sqrt
+from math import inf, sqrt
 
-from ...types import Quat, Vec3
+from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, IDENTITY
-from ..settings import WindowThreshold
-from .stance import Detector, Load, Stance, soften
+from ...types.vector import GRAVITY, IDENTITY, ZERO
+from ..settings import ShoeSettings
+from .stance import Detector, Load, Stance
 
 SIGMA_ACC = 0.01
 """Standard deviation of the accelerometer noise, which scales the statistic, m/s^2 (as Skog et al.)."""
@@ -24,9 +24,10 @@ SIGMA_GYRO = 0.1 * 3.141592653589793 / 180.0
 class ShoeDetector(Detector):
     """The SHOE detector: stance hypothesis optimal estimation.
 
-    T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2), over the W samples of the window."""
+    T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2), over the W samples of the window. The sigma of the zero
+    velocity grows with sqrt(T) above the statistic of a foot at rest."""
 
-    settings: WindowThreshold = WindowThreshold(window=0.025, rest_statistic=1e4, motion_statistic=3.5e5)
+    settings: ShoeSettings = ShoeSettings()
     entries: list[tuple[float, float, float, float, float, float]] = field(factory=list, init=False)
     """Time (s), acc x, y, z (m/s^2), and squared norms of acc and gyro (rad/s) of each sample in the window."""
     sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
@@ -37,7 +38,12 @@ class ShoeDetector(Detector):
     ) -> Stance:
         acc_square, gyro_square = self.mean_squares(t, acc, gyro)
         statistic = acc_square / SIGMA_ACC**2 + gyro_square / SIGMA_GYRO**2
-        return soften(statistic, self.settings)
+        settings = self.settings
+        if statistic >= settings.motion_statistic:
+            return Stance(ZERO, inf, statistic, None)
+        hint = Phase.STATIONARY if statistic < settings.rest_statistic else None
+        sigma = settings.sigma * sqrt(max(1.0, statistic / settings.rest_statistic))
+        return Stance(ZERO, sigma, statistic, hint)
 
     def mean_squares(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[float, float]:
         """Add one sample; return the two mean squares of the window that make the statistic.

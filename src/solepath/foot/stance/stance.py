@@ -6,14 +6,12 @@ any corrector."""
 
 from __future__ import annotations
 
-from math import inf, sqrt
 from typing import ClassVar, NamedTuple, Protocol, Self
 
 from ...calibration import Calibration
 from ...types import Foot, Layout, Phase, Quat, Vec3
 from ...types.attrs import frozen
-from ...types.vector import IDENTITY, ZERO
-from ..settings import StanceThreshold
+from ...types.vector import IDENTITY
 
 
 @frozen
@@ -104,14 +102,3 @@ class Detector(Protocol):
     def calibrated(self, foot: Foot, calibration: Calibration) -> Self:
         """Return the detector with the calibration of `foot`."""
         return self
-
-
-def soften(statistic: float, settings: StanceThreshold) -> Stance:
-    """Return zero-velocity evidence; sigma is multiplied by sqrt(max(1, T / T_rest)), with the statistic T.
-
-    T_rest is `rest_statistic`. From `motion_statistic` on there is no evidence."""
-    rest_statistic = settings.rest_statistic
-    if statistic >= settings.motion_statistic:
-        return Stance(ZERO, inf, statistic, None)
-    hint = Phase.STATIONARY if statistic < rest_statistic else None
-    return Stance(ZERO, settings.sigma * sqrt(max(1.0, statistic / rest_statistic)), statistic, hint)

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from attrs import frozen
 
-from ...body.checks.clocks.offset import EVEN_SWINGS
+from ...body.checks.foot_clocks import EVEN_SWINGS
 from ...calibration import Calibration
 from ...emulate.walk import sampled
 from ...events import Defect, DefectFound, Event, FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff

@@ -21,7 +21,7 @@ from statistics import median
 import numpy as np
 from attrs import evolve, frozen
 
-from ...body.checks.clocks.foot_clocks import FootClocks
+from ...body.checks.foot_clocks import FootClocks
 from ...events import DefectFound, GaitEvent, HeelStrike, StrideTaken
 from ...types import OTHER, Foot
 from ..processes import run_jobs
@@ -93,7 +93,7 @@ def find_outcome(walk: ClockWalk, offset: float = 0.0, rate: float = 0.0, durati
             contacts[event.foot] = event.t
         if isinstance(event, GaitEvent):
             set_newest(part, event, spans)
-        outputs = [*part.receive(event), *part.finish(event.known_at)]
+        outputs = [*part.feed((event,), None), *part.finish(event.known_at)]
         if not reports and outputs:
             walked = min(walking.values())
         reports += [output for output in outputs if isinstance(output, DefectFound)]

@@ -21,7 +21,7 @@ import numpy as np
 from attrs import define, evolve, field, frozen
 
 from ...body.fuse.both_feet import BothFeet
-from ...calibration.merging import merged
+from ...calibration.records import merged
 from ...emulate.sensors.magnetic_field import UNDISTURBED, MagneticField
 from ...emulate.sensors.parts import AK8963
 from ...emulate.walk import SampledWalk, sampled
@@ -135,7 +135,7 @@ def follow(session: Session, walk: SampledWalk, until: float = inf) -> HeadingTr
 
 def _placement(session: Session, foot: Foot) -> float:
     """Return the turn from the world frame of a foot to that of the wearer, rad."""
-    for part in session._state.wearer.parts:
+    for part in session._state.parts:
         if isinstance(part, BothFeet):
             return part.left.turn if foot is Foot.LEFT else part.right.turn
     return 0.0

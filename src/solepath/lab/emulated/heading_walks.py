@@ -231,8 +231,6 @@ KINDS: dict[str, Callable[[Way], Route]] = {
     for one in (right_angles, any_angles, there_and_back, one_way_loops, arcs, plaza, circle, ring, weave)
 }
 """The kinds of routes by name."""
-WITH_STRAIGHTS = ("right_angles", "any_angles", "there_and_back")
-"""Names of the kinds in which long straights are frequent and no direction of turning prevails."""
 WITH_COMPASS = ("right_angles", "any_angles", "arcs", "one_way_loops")
 """Names of the kinds that are walked with a compass too."""
 

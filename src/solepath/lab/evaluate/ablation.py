@@ -10,9 +10,9 @@ from typing import Any
 
 from attrs import evolve, frozen
 
+from ...body.altitude import Altitude
 from ...body.fuse.both_feet import BothFeet, BothFeetSettings
 from ...body.fuse.position import MeanOfFeet
-from ...body.height.altitude import Altitude
 from ...body.part import TrackPart
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.settings import CycleSettings, ErrorStateSettings

@@ -15,7 +15,7 @@ from attrs import frozen
 
 from ...body.part import ActivityPart, Position
 from ...calibration import Calibration
-from ...calibration.merging import merged
+from ...calibration.records import merged
 from ...events import Event
 from ...recipes import Recipe
 from ...recording.samples import load_samples

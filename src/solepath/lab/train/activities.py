@@ -25,12 +25,10 @@ from attrs import frozen
 from numpy.typing import NDArray
 
 from ... import recipes
-from ...body.activity.blocks import motion
-from ...body.activity.blocks.features import BLOCK_DURATION, FEATURE_COUNT, FIRST_STRIDE_FEATURE, WINDOW_REACH
-from ...body.activity.blocks.foot_blocks import FootBlocks
-from ...body.activity.blocks.motion import MotionModel
-from ...body.activity.blocks.votes import block_force
+from ...body.activity import motion
 from ...body.activity.elevator_evidence import BlockForce
+from ...body.activity.foot_blocks import BLOCK_DURATION, FEATURE_COUNT, FIRST_STRIDE_FEATURE, WINDOW_REACH, FootBlocks
+from ...body.activity.motion import MotionModel, block_force
 from ...emulate.sensors.device import Device
 from ...emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu
 from ...emulate.sensors.sensortags import CC2541, CC2650

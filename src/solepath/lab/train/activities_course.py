@@ -14,12 +14,11 @@ from statistics import median
 
 from attrs import frozen
 
-from ...body.activity.blocks.features import BLOCK_DURATION
-from ...body.activity.blocks.motion import MotionModel
-from ...body.activity.blocks.votes import motion_votes
 from ...body.activity.chain import DEFAULT_CHANCES, Chances, Shifts
 from ...body.activity.elevator_evidence import BlockForce
+from ...body.activity.foot_blocks import BLOCK_DURATION
 from ...body.activity.hypotheses import BlockEvidence, Hypotheses
+from ...body.activity.motion import MotionModel, motion_votes
 from ...body.activity.pressure_height import NO_EVIDENCE
 from ...types import Activity, Foot
 from .activities_net import CLASSES

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...body.activity.blocks.features import FIRST_GYRO_FEATURE, FIRST_STRIDE_FEATURE, FIRST_TRACK_FEATURE
-from ...body.activity.blocks.motion import MOTIONS, MotionModel, Network, Row
+from ...body.activity.foot_blocks import FIRST_GYRO_FEATURE, FIRST_STRIDE_FEATURE, FIRST_TRACK_FEATURE
+from ...body.activity.motion import MOTIONS, MotionModel, Network, Row
 from ...types import Activity
 
 Floats = NDArray[np.float64]

@@ -1,7 +1,7 @@
 """Emulated wearers who stand, walk, climb stairs and take elevators, with sensors in the soles at 20 Hz.
 
 Each seed is another wearer. As in Liu et al. 2015, section V.C, they "ascend/descend the stairs, walk and take
-elevator". Seeds `FIRST_TRAINING_SEED` to `LAST_TRAINING_SEED` are for training. Scored walks have other seeds."""
+elevator". Seeds from `FIRST_TRAINING_SEED` to 999 are for training. Scored walks have other seeds."""
 
 from __future__ import annotations
 
@@ -23,7 +23,6 @@ from ...types import SITE_OF_FOOT, Foot
 RATE = 20.0
 """Sampling rate, Hz (section IV: "we sample the accelerometer and gyroscope with 20 Hz")."""
 FIRST_TRAINING_SEED = 101
-LAST_TRAINING_SEED = 999
 
 REPEATS = 2
 """Number of times that each of stairs up, stairs down, elevator up and elevator down is in a route."""

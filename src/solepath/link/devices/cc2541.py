@@ -110,8 +110,6 @@ COUNTS_PER_G = {
     ("", 2): 32,
     ("", 3): 16,
 }
-FULL_SCALE_ACC_COUNTS = 128.0
-"""Counts that are the full scale of the accelerometer, which has 8 bits."""
 WRITTEN_ACC_CODE = 3
 """Value of AA12 (accelerometer configuration) that the profile writes."""
 
@@ -133,10 +131,6 @@ class BarometerCalibration:
     c6: int
     c7: int
     c8: int
-
-    def celsius(self, temperature: int) -> float:
-        """Return the temperature in degrees Celsius for the raw value t: c1 t / 2^24 + c2 / 2^10."""
-        return self.c1 * temperature / 2**24 + self.c2 / 2**10
 
     def pascal(self, temperature: int, pressure: int) -> float:
         """Return the air pressure in Pa for the raw values t and p: (S p + O) / 2^14.

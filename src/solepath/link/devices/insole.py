@@ -17,7 +17,7 @@ from ...wire.envelope import MAGIC
 from ...wire.error import WireError
 from ...wire.fragment import is_fragment, parse_fragment
 from ...wire.insole import InsoleFrame, parse_frame
-from ...wire.insole_control import parse_control
+from ...wire.insole_control import StartSampling, build_control, parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
 from ..counters import PacketPosition, PacketRun
 from ..device_link import DeviceLink, Output
@@ -61,7 +61,7 @@ PROFILE = Profile(
         BATTERY,
         FIRMWARE,
     ),
-    setup=(Write("insole/control", b"\x01"),),
+    setup=(Write("insole/control", build_control(StartSampling())),),
     reads=("insole/info", "device/firmware", "device/battery"),
     nominal_rate=100.0,
     streams=("insole/frame",),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import combinations
 
 from ...types import SITE_OF_FOOT, Site
 from ...types.attrs import frozen
@@ -69,14 +70,12 @@ def check_configs(configs: Sequence[DeviceConfig]) -> None:
     free_feet = len({*SITE_OF_FOOT.values()} - {*sites})
     if len(configs) - len(sites) > free_feet:
         raise ValueError("more insoles are requested than there are feet for them")
-    for k, config in enumerate(configs):
-        for earlier in configs[:k]:
-            if config.which.upper() == earlier.which.upper() and (config.which or config.profile == earlier.profile):
-                if not config.which and reports_site(config.profile):
-                    continue
-                raise ValueError(
-                    f"nothing distinguishes one {config.description} from the other: name them by their addresses"
-                )
+    for earlier, config in combinations(configs, 2):
+        same_profile = config.profile == earlier.profile and not reports_site(config.profile)
+        if config.is_address(earlier.which) and (config.which or same_profile):
+            raise ValueError(
+                f"nothing distinguishes one {config.description} from the other: name them by their addresses"
+            )
 
 
 def advertises(profile: Profile, name: str, services: Sequence[str]) -> bool:

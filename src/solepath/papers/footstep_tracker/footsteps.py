@@ -118,16 +118,13 @@ class Footsteps(TrackPart):
     def __attrs_post_init__(self) -> None:
         self.paths = {foot: FootPath() for foot in Foot}
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        path = self.paths[view.foot]
-        if not path.has_samples and view.sample.acc is not None and view.sample.gyro is not None:
-            path.has_samples = True
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        if view is not None and view.sample.acc is not None and view.sample.gyro is not None:
+            self.paths[view.foot].has_samples = True
             self.idle = all([one.has_samples for one in self.paths.values()])
-        return ()
-
-    def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        if isinstance(event, StrideTaken):
-            self.add_stride(event)
+        for event in events:
+            if isinstance(event, StrideTaken):
+                self.add_stride(event)
         return ()
 
     def reset(self, site: Site) -> None:

@@ -17,7 +17,7 @@ from __future__ import annotations
 from enum import Enum
 from math import atan2, cos, fsum, hypot, inf, sin
 
-from ...body.activity.blocks.stride_slope import slope_evidence
+from ...body.activity.motion import slope_evidence
 from ...body.gait.turning_steps import TurningStrideFilter
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE

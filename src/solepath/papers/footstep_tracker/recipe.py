@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...body.height.altitude import Altitude
+from ...body.altitude import Altitude
 from ...recipes import Recipe, usual_parts
 from .activity.two_second_windows import TwoSecondWindows
 from .critical_cues import CriticalCues

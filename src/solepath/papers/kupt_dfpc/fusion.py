@@ -38,7 +38,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
-from ...body.part import PartOutput, Position, TrackPart
+from ...body.part import PartInput, PartOutput, Position, TrackPart
 from ...events import StrideFused, StrideTaken
 from ...foot.pressure.insole import centre
 from ...foot.view import FootPose, FootView
@@ -137,10 +137,12 @@ class DoubleFoot(TrackPart):
     def __attrs_post_init__(self) -> None:
         self.paths = {foot: CalibratedPath() for foot in Foot}
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        strides = [event for event in view.events if isinstance(event, StrideTaken)] if view.events else []
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        strides = [event for event in events if isinstance(event, StrideTaken)] if events else []
+        if view is None or view.after is None or not strides:
+            return ()
         layout = view.after.layout
-        middle = None if layout is None or not strides else centre(layout)
+        middle = None if layout is None else centre(layout)
         return [self.add_stride(stride, middle) for stride in strides]
 
     def reset(self, site: Site) -> None:

@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 
 from ...calibration import Calibration, CalibrationError
-from ...calibration.csv_table import read_rows
+from ...calibration.file import read_rows
 from ...events import StrideTaken
 from ...recipes import Recipe
 from ...session import Session

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from math import hypot, sqrt
 
-from ...body.activity.steepness import steepness
+from ...body.activity.flights import steepness
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance

@@ -1,16 +1,15 @@
 """Walking state by the angle per metre of each stride: its inclination divided by half its horizontal length.
 
 Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.4.1. The angle and its
-thresholds are in body/activity/steepness.py. Numbers without a source were chosen by hand."""
+thresholds are in body/activity/flights.py. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import ClassVar
 
-from ...body.activity.flights import Flights
-from ...body.activity.steepness import is_stair_rise, steepness
-from ...body.part import ActivityPart, PartOutput
+from ...body.activity.flights import Flights, is_stair_rise, steepness
+from ...body.part import ActivityPart, PartInput, PartOutput
 from ...events import ActivityChanged, Event, Limitation, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Phase, Site
@@ -72,43 +71,43 @@ class AnglePerMetre(ActivityPart):
     def finish(self, now: float) -> Sequence[PartOutput]:
         return self.flights.finish(now)
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        if view is None or view.moved_at != view.t or not view.levelled:
+            return ()  # no sample, one without acc or gyro, or a foot not yet tracked
         t = view.t
-        if view.moved_at != t or not view.levelled:  # a sample without acc or gyro, or a foot not yet tracked
-            return ()
         if self.waiting_since and not self._use_clock(view.foot, t):
             return ()
         self.clocks[view.foot] = t
         if self.moved_at is None or self.stride_t is None:
             self.moved_at = self.stride_t = t
         known_at = view.known_at
-        events: list[Event] = []
+        outputs: list[Event] = []
         if not self.limitation_reported:
             self.limitation_reported = True
             what = "activities as printed: running counts as walking, and rides in lifts as standing"
-            events.append(Limitation(t=t, known_at=known_at, site=None, what=what))
-        for event in view.events:
+            outputs.append(Limitation(t=t, known_at=known_at, site=None, what=what))
+        for event in events:
             if isinstance(event, StrideTaken):
                 t_start = event.t_start if event.t_toe_off is None else max(event.t_start, event.t_toe_off)
                 self.stride_t = max(self.stride_t, event.t)
                 direction = None
                 if is_stair_rise(event.height_change, event.degraded):
                     direction = steepness(event.length, event.height_change)
-                    self._report(_ACTIVITY_OF[direction], t_start, known_at, events)
+                    self._report(_ACTIVITY_OF[direction], t_start, known_at, outputs)
                 elif self.activity is Activity.STANDING:
-                    self._report(Activity.UNKNOWN, t_start, known_at, events)
-                events += self.flights.add_stride(event, direction)
+                    self._report(Activity.UNKNOWN, t_start, known_at, outputs)
+                outputs += self.flights.add_stride(event, direction)
         if view.phase is not Phase.STATIONARY:
             if t > self.moved_at:
                 self.moved_at = t
             if t - self.stride_t > UNKNOWN_DELAY and self.activity is not Activity.UNKNOWN:
-                self._report(Activity.UNKNOWN, self.stride_t, known_at, events)
+                self._report(Activity.UNKNOWN, self.stride_t, known_at, outputs)
         elif t - self.moved_at >= STANDING_DELAY - TIE:
             self.stride_t = max(self.stride_t, t)
-            self._report(Activity.STANDING, self.moved_at, known_at, events)
+            self._report(Activity.STANDING, self.moved_at, known_at, outputs)
         if self.flights.direction != 0:
-            events += self.flights.advance(t, known_at)
-        return events
+            outputs += self.flights.advance(t, known_at)
+        return outputs
 
     def _use_clock(self, foot: Foot, t: float) -> bool:
         """Decide whether samples of `foot`, at `t` s, are used, and change to its clock if it must be used."""

@@ -18,7 +18,7 @@ from operator import attrgetter
 from pathlib import Path
 
 from ...calibration import Calibration, CalibrationError
-from ...calibration.csv_table import read_rows
+from ...calibration.file import read_rows
 from ...events import TouchedDown
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.stance.cycle import Cycle

@@ -28,7 +28,7 @@ from copy import deepcopy
 from math import atan2, fsum, hypot
 from typing import ClassVar
 
-from ...body.part import PartOutput, Position, TrackPart
+from ...body.part import LimbSampled, PartInput, PartOutput, Position, TrackPart
 from ...calibration import Calibration
 from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ...foot.rejection import rejected
@@ -104,10 +104,10 @@ class Modes(TrackPart):
         limbs, weight = calibration.limbs or settings.limbs, calibration.weight or settings.weight
         return evolve(self, settings=evolve(settings, limbs=limbs, weight=weight, compensation=compensation))
 
-    def headed(self, heading: float) -> Modes:
+    def with_heading(self, heading: float) -> Modes:
         return evolve(self, settings=evolve(self.settings, heading=heading))
 
-    def feed_limb(self, sample: Sample) -> Sequence[PartOutput]:
+    def _add_limb(self, sample: Sample) -> Sequence[PartOutput]:
         """Add a sample of pelvis, thigh or shank: its attitude, or acceleration and angular velocity."""
         t = sample.t
         wrong = self.limb_sensors.add_sample(sample, self.places.chain)
@@ -123,8 +123,12 @@ class Modes(TrackPart):
             self.recognition.reset(site.foot)
             self.newest_t.clear()
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add a sample of a foot; update the reference foot, touchdowns and walking mode."""
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        """Add a sample of a foot or a limb; update the reference foot, touchdowns and walking mode."""
+        if view is None:
+            return [
+                output for event in events if isinstance(event, LimbSampled) for output in self._add_limb(event.sample)
+            ]
         foot, t, known_at, sample = view.foot, view.t, view.known_at, view.sample
         self.limb_sensors.add_time(t)
         self.places.add_view(view)
@@ -134,10 +138,10 @@ class Modes(TrackPart):
             elif sample.acc is not None:
                 heading = None if view.north is None else atan2(-view.north[1], view.north[0])
                 self.places.chain.set_own_attitude(SITE_OF_FOOT[foot], t, view.attitude, heading)
-        self.signs.add_view(view, self.places.sides[foot].track[2])
-        self.recognition.add_view(view)
-        events = [] if view.pressed is None else self._add_pressure(view, view.pressed)
-        return events + self._update_reference(foot, t, known_at)
+        self.signs.add_view(view, events, self.places.sides[foot].track[2])
+        self.recognition.add_view(view, events)
+        outputs = [] if view.pressed is None else self._add_pressure(view, view.pressed)
+        return outputs + self._update_reference(foot, t, known_at)
 
     def _update_reference(self, foot: Foot, t: float, known_at: float) -> list[Event]:
         """Update the reference foot, and return the events of a touchdown."""

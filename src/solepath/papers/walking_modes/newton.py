@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ...calibration import CalibrationError, Newtons
-from ...calibration.csv_table import read_rows
+from ...calibration.file import read_rows
 from ...types.attrs import frozen
 
 LOWEST_FORCE, HIGHEST_FORCE = 5.0, 200.0

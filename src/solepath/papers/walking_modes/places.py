@@ -86,7 +86,7 @@ class FootPlaces:
         """Add the position of a foot by its own track."""
         left, right = self.tracks.left, self.tracks.right
         left_offset, right_offset, were_unplaced = left.offset, right.offset, (left.unplaced, right.unplaced)
-        self.tracks.feed(view)
+        self.tracks.add_view(view)
         if left.offset is not left_offset:
             self._move_track(Foot.LEFT, left, left_offset, were_unplaced[0])
         if right.offset is not right_offset:

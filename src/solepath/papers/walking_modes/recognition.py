@@ -15,6 +15,7 @@ Two readings of table 2: a foot in contact for more than 1.5 s takes no step, so
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import fsum
 
 from ...foot.view import FootView
@@ -66,9 +67,9 @@ class Recognition:
     def __attrs_post_init__(self) -> None:
         self.soles = {foot: SoleContacts() for foot in Foot}
 
-    def add_view(self, view: FootView) -> None:
-        """Add a sample of a foot, which may turn."""
-        self.soles[view.foot].turn.add_view(view)
+    def add_view(self, view: FootView, events: Sequence[object]) -> None:
+        """Add a sample of a foot, which may turn, with its events."""
+        self.soles[view.foot].turn.add_view(view, events)
 
     def add_pressure(
         self, foot: Foot, state: FootState, cells: tuple[float, ...], layout: Layout | None, t: float, both_feet: bool

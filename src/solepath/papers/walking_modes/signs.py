@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import hypot
 
 from ...events import Event, FootFlat, Limitation, StrideTaken
@@ -31,13 +32,13 @@ class Signs:
     def __attrs_post_init__(self) -> None:
         self.evidence = {foot: SignEvidence() for foot in Foot}
 
-    def add_view(self, view: FootView, height: float) -> None:
+    def add_view(self, view: FootView, events: Sequence[object], height: float) -> None:
         """Add a sample of a foot and its events; `height` is that of the foot's own track, m."""
         state, evidence = self.states.get(view.foot), self.evidence[view.foot]
         if state is None:
             state = self.states[view.foot] = FootState()
         state.in_swing = view.phase is Phase.SWING
-        for event in view.events:
+        for event in events:
             if isinstance(event, StrideTaken):
                 evidence.add_stride()
             elif isinstance(event, FootFlat):

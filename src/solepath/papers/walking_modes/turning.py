@@ -15,6 +15,8 @@ reason above."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ...events import StrideTaken
 from ...foot.view import FootView
 from ...types import Phase, Quat, WalkingMode
@@ -49,11 +51,11 @@ class StrideTurn:
     stride_turn: float | None = field(default=None, init=False)
     """Turn in the last complete stride, rad, left positive; None before the first."""
 
-    def add_view(self, view: FootView) -> None:
-        """Add a sample of the foot."""
+    def add_view(self, view: FootView, events: Sequence[object]) -> None:
+        """Add a sample of the foot with its events."""
         if not view.levelled:
             return
-        for event in view.events:
+        for event in events:
             if isinstance(event, StrideTaken):
                 self.stride_turn = event.heading_change
         if view.phase is Phase.STATIONARY:

@@ -17,7 +17,7 @@ from ...types import Foot
 from .quantiles import Z, chi_squared_quantile, student_quantile
 
 VARIABLE = (
-    "stride_time", "stance_time", "swing_time", "step_time", "stride_length", "step_length", "step_width", "speed",
+    "stride_time", "stance_time", "swing_time", "step_time", "stride_length", "speed",
 )  # fmt: skip
 """Fields of GaitCycleMeasured whose variability and asymmetry the command line and the report show."""
 MIN_FOOT_STRIDES = 4

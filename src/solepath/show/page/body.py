@@ -39,7 +39,7 @@ class LiveBody:
 
 def legs_of(session: Session) -> Legs | None:
     """Return the newest legs of a session whose recipe has them; None for others, and while an attitude is missing."""
-    legs: Legs | None = session._state.wearer.find_attribute("legs")
+    legs: Legs | None = session._state.find_attribute("legs")
     return legs
 
 

@@ -20,8 +20,6 @@ PARAMETERS: tuple[tuple[str, str, str, int, float], ...] = (
     ("stride_time", "stride time", "s", 3, 1.0),
     ("step_time", "step time", "s", 3, 1.0),
     ("stride_length", "stride length", "m", 3, 1.0),
-    ("step_length", "step length", "m", 3, 1.0),
-    ("step_width", "step width", "m", 3, 1.0),
     ("speed", "speed", "m/s", 2, 1.0),
     ("clearance", "rise of the sensor", "m", 3, 1.0),
     ("toe_off_angle", "toe-off angle", DEGREE_UNIT, 1, degrees(1.0)),

@@ -13,7 +13,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ....calibration import Calibration, CalibrationError, InsoleCalibration
-from ....calibration.merging import merged
+from ....calibration.records import merged
 from ....emulate.routes.actions import Stand
 from ....emulate.routes.laps import MARKS_PER_LAP, field_walk, square
 from ....emulate.routes.route import Route

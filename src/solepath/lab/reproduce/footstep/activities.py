@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from attrs import frozen
 
-from ....body.height.barometric import height_of
+from ....body.altitude import height_of
 from ....events import ActivityChanged, Event
 from ....papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
 from ....recording.decoded import decode_recording

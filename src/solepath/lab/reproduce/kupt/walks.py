@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 from attrs import evolve, frozen
 
 from ....calibration import Calibration
-from ....calibration.merging import merged
+from ....calibration.records import merged
 from ....emulate.routes.laps import corridor, straight
 from ....emulate.routes.postures import postures, write_postures
 from ....emulate.sensors.insole_device import Insole

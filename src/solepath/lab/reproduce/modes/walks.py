@@ -12,7 +12,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ....calibration import Calibration, InsoleCalibration, Limbs
-from ....calibration.merging import merged
+from ....calibration.records import merged
 from ....emulate.routes.laps import LapCorner, corners, marked, rectangle
 from ....emulate.routes.laps import marks as marks_of
 from ....emulate.sensors.insoles import layout

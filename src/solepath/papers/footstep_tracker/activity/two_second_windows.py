@@ -37,7 +37,7 @@ from collections.abc import Sequence
 from math import fsum
 from typing import ClassVar
 
-from ....body.part import ActivityPart, PartOutput
+from ....body.part import ActivityPart, PartInput, PartOutput
 from ....events import ActivityChanged, Event, LiftRidden, Limitation
 from ....foot.view import FootView
 from ....types import Activity, Foot, Site
@@ -132,24 +132,24 @@ class TwoSecondWindows(ActivityPart):
             self.activity = Activity.UNKNOWN
             self.feet, self.standing = {}, {}
 
-    def feed(self, view: FootView) -> Sequence[PartOutput]:
-        acc, t = view.sample.acc, view.t
-        if acc is None:
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        if view is None or view.sample.acc is None:
             return ()
+        acc, t = view.sample.acc, view.t
         if self.origin is None:
             self.origin = t
         if view.foot not in self.feet:
             feet = {**self.feet, view.foot: FootWindows()}
             self.feet = {one: feet[one] for one in Foot if one in feet}
             self.standing.setdefault(view.foot, StandingForce())
-        events: list[Event] = []
+        outputs: list[Event] = []
         if not self.limitation_reported:
             self.limitation_reported = True
             what = "activities as printed: running counts as walking, and rides in lifts have no height"
-            events.append(Limitation(t=t, known_at=view.known_at, site=None, what=what))
+            outputs.append(Limitation(t=t, known_at=view.known_at, site=None, what=what))
         if self.feet[view.foot].update(t - self.origin, acc, view.sample.gyro):
-            events += self._decide_ready(view.known_at)
-        return events
+            outputs += self._decide_ready(view.known_at)
+        return outputs
 
     def _decide_ready(self, known_at: float) -> list[Event]:
         """Classify every window that is complete for all feet that still send samples."""

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....calibration import Calibration, CalibrationError, ShoeGeometry
-from ....calibration.csv_table import read_rows
+from ....calibration.file import read_rows
 from ....saving.files import write_whole
 from ....types.attrs import frozen
 

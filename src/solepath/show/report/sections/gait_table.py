@@ -21,8 +21,6 @@ DEFINITIONS = {
     "stride_time": "from a contact of a foot to its next one (Hollman et al. 2011)",
     "step_time": "from the other foot's contact to this one's",
     "stride_length": "horizontal, from foot-flat to foot-flat of a foot (Mariani et al. 2010)",
-    "step_length": "from where the other foot stands to this one, along the stride (Huxham et al. 2006)",
-    "step_width": "distance of the other foot from the line of the stride (Huxham et al. 2006)",
     "speed": "stride length / stride time",
     "clearance": "highest rise of the sensor above the foot-flats; not the minimum toe clearance",
     "toe_off_angle": "how far the heel is up at toe-off, against flat",

@@ -1,36 +1,105 @@
-"""Detection of exchanged feet: the sensors of the left and the right foot are swapped.
-
-There are three kinds of evidence, the most reliable first:
-
-1. Layouts: the left foot's device has the layout of a right insole, and the other way round. A device whose layout fits
-its foot is trusted, even if the other evidence contradicts it.
-
-2. Roll of the foot, with inertial sensors. A foot lands on the outer edge of its heel, so at heel-strike it is rolled
-outwards relative to its mean over the swing. The axes are found from the motion, so mounting does not matter: up is the
-vertical at foot-flat, and left is the axis about which the foot turns over its toes. A wearer who walks backwards turns
-the foot over the heel, and these axes then make the feet look exchanged. The foot turns further over the toes than over
-the heel, so a stride counts only if the foot turned further before toe-off than after heel-strike.
-
-3. Centre of pressure, with pressure cells and no inertial sensors. Before toe-off the centre moves inwards, to the big
-toe. This evidence fails when insoles with mirrored cell numbers are exchanged together with their layouts.
-
-Both feet must agree, over eight strides each. If a wearer shuffles or climbs, the feet hardly roll, and an exchange may
-be detected late or never. Of 93 recordings of both feet (healthy walkers and patients, a treadmill, stairs, 50 to 200
-Hz), none is reported as exchanged. With left and right exchanged, 51 of them are reported; all but 9 of the others have
-fewer than eight strides of a foot. If the sensor frames of both feet are left-handed (an axis has the wrong sign), the
-motion is mirrored and a left foot looks like a right foot. That wrong data is also reported as exchanged feet."""
+"""Faults of wearing, for any recipe: a silent foot (no samples during a walk), and exchanged feet."""
 
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Sequence
+from itertools import accumulate
 from math import fsum, hypot, sqrt
+from struct import Struct
+from typing import ClassVar, Final
 
-from ...events import StrideTaken, ToeOff
-from ...foot.view import FootView
-from ...types import Foot, Layout, Vec3
-from ...types.attrs import define, field
-from ...types.vector import rotate_back
-from .rate_integral import RateIntegral
+from ..events import FeetSwapped, FootResumed, FootSilent, StrideTaken, ToeOff
+from ..foot.view import FootView
+from ..types import Foot, Layout, Vec3
+from ..types.attrs import ROW_SIZE, define, field, frozen
+from ..types.vector import ZERO, rotate_back
+from .part import LayoutReported, Part, PartInput, PartOutput
+
+# Integral of a foot's angular rate over the last second or two, which sides.py uses.
+
+INSTANT = Struct("<i3q")
+"""Time since the previous instant, ticks, and the components of the integral, in units of 1 / `UNITS_PER_RAD` rad."""
+TICKS_PER_S = 2.0**19
+"""Number of ticks in a second; a tick is 2 us."""
+UNITS_PER_RAD = 2.0**13
+"""Number of units in a radian; a unit is 0.12 mrad."""
+
+
+@define
+class RateIntegral:
+    """The integral of the angular rate, rad, by component in the sensor frame (it is not an attitude)."""
+
+    t: float | None = None
+    """Time of the newest instant, s; None before any."""
+    turn: Vec3 = ZERO
+    """Integral up to the newest instant, rad."""
+    instants: bytes = field(default=b"", metadata={ROW_SIZE: INSTANT.size})
+    """The newest instants, oldest first, as `INSTANT` packs them."""
+
+    def restart(self, t: float) -> None:
+        """Start a new integral at `t`, s, because the turn before is not known."""
+        self.t, self.turn, self.instants = t, ZERO, INSTANT.pack(0, 0, 0, 0)
+
+    def add(self, t: float, dt: float, gyro: Vec3, max_instants: int) -> None:
+        """Add an angular rate, rad/s, at `t`, s; `dt`, s, is the time since the newest instant, at most 0.12 s.
+
+        When there are `max_instants` instants, the oldest eighth is discarded."""
+        x, y, z = self.turn
+        gx, gy, gz = gyro
+        x, y, z = self.turn = (x + dt * gx, y + dt * gy, z + dt * gz)
+        self.t = t
+        kept, k = self.instants, UNITS_PER_RAD
+        if len(kept) >= max_instants * INSTANT.size:
+            kept = kept[max_instants // 8 * INSTANT.size :]
+        self.instants = kept + INSTANT.pack(int(dt * TICKS_PER_S + 0.5), int(x * k), int(y * k), int(z * k))
+
+    def keep_newest(self) -> None:
+        """Discard all instants but the newest."""
+        self.instants = self.instants[-INSTANT.size :]
+
+    def clear(self) -> None:
+        """Discard all instants."""
+        self.t, self.turn, self.instants = None, ZERO, b""
+
+    def times(self) -> list[float]:
+        """Return the times of the instants, s, oldest first, accurate to 0.1 ms; an empty list before any."""
+        if self.t is None:
+            return []
+        back = [-row[0] / TICKS_PER_S for row in INSTANT.iter_unpack(self.instants)]
+        return [*accumulate([self.t, *back[:0:-1]])][::-1]
+
+    def turns_between(self, i: int, j: int) -> list[Vec3]:
+        """Return the turn since instant `i` at each instant from `i` to before `j`, rad."""
+        rows = list(INSTANT.iter_unpack(self.instants))
+        _, ax, ay, az = rows[i]
+        return [
+            ((x - ax) / UNITS_PER_RAD, (y - ay) / UNITS_PER_RAD, (z - az) / UNITS_PER_RAD) for _, x, y, z in rows[i:j]
+        ]
+
+
+# Detection of exchanged feet: the sensors of the left and the right foot are swapped.
+#
+# There are three kinds of evidence, the most reliable first:
+#
+# 1. Layouts: the left foot's device has the layout of a right insole, and the other way round. A device whose layout
+# fits its foot is trusted, even if the other evidence contradicts it.
+#
+# 2. Roll of the foot, with inertial sensors. A foot lands on the outer edge of its heel, so at heel-strike it is rolled
+# outwards relative to its mean over the swing. The axes are found from the motion, so mounting does not matter: up is
+# the vertical at foot-flat, and left is the axis about which the foot turns over its toes. A wearer who walks backwards
+# turns the foot over the heel, and these axes then make the feet look exchanged. The foot turns further over the toes
+# than over the heel, so a stride counts only if the foot turned further before toe-off than after heel-strike.
+#
+# 3. Centre of pressure, with pressure cells and no inertial sensors. Before toe-off the centre moves inwards, to the
+# big toe. This evidence fails when insoles with mirrored cell numbers are exchanged together with their layouts.
+#
+# Both feet must agree, over eight strides each. If a wearer shuffles or climbs, the feet hardly roll, and an exchange
+# may be detected late or never. Of 93 recordings of both feet (healthy walkers and patients, a treadmill, stairs, 50 to
+# 200 Hz), none is reported as exchanged. With left and right exchanged, 51 of them are reported; all but 9 of the
+# others have fewer than eight strides of a foot. If the sensor frames of both feet are left-handed (an axis has the
+# wrong sign), the motion is mirrored and a left foot looks like a right foot. That wrong data is also reported as
+# exchanged feet.
 
 UPWARDS: Vec3 = (0.0, 0.0, 1.0)
 SAMPLE_INTERVAL = 0.0195
@@ -123,15 +192,13 @@ class Sides:
     left: SwapEvidence = field(factory=SwapEvidence, init=False)
     right: SwapEvidence = field(factory=SwapEvidence, init=False)
 
-    def update(self, view: FootView) -> bool:
-        """Add one sample of a foot and return whether both feet now look exchanged."""
+    def update(self, view: FootView, events: Sequence[object]) -> bool:
+        """Add one sample of a foot with its events and return whether both feet now look exchanged."""
         is_left = view.foot is Foot.LEFT
         side = self.left if is_left else self.right
         self.add_sample(side, view)
-        if not view.events:
-            return False
         evidence_changed = False
-        for event in view.events:
+        for event in events:
             if isinstance(event, StrideTaken):
                 evidence_changed = True
                 _add_landing(side, event, rotate_back(view.attitude, UPWARDS))
@@ -139,7 +206,7 @@ class Sides:
             elif isinstance(event, ToeOff) and side.centre_ys:
                 evidence_changed = True
                 _add_stance(side, is_left)
-        if not evidence_changed:
+        if not evidence_changed or view.after is None:
             return False
         layout = view.after.layout
         side.mirrored = layout is not None and layout.foot is not view.foot
@@ -256,3 +323,85 @@ def _add_stance(side: SwapEvidence, is_left: bool) -> None:
     middle_values, end_values = ys[n // 3 : n - n // 3], ys[n - n // 6 :]
     leftward = fsum(end_values) / len(end_values) - fsum(middle_values) / len(middle_values)
     side.centre.add(leftward if is_left else -leftward)
+
+
+LEFT: Final = Foot.LEFT
+"""The left foot, looked up once: access to an enum member costs as much as five multiplications."""
+
+
+@define
+class FootSilence:
+    """The time without samples of one foot."""
+
+    t: float | None = None
+    """Time of the newest sample, s; None before any."""
+    strides_since: int = 0
+    """Number of strides that the other foot has taken since `t`."""
+    silent: bool = False
+    """Flag: the silence of this foot was reported."""
+
+
+@frozen
+class WearSettings:
+    """The settings of `Wear`."""
+
+    strides: int = 3
+    """Number of strides of the other foot, since the last sample of a foot, from which that foot is silent."""
+    seconds: float = 3.0
+    """Least time since the last sample of a foot before that foot is silent, s."""
+
+
+@define
+class Wear(Part):
+    """Detects a silent foot and exchanged feet from the samples of both feet.
+
+    A foot that had samples is silent when, since its last sample, the other foot has taken `strides` strides and
+    `seconds` have passed. FootSilent reports the silence; FootResumed comes with the foot's next sample. Nothing is
+    reported while the wearer stands, or for a foot that never had a sample, because a recording may be of one foot.
+    Recipes of two feet continue with the other foot. FeetSwapped is reported once, when `Sides` detects exchanged
+    feet."""
+
+    needs_samples: ClassVar[bool] = True
+
+    settings: WearSettings = WearSettings()
+    sides: Sides = field(factory=Sides, init=False)
+    left: FootSilence = field(factory=FootSilence, init=False)
+    right: FootSilence = field(factory=FootSilence, init=False)
+    swapped: bool = field(default=False, init=False)
+    """Flag: exchanged feet were reported."""
+
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        """Add one sample of a foot; return events of a silent foot, a resumed foot or exchanged feet."""
+        for event in events:
+            if isinstance(event, LayoutReported) and event.site.foot is not None:
+                self.sides.set_layout(event.site.foot, event.layout)
+        if view is None:
+            return ()
+        t, is_left = view.t, view.foot is LEFT
+        this, other = (self.left, self.right) if is_left else (self.right, self.left)
+        if not (events or this.silent or other.strides_since):
+            this.t, this.strides_since = t, 0
+            if not self.swapped:
+                self.sides.add_sample(self.sides.left if is_left else self.sides.right, view)
+            return ()
+        outputs: list[PartOutput] = []
+        if this.silent:
+            this.silent = False
+            silence = 0.0 if this.t is None else max(0.0, t - this.t)
+            outputs.append(FootResumed(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
+        this.t = t
+        this.strides_since = 0
+        if view.after is not None and view.after.covariance is not None:  # a stride has ended
+            other.strides_since += 1
+        if other.strides_since and other.t is not None and not other.silent:
+            if t < other.t:
+                other.strides_since = 0  # this foot's samples are late, or its clock has restarted
+            elif other.strides_since >= self.settings.strides and t - other.t >= self.settings.seconds:
+                other.silent = True
+                silent_foot = Foot.RIGHT if is_left else LEFT
+                outputs.append(FootSilent(t=t, known_at=view.known_at, foot=silent_foot, silent_for=t - other.t))
+        if not self.swapped and self.sides.update(view, events):
+            self.swapped = True
+            self.sides.reset()
+            outputs.append(FeetSwapped(t=t, known_at=view.known_at))
+        return outputs

@@ -1,1 +1,0 @@
-"""Checks that the samples of both feet have times of one clock."""

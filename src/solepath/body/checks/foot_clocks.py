@@ -1,0 +1,439 @@
+"""Detection of feet whose sensors have separate clocks, from the gait events of both feet.
+
+In the middle of a foot's swing the other foot is in the middle of its stance. This holds exactly if the two double
+supports of a cycle are equally long, also for a walker who limps, whose swings or stances differ between the feet. An
+offset between the clocks moves the middles apart: their distance is half the difference of the two double supports. It
+is known except for whole cycles, because the next cycle looks the same.
+
+The middles lie 6 ms apart (standard deviation of the medians of 111 walks and runs of 19 people) and 16 ms at most,
+both with hand labels and with detected events. They need not for a wearer whose gait is very uneven, so the difference
+of the swings raises the standard deviation of the offset. A walk in which each foot's cycles differ from the other's,
+or in which the distance scatters, shows nothing about the clocks.
+
+Clocks that are many seconds apart show where one foot walks while the other one stands (lone_strides.py)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import atan2, cos, fsum, hypot, pi, sin, sqrt
+from typing import ClassVar
+
+from ...events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, SampleGap, StrideTaken, ToeOff
+from ...foot.view import FootView
+from ...types import OTHER, Foot, Phase, Site
+from ...types.attrs import define, field, frozen
+from ..part import ClockUnsettled, Part, PartInput, PartOutput
+
+# The offset between the clocks of the feet, from comparisons of the stances of each foot with the other's swings.
+#
+# clocks.py has what is compared and why.
+
+MIN_COMPARISONS = 16
+"""Least number of comparisons for an offset, about 9 s of walking.
+
+With 12 to 20 no recording of feet on one clock is reported, with 10 one of 119 is, for a few uneven steps."""
+GAIT_SIGMA = 0.010
+"""Standard deviation of the distance of the middles, s: 6 ms in even walkers, and an allowance for others."""
+EVEN_SWINGS = 0.040
+"""Largest difference of the mean swing times of the feet of an even walker, s; 95 % of 111 walks have less."""
+UNEVEN_SHARE = 0.25
+"""Standard deviation of the distance of the middles of an uneven walker, as a share of the swing times' difference
+above `EVEN_SWINGS`; chosen by hand: the double supports differ by half as much as the swings."""
+SIGNIFICANT = 3.0
+"""Number of standard deviations from which an offset is reported."""
+CHANGED = 0.5
+"""Relative change of a reported offset that is reported again."""
+MAX_SCATTER = 0.08
+"""Largest standard deviation of the single distances, as a share of the cycle; walks have 0.01, and 0.03 on stairs."""
+AMBIGUOUS_PHASE = 0.25
+"""Phase from which the right foot may also be late instead of early, or early instead of late, by the rest of the
+cycle."""
+SCALE_OF_MAD = 1.4826
+"""Standard deviation of a normal distribution relative to its median absolute deviation."""
+EFFICIENCY_OF_MEDIAN = 1.2533
+"""Standard deviation of the median relative to that of the mean of normal values: sqrt(pi / 2)."""
+
+
+@frozen
+class Comparison:
+    """A stance of one foot compared with the swing of the other foot that is nearest in time."""
+
+    phase: float
+    """Lateness of the right foot relative to the left one, as a share of the cycle, from -0.5 to 0.5."""
+    cycle: float
+    """Mean cycle time of both feet, s."""
+    uneven: float
+    """Swing time of the right foot minus that of the left one, s."""
+
+
+@frozen
+class Offset:
+    """An estimate of the offset between the clocks."""
+
+    value: float
+    """Time to add to the times of the right foot, s; it may be wrong by whole cycles."""
+    sigma: float
+    """Standard deviation of `value`, s."""
+    cycle: float
+    """Time of a cycle, s."""
+
+    @property
+    def is_significant(self) -> bool:
+        """True if feet on one clock do not show such an offset."""
+        return abs(self.value) > SIGNIFICANT * self.sigma
+
+    @property
+    def sentences(self) -> str:
+        """Sentences for the person who records, on the right foot."""
+        late, size = "late" if self.value < 0.0 else "early", 1000.0 * abs(self.value)
+        cycle = 1000.0 * self.cycle
+        return (
+            f"its times are about {size:.0f} ms {late}, give or take whole cycles of {cycle:.0f} ms; step time and "
+            "double support are left out. Use one clock: an offset wrong by a cycle gives numbers that look right"
+        )
+
+    def differs_from(self, other: float) -> bool:
+        """Return whether another offset, s, differs from this one by more than `CHANGED`, but for whole cycles."""
+        difference = self.value - other
+        difference -= self.cycle * round(difference / self.cycle)
+        return abs(difference) > max(SIGNIFICANT * self.sigma, CHANGED * abs(other))
+
+
+def find_offset(comparisons: Sequence[Comparison]) -> Offset | None:
+    """Return the offset of the right foot's times that these comparisons show, or None."""
+    if len(comparisons) < MIN_COMPARISONS:
+        return None
+    angles = [2.0 * pi * one.phase for one in comparisons]
+    turn = atan2(fsum([sin(angle) for angle in angles]), fsum([cos(angle) for angle in angles])) / (2.0 * pi)
+    cycle = _median([one.cycle for one in comparisons])
+    phases = [one.phase - round(one.phase - turn) for one in comparisons]
+    delay, scatter = _spread([phase * one.cycle for phase, one in zip(phases, comparisons, strict=True)])
+    if abs(turn) > AMBIGUOUS_PHASE:
+        # a wearer who changes the pace shows the whole cycles: the offset is constant in s and not in phase
+        whole = 1.0 if turn < 0.0 else -1.0
+        other = _spread([(phase + whole) * one.cycle for phase, one in zip(phases, comparisons, strict=True)])
+        if other[1] < scatter:
+            delay, scatter = other
+    if scatter > MAX_SCATTER * cycle:
+        return None
+    uneven = UNEVEN_SHARE * max(0.0, abs(_median([one.uneven for one in comparisons])) - EVEN_SWINGS)
+    error = EFFICIENCY_OF_MEDIAN * scatter / sqrt(len(comparisons))
+    return Offset(-delay, sqrt(GAIT_SIGMA * GAIT_SIGMA + uneven * uneven + error * error), cycle)
+
+
+def _spread(delays: list[float]) -> tuple[float, float]:
+    """Return median and robust standard deviation of the delays."""
+    median = _median(delays)
+    return median, SCALE_OF_MAD * _median([abs(one - median) for one in delays])
+
+
+def _median(values: list[float]) -> float:
+    """Return the median of at least one value."""
+    ordered, half = sorted(values), len(values) // 2
+    return ordered[half] if len(values) % 2 else 0.5 * (ordered[half - 1] + ordered[half])
+
+
+# Strides of one foot while the other foot stands, which nobody can take.
+#
+# While one foot stands, the other one can get from a step behind it to a step in front of it, and no further. If it
+# goes further in several strides, and the standing foot's samples go on, then the times of the feet may be seconds
+# apart, or one of the two sensors is not worn or does not measure. Turns, stairs, steps on the spot and a leg that
+# swings stay within reach, because the displacement counts and not the number of strides.
+
+LONGEST_STEP = 1.0
+"""Longest step of a walk, m: of legs of 1.15 m that are 52 degrees apart.
+
+In 204 recordings of feet on one clock, no foot gets further than 1.7 m while the other one stands. With steps of 0.8,
+1.0, 1.2 and 1.4 m, clocks that are 5 or 10 s apart are found in 93, 92, 86 and 78 % of the walks of ipol_10m_uturn and
+marpino_heel_toe, and one recording of feet on one clock is reported with 0.8 m, none with more."""
+MIN_STRIDES = 2
+"""Least number of strides; a single one that is too long is of a runner, or two that were taken for one."""
+LONGEST_LONE_GAP = 0.3
+"""Longest gap in which a foot cannot have taken a step, s; the swing of a walker lasts longer."""
+MAX_LAG = 0.5
+"""Longest time by which the samples of the standing foot may be behind the other foot's, s."""
+
+
+@define
+class LoneFoot:
+    """The strides of one foot since the other foot moved."""
+
+    newest: float | None = None
+    """Time of the newest sample of this foot, s; None before any."""
+    stood_since: float | None = None
+    """Time from which on this foot is on the ground, s: of its newest event, or before any of a sample; else None."""
+    is_known: bool = False
+    """Flag: this foot had an event, or a sample with which it is tracked."""
+    strides: int = 0
+    """Number of strides since the other foot moved."""
+    x: float = 0.0
+    """Displacement by these strides along the x axis of the world, m."""
+    y: float = 0.0
+    """Displacement by these strides along the y axis of the world, m."""
+
+    def restart(self) -> None:
+        """Restart the count, because the other foot moved, or may have moved."""
+        self.strides, self.x, self.y = 0, 0.0, 0.0
+
+
+@define
+class LoneStrides:
+    """Detects a foot that walked while the other foot stood; the sentences are those of the right foot."""
+
+    left: LoneFoot = field(factory=LoneFoot, init=False)
+    right: LoneFoot = field(factory=LoneFoot, init=False)
+    requested: Foot | None = field(default=None, init=False)
+    """Foot of which a sample without events is needed, to know whether it is tracked; None mostly."""
+
+    def see(self, view: FootView) -> None:
+        """Take a sample with events, or one of the foot that was requested."""
+        foot = view.foot
+        this, other = self._feet(foot)
+        if not this.is_known and view.levelled and view.moved_at is not None:
+            self.set_standing(foot, view.t if view.phase in (Phase.STATIONARY, Phase.LOADING) else None)
+        if self.requested is foot:
+            self.requested = None
+        if view.after is not None:
+            self.set_newest(foot, view.t, view.after.other_t)
+            if not other.is_known and other.newest is not None:
+                self.requested = OTHER[foot]
+
+    def set_newest(self, foot: Foot, t: float, other_t: float | None) -> None:
+        """Set the time of the newest sample of a foot and of the other foot, s."""
+        this, other = self._feet(foot)
+        this.newest, other.newest = t, other_t
+
+    def set_standing(self, foot: Foot, since: float | None) -> None:
+        """Set that a foot is tracked, and the time from which on it is on the ground, s, or None if it is not."""
+        this, _ = self._feet(foot)
+        this.is_known, this.stood_since = True, since
+
+    def add(self, event: GaitEvent) -> str | None:
+        """Add an event of a foot; return sentences for the person if the foot has walked while the other one stood."""
+        this, other = self._feet(event.foot)
+        other.restart()
+        if not isinstance(event, StrideTaken):
+            self.set_standing(event.foot, event.t if isinstance(event, HeelStrike | FootFlat) else None)
+            return None
+        stood_since, newest = other.stood_since, other.newest
+        is_lone = stood_since is not None and stood_since <= event.t_start
+        if event.degraded or not is_lone or newest is None or newest < event.t_end - MAX_LAG:
+            this.restart()
+            return None
+        x, y, _ = event.displacement
+        this.strides, this.x, this.y = this.strides + 1, this.x + x, this.y + y
+        if this.strides < MIN_STRIDES or hypot(this.x, this.y) <= 2.0 * LONGEST_STEP:
+            return None
+        contradiction = "stood while the left foot walked" if this is self.left else "walked while the left foot stood"
+        return (
+            f"it {contradiction}: the clocks are seconds apart, or one sensor is not worn or does not measure. Step "
+            "time and double support are left out. Record both feet with one clock"
+        )
+
+    def add_gap(self, gap: SampleGap) -> None:
+        """Restart the count after a gap in which a foot may have taken a step."""
+        if gap.duration > LONGEST_LONE_GAP:
+            self.left.restart()
+            self.right.restart()
+
+    def _feet(self, foot: Foot) -> tuple[LoneFoot, LoneFoot]:
+        """Return this foot and the other one."""
+        return (self.left, self.right) if foot is Foot.LEFT else (self.right, self.left)
+
+
+MEMORY = 48
+"""Number of the newest comparisons that the offset is the median of: two a cycle, so about 25 s of walking."""
+MIN_CYCLE, MAX_CYCLE = 0.4, 2.2
+"""Shortest and longest cycle that is compared, s: of a sprinter and of a very slow walker."""
+MAX_CYCLE_RATIO = 1.25
+"""Largest ratio of the cycle times of both feet that are compared; they are equal but for a change of pace."""
+MAX_GAP = 0.05
+"""Longest gap in the samples of a cycle that is compared, s; a shorter one moves an event by less."""
+MAX_KEPT = 3
+"""Number of the newest swings of a foot that are kept; clocks up to a cycle apart need two."""
+
+
+@frozen
+class Swing:
+    """One swing of a foot, in the cycle that ends with it; times in s."""
+
+    middle: float
+    duration: float
+    cycle: float
+    """Time of the cycle from contact to contact."""
+
+
+@define
+class FootClock:
+    """The newest events of one foot; times in s."""
+
+    contact: float | None = None
+    """Contact of the cycle under way; None while there is none."""
+    toe_off: float | None = None
+    """Toe-off of the cycle under way; None before it."""
+    swings: list[Swing] = field(factory=list)
+    """Newest swings, oldest first."""
+    unsettled: float | None = None
+    """Time up to which the clock of this foot is not settled; None when it is."""
+    spoiled: bool = False
+    """Flag: another defect spoils the events of this foot."""
+
+    def discard(self) -> None:
+        """Discard the cycle under way, because one of its events is missing or not measured."""
+        self.contact = self.toe_off = None
+
+    def add_contact(self, t: float) -> float | None:
+        """Add a contact; return the middle of the stance of the cycle that ends there, or None without a cycle."""
+        contact, toe_off = self.contact, self.toe_off
+        if contact is not None and toe_off is None:
+            return None  # the foot never left the ground
+        self.contact, self.toe_off = t, None
+        if contact is None or toe_off is None or not (contact < toe_off < t and MIN_CYCLE <= t - contact <= MAX_CYCLE):
+            return None
+        if self.unsettled is not None and contact < self.unsettled:
+            return None
+        swing = Swing(0.5 * (toe_off + t), t - toe_off, t - contact)
+        self.swings = [*self.swings[1 - MAX_KEPT :], swing]
+        return 0.5 * (contact + toe_off)
+
+
+@define
+class FootClocks(Part):
+    """Detects that the times of the feet are not on one clock, and reports it as DefectFound.
+
+    The offset of the right foot's times is reported when at least `MIN_COMPARISONS` comparisons show it with three
+    standard deviations, and again when it has changed by half, as it does when the clocks run at different rates. A
+    foot that walks while the other one stands is reported once, without an offset, and no offset after it. A foot
+    with another defect that spoils its events is not compared."""
+
+    needs_samples: ClassVar[bool] = True
+
+    idle: bool = field(default=True, init=False)
+    """Flag: only samples with events are needed."""
+    left: FootClock = field(factory=FootClock, init=False)
+    right: FootClock = field(factory=FootClock, init=False)
+    comparisons: list[Comparison] = field(factory=list, init=False)
+    """Newest comparisons, oldest first."""
+    reported: float | None = field(default=None, init=False)
+    """Newest offset that was reported, s; None before any."""
+    lone: LoneStrides = field(factory=LoneStrides, init=False)
+    lone_reported: bool = field(default=False, init=False)
+    """Flag: it was reported that one foot walked while the other one stood."""
+    lone_sentences: str | None = field(default=None, init=False)
+    """Sentences on this for the next sample, because a defect of the same sample may be the reason; None mostly."""
+
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        """Add events; return DefectFound with the one that shows that the clocks are apart."""
+        outputs: Sequence[PartOutput] = ()
+        if view is not None:
+            self.lone.see(view)
+            self.idle = self.lone.requested is None
+            outputs = self._report_lone(view.t, view.known_at)
+        return [*outputs, *[output for event in events for output in self._receive(event)]] if events else outputs
+
+    def finish(self, now: float) -> Sequence[PartOutput]:
+        """Return DefectFound if the newest stride was the last sample."""
+        return self._report_lone(now, now)
+
+    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
+        if isinstance(event, GaitEvent):
+            if self.left.spoiled or self.right.spoiled or self.lone_reported:
+                return ()
+            self.lone_sentences = self.lone.add(event) or self.lone_sentences
+            self.idle = self.idle and self.lone_sentences is None
+            foot = self._foot(event.foot)
+            if isinstance(event, FootFlat):
+                if foot.toe_off is not None:  # the heel-strike was not detected
+                    foot.discard()
+            elif isinstance(event, ToeOff | HeelStrike):
+                if event.inferred:
+                    foot.discard()
+                elif isinstance(event, ToeOff):
+                    foot.toe_off = event.t
+                else:
+                    middle = foot.add_contact(event.t)
+                    if middle is not None and self._compare(event.foot, middle):
+                        return self._report_offset(event)
+        elif isinstance(event, SampleGap) and event.site.foot is not None:
+            self.lone.add_gap(event)
+            if event.duration > MAX_GAP:
+                self._foot(event.site.foot).discard()
+        elif isinstance(event, DefectFound) and event.site.foot is not None and is_spoiling(event):
+            self._foot(event.site.foot).spoiled = True
+            self._forget()
+        elif isinstance(event, ClockUnsettled) and event.site.foot is not None:
+            self._foot(event.site.foot).unsettled = event.until
+        return ()
+
+    def reset(self, site: Site) -> None:
+        """Discard everything when the clock or the device of a foot has changed."""
+        if site.foot is not None:
+            self._foot(site.foot).spoiled = False
+            self._forget()
+            self.reported, self.lone_reported = None, False
+
+    def _forget(self) -> None:
+        """Discard what was collected from both feet."""
+        for foot in (self.left, self.right):
+            foot.discard()
+            foot.swings = []
+        self.comparisons, self.lone, self.lone_sentences = [], LoneStrides(), None
+
+    def _foot(self, foot: Foot) -> FootClock:
+        return self.left if foot is Foot.LEFT else self.right
+
+    def _compare(self, foot: Foot, middle: float) -> bool:
+        """Compare the newest cycle of a foot, the middle of whose stance is `middle`, s; return whether that worked."""
+        is_left = foot is Foot.LEFT
+        this, other = (self.left, self.right) if is_left else (self.right, self.left)
+        if not other.swings:
+            return False
+        own = this.swings[-1]
+        across = min(other.swings, key=lambda swing: abs(swing.middle - middle))
+        late = across.middle - middle if is_left else middle - across.middle
+        cycle = 0.5 * (own.cycle + across.cycle)
+        is_like = own.cycle < MAX_CYCLE_RATIO * across.cycle and across.cycle < MAX_CYCLE_RATIO * own.cycle
+        if abs(late) > cycle or not is_like:
+            return False
+        phase, uneven = late / cycle, across.duration - own.duration
+        comparison = Comparison(phase - round(phase), cycle, uneven if is_left else -uneven)
+        self.comparisons = [*self.comparisons[1 - MEMORY :], comparison]
+        return True
+
+    def _report_offset(self, event: HeelStrike) -> Sequence[PartOutput]:
+        """Return DefectFound if the offset is significant and new."""
+        offset = find_offset(self.comparisons)
+        if offset is None or not offset.is_significant:
+            return ()
+        if self.reported is not None and not offset.differs_from(self.reported):
+            return ()
+        self.reported = offset.value
+        return self._report(event.t, event.known_at, offset.sentences, offset)
+
+    def _report_lone(self, t: float, known_at: float) -> Sequence[PartOutput]:
+        """Return DefectFound at `t`, s, if one foot has walked while the other one stood."""
+        if self.lone_sentences is None:
+            return ()
+        what, self.lone_sentences, self.lone_reported = self.lone_sentences, None, True
+        return self._report(t, max(t, known_at), what)
+
+    @staticmethod
+    def _report(t: float, known_at: float, what: str, offset: Offset | None = None) -> Sequence[PartOutput]:
+        """Return DefectFound with these sentences."""
+        return (
+            DefectFound(
+                t=t,
+                known_at=known_at,
+                site=Site.RIGHT_FOOT,
+                defect=Defect.CLOCKS,
+                what=what,
+                spoils=False,
+                offset=None if offset is None else offset.value,
+                sigma=None if offset is None else offset.sigma,
+            ),
+        )
+
+
+def is_spoiling(defect: DefectFound) -> bool:
+    """Return whether a defect spoils the times of the gait events; a peak that is cut off (CLIPPED) has its time."""
+    return defect.spoils and defect.defect is not Defect.CLIPPED
