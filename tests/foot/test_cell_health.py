@@ -16,7 +16,7 @@ from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import FULL_SCALE, layout
 from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, SampleRejected, StrideTaken
-from solepath.foot.pressure.cells import enclosed
+from solepath.foot.pressure.cell_health import enclosed
 from solepath.types import Foot, Sample
 
 WALK = Route().stand(1.5).walk(20.0, 1.3).stop(1.0)

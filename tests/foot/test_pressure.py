@@ -13,7 +13,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.pressure.insole import InsoleLoads
-from solepath.foot.pressure.layout_guess import LayoutGuess
+from solepath.foot.pressure.sole import LayoutGuess
 
 
 def test_an_insole_without_an_inertial_sensor_still_gives_the_phases() -> None:

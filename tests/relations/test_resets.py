@@ -63,7 +63,7 @@ FootTracker.reset: corrector* cues* detector* gait* levelled limitations rest* r
   cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
 Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
-GaitCues.reset: inertial* sagittal inertial.reset()
+GaitCues.reset: inertial* pressure sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
 GaitCycles.reset: feet* progress* unsettled apart means.reset()
 GaitMeans.reset: running walking_means apart

@@ -1,7 +1,8 @@
-"""Calibration of an inertial sensor at rest: first attitude, gyroscope bias and accelerometer scale.
+"""Calibration of an inertial sensor: first attitude, gyroscope bias and accelerometer scale.
 
 `Levelling` finds the first attitude for any mounting. `Rest` learns the gyroscope bias and the accelerometer scale all
-the time, from spans in which the foot is as still as only a standing foot is. The numbers were chosen by hand and not
+the time, from spans in which the foot is as still as only a standing foot is. Before the first of them, `WalkScale`
+learns the scale from strides. The numbers were chosen by hand and not
 swept."""
 
 from __future__ import annotations
@@ -104,20 +105,20 @@ class Levelling:
     after each stiller one, so that it has started in that stance when LONGEST_STRIDE has passed. The heading stays that
     of the sensor: the attitude is the smallest turn that takes the measured up to up."""
 
-    span: SampleSpan = field(factory=SampleSpan, init=False)
-    short_span: SampleSpan = field(factory=SampleSpan, init=False)
+    span: SampleSpan = field(factory=SampleSpan)
+    short_span: SampleSpan = field(factory=SampleSpan)
     """Sums over the current short span."""
-    short_span_start: float = field(default=0.0, init=False)
+    short_span_start: float = 0.0
     """Start of the current short span, s."""
-    least_motion: float = field(default=LARGEST_MOTION, init=False)
+    least_motion: float = LARGEST_MOTION
     """Least amount of motion of any short span so far, (m/s^2)^2."""
-    span_start: float = field(default=0.0, init=False)
+    span_start: float = 0.0
     """Start of the current span, s."""
-    started_at: float | None = field(default=None, init=False)
+    started_at: float | None = None
     """Time of the first sample, s; None before it."""
-    final: bool = field(default=False, init=False)
+    final: bool = False
     """Flag: the newest attitude is the first one; no other follows."""
-    walks: bool = field(default=True, init=False)
+    walks: bool = True
     """Flag: the foot was not still."""
 
     @property
@@ -163,23 +164,23 @@ class Levelling:
 class Rest:
     """The gyroscope bias and the accelerometer scale, learnt from spans of rest."""
 
-    span: SampleSpan = field(factory=SampleSpan, init=False)
-    span_start: float | None = field(default=None, init=False)
+    span: SampleSpan = field(factory=SampleSpan)
+    span_start: float | None = None
     """Start of the current span, s; None before the first sample."""
-    bias_filter: BiasFilter = field(factory=BiasFilter, init=False)
-    bias: Vec3 = field(default=ZERO, init=False)
+    bias_filter: BiasFilter = field(factory=BiasFilter)
+    bias: Vec3 = ZERO
     """Gyroscope bias by the filter, sensor frame, rad/s."""
-    block_end: float = field(default=0.0, init=False)
+    block_end: float = 0.0
     """End of the current block, s."""
-    blocks: list[tuple[int, Vec3]] = field(factory=list, init=False)
+    blocks: list[tuple[int, Vec3]] = field(factory=list)
     """Number of samples, and sum of their rates, rad/s, of the span up to the end of each of its blocks."""
-    scale: float = field(default=1.0, init=False)
+    scale: float = 1.0
     """Factor for acc that makes it read 1 g at rest."""
-    count: int = field(default=0, init=False)
+    count: int = 0
     """Number of spans of rest so far."""
-    grain: float = field(default=COARSEST_COUNT, init=False)
+    grain: float = COARSEST_COUNT
     """Value of one accelerometer count, m/s^2: the least difference of two readings so far."""
-    last: Vec3 = field(default=ZERO, init=False)
+    last: Vec3 = ZERO
     """Last acc without calibration, m/s^2."""
 
     def reset(self) -> None:
@@ -201,18 +202,10 @@ class Rest:
         """Add one sample without calibration; return whether a span of rest has just ended."""
         if self.span_start is None:
             self._start_span(t)
-        # SampleSpan.add without the cost of a call (tests/foot/test_alike.py checks that both are equal)
         span = self.span
-        gx, gy, gz = gyro
-        lx, ly, lz = span.gyro
-        span.gyro = (lx + gx, ly + gy, lz + gz)
-        span.gyro_squares += gx * gx + gy * gy + gz * gz
-        x, y, z = acc
-        lx, ly, lz = span.acc
-        span.acc = (lx + x, ly + y, lz + z)
-        span.acc_squares += x * x + y * y + z * z
-        span.count += 1
+        span.add(acc, gyro)
         # a steady reading flickers between two neighbouring counts on any axis, with a variance of up to 1/4 count^2
+        x, y, z = acc
         lx, ly, lz = self.last
         self.last = acc
         x -= lx
@@ -273,3 +266,81 @@ def _means_of(blocks: list[tuple[int, Vec3]]) -> tuple[Vec3, ...]:
         means.append(((gx - x) * k, (gy - y) * k, (gz - z) * k))
         before, (x, y, z) = count, (gx, gy, gz)
     return tuple(means)
+
+
+SHORTEST_SWING, LONGEST_SWING = 0.25, 2.0
+"""Limits of the time between two stances over which a drift is measured, s."""
+MOST_STRIDES = 20
+"""Number of strides that are averaged."""
+LARGEST_DEVIATION = 0.25 * GRAVITY
+"""Largest deviation from 1 g in one stride, m/s^2; a larger one counts as this."""
+
+
+@define
+class WalkScale:
+    """Learns the accelerometer scale of a foot that has not stood still yet, from its strides.
+
+    A scale error shows in two ways. In the stillest part of a stance the specific force is not 1 g; but a runner's foot
+    is never still. From one stance to the next the vertical velocity drifts by the error times the duration; but an
+    impact that was sampled too slowly or clipped makes it drift too. Nothing but the scale does both, so the smaller of
+    the two is used if both have the same sign. A deviation is the difference between the reading of a standing foot and
+    1 g, m/s^2."""
+
+    span: SampleSpan = field(factory=SampleSpan)
+    """Sums over the current short span."""
+    span_start: float | None = None
+    """Start of the current short span, s; None before any sample."""
+    least_motion: float = LARGEST_MOTION
+    """Least amount of motion of a short span since the last stride, (m/s^2)^2."""
+    force: float = GRAVITY
+    """Specific force in the short span of `least_motion`, m/s^2."""
+    accepted_at: float | None = None
+    """Time of the last accepted evidence, s; None before any."""
+    strides: int = 0
+    """Number of strides in the means, at most MOST_STRIDES."""
+    stance_deviation: float = 0.0
+    """Mean deviation in stance."""
+    drift_deviation: float = 0.0
+    """Mean deviation from the drift of the vertical velocity."""
+
+    def add_sample(self, t: float, acc: Vec3, gyro: Vec3) -> None:
+        """Add one sample without calibration."""
+        if self.span_start is None:
+            self.span_start = t
+        span = self.span
+        span.add(acc, gyro)
+        if t - self.span_start < SHORT_SPAN - TIE or span.count < 2:
+            return
+        motion = amount_of_motion(span)
+        if motion < self.least_motion:
+            (x, y, z), _ = span.means()
+            self.least_motion, self.force = motion, (x * x + y * y + z * z) ** 0.5
+        self.span = SampleSpan()
+        self.span_start = t
+
+    def add_evidence(self, t: float, drift: float, scale: float) -> float:
+        """Return the scale after evidence that was accepted at `t`, s, and that corrected the velocity.
+
+        `drift` is the vertical velocity that the correction removed, m/s, integrated with `scale`."""
+        since = None if self.accepted_at is None else t - self.accepted_at
+        self.accepted_at = t
+        if since is None or not SHORTEST_SWING <= since <= LONGEST_SWING or self.least_motion == LARGEST_MOTION:
+            return scale
+        self.strides = min(self.strides + 1, MOST_STRIDES)
+        stance, moving = self.force - GRAVITY, (GRAVITY + drift / since) / scale - GRAVITY
+        self.stance_deviation += (_limited(stance) - self.stance_deviation) / self.strides
+        self.drift_deviation += (_limited(moving) - self.drift_deviation) / self.strides
+        self.least_motion = LARGEST_MOTION
+        least, most = sorted((self.stance_deviation, self.drift_deviation), key=abs)
+        deviation = least if least * most > 0.0 else 0.0
+        return min(max(GRAVITY / (GRAVITY + deviation), LEAST_SCALE), LARGEST_SCALE)
+
+    def reset(self) -> None:
+        """Discard what depends on unbroken times."""
+        self.span = SampleSpan()
+        self.span_start = self.accepted_at = None
+        self.least_motion = LARGEST_MOTION
+
+
+def _limited(deviation: float) -> float:
+    return min(max(deviation, -LARGEST_DEVIATION), LARGEST_DEVIATION)

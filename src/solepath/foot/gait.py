@@ -8,13 +8,13 @@ from ..calibration import HeadingCalibration
 from ..events import Event
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import define, field
-from ..types.vector import ZERO, from_yaw, heading_turned, multiply, sub
+from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub
 from .cues.cues import Cues, TimedCue
-from .gaps.gap import Infill
-from .gaps.template import StrideTemplate
+from .gap import Infill
 from .navigate.corrector import Corrector
-from .phase import EVENT_OF_PHASE, PHASES, Cue
+from .phase import EVENT_OF_PHASE, PHASES, REMAINING_CUES, STRIDE, Cue
 from .stride import SHORTEST_STRIDE, StrideBuilder, usual_strides
+from .template import StrideTemplate
 from .world import Covariance3, PathCovariance, World
 
 FLAT_SPEED = 0.35
@@ -57,7 +57,7 @@ class Gait:
 
     def start_walking(self, on_ground: bool) -> None:
         """Start with a foot that walks already; its first stride starts at the next foot-flat."""
-        self.phase = Phase.LOADING if on_ground else Phase.SWING
+        self._change_phase(Cue.GROUND if on_ground else Cue.AIR)
         self.stride.t_start = None
 
     def shift(self, yaw: float, by: Vec3) -> Vec3:
@@ -66,13 +66,19 @@ class Gait:
         if self.world.north is not None:
             c, s = self.world.north  # inverse of the rotation from navigation to world frame
             x, y = c * x + s * y, c * y - s * x
-        stride = self.stride
-        px, py, pz = stride.start
-        stride.start = (px + x, py + y, pz + z)
+        stride, by = self.stride, (x, y, z)
+        stride.start = add(stride.start, by)
         stride.attitude = multiply(from_yaw(yaw), stride.attitude)
-        px, py, pz = self.anchor_position
-        self.anchor_position = (px + x, py + y, pz + z)
-        return (x, y, z)
+        self.anchor_position = add(self.anchor_position, by)
+        return by
+
+    def _change_phase(self, cue: Cue) -> Phase | None:
+        """Look up the phase after `cue` in the table and return it if it is another one; nothing else sets a phase."""
+        phase = PHASES[self.phase][cue]
+        if phase is self.phase:
+            return None
+        self.phase = phase
+        return phase
 
     def apply_cue(
         self, timed_cue: TimedCue, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
@@ -81,10 +87,9 @@ class Gait:
 
         `corrector` is None as long as the foot is not levelled. `interval` is the usual interval between samples, s.
         `inferred` marks a cue that no sample showed."""
-        phase = PHASES[self.phase][timed_cue.cue]
-        if phase is self.phase:
+        phase = self._change_phase(timed_cue.cue)
+        if phase is None:
             return []
-        self.phase = phase
         # cues are dated back by different times, but phases must not go back in time
         t = timed_cue.t if self.phase_start is None else max(timed_cue.t, self.phase_start)
         self.phase_start = t
@@ -107,23 +112,17 @@ class Gait:
     ) -> list[Event]:
         """Return the events of the phases that a gap has hidden."""
         self.template.add_infill(infill.t_heel_off, infill.duration)
-        hidden_cues: list[TimedCue] = []
-        phase = self.phase
-        if phase is Phase.STATIONARY:
-            hidden_cues.append(TimedCue(Cue.LIFT, infill.t_heel_off))
-            phase = Phase.PUSH_OFF
-        if infill.t_toe_off is not None and phase is not Phase.SWING and self.stride.t_toe_off is None:
-            hidden_cues.append(cues.make_hidden_toe_off(infill.t_toe_off))
-            phase = Phase.SWING
-        if infill.t_heel_strike is not None and phase is Phase.SWING:
-            hidden_cues.append(TimedCue(Cue.CONTACT, infill.t_heel_strike))
-        if infill.t_foot_flat is not None:
-            hidden_cues.append(TimedCue(Cue.FLAT, infill.t_foot_flat))
-        return [
-            event
-            for timed_cue in hidden_cues
-            for event in self.apply_cue(timed_cue, known_at, corrector, interval, inferred=True)
-        ]
+        path = REMAINING_CUES[self.phase]
+        if self.phase is Phase.PUSH_OFF or self.phase is Phase.LOADING:
+            # a runner's foot pushes off again without foot-flat; a heel may come down again before toe-off
+            path = REMAINING_CUES[Phase.PUSH_OFF if self.stride.t_toe_off is None else Phase.LOADING]
+        times = (infill.t_heel_off, infill.t_toe_off, infill.t_heel_strike, infill.t_foot_flat)
+        events: list[Event] = []
+        for cue, t in zip(STRIDE, times, strict=True):
+            if t is not None and cue in path:
+                timed_cue = cues.make_hidden_toe_off(t) if cue is Cue.CLEAR else TimedCue(cue, t)
+                events += self.apply_cue(timed_cue, known_at, corrector, interval, inferred=True)
+        return events
 
     def _end_stride(self, t: float, known_at: float, corrector: Corrector, interval: float) -> list[Event]:
         """End the stride at a foot-flat and start the next one; return its event, if there was a stride."""
@@ -132,24 +131,20 @@ class Gait:
         path = sub(corrector.position, stride.start)
         repair = self.template.end_stride(t, stride.t_toe_off, stride.t_heel_strike, turn, path, interval)
         if repair is not None:
-            (x, y, z), (dx, dy, dz) = stride.start, repair.displacement
-            corrector.repair(repair.turn, (x + dx, y + dy, z + dz))
+            corrector.repair(repair.turn, add(stride.start, repair.displacement))
         if self.heading is not None:
             self._turn_back(self.heading, corrector, path, turn)
         rise = corrector.position[2] - stride.start[2]
         corrector.flat(stride.start, turn)
-        position, attitude = corrector.position, corrector.attitude
         if not self.heading_settled and stride.t_toe_off is not None:
             # the first stride gives the final heading; until then it is the direction from the origin to the foot
-            self.heading_settled = world.find_heading(position, SHORTEST_STRIDE)
-        stride_event = stride.finish(
-            t, known_at, position, attitude, corrector.covariance(), world, error_index=corrector.error_index, rise=rise
-        )
+            self.heading_settled = world.find_heading(corrector.position, SHORTEST_STRIDE)
+        stride_event = stride.finish(t, known_at, corrector, world, rise)
         if stride_event is not None:
             # a reported stride is final, so its frame must not change, even if it was too short to give a direction
             self.heading_settled = True
             world.settle()
-        stride.start_stride(t, position, attitude)
+        stride.start_stride(t, corrector.position, corrector.attitude)
         return [] if stride_event is None else [stride_event]
 
     @staticmethod
@@ -162,8 +157,7 @@ class Gait:
         if shift is not None:
             shift(yaw, by)
             return
-        (x, y, z), (dx, dy, _) = corrector.position, by
-        corrector.repair(yaw, (x + dx, y + dy, z))
+        corrector.repair(yaw, add(corrector.position, by))
 
     def _anchor(self, corrector: Corrector) -> None:
         """Add the stretch since the last anchor to the path."""

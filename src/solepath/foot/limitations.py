@@ -17,13 +17,13 @@ class Limitations:
     """The limitations of one foot that were reported, and those that the next sample reports."""
 
     foot: Foot
-    reported: list[str] = field(factory=list, init=False)
+    reported: list[str] = field(factory=list)
     """Sentences that were reported and are not reported again."""
-    pending: list[str] = field(factory=list, init=False)
+    pending: list[str] = field(factory=list)
     """Sentences that the next sample reports."""
-    lacking_since: float | None = field(default=None, init=False)
+    lacking_since: float | None = None
     """Time since which samples lack data, s; None while they lack none."""
-    mismatch_since: float | None = field(default=None, init=False)
+    mismatch_since: float | None = None
     """Time since which the number of cells differs from the calibration, s; None before that."""
 
     def queue(self, text: str | None) -> None:

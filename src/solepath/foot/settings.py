@@ -91,7 +91,7 @@ class ErrorStateSettings:
     show that the band of the sensor is narrow (IndependentInterval). At 20 Hz, where a heel-strike falls between two
     samples, it is the largest term."""
     recover: bool = True
-    """Add the turn that a clipped gyroscope did not show (clipping.py, reintegration.py)."""
+    """Add the turn that a clipped gyroscope did not show (clipping.py)."""
     clipping_rate: float = 8.5
     """Angular rate above which clipping is possible although no end of a range is seen, rad/s.
 

@@ -8,6 +8,8 @@ from ..events import StrideFeatures, StrideTaken
 from ..types import Foot, Quat, Vec3
 from ..types.attrs import define, field
 from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, single, sub
+from .navigate.corrector import Corrector
+from .rhythm import follow
 from .world import World
 
 MOST_COP_POINTS = 32
@@ -33,8 +35,8 @@ MERGED_RATIO = 1.8
 
 Two swings and a stance take more than twice that time. On recordings without damage 99 % of the ratios are below 1.6.
 """
-MOTION_GAIN, LEAST_MOTION_RATIO, LARGEST_MOTION_RATIO = 0.2, 0.5, 1.3
-"""Weight of the newest time in the usual one, and the limits of its ratio to the usual one in the average."""
+MOTION_GAIN, LARGEST_MOTION_RATIO = 0.2, 1.3
+"""Weight of the newest time in the usual one, and the limit of its ratio to the usual one in the average."""
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
 
@@ -52,67 +54,67 @@ class StrideBuilder:
     """Collects the data of one foot's stride."""
 
     foot: Foot
-    number: int = field(default=0, init=False)
+    number: int = 0
     """Number of the last stride, counted from 1."""
-    t_start: float | None = field(default=None, init=False)
+    t_start: float | None = None
     """Time of the foot-flat that starts the stride, s; None before any."""
-    start: Vec3 = field(default=ZERO, init=False)
+    start: Vec3 = ZERO
     """Position at the start, navigation frame, m."""
-    attitude: Quat = field(default=IDENTITY, init=False)
+    attitude: Quat = IDENTITY
     """Attitude at the start, sensor to navigation frame."""
-    t_toe_off: float | None = field(default=None, init=False)
+    t_toe_off: float | None = None
     """Time of toe-off, s; None before it."""
-    t_heel_strike: float | None = field(default=None, init=False)
+    t_heel_strike: float | None = None
     """Time of heel-strike, s; None before it."""
-    degraded: bool = field(default=False, init=False)
+    degraded: bool = False
     """Samples of the stride are missing or saturated, or a defect spoils them."""
-    degraded_until: float | None = field(default=None, init=False)
+    degraded_until: float | None = None
     """Time up to which samples cannot be trusted, s; None at first."""
-    peak_height: float = field(default=0.0, init=False)
+    peak_height: float = 0.0
     """Largest height of the sensor in the stride, navigation frame, m."""
-    peak_speed: float = field(default=0.0, init=False)
+    peak_speed: float = 0.0
     """Largest speed of the sensor in the stride, m/s."""
-    t_heel_off: float | None = field(default=None, init=False)
+    t_heel_off: float | None = None
     """Time of heel-off, s; None before it."""
-    usual_motion: float = field(default=FIRST_MOTION, init=False)
+    usual_motion: float = FIRST_MOTION
     """Usual time from heel-off to the next foot-flat of this wearer, s."""
-    pitch: float = field(default=0.0, init=False)
+    pitch: float = 0.0
     """Integral of the sagittal rate since the start, toe down positive, rad."""
-    pitch_low: float = field(default=0.0, init=False)
+    pitch_low: float = 0.0
     """Smallest pitch of the stride, rad."""
-    pitch_high: float = field(default=0.0, init=False)
+    pitch_high: float = 0.0
     """Largest pitch of the stride, rad."""
-    pitches: list[float] = field(factory=lambda: [0.0] * MOST_PITCHES, init=False)
+    pitches: list[float] = field(factory=lambda: [0.0] * MOST_PITCHES)
     """Ring buffer of the newest pitches, rad, rounded by `single`."""
-    next_pitch: int = field(default=0, init=False)
+    next_pitch: int = 0
     """Index of the oldest pitch in `pitches`, which the next one replaces."""
-    t_pitch: float = field(default=0.0, init=False)
+    t_pitch: float = 0.0
     """Time of the newest pitch, s."""
-    toe_off_pitch: float | None = field(default=None, init=False)
+    toe_off_pitch: float | None = None
     """Pitch at toe-off, toe down positive, rad; None if unknown."""
-    heel_strike_pitch: float | None = field(default=None, init=False)
+    heel_strike_pitch: float | None = None
     """Pitch at heel-strike, toe down positive, rad; None if unknown."""
-    t_contact: float | None = field(default=None, init=False)
+    t_contact: float | None = None
     """Time of the heel-strike before this stance, s; None if the foot stands or has not walked."""
-    t_mid_stance: float = field(default=0.0, init=False)
+    t_mid_stance: float = 0.0
     """Expected middle of the contact that started at `t_contact`, s."""
-    contact_time: float | None = field(default=None, init=False)
+    contact_time: float | None = None
     """Duration of the last contact, s; None before any."""
-    first_pitch: float = field(default=0.0, init=False)
+    first_pitch: float = 0.0
     """Pitch at the first foot-flat of this contact, rad."""
-    flat_pitch: float = field(default=0.0, init=False)
+    flat_pitch: float = 0.0
     """Pitch of the flat sole, rad: that of the still foot at mid-stance, or the newest one of a foot that stands."""
-    usual_flat_pitch: float | None = field(default=None, init=False)
+    usual_flat_pitch: float | None = None
     """Mean of `flat_pitch` relative to the first foot-flat of a contact, rad; None before the first stance."""
-    load_sum: float = field(default=0.0, init=False)
+    load_sum: float = 0.0
     """Sum of the total load over the samples on the ground."""
-    load_count: int = field(default=0, init=False)
+    load_count: int = 0
     """Number of samples in `load_sum`."""
-    cop: list[tuple[float, float]] = field(factory=list, init=False)
+    cop: list[tuple[float, float]] = field(factory=list)
     """Points of the centre of pressure, foot frame, m."""
-    cop_interval: int = field(default=1, init=False)
+    cop_interval: int = 1
     """Number of samples for each stored point of the centre of pressure."""
-    cop_skipped: int = field(default=0, init=False)
+    cop_skipped: int = 0
     """Number of samples since the last stored point of the centre of pressure."""
 
     def start_stride(self, t: float, position: Vec3, attitude: Quat) -> None:
@@ -231,26 +233,15 @@ class StrideBuilder:
             self.cop = self.cop[::2]
             self.cop_interval *= 2
 
-    def finish(
-        self,
-        t: float,
-        known_at: float,
-        position: Vec3,
-        attitude: Quat,
-        stretch: tuple[float, ...],
-        world: World,
-        *,
-        error_index: float | None = None,
-        rise: float | None = None,
-    ) -> StrideTaken | None:
-        """Return the stride that ends at this foot-flat; None if the foot has made none.
+    def finish(self, t: float, known_at: float, corrector: Corrector, world: World, rise: float) -> StrideTaken | None:
+        """Return the stride that ends at this foot-flat with the state of `corrector`; None if there is none.
 
-        `position` (m), `attitude` and `stretch` (`Corrector.anchor`) are in the navigation frame."""
+        `rise` is the change of height, m, before the corrector has corrected it."""
         if self.t_start is None or self.t_toe_off is None or max(self.t_start, self.t_toe_off) > t:
             return None
-        displacement = world.rotate_vector(sub(position, self.start))
+        displacement = world.rotate_vector(sub(corrector.position, self.start))
         length, dz = hypot(displacement[0], displacement[1]), displacement[2]
-        turn = heading_turned(self.attitude, attitude)
+        turn = heading_turned(self.attitude, corrector.attitude)
         if hypot(length, dz) < SHORTEST_STRIDE and abs(turn) < LEAST_STRIDE_TURN:
             return None
         self.number += 1
@@ -263,11 +254,11 @@ class StrideBuilder:
             t_start=self.t_start,
             t_end=t,
             displacement=displacement,
-            position=world.rotate_vector(position),
+            position=world.rotate_vector(corrector.position),
             length=length,
             heading_change=turn,
             height_change=dz,
-            covariance=world.rotate_covariance(stretch[:6]),
+            covariance=world.rotate_covariance(corrector.covariance()[:6]),
             t_toe_off=self.t_toe_off,
             t_heel_strike=self.t_heel_strike,
             degraded=self.degraded
@@ -275,14 +266,14 @@ class StrideBuilder:
             or t - self.t_toe_off > LONGEST_SWING
             or length > FASTEST_RUN * (t - self.t_start),
             features=StrideFeatures(
-                clearance=self.peak_height - max(position[2], self.start[2]),
+                clearance=self.peak_height - max(corrector.position[2], self.start[2]),
                 peak_speed=self.peak_speed,
                 swing_pitch=self.pitch_high - self.pitch_low,
                 toe_off_angle=None if self.toe_off_pitch is None else self.toe_off_pitch - self.flat_pitch,
                 heel_strike_angle=self._heel_strike_angle(),
                 contact_load=self.load_sum / self.load_count if self.load_count else None,
                 cop=tuple(self.cop),
-                error_index=error_index,
+                error_index=corrector.error_index,
                 rise=rise,
             ),
         )
@@ -292,6 +283,5 @@ class StrideBuilder:
         usual = self.usual_motion
         motion = usual if self.t_heel_off is None else t - self.t_heel_off
         if not self.degraded:  # also of a merged one, so that a wearer who walks ever slower is learnt
-            limited = min(max(motion, LEAST_MOTION_RATIO * usual), LARGEST_MOTION_RATIO * usual)
-            self.usual_motion += MOTION_GAIN * (limited - usual)
+            self.usual_motion = follow(usual, motion, MOTION_GAIN, largest=LARGEST_MOTION_RATIO)
         return motion > MERGED_RATIO * usual

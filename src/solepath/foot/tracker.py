@@ -6,20 +6,20 @@ The results are events; `position` is the live position after each sample."""
 from __future__ import annotations
 
 from math import inf, sqrt
-from typing import Any, Final
+from typing import Any
 
 from ..events import Event, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import define, evolve, field
 from ..types.vector import ZERO
-from .attitude import Levelling, Rest
+from .attitude import Levelling, Rest, WalkScale
 from .cues.cues import Cues, TimedCue
 from .cues.gait_cues import GaitCues
 from .gait import FLAT_SPEED, Gait
-from .gaps.crossing import cross_gap
-from .gaps.gap import SHORTEST_FILLED_GAP
+from .gap import SHORTEST_FILLED_GAP, NoInfill, find_infill
 from .limitations import LACKING_TIME, Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
+from .phase import SWING
 from .pressure.insole import InsoleLoads
 from .pressure.sole import Sole
 from .rejection import ABSURD_TIME, rejected, rejection_reason
@@ -27,11 +27,7 @@ from .rhythm import Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load
 from .view import AfterEvents, FootPose, FootView, PressedCells
-from .walk_scale import WalkScale
 from .world import Covariance3
-
-SWING: Final = Phase.SWING
-"""Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 
 
 @define
@@ -227,20 +223,40 @@ class FootTracker:
         return events
 
     def _cross_gap(self, t_last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
-        """Report a gap between two samples; return the time to integrate over, s."""
-        events.append(SampleGap(t=t_last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - t_last))
-        self.gait.stride.mark_degraded(t)
-        if t - t_last > LONGEST_BRIDGE:
+        """Report a gap between two samples; return the time to integrate over, s.
+
+        If there is a stride template (gap.py), the gap is filled and the phases that it hid are appended to `events`;
+        else it is crossed by a straight line."""
+        duration = t - t_last
+        events.append(SampleGap(t=t_last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=duration))
+        corrector, gait = self.corrector, self.gait
+        template = gait.template
+        gait.stride.mark_degraded(t)
+        if duration > LONGEST_BRIDGE:
             self.rest.end_rest()
             self.levelling = Levelling()
         if not self.levelled:
-            return t - t_last
-        if t - t_last <= SHORTEST_FILLED_GAP or sample.acc is None or sample.gyro is None:
-            return self.corrector.bridge(t - t_last)
-        return cross_gap(
-            self.gait, self.corrector, self.cues, t_last, t, known_at, self.rest.calibrate(sample.acc, sample.gyro),
-            self.rhythm.usual_interval or 0.0, events,
-        )  # fmt: skip
+            return duration
+        if duration <= SHORTEST_FILLED_GAP or sample.acc is None or sample.gyro is None:
+            return corrector.bridge(duration)
+        acc, gyro = self.rest.calibrate(sample.acc, sample.gyro)
+        infill = find_infill(template, corrector, t_last, t, acc, gyro)
+        if infill is NoInfill.UNKNOWN:
+            template.bridged = True
+            if duration > LONGEST_BRIDGE:
+                template.reset()
+            return corrector.bridge(duration)
+        for _ in range(2):  # within a second a foot may land, stand and leave again
+            if isinstance(infill, NoInfill):
+                break
+            self.cues.reset()
+            corrector.infill(t - t_last, infill.attitude, infill.velocity, infill.position)
+            events += gait.apply_infill(infill, self.cues, known_at, corrector, self.rhythm.usual_interval or 0.0)
+            if infill.t_foot_flat is None:
+                break
+            t_last = infill.t_foot_flat
+            infill = find_infill(template, corrector, t_last, t, acc, gyro)
+        return 0.0
 
     def _add_inertial(
         self, t: float, dt: float, known_at: float, acc: Vec3, gyro: Vec3, saturated: bool,

@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import atan2, cos, hypot, sin
 
 from ..types import Quat, Vec3
-from ..types.attrs import define, field
+from ..types.attrs import define
 from ..types.vector import from_yaw, multiply
 
 FIRST_HEADING_DISTANCE = 0.15
@@ -25,7 +25,7 @@ Covariance3 = tuple[float, float, float, float, float, float]
 class World:
     """The rotation about z from the navigation frame to the world frame."""
 
-    north: tuple[float, float] | None = field(default=None, init=False)
+    north: tuple[float, float] | None = None
     """Cosine and sine of the angle from navigation to world frame; None until the first heading is known."""
 
     def find_heading(self, position: Vec3, least: float = FIRST_HEADING_DISTANCE) -> bool:

@@ -40,9 +40,9 @@ def sub(a: Vec3, b: Vec3) -> Vec3:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
-def add(a: Vec3, b: Vec3) -> Vec3:
-    """Return a + b."""
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+def add(a: Vec3, b: Vec3, k: float = 1.0) -> Vec3:
+    """Return a + k b."""
+    return (a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2])
 
 
 def plus(a: Vec2, b: Vec2) -> Vec2:
@@ -85,6 +85,11 @@ def rotated_back(v: Vec2, by: Vec2) -> Vec2:
 def unit_at(angle: float) -> Vec2:
     """Return the cosine and the sine of an angle, rad."""
     return (cos(angle), sin(angle))
+
+
+def dot(a: Vec3, b: Vec3) -> float:
+    """Return the scalar product a b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def cross(a: Vec3, b: Vec3) -> Vec3:
@@ -164,10 +169,13 @@ def from_yaw(yaw: float) -> Quat:
     return (cos(0.5 * yaw), 0.0, 0.0, sin(0.5 * yaw))
 
 
-def tipped(q: Quat, tx: float, ty: float) -> Quat:
-    """Return q after a small rotation by (2 tx, 2 ty, 0) rad, about horizontal axes of the world frame."""
+def tipped(q: Quat, tx: float, ty: float, tz: float = 0.0) -> Quat:
+    """Return q after a small rotation by (2 tx, 2 ty, 2 tz) rad, about the axes of the world frame."""
     w, x, y, z = q
-    return normalise((w - tx * x - ty * y, x + tx * w + ty * z, y + ty * w - tx * z, z + tx * y - ty * x))
+    return normalise(
+        (w - tx * x - ty * y - tz * z, x + tx * w + ty * z - tz * y,
+         y + ty * w + tz * x - tx * z, z + tz * w + tx * y - ty * x)
+    )  # fmt: skip
 
 
 def levelling(acc: Vec3) -> Quat:

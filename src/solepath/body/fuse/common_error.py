@@ -31,7 +31,7 @@ from collections.abc import Mapping, Sequence
 from math import exp, fsum, sqrt
 
 from ...calibration import HeadingCalibration
-from ...foot.gaps.gap import LONGEST_FILLED_GAP
+from ...foot.gap import LONGEST_FILLED_GAP
 from ...foot.navigate.bias import BIAS_WANDER, FIRST_BIAS, Bias
 from ...types import Foot, PerFoot, Vec2
 from ...types.attrs import define, evolve, field, frozen

@@ -6,28 +6,21 @@ is negative for a long time while the leg swings, and returns through zero as th
 which the rate has fallen to half its peak, because there it falls most steeply. Such landmarks are common in gait
 analysis (Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013). The ground may
 stop the foot earlier or later than the rate returns through zero, so heel-strike is the middle of the impact
-(impact.py).
+(`Impact`).
 
 Numbers without a source were chosen by hand on the recordings of docs/accuracy.md, those of heel-strike and toe-off on
 recordings that contain such events. docs/settings.md has the effect of half and of twice each."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import sqrt
-from typing import Final
 
 from ...types import Phase, Vec3
-from ...types.attrs import define, evolve, field
-from ...types.vector import TIE, ZERO
-from ..phase import Cue
+from ...types.attrs import define, field
+from ...types.vector import TIE, ZERO, add, dot, sub
+from ..phase import LOADING, PUSH_OFF, STATIONARY, SWING, Cue, in_columns
 from .cues import TimedCue
-from .impact import Impact
-
-# Local names, because one look-up in the enum costs as much as five multiplications.
-SWING: Final = Phase.SWING
-STATIONARY: Final = Phase.STATIONARY
-PUSH_OFF: Final = Phase.PUSH_OFF
-LOADING: Final = Phase.LOADING
 
 LEAST_PUSH_OFF_TURN = 0.25
 """Smallest turn of the foot in a push-off, rad."""
@@ -77,39 +70,113 @@ HEEL_DOWN_RATE = 0.12
 """Sagittal rate below which the heel has not left the ground, rad/s."""
 
 
+LARGEST_SHOCK = 1e12
+"""Largest shock that one sample may add, m^2/s^5."""
+SHOCK_MEMORY_TIME = 0.02
+"""Time constant with which the shock decays before the foot lands, s."""
+SHORTEST_LANDING_DELAY = 0.1
+"""Shortest time from toe-off to the impact of landing, s; an earlier shock comes from leaving the ground."""
+
+
+@define
+class Impact:
+    """The impact that ends one swing. Call `add_sample` for every sample of the swing.
+
+    The turn of the foot, or the loss of its speed, shows that the foot has landed. The jerk, j = d acc / dt, shows the
+    time. The ground stops the foot within some hundredths of a second, and heel-strike is the middle of this interval:
+    the mean time weighted by the squared jerk,
+
+        t_HS = sum t |j|^2 dt / sum |j|^2 dt.
+
+    This needs no threshold on the force and works for any mounting and rate. It is not early when the sole turns down
+    well before it bears weight. "Shock" is the integral of the squared jerk, m^2/s^5."""
+
+    swing_start: float | None = None
+    """Start of the swing, s; None before any."""
+    shock: float = 0.0
+    """Recent shock, m^2/s^5."""
+    mean_time: float = 0.0
+    """Mean time of `shock`, s."""
+    peak_speed: float = 0.0
+    """Largest speed of the swing so far, m/s."""
+    peak_shock: float = 0.0
+    """Largest shock since the foot had its largest speed, m^2/s^5."""
+    peak_shock_time: float = 0.0
+    """Mean time of `peak_shock`, s."""
+
+    def start_swing(self, t: float) -> None:
+        """Start a swing at toe-off at `t`, s."""
+        self.swing_start = self.mean_time = t
+        self.shock = self.peak_speed = self.peak_shock = 0.0
+
+    def add_sample(self, t: float, dt: float, previous_acc: Vec3, acc: Vec3, speed: float, landing: bool) -> None:
+        """Add one sample of the swing.
+
+        `previous_acc` and `acc` are the specific force of the last sample and of this one, m/s^2. `speed` is in m/s.
+        While `landing` is True the shock does not decay."""
+        if speed > self.peak_speed:
+            self.peak_speed = speed
+            self.peak_shock = 0.0
+        if dt <= 0.0:
+            return
+        x, y, z = acc
+        px, py, pz = previous_acc
+        x -= px
+        y -= py
+        z -= pz
+        sample_shock = (x * x + y * y + z * z) / dt
+        if sample_shock > LARGEST_SHOCK:
+            sample_shock = LARGEST_SHOCK
+        shock = self.shock
+        if not landing:
+            shock = shock * (1.0 - dt / SHOCK_MEMORY_TIME) if dt < SHOCK_MEMORY_TIME else 0.0
+        self.shock = shock = shock + sample_shock
+        if sample_shock > 0.0:
+            self.mean_time += (t - 0.5 * dt - self.mean_time) * sample_shock / shock
+        if shock > self.peak_shock and (
+            self.swing_start is None or self.mean_time - self.swing_start >= SHORTEST_LANDING_DELAY
+        ):
+            self.peak_shock = shock
+            self.peak_shock_time = self.mean_time
+
+
 @define
 class InertialCues:
-    """Detects gait events from the inertial sensor.
+    """Detects gait events from the inertial sensor: a small machine, whose states are the phases of the foot.
+
+    Each sample first sets the timers of what the foot does (`still_since`, `moving_since` and `fast_since`; the others
+    are those of a stance or of a swing). Then the signs of the phase are tried in the order of SIGNS; the first that
+    has lasted for long enough gives the cue. `describe` prints them.
 
     Latency: toe-off one sample; heel-strike IMPACT_SETTLING_TIME, or until the foot is still if no impact is found;
     foot-flat and heel-off STILLNESS_DEBOUNCE."""
 
-    still_since: float | None = field(default=None, init=False)
+    still_since: float | None = None
     """Time since which zero velocity evidence is accepted, s; None while it is not."""
-    not_turning_at: float | None = field(default=None, init=False)
-    """Last time in this stance at which the foot did not turn, s; None before any."""
-    moving_since: float | None = field(default=None, init=False)
+    moving_since: float | None = None
     """Time since which zero velocity evidence is not accepted, s; None while it is."""
-    fast_since: float | None = field(default=None, init=False)
-    """Time since which the foot is faster than a shuffle, s; None while it is not."""
-    axis: Vec3 | None = field(default=None, init=False)
-    """Unit vector to the wearer's left, sensor frame, learnt from the turn of the foot at push-off; None at first."""
-    other_axis_push_offs: int = field(default=0, init=False)
-    """Number of push-offs in a row about another axis than `axis`."""
-    turn: Vec3 = field(default=ZERO, init=False)
-    """Turn since the foot started to move, sensor frame, rad."""
-    peak_rate: float = field(default=0.0, init=False)
-    """Highest sagittal rate of this push-off, rad/s."""
-    lowest_rate: float = field(default=0.0, init=False)
-    """Lowest sagittal rate of this swing, rad/s."""
-    swing_start: float | None = field(default=None, init=False)
+    fast_since: float | None = None
+    """Time since which a moving foot is faster than a shuffle, s; None while it is not, and after heel-strike."""
+    turn: Vec3 = ZERO
+    """Turn on the ground since the foot started to move, sensor frame, rad."""
+    peak_rate: float = 0.0
+    """Highest sagittal rate on the ground since the foot started to move, rad/s."""
+    not_turning_at: float | None = None
+    """Last time in this stance at which the foot did not turn, s; None before any, and in swing."""
+    swing_start: float | None = None
     """Start of the last swing, s; None before any."""
-    landing_at: float | None = field(default=None, init=False)
+    lowest_rate: float = 0.0
+    """Lowest sagittal rate of this swing, rad/s."""
+    landing_at: float | None = None
     """Time at which the sagittal rate rose through LANDING_RATE, s; None before that and after heel-strike."""
-    force: Vec3 | None = field(default=None, init=False)
+    impact: Impact = field(factory=Impact)
+    axis: Vec3 | None = None
+    """Unit vector to the wearer's left, sensor frame, learnt from the turn of the foot at push-off; None at first."""
+    other_axis_push_offs: int = 0
+    """Number of push-offs in a row about another axis than `axis`."""
+    force: Vec3 | None = None
     """Specific force of the last sample, sensor frame, m/s^2."""
-    impact: Impact = field(factory=Impact, init=False)
-    sagittal: float = field(default=0.0, init=False)
+    sagittal: float = 0.0
     """Sagittal rate of the last sample, rad/s; the norm of the rate while the axis is unknown."""
 
     def update(
@@ -144,63 +211,72 @@ class InertialCues:
                 self.fast_since = t
         if phase is SWING:
             self.not_turning_at = None
-            return self._in_swing(t, dt, speed, previous_rate, rate, previous_force)
-        if rate < HEEL_DOWN_RATE and (still or self.not_turning_at is None):
-            self.not_turning_at = t
-        if self.still_since is not None:
-            if phase is not STATIONARY and t - self.still_since >= STILLNESS_DEBOUNCE - TIE:
-                return TimedCue(Cue.FLAT, self.still_since - STILLNESS_DELAY)
-            return None
-        x, y, z = self.turn
-        self.turn = (x + gx * dt, y + gy * dt, z + gz * dt)
-        if phase is STATIONARY:
-            if rate > self.peak_rate:
-                self.peak_rate = rate
-            if self.moving_since is not None and t - self.moving_since >= STILLNESS_DEBOUNCE - TIE:
-                return TimedCue(
-                    Cue.LIFT,
-                    self.moving_since if self.not_turning_at is None else min(self.not_turning_at, self.moving_since),
-                )
-            return None
-        return self._in_push_off(t, dt, previous_rate, rate, phase)
-
-    def _in_push_off(self, t: float, dt: float, previous_rate: float, rate: float, phase: Phase) -> TimedCue | None:
-        if rate > self.peak_rate:
-            self.peak_rate = rate
-        toe_off_rate = TOE_OFF_RATE_RATIO * self.peak_rate
-        if phase is PUSH_OFF and self.peak_rate > LEAST_PUSH_OFF_RATE and rate < toe_off_rate and self._learn_axis():
-            # the moment at which a straight line between two samples falls through the rate of toe-off
-            share = (
-                (previous_rate - toe_off_rate) / (previous_rate - rate) if previous_rate > toe_off_rate > rate else 1.0
-            )
-            return self._report_clear(t - dt * (1.0 - share))
-        shuffle_time = LOADING_SHUFFLE_TIME if phase is LOADING else SHUFFLE_TIME
-        if self.fast_since is not None and t - self.fast_since >= shuffle_time - TIE:
-            return self._report_clear(self.fast_since)
+            if rate < self.lowest_rate:
+                self.lowest_rate = rate
+            if previous_force is not None:
+                self.impact.add_sample(t, dt, previous_force, acc, speed, self.landing_at is not None)
+        else:
+            if rate < HEEL_DOWN_RATE and (still or self.not_turning_at is None):
+                self.not_turning_at = t
+            if not still:
+                x, y, z = self.turn
+                self.turn = (x + gx * dt, y + gy * dt, z + gz * dt)
+                if rate > self.peak_rate:
+                    self.peak_rate = rate
+        for sign, cue in SIGNS[phase]:
+            t_cue = sign(self, t, dt, speed, previous_rate, phase)
+            if t_cue is not None:
+                return self._report(cue, t_cue)
         return None
 
-    def _in_swing(
-        self, t: float, dt: float, speed: float, previous_rate: float, rate: float, previous_force: Vec3 | None
-    ) -> TimedCue | None:
-        if rate < self.lowest_rate:
-            self.lowest_rate = rate
-        impact = self.impact
+    def _stood(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+        """Return the time since which the foot stands still."""
+        since = self.still_since
+        return since - STILLNESS_DELAY if since is not None and t - since >= STILLNESS_DEBOUNCE - TIE else None
+
+    def _moved(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+        """Return the time at which the foot, which moves, last did not turn."""
+        since = self.moving_since
+        if since is None or t - since < STILLNESS_DEBOUNCE - TIE:
+            return None
+        return since if self.not_turning_at is None else min(self.not_turning_at, since)
+
+    def _pushed_off(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+        """Return the time at which a straight line between two samples falls through the rate of toe-off."""
+        rate, toe_off_rate = self.sagittal, TOE_OFF_RATE_RATIO * self.peak_rate
+        if self.still_since is not None or self.peak_rate <= LEAST_PUSH_OFF_RATE or rate >= toe_off_rate:
+            return None
+        if not self._learn_axis():
+            return None
+        share = (previous_rate - toe_off_rate) / (previous_rate - rate) if previous_rate > toe_off_rate else 1.0
+        return t - dt * (1.0 - share)
+
+    def _shuffled(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+        """Return the time since which the foot is too fast for one on the ground."""
+        since, shuffle_time = self.fast_since, LOADING_SHUFFLE_TIME if phase is LOADING else SHUFFLE_TIME
+        return since if since is not None and t - since >= shuffle_time - TIE else None
+
+    def _landed(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+        """Return the middle of the impact of a landing, once it is final."""
         landing_at = self.landing_at
-        force = self.force
-        if previous_force is not None and force is not None:
-            impact.add_sample(t, dt, previous_force, force, speed, landing_at is not None)
-        if landing_at is not None:
-            mean_time = max(landing_at, impact.mean_time)
-            is_final = t - mean_time >= IMPACT_SETTLING_TIME - TIE or t - landing_at >= LONGEST_IMPACT_TIME - TIE
-            return self._report_contact(mean_time) if is_final or self.still_since is not None else None
-        if self.still_since is not None:
-            if t - self.still_since >= STILLNESS_DEBOUNCE - TIE:
-                return self._report_contact(
-                    impact.peak_shock_time if impact.peak_shock > 0.0 else self.still_since - STILLNESS_DELAY
-                )
+        if landing_at is None:
+            return None
+        mean_time = max(landing_at, self.impact.mean_time)
+        is_final = t - mean_time >= IMPACT_SETTLING_TIME - TIE or t - landing_at >= LONGEST_IMPACT_TIME - TIE
+        return mean_time if is_final or self.still_since is not None else None
+
+    def _stopped(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+        """Return the time of the largest impact of a foot that stands still."""
+        t_stood = self._stood(t, dt, speed, previous_rate, phase)
+        return self.impact.peak_shock_time if t_stood is not None and self.impact.peak_shock > 0.0 else t_stood
+
+    def _slowed(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+        """Start a landing, or return the time of the impact of a foot that has become slow without one."""
+        if self.landing_at is not None or self.still_since is not None:
             return None
         if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING_TIME - TIE:
             return None
+        rate, impact = self.sagittal, self.impact
         if previous_rate < LANDING_RATE <= rate and self.lowest_rate < -LEAST_TROUGH_DEPTH and self.axis is not None:
             self.landing_at = t - dt * (rate - LANDING_RATE) / (rate - previous_rate)
         elif (
@@ -208,14 +284,21 @@ class InertialCues:
             and impact.peak_shock > LEAST_LANDING_SHOCK
             and t - impact.peak_shock_time >= IMPACT_SETTLING_TIME - TIE
         ):
-            return self._report_contact(impact.peak_shock_time)
+            return impact.peak_shock_time
         return None
 
-    def _report_contact(self, t: float) -> TimedCue:
-        self.peak_rate = 0.0
-        self.turn = ZERO
-        self.landing_at = self.fast_since = None
-        return TimedCue(Cue.CONTACT, t)
+    def _report(self, cue: Cue, t: float) -> TimedCue:
+        """Return a cue at `t`, s, and set the timers of the phase that it starts."""
+        if cue is Cue.CLEAR:
+            self.swing_start = t
+            self.impact.start_swing(t)
+            self.lowest_rate = self.peak_rate = 0.0
+            self.landing_at = None
+        elif cue is Cue.CONTACT:
+            self.peak_rate = 0.0
+            self.turn = ZERO
+            self.landing_at = self.fast_since = None
+        return TimedCue(cue, t)
 
     def reset(self) -> None:
         """Discard the times since which the foot is still or fast, because a gap counts as neither."""
@@ -223,22 +306,13 @@ class InertialCues:
 
     def restart(self) -> InertialCues:
         """Return cues for times that restart; the axis stays."""
-        fresh = evolve(self)
-        fresh.axis = self.axis
-        return fresh
+        return InertialCues(axis=self.axis)
 
     def make_hidden_toe_off(self, t: float) -> TimedCue:
         """Return a toe-off at `t`, s, which a gap has hidden; the swing may go on after the gap."""
-        toe_off = self._report_clear(t)
+        toe_off = self._report(Cue.CLEAR, t)
         self.lowest_rate = -GAP_TROUGH_RATIO * LEAST_TROUGH_DEPTH
         return toe_off
-
-    def _report_clear(self, t: float) -> TimedCue:
-        self.swing_start = t
-        self.impact.start_swing(t)
-        self.landing_at = None
-        self.lowest_rate = self.peak_rate = 0.0
-        return TimedCue(Cue.CLEAR, t)
 
     def apply_toe_off(self, phase: Phase) -> None:
         """Learn the sagittal axis from a toe-off that the load has shown in `phase`."""
@@ -251,19 +325,45 @@ class InertialCues:
         angle = sqrt(x * x + y * y + z * z)
         if angle < LEAST_PUSH_OFF_TURN:
             return False
-        x, y, z = x / angle, y / angle, z / angle
-        if self.axis is None:
-            self.axis = (x, y, z)
+        newest = (x / angle, y / angle, z / angle)
+        learnt = self.axis
+        if learnt is None:
+            self.axis = newest
             return True
-        u, v, w = self.axis
-        if u * x + v * y + w * z < SAME_AXIS_COSINE:
+        if dot(learnt, newest) < SAME_AXIS_COSINE:
             # a single turn about another axis is no push-off; several in a row mean that the sensor was turned
             self.other_axis_push_offs += 1
             if self.other_axis_push_offs < OTHER_AXIS_PUSH_OFFS:
                 return False
-            u, v, w = x, y, z
+            learnt = newest
         self.other_axis_push_offs = 0
-        u, v, w = u + AXIS_GAIN * (x - u), v + AXIS_GAIN * (y - v), w + AXIS_GAIN * (z - w)
+        u, v, w = add(learnt, sub(newest, learnt), AXIS_GAIN)
         k = 1.0 / sqrt(u * u + v * v + w * w)
         self.axis = (u * k, v * k, w * k)
         return True
+
+
+Sign = Callable[[InertialCues, float, float, float, float, Phase], float | None]
+"""Method that returns the time of a sign, s, or None: t and dt (s), speed (m/s), rate before (rad/s), phase."""
+
+SIGNS: dict[Phase, tuple[tuple[Sign, Cue], ...]] = {
+    LOADING: ((InertialCues._stood, Cue.FLAT), (InertialCues._shuffled, Cue.CLEAR)),
+    STATIONARY: ((InertialCues._moved, Cue.LIFT),),
+    PUSH_OFF: (
+        (InertialCues._stood, Cue.FLAT),
+        (InertialCues._pushed_off, Cue.CLEAR),
+        (InertialCues._shuffled, Cue.CLEAR),
+    ),
+    SWING: (
+        (InertialCues._landed, Cue.CONTACT),
+        (InertialCues._stopped, Cue.CONTACT),
+        (InertialCues._slowed, Cue.CONTACT),
+    ),
+}
+"""Signs that end each phase, in the order in which they are tried, with their cues."""
+
+
+def describe() -> str:
+    """Return SIGNS as text."""
+    rows = [[phase.name, sign.__name__[1:], cue.value] for phase, signs in SIGNS.items() for sign, cue in signs]
+    return in_columns([["phase", "sign", "cue"], *rows])

@@ -18,8 +18,7 @@ from __future__ import annotations
 from ...types import Layout
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import TIE
-from ..pressure.cells import centre
-from ..pressure.insole import Extremes
+from ..pressure.insole import Extremes, centre
 from ..stance.stance import Load
 
 MOST_SINGLE_CELLS = 16

@@ -18,8 +18,8 @@ from __future__ import annotations
 from math import exp, fsum
 
 from ...types import Vec3
-from ...types.attrs import define, evolve, field, frozen
-from ...types.vector import ZERO
+from ...types.attrs import define, evolve, frozen
+from ...types.vector import ZERO, add, dot, sub
 
 FIRST_BIAS = 0.009
 """Standard deviation of a bias that is not known yet, rad/s (0.5 degrees/s), unless the first one is larger."""
@@ -78,16 +78,16 @@ class Bias:
 class BiasFilter:
     """The bias of a gyroscope, from all rests so far."""
 
-    bias: Bias = field(factory=Bias, init=False)
-    before: Bias = field(factory=Bias, init=False)
+    bias: Bias = Bias()
+    before: Bias = Bias()
     """Bias before the current rest."""
-    count: int = field(default=0, init=False)
+    count: int = 0
     """Number of spans of the current rest that were used."""
-    rate: Vec3 = field(default=ZERO, init=False)
+    rate: Vec3 = ZERO
     """Mean rate over these spans, rad/s."""
-    noise: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    noise: tuple[float, float] = (0.0, 0.0)
     """Mean over these spans of the variance of the rate of one span, (rad/s)^2, about the axes of `Bias.variances`."""
-    newest: RestSpan | None = field(default=None, init=False)
+    newest: RestSpan | None = None
     """Newest span, which is used once the next one is at rest too."""
 
     def add(self, span: RestSpan) -> None:
@@ -121,13 +121,10 @@ class BiasFilter:
         before, up = self.before, span.up
         self.count += 1
         n, k = float(self.count), 1.0 / self.count
-        x, y, z = self.rate
-        u, v, w = span.rate
-        self.rate = x, y, z = (x + k * (u - x), y + k * (v - y), z + k * (w - z))
-        spreads = [_squares((p - u, q - v, r - w), up) for p, q, r in span.blocks]
-        ox, oy, oz = before.value
-        dx, dy, dz = x - ox, y - oy, z - oz
-        squares = _squares((dx, dy, dz), up)
+        self.rate = add(self.rate, sub(span.rate, self.rate), k)
+        spreads = [_squares(sub(block, span.rate), up) for block in span.blocks]
+        surprise = sub(self.rate, before.value)
+        squares = _squares(surprise, up)
         # (1 - exp(-T / tau)) / T^2 relative to that of one span
         sway = (1.0 - exp(-n / SWAY_SPANS)) / ((1.0 - exp(-1.0 / SWAY_SPANS)) * n * n)
         elapsed = 0.0 if before.t is None else max(0.0, span.t - before.t)
@@ -146,14 +143,13 @@ class BiasFilter:
             gains[axis] = known / (known + noise)
             variances[axis] = (1.0 - gains[axis]) * known
         self.noise = (noises[0], noises[1])
-        about_up = dx * up[0] + dy * up[1] + dz * up[2]
-        level, extra = gains[1], (gains[0] - gains[1]) * about_up
-        value = (ox + level * dx + extra * up[0], oy + level * dy + extra * up[1], oz + level * dz + extra * up[2])
+        about_up = dot(surprise, up)
+        value = add(add(before.value, surprise, gains[1]), up, (gains[0] - gains[1]) * about_up)
         change, spans = before.change + gains[0] * about_up, self.bias.spans + 1
         self.bias = Bias(value, (variances[0], variances[1]), span.t, change, spans, self.bias.device)
 
 
 def _squares(w: Vec3, up: Vec3) -> tuple[float, float]:
     """Return the squared rate of `w` about `up`, and its mean square about the two horizontal axes."""
-    about_up = (w[0] * up[0] + w[1] * up[1] + w[2] * up[2]) ** 2
-    return about_up, max(0.0, 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - about_up))
+    about_up = dot(w, up) ** 2
+    return about_up, max(0.0, 0.5 * (dot(w, w) - about_up))

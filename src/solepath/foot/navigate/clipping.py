@@ -1,4 +1,4 @@
-"""Detection of clipping: the end of a sensor's range, and the clipped peak beyond it.
+"""Detection of clipping, and its correction: the end of a sensor's range, and the clipped peak beyond it.
 
 The range of many gyroscopes ends at 250 or 500 degrees/s. A foot exceeds this as its heel rises and again as its leg
 swings. The impact of a heel-strike exceeds the 2 g of some accelerometers. The reading then stays at the end of the
@@ -9,7 +9,7 @@ foot is. So the estimate is
 
     m = D^2 sqrt(rise fall) / (6 (1 + D / FLATTENING_TIME)).
 
-On recorded feet, cut off at 250 degrees/s, its error is a third of m as a rule. reintegration.py uses m.
+On recorded feet, cut off at 250 degrees/s, its error is a third of m as a rule. `Recovery` uses m.
 
 The end of a range is learnt: an axis that stays at its largest reading for D seconds is at its end, unless a smooth
 maximum could look the same. Between slopes rise and fall a smooth maximum would be D sqrt(rise fall) / 4 high. The
@@ -17,11 +17,24 @@ numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from math import sqrt
+from math import asin, fsum, sqrt
 from typing import NamedTuple
 
-from ...types import Vec3
+from ...types import Quat, Vec3
 from ...types.attrs import define, field, frozen
+from ...types.vector import (
+    GRAVITY,
+    IDENTITY,
+    ZERO,
+    add,
+    conjugate,
+    from_rotation_vector,
+    multiply,
+    normalise,
+    rotate,
+    sub,
+)
+from .covariance import Covariance
 
 SAME_READING_SHARE = 0.025
 """Largest relative difference between readings that are all at the end of a range.
@@ -84,14 +97,10 @@ class ClippedPeak(NamedTuple):
 class ClippedAxis:
     """The clipping of one axis of a sensor."""
 
-    top: float
-    """Estimate of the upper end of the range from the largest reading, rad/s or m/s^2."""
-    bottom: float
-    """Estimate of the lower end of the range from the smallest reading, rad/s or m/s^2."""
-    top_known: bool = False
-    """The upper end of the range is `top`."""
-    bottom_known: bool = False
-    """The lower end of the range is `bottom`."""
+    ends: list[float]
+    """Estimates of the upper and the lower end of the range from the largest readings, rad/s or m/s^2."""
+    known: list[bool] = field(factory=lambda: [False, False])
+    """Flags: the upper, and the lower end of the range is that of `ends`."""
     side: int = 0
     """Side of the range: 1 above it, -1 below it, 0 within."""
     duration: float = 0.0
@@ -120,17 +129,17 @@ class Clipping:
     """An axis is beyond its range, or was one sample ago."""
 
     def __attrs_post_init__(self) -> None:
-        self.axes = [ClippedAxis(self.limits.least_end, -self.limits.least_end) for _ in range(3)]
+        self.axes = [ClippedAxis([self.limits.least_end, -self.limits.least_end]) for _ in range(3)]
         self._set_largest(self.limits.least_end)
 
     def end_stride(self) -> None:
         """Let the largest readings decay at the end of a stride."""
         self._set_largest(STRIDE_DECAY * self.largest)
         for axis in self.axes:
-            if not axis.top_known:
-                axis.top = max(self.limits.least_end, STRIDE_DECAY * axis.top)
-            if not axis.bottom_known:
-                axis.bottom = min(-self.limits.least_end, STRIDE_DECAY * axis.bottom)
+            for side in (0, 1):
+                if not axis.known[side]:
+                    sign = 1 - 2 * side
+                    axis.ends[side] = sign * max(self.limits.least_end, STRIDE_DECAY * (sign * axis.ends[side]))
 
     def reset(self) -> None:
         """Discard clipped peaks that a gap has interrupted."""
@@ -150,9 +159,9 @@ class Clipping:
         for i in (0, 1, 2):
             axis, reading = self.axes[i], readings[i]
             if axis.side == 0:
-                if abs(reading) > NEAR_END_RATIO * self.largest and not axis.bottom * (
+                if abs(reading) > NEAR_END_RATIO * self.largest and not axis.ends[1] * (
                     1.0 - SAME_READING_SHARE
-                ) < reading < axis.top * (1.0 - SAME_READING_SHARE):
+                ) < reading < axis.ends[0] * (1.0 - SAME_READING_SHARE):
                     _enter_clipping(
                         axis, dt, reading, previous[i], earlier[i], earlier_dt, saturated, self.limits.largest_slope
                     )
@@ -183,17 +192,14 @@ def _enter_clipping(
 ) -> None:
     sign = 1 if reading > 0.0 else -1
     reading, previous, earlier = sign * reading, sign * previous, sign * earlier
-    end = axis.top if sign > 0 else -axis.bottom
-    end_known = axis.top_known if sign > 0 else axis.bottom_known
+    side = 0 if sign > 0 else 1
+    end, end_known = sign * axis.ends[side], axis.known[side]
     unchanged = reading * (1.0 - SAME_READING_SHARE) <= previous <= reading * (1.0 + SAME_READING_SHARE)
     if reading > end * (1.0 + SAME_READING_SHARE):
         end_known = saturated  # the range is larger than estimated
     end = max(end, min(reading, LARGEST_GROWTH * end))
     end_known = end_known or saturated
-    if sign > 0:
-        axis.top, axis.top_known = end, end_known
-    else:
-        axis.bottom, axis.bottom_known = -end, end_known
+    axis.ends[side], axis.known[side] = sign * end, end_known
     if not (end_known or unchanged):
         return
     axis.side, axis.first_inside, axis.first_inside_dt = sign, None, 0.0
@@ -208,12 +214,10 @@ def _enter_clipping(
 def _follow_clipping(axis: ClippedAxis, i: int, dt: float, reading: float, largest_slope: float) -> ClippedPeak | None:
     sign = axis.side
     reading *= sign
-    end = axis.top if sign > 0 else -axis.bottom
+    side = 0 if sign > 0 else 1
+    end = sign * axis.ends[side]
     if reading > end * (1.0 + SAME_READING_SHARE):  # not the end of the range
-        if sign > 0:
-            axis.top, axis.top_known = min(reading, LARGEST_GROWTH * end), False
-        else:
-            axis.bottom, axis.bottom_known = -min(reading, LARGEST_GROWTH * end), False
+        axis.ends[side], axis.known[side] = sign * min(reading, LARGEST_GROWTH * end), False
         axis.side = 0
         return None
     if reading >= end * (1.0 - SAME_READING_SHARE):
@@ -229,14 +233,11 @@ def _follow_clipping(axis: ClippedAxis, i: int, dt: float, reading: float, large
         _slope(end - axis.first_inside, axis.first_inside_dt, largest_slope),
         _slope(axis.first_inside - reading, dt, largest_slope),
     )
-    if not (axis.top_known if sign > 0 else axis.bottom_known):
+    if not axis.known[side]:
         if axis.duration * sqrt(axis.rise * fall) < 4.0 * LEAST_BULGE_RATIO * SAME_READING_SHARE * end:
             axis.side, axis.first_inside, axis.first_inside_dt = 0, None, 0.0
             return None
-        if sign > 0:
-            axis.top_known = True
-        else:
-            axis.bottom_known = True
+        axis.known[side] = True
     tail = min((end - axis.first_inside) / fall, axis.first_inside_dt)
     duration = axis.duration + axis.first_inside_dt - tail
     integral = min(
@@ -256,3 +257,209 @@ def _follow_clipping(axis: ClippedAxis, i: int, dt: float, reading: float, large
 
 def _slope(change: float, dt: float, largest_slope: float) -> float:
     return min(max(change / dt, 1.0), largest_slope) if dt > 0.0 else 1.0
+
+
+MOST_ROWS = 64
+"""Largest number of stored samples; when there are more, pairs are joined."""
+INTEGRAL_STEP = 0.05
+"""Change of m for the numerical derivative, rad."""
+
+Row = tuple[float, Vec3, Vec3]
+"""Duration (s), mean angular rate (rad/s) and mean specific force (m/s^2) of one or more samples, sensor frame."""
+
+
+class IntegratedMotion(NamedTuple):
+    """The end state of an integration that starts at rest at zero."""
+
+    attitude: Quat
+    """Attitude, sensor to navigation frame."""
+    velocity: Vec3
+    """Change of velocity, navigation frame, m/s."""
+    position: Vec3
+    """Change of position, navigation frame, m."""
+
+
+@define
+class SwingSamples:
+    """The samples since the gyroscope came near the end of its range.
+
+    A clipped turn of tenths of a radian gives a wrong tilt to all samples after it. Its axis is an axis of the sensor.
+    So the samples are integrated a second time, with the rate raised by a cubic whose integral is m. A third
+    integration with a slightly larger m gives the effect of an error of m on attitude, velocity and position. The error
+    of m is one unknown number in a known direction b,
+
+        P <- P + sigma^2 b b',  b = d(p, v, theta) / dm
+
+    and the zero velocity of the next stance shows its size."""
+
+    rows: list[Row] = field(factory=list)
+    """Samples in order of time."""
+    start_attitude: Quat = IDENTITY
+    """Attitude before the first row, sensor to navigation frame."""
+
+    def add_sample(self, dt: float, gyro: Vec3, previous_rate: Vec3, acc: Vec3, attitude: Quat) -> None:
+        """Add one sample; `previous_rate` and `attitude` are the rate and the attitude before it."""
+        if not self.rows:
+            self.start_attitude = attitude
+        elif len(self.rows) >= MOST_ROWS:
+            self.rows = [_join(a, b) for a, b in zip(self.rows[::2], self.rows[1::2], strict=True)]
+        (x, y, z), (u, v, w) = gyro, previous_rate
+        self.rows.append((dt, (0.5 * (x + u), 0.5 * (y + v), 0.5 * (z + w)), acc))
+
+    def reintegrate(self, peak: ClippedPeak, angle: float) -> IntegratedMotion:
+        """Return the end state of the stored samples with `angle` rad more about the clipped axis."""
+        end = fsum([row[0] for row in self.rows]) - peak.age
+        t, extra_rates, total = peak.duration - end, [], 0.0
+        for dt, _, _ in self.rows:
+            relative_time = (t + 0.5 * dt) / peak.duration if peak.duration > 0.0 else 0.5
+            t += dt
+            extra_rate = 0.0
+            if 0.0 < relative_time < 1.0:
+                extra_rate = (
+                    relative_time
+                    * (1.0 - relative_time)
+                    * (peak.rise * (1.0 - relative_time) + peak.fall * relative_time)
+                )
+            extra_rates.append(extra_rate)
+            total += extra_rate * dt
+        if not total > 0.0:
+            extra_rates = [1.0] * len(self.rows)
+            total = fsum([row[0] for row in self.rows])
+        k = angle / total if total > 0.0 else 0.0
+        q = self.start_attitude
+        vx = vy = vz = x = y = z = 0.0
+        for (dt, (gx, gy, gz), acc), extra_rate in zip(self.rows, extra_rates, strict=True):
+            if peak.axis == 0:
+                gx += k * extra_rate
+            elif peak.axis == 1:
+                gy += k * extra_rate
+            else:
+                gz += k * extra_rate
+            half_turn = from_rotation_vector((0.5 * dt * gx, 0.5 * dt * gy, 0.5 * dt * gz))
+            q = multiply(q, half_turn)
+            ax, ay, az = rotate(q, acc)
+            q = multiply(q, half_turn)
+            az -= GRAVITY
+            x, y, z = x + (vx + 0.5 * ax * dt) * dt, y + (vy + 0.5 * ay * dt) * dt, z + (vz + 0.5 * az * dt) * dt
+            vx, vy, vz = vx + ax * dt, vy + ay * dt, vz + az * dt
+        return IntegratedMotion(q, (vx, vy, vz), (x, y, z))
+
+
+def _join(a: Row, b: Row) -> Row:
+    (t, (gx, gy, gz), (ax, ay, az)), (u, (hx, hy, hz), (bx, by, bz)) = a, b
+    duration = t + u
+    k = t / duration if duration > 0.0 else 0.5
+    m = 1.0 - k
+    return (
+        duration,
+        (k * gx + m * hx, k * gy + m * hy, k * gz + m * hz),
+        (k * ax + m * bx, k * ay + m * by, k * az + m * bz),
+    )
+
+
+def difference(a: IntegratedMotion, b: IntegratedMotion) -> tuple[Vec3, Vec3, Vec3]:
+    """Return position (m), velocity (m/s) and turn (rad) by which `b` differs from `a`, navigation frame."""
+    w, x, y, z = multiply(b.attitude, conjugate(a.attitude))
+    k = 2.0 if w >= 0.0 else -2.0
+    n = sqrt(x * x + y * y + z * z)
+    if n > 1e-6:
+        k *= asin(min(n, 1.0)) / n
+    return sub(b.position, a.position), sub(b.velocity, a.velocity), (k * x, k * y, k * z)
+
+
+def add_error(covariance: Covariance, p: Vec3, v: Vec3, turn: Vec3, sigma: float) -> Covariance:
+    """Return P + sigma^2 b b' with b = (p, v, turn), for an error of standard deviation sigma in the direction b."""
+    k = sigma * sigma
+    enlarged: list[float] = []
+    i = 0
+    for a, b, symmetric in (
+        (p, p, True), (p, v, False), (p, turn, False), (v, v, True), (v, turn, False), (turn, turn, True),
+    ):  # fmt: skip
+        for row in (0, 1, 2):
+            for column in range(row if symmetric else 0, 3):
+                enlarged.append(covariance[i] + k * a[row] * b[column])
+                i += 1
+    return tuple(enlarged)
+
+
+State = tuple[Quat, Vec3, Vec3, Covariance]
+"""Attitude (sensor to navigation frame), velocity (m/s), position (m) and their covariance."""
+
+
+@define
+class Recovery:
+    """Correction of the state of a filter for the clipped peaks of both sensors of one foot."""
+
+    gyro_clipping: Clipping = field(factory=Clipping, init=False)
+    """Clipping of the gyroscope."""
+    acc_clipping: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
+    """Clipping of the accelerometer."""
+    last_acc: Vec3 = field(default=ZERO, init=False)
+    """Last acc, sensor frame, m/s^2."""
+    earlier_acc: Vec3 = field(default=ZERO, init=False)
+    """Acc before the last one, sensor frame, m/s^2."""
+    swing: SwingSamples = field(factory=SwingSamples, init=False)
+    """Samples since the gyroscope came near the end of its range."""
+    earlier_rate: Vec3 = field(default=ZERO, init=False)
+    """Rate before the last one, sensor frame, rad/s."""
+    earlier_dt: float = field(default=0.0, init=False)
+    """Time between the last two samples, s."""
+
+    def watch(
+        self, dt: float, acc: Vec3, gyro: Vec3, previous_rate: Vec3, attitude: Quat, saturated: bool
+    ) -> tuple[tuple[ClippedPeak, ...] | None, tuple[ClippedPeak, ...] | None]:
+        """Return the clipped peaks of gyroscope and accelerometer that become known with this sample.
+
+        `acc` is in m/s^2, `gyro` in rad/s. `previous_rate` and `attitude` are those of the last sample. `saturated` is
+        True when the device reports that a sensor is at the end of its range."""
+        x, y, z = gyro
+        gyro_clipping, gyro_peaks = self.gyro_clipping, None
+        if gyro_clipping.clipping or x * x + y * y + z * z > gyro_clipping.near_end_square:
+            gyro_peaks = gyro_clipping.update(dt, gyro, previous_rate, self.earlier_rate, self.earlier_dt, saturated)
+            self.swing.add_sample(dt, gyro, previous_rate, acc, attitude)
+        elif self.swing.rows:
+            self.swing.rows = []
+        x, y, z = acc
+        acc_clipping, acc_peaks = self.acc_clipping, None
+        if acc_clipping.clipping or x * x + y * y + z * z > acc_clipping.near_end_square:
+            acc_peaks = acc_clipping.update(dt, acc, self.last_acc, self.earlier_acc, self.earlier_dt, saturated)
+        self.earlier_acc, self.last_acc = self.last_acc, acc
+        self.earlier_rate, self.earlier_dt = previous_rate, dt
+        return gyro_peaks, acc_peaks
+
+    def reset(self) -> None:
+        """Discard clipped peaks that are not complete, after a gap."""
+        self.gyro_clipping.reset()
+        self.acc_clipping.reset()
+        self.swing.rows = []
+
+    def end_stride(self) -> None:
+        """Let the largest readings decay at the end of a stride."""
+        self.gyro_clipping.end_stride()
+        self.acc_clipping.end_stride()
+
+    def add_turns(self, gyro_peaks: tuple[ClippedPeak, ...], state: State) -> State:
+        """Return the state corrected for clipped peaks of the gyroscope, with their uncertainty."""
+        attitude, velocity, position, covariance = state
+        for peak in gyro_peaks:
+            measured, corrected, perturbed = (
+                self.swing.reintegrate(peak, integral)
+                for integral in (0.0, peak.integral, peak.integral + INTEGRAL_STEP)
+            )
+            p, v, turn = difference(measured, corrected)
+            position, velocity = add(position, p), add(velocity, v)
+            attitude = normalise(multiply(from_rotation_vector(turn), attitude))
+            covariance = add_error(covariance, *difference(corrected, perturbed), peak.sigma / INTEGRAL_STEP)
+        return attitude, velocity, position, covariance
+
+    @staticmethod
+    def add_velocities(acc_peaks: tuple[ClippedPeak, ...], state: State) -> State:
+        """Return the state corrected for clipped peaks of the accelerometer, with their uncertainty."""
+        attitude, velocity, position, covariance = state
+        for peak in acc_peaks:
+            i, j, k = (1.0 if index == peak.axis else 0.0 for index in (0, 1, 2))
+            axis = rotate(attitude, (i, j, k))
+            v, elapsed = peak.integral, peak.age + 0.5 * peak.duration  # elapsed since the middle of the peak
+            position, velocity = add(position, axis, v * elapsed), add(velocity, axis, v)
+            covariance = add_error(covariance, add(ZERO, axis, elapsed), axis, ZERO, peak.sigma)
+        return attitude, velocity, position, covariance

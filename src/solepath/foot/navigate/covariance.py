@@ -20,15 +20,13 @@ from math import sqrt
 Covariance = tuple[float, ...]
 """Upper triangle of the covariance, 45 numbers: blocks pp, pv, pt, vv, vt, tt."""
 
-Correction = tuple[float, float, float, float, float, float, float, float, float]
+Correction = tuple[float, ...]
 """Values to add to the nine states: position (m), velocity (m/s) and attitude (rad), each x, y, z."""
 
-POSITION_X, POSITION_Y, HEIGHT = 0, 3, 5
-"""Indices of the variances of the position in a Covariance."""
-VELOCITY_X, VELOCITY_Y, VELOCITY_Z = 24, 27, 29
-"""Indices of the variances of the velocity in a Covariance."""
-TILT_X, TILT_Y, YAW = 39, 42, 44
-"""Indices of the variances of the attitude in a Covariance."""
+VARIANCES = (0, 3, 5, 24, 27, 29, 39, 42, 44)
+"""Indices of the variances of the nine states in a Covariance."""
+HEIGHT = 5
+"""Index of the variance of the height in a Covariance."""
 
 
 def propagate(
@@ -226,7 +224,7 @@ def squared_innovation(covariance: Covariance, ix: float, iy: float, iz: float, 
     """Return the squared innovation of a velocity, weighted by its covariance S = H P H' + r I; no unit, 3 on average.
 
     `ix`, `iy`, `iz` is the innovation, m/s, and `r` the variance of the evidence, (m/s)^2, as in `update`."""
-    xx, xy, xz, yy, yz, zz = covariance[VELOCITY_X : VELOCITY_Z + 1]
+    xx, xy, xz, yy, yz, zz = covariance[24:30]
     xx += r
     yy += r
     zz += r

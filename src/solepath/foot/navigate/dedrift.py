@@ -12,7 +12,7 @@ from math import exp, fsum, sqrt
 
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, ZERO, sub, tipped
+from ...types.vector import GRAVITY, ZERO, add, sub, tipped
 from ..settings import DedriftSettings
 from ..stance.stance import Stance
 from .corrector import LONGEST_BRIDGE
@@ -50,11 +50,7 @@ class LinearDedrift(Strapdown):
     def correct(self, t: float, stance: Stance) -> bool:
         if stance.sigma > self.settings.largest_stance_sigma or stance.hint is Phase.SWING:
             return False
-        rx, ry, rz = stance.v_ref
-        vx, vy, vz = self.velocity
-        x, y, z = self.position
-        half = 0.5 * self.swing
-        self.position = (x + (rx - vx) * half, y + (ry - vy) * half, z + (rz - vz) * half)
+        self.position = add(self.position, sub(stance.v_ref, self.velocity), 0.5 * self.swing)
         self.velocity = stance.v_ref
         self._level()
         self.swing = 0.0

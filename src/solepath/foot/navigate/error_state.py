@@ -4,32 +4,37 @@ Sources: Foxlin, "Pedestrian tracking with shoe-mounted inertial sensors" (2005)
 the error-state Kalman filter" (arXiv:1711.02508, 2017, section 7 with global angular errors). The gyroscope bias is not
 a state: it is learnt at rest (attitude.py), which costs less and, on short walks, errs less than a 15-state filter.
 
-The covariance is propagated in one step from one correction to the next (propagated.py), so a swing costs no more than
-its integration. An innovation gate rejects evidence that the motion so far makes too unlikely, because a slow swing can
-look as still as a fast stance. A filter whose gate has rejected all evidence for some time is lost. It then accepts the
-stillest moment that comes."""
+The covariance is propagated in one step from one correction to the next (covariance.py), so a
+swing costs no more than its integration. An innovation gate rejects evidence that the motion so far makes too unlikely,
+because a slow swing can look as still as a fast stance. A filter whose gate has rejected all evidence for some time is
+lost. It then accepts the stillest moment that comes."""
 
 from __future__ import annotations
 
-from math import cos, inf, sin, sqrt
-from typing import Final
+from math import inf, sqrt
 
-from ...types import Phase, Quat, Vec3
+from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, TIE, ZERO
+from ...types.vector import GRAVITY, TIE, ZERO, sub, tipped
+from ..phase import STATIONARY
+from ..rhythm import StanceRhythm
 from ..settings import ErrorStateSettings
 from ..stance.stance import Stance
-from .clipping import ClippedPeak
+from .clipping import ClippedPeak, Recovery
 from .corrector import LONGEST_BRIDGE
-from .covariance import HEIGHT, constrain_height, scale, squared_innovation, update
+from .covariance import (
+    HEIGHT,
+    VARIANCES,
+    Correction,
+    Covariance,
+    constrain_height,
+    propagate,
+    scale,
+    squared_innovation,
+    update,
+)
 from .level import FLOOR_SIGMA, LevelGround
-from .propagated import IndependentInterval, PropagatedCovariance
-from .recovery import Recovery
-from .stance_rhythm import StanceRhythm
-from .strapdown import CONING, WIDEST_SERIES
-
-STATIONARY: Final = Phase.STATIONARY
-"""Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
+from .strapdown import Strapdown
 
 REFERENCE_INTERVAL = 0.005
 """Interval between updates to which `Stance.sigma` refers, s; at other intervals the variance is scaled."""
@@ -52,8 +57,105 @@ EXPECTED_SQUARED_INNOVATION = 3.0
 """Mean of the squared innovation, weighted by its covariance, of a filter that is right: its degrees of freedom."""
 
 
+LARGEST_REST_TILT = 0.03
+"""Standard deviation of the first tilt below which it was measured at rest, rad.
+
+attitude.py gives 0.02 at rest, otherwise 0.06 or 0.2."""
+SPEED_AT_REST = 0.01
+"""Standard deviation of the initial speed of a foot at rest, m/s."""
+SPEED_PER_TILT = 2.0
+"""Standard deviation of the initial speed of a foot not at rest, for each rad of that of the tilt, m/s.
+
+It is 0.12 m/s in mid-stance and 0.4 m/s at any other moment."""
+
+
+BRIDGED_VELOCITY_GROWTH, BRIDGED_ANGLE_GROWTH = 4.0, 0.25
+"""Growth of the variance in a bridged gap: velocity, (m/s)^2/s, and angle, rad^2/s.
+
+A foot accelerates by some 10 m/s^2 and turns by some rad/s."""
+GAP_SPEED, GAP_TILT = 1.0, 0.2
+"""Standard deviation of velocity, m/s, and tilt, rad, after a gap that was not bridged."""
+GAP_WALKING_SPEED, LONGEST_GAP_WALK = 1.5, 2.0
+"""Speed at which a foot may have moved on in a gap that was not bridged, m/s, and longest time for which it did, s.
+
+It may have stopped as well."""
+GAP_RISE_RATIO = 0.04
+"""Ratio of the variance of the height to that of the position after such a gap.
+
+A foot moves a fifth as far up or down as along the ground."""
+INFILL_POSITION_VARIANCE = 0.0025
+"""Variance of each axis of the position after infill, m^2: that of 5 cm, because strides differ by some per cent."""
+HEADING_DRIFT = 0.004
+"""Growth of the heading error, rad/sqrt(s): half a degree in the first four seconds, two degrees in a minute.
+
+The process noise of yaw is another number: it keeps the tilt correctable and cancels over a stride."""
+INFILL_VELOCITY_SIGMA = 0.3
+"""Standard deviation of the velocity after infill, m/s."""
+INFILL_TILT_SIGMA = 0.1
+"""Standard deviation of the tilt after infill, rad."""
+INFILL_YAW_SIGMA = 0.06
+"""Standard deviation of the heading after infill, rad."""
+INTERVAL_RATIO = 1.3
+"""Factor k of the interval between independent readings (IndependentInterval), below sqrt(2); no unit.
+
+From 1.2 to 1.4 `ms_patient` has the same strides at 2, 3 and 4 times its rate. Up to 1.3 the ARMSE2d of `pyshoe_vicon`
+is 0.0529 m as without this interval, at sqrt(2) it is 0.0539 m."""
+LONGEST_INTERVAL = 0.05
+"""Longest interval between independent readings, s: that of 20 Hz, the lowest rate for which the noise was chosen."""
+MEMORY_TIME = 2.0
+"""Time constant of the sums of an IndependentInterval, s: about two strides, so that each sum has some impacts."""
+
+
 @define
-class ErrorStateFilter(PropagatedCovariance):
+class IndependentInterval:
+    """Learns the interval between independent readings, which is longer than dt for a sensor read beyond its bandwidth.
+
+    The filter knows what lies between two samples only by their difference: the larger it is, the larger may be the
+    error of a straight line between them. Readings that are interpolated, or faster than the bandwidth of the sensor,
+    show small differences although they show no more of an impact than at a lower rate. The noise would vanish with the
+    third power of dt, and a landing that was measured badly would look like a swing (`ms_patient` at 102 Hz,
+    interpolated to 410 Hz: the standard deviation of the vertical velocity at a landing fell from 0.37 to 0.06 m/s, its
+    error stayed 0.9 m/s, and the gate rejected every sixth stance).
+
+    The spectrum shows the interval. Let j be the jerk, the difference of two readings of the specific force divided by
+    dt, and s the difference of two values of j divided by dt. Over some strides the interval is
+
+        T = k sqrt(sum |j|^2 dt / sum |s|^2 dt),  not less than dt.
+
+    The root is dt / sqrt(2) for readings that change at random. It does not depend on dt where the band is narrow
+    against the rate, because the sums are integrals there."""
+
+    jerk_square: float = 0.0
+    """Fading sum of |j|^2 dt, m^2/s^5."""
+    snap_square: float = 0.0
+    """Fading sum of |s|^2 dt, m^2/s^7."""
+
+    def update(self, dt: float, acc: Vec3, dt_before: float, last: Vec3, earlier: Vec3) -> float:
+        """Add a sample `dt` s after the last one, which came `dt_before` s after the earlier one; return T / dt.
+
+        `acc`, `last` and `earlier` are the specific forces of the three samples, sensor frame, m/s^2."""
+        if dt <= 0.0 or dt_before <= 0.0:
+            return 1.0
+        k, m = 1.0 / dt, 1.0 / dt_before
+        ax, ay, az = acc
+        x, y, z = last
+        px, py, pz = earlier
+        ax, ay, az, px, py, pz = k * (ax - x), k * (ay - y), k * (az - z), m * (x - px), m * (y - py), m * (z - pz)
+        remaining = 1.0 - dt / MEMORY_TIME if dt < MEMORY_TIME else 0.0
+        self.jerk_square = remaining * self.jerk_square + (ax * ax + ay * ay + az * az) * dt
+        x, y, z = ax - px, ay - py, az - pz
+        self.snap_square = remaining * self.snap_square + (x * x + y * y + z * z) * k
+        ratio_square = INTERVAL_RATIO * INTERVAL_RATIO * k * k * self.jerk_square
+        if ratio_square <= self.snap_square:
+            return 1.0
+        longest = max(LONGEST_INTERVAL * k, 1.0)
+        return (
+            longest if ratio_square >= longest * longest * self.snap_square else sqrt(ratio_square / self.snap_square)
+        )
+
+
+@define
+class ErrorStateFilter(Strapdown):
     """Strapdown navigation with stance evidence, weighted by the covariance of the motion so far.
 
     Frame and units are those of `Corrector`. Position and velocity are live with every sample, and corrected at the
@@ -63,6 +165,20 @@ class ErrorStateFilter(PropagatedCovariance):
     table in that document gives the accuracy of the default recipe without whole terms of the filter."""
 
     settings: ErrorStateSettings = ErrorStateSettings()
+    uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
+    """Covariance at the last propagation."""
+    elapsed: float = field(default=0.0, init=False)
+    """Time since the covariance was last propagated, s."""
+    start_velocity: Vec3 = field(default=ZERO, init=False)
+    """Velocity at the last propagation, navigation frame, m/s."""
+    start_position: Vec3 = field(default=ZERO, init=False)
+    """Position at the last propagation, navigation frame, m."""
+    acc_variance: float = field(default=0.0, init=False)
+    """Variance that noise has added to each axis of the velocity since the last propagation, (m/s)^2."""
+    gyro_variance: float = field(default=0.0, init=False)
+    """Variance that noise has added to each angle since the last propagation, rad^2."""
+    time_since_anchor: float = field(default=0.0, init=False)
+    """Time since the last anchor, s."""
     level: LevelGround = field(factory=LevelGround, init=False)
     """Height correction of level walking."""
     accepted_at: float | None = field(default=None, init=False)
@@ -81,88 +197,31 @@ class ErrorStateFilter(PropagatedCovariance):
     """Interval between independent readings, for the noise of what lies between two samples."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
-        PropagatedCovariance.start(self, attitude, tilt_sigma)
-        self.accepted_at = self.evidence_since = None
+        self.attitude = attitude
+        self.velocity = self.position = ZERO
+        self.force = self.rate = self.accepted_at = self.evidence_since = None
         self.least_gated_statistic = NO_STATISTIC
+        self._mark_start()
+        self.time_since_anchor = 0.0
+        # a foot whose tilt was not measured at rest may move
+        speed = SPEED_AT_REST if tilt_sigma < LARGEST_REST_TILT else SPEED_PER_TILT * tilt_sigma
+        self.uncertainty = (0.0,) * 45
+        self._inflate(velocity=speed * speed, tilt=tilt_sigma * tilt_sigma)
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        """Integrate one sample as in `Corrector`; this is `Strapdown.integrate` with the noise in one function.
-
-        A call of `integrate` would cost 5 % of this function (tests/foot/test_alike.py checks that both are equal)."""
         gx, gy, gz = gyro
-        fx, fy, fz = acc
-        rate, previous_force, attitude = self.rate or gyro, self.force, self.attitude
-        rx, ry, rz = rate
-        rate_square = gx * gx + gy * gy + gz * gz
-        # clipped peaks of the sensors
-        recovery = self.recovery
-        gyro_clipping, acc_clipping = recovery.gyro_clipping, recovery.acc_clipping
+        rate, last_force, recovery = self.rate or gyro, self.force, self.recovery
         dt_before, last_acc, earlier_acc = recovery.earlier_dt, recovery.last_acc, recovery.earlier_acc
-        gyro_peaks = acc_peaks = None
-        if (
-            rate_square > gyro_clipping.near_end_square
-            or fx * fx + fy * fy + fz * fz > acc_clipping.near_end_square
-            or gyro_clipping.clipping
-            or acc_clipping.clipping
-            or recovery.swing.rows
-        ):
-            gyro_peaks, acc_peaks = recovery.watch(dt, acc, gyro, rate, attitude, saturated)
-        else:  # far from the ends of the ranges: store only what `watch` would store
-            recovery.earlier_acc, recovery.last_acc = recovery.last_acc, acc
-            recovery.earlier_rate, recovery.earlier_dt = rate, dt
-        # half the rotation vector by a rate that changes linearly, and its sin and cos by their series
-        k, m = 0.25 * dt, CONING * dt * dt
-        hx = k * (gx + rx) + m * (ry * gz - rz * gy)
-        hy = k * (gy + ry) + m * (rz * gx - rx * gz)
-        hz = k * (gz + rz) + m * (rx * gy - ry * gx)
-        n = hx * hx + hy * hy + hz * hz
-        if n < WIDEST_SERIES:
-            c = 1.0 - n * (0.5 - n * (1.0 / 24.0 - n * (1.0 / 720.0 - n / 40320.0)))
-            s = 1.0 - n * (1.0 / 6.0 - n * (1.0 / 120.0 - n * (1.0 / 5040.0 - n / 362880.0)))
-        else:
-            angle = sqrt(n)
-            c, s = cos(angle), sin(angle) / angle
-        hx *= s
-        hy *= s
-        hz *= s
-        # q <- q (c, h), one Newton step towards length 1
-        w, x, y, z = attitude
-        qw = w * c - x * hx - y * hy - z * hz
-        qx = w * hx + x * c + y * hz - z * hy
-        qy = w * hy - x * hz + y * c + z * hx
-        qz = w * hz + x * hy - y * hx + z * c
-        k = 1.5 - 0.5 * (qw * qw + qx * qx + qy * qy + qz * qz)
-        w = qw * k
-        x = qx * k
-        y = qy * k
-        z = qz * k
-        self.attitude = (w, x, y, z)
-        # the specific force in the navigation frame, q f q*
-        tx = 2.0 * (y * fz - z * fy)
-        ty = 2.0 * (z * fx - x * fz)
-        tz = 2.0 * (x * fy - y * fx)
-        fx = fx + w * tx + y * tz - z * ty
-        fy = fy + w * ty + z * tx - x * tz
-        fz = fz + w * tz + x * ty - y * tx
-        self.rate, self.force = gyro, (fx, fy, fz)
-        # trapezoidal rule: a = (f + f_previous) / 2 - g, v <- v + a dt, p <- p + (v + v_previous) dt / 2
-        if previous_force is None:
-            ax, ay, az, x, y, z = fx, fy, fz - GRAVITY, fx, fy, fz
-            ratio = 1.0
-        else:
-            px, py, pz = previous_force
-            ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
-            x, y, z = fx - px, fy - py, fz - pz
-            ratio = self.interval.update(dt, acc, dt_before, last_acc, earlier_acc)
-        vx, vy, vz = self.velocity
-        ux, uy, uz = vx + ax * dt, vy + ay * dt, vz + az * dt
-        px, py, pz = self.position
-        k = 0.5 * dt
-        self.position = (px + (vx + ux) * k, py + (vy + uy) * k, pz + (vz + uz) * k)
-        self.velocity = (ux, uy, uz)
+        gyro_peaks, acc_peaks = recovery.watch(dt, acc, gyro, rate, self.attitude, saturated)
+        ax, ay, az = self.integrate(dt, acc, gyro)
+        (fx, fy, fz), (x, y, z) = self.force or ZERO, last_force or ZERO
+        x, y, z = fx - x, fy - y, fz - z
+        ratio = 1.0 if last_force is None else self.interval.update(dt, acc, dt_before, last_acc, earlier_acc)
+        rate_square = gx * gx + gy * gy + gz * gz
+        rx, ry, rz = rate
+        rx, ry, rz = gx - rx, gy - ry, gz - rz
         # noise of the sensor, noise that grows with the motion, and noise from the motion between independent readings:
         # T / dt times the difference and the duration of a sample, in dt / T times as many (IndependentInterval)
-        rx, ry, rz = gx - rx, gy - ry, gz - rz
         settings = self.settings
         motion_factor, difference_factor = (
             settings.noise_per_motion * settings.noise_per_motion,
@@ -179,7 +238,7 @@ class ErrorStateFilter(PropagatedCovariance):
             + difference_factor * (rx * rx + ry * ry + rz * rz)
         )
         if rate_square > settings.clipping_rate * settings.clipping_rate and not (
-            gyro_clipping.clipping and settings.recover
+            recovery.gyro_clipping.clipping and settings.recover
         ):
             noise += settings.clipping_noise * settings.clipping_noise
         self.gyro_variance += noise * dt
@@ -241,7 +300,7 @@ class ErrorStateFilter(PropagatedCovariance):
         self._inject(error, tx, ty)
         self.rhythm.add(t, self.accepted_at)
         if self.accepted_at < self.evidence_since:
-            self.landing_error = (vx - rx, vy - ry, vz - rz)
+            self.landing_error = sub((vx, vy, vz), stance.v_ref)
         self.accepted_at = t
         self.least_gated_statistic = NO_STATISTIC
         return True
@@ -259,33 +318,82 @@ class ErrorStateFilter(PropagatedCovariance):
         return self.landing_error
 
     def bridge(self, dt: float) -> float:
-        if dt > LONGEST_BRIDGE:
-            self.recovery.reset()
+        if dt <= LONGEST_BRIDGE:
+            self.acc_variance += BRIDGED_VELOCITY_GROWTH * dt
+            self.gyro_variance += BRIDGED_ANGLE_GROWTH * dt
+            return dt
+        self.recovery.reset()
         if dt == inf:  # times restart
             self.accepted_at = self.evidence_since = None
             self.rhythm.reset()
-        return PropagatedCovariance.bridge(self, dt)
+        self._propagate()
+        self.velocity = self.start_velocity = ZERO
+        self.force = self.rate = None
+        distance = GAP_WALKING_SPEED * min(dt, LONGEST_GAP_WALK)
+        self._inflate(
+            position=distance * distance,
+            height=GAP_RISE_RATIO * distance * distance,
+            velocity=GAP_SPEED * GAP_SPEED,
+            tilt=GAP_TILT * GAP_TILT,
+        )
+        return 0.0
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         self.recovery.reset()
-        PropagatedCovariance.infill(self, dt, attitude, velocity, position)
+        self._propagate()
+        self.time_since_anchor += dt
+        self.attitude, self.velocity, self.position = attitude, velocity, position
+        self.force = self.rate = None
+        self._mark_start()
+        self._inflate(
+            position=INFILL_POSITION_VARIANCE,
+            height=INFILL_POSITION_VARIANCE,
+            velocity=INFILL_VELOCITY_SIGMA * INFILL_VELOCITY_SIGMA,
+            tilt=INFILL_TILT_SIGMA * INFILL_TILT_SIGMA,
+            yaw=INFILL_YAW_SIGMA * INFILL_YAW_SIGMA,
+        )
+
+    def repair(self, yaw: float, position: Vec3) -> None:
+        self._propagate()
+        Strapdown.repair(self, yaw, position)
+        self._mark_start()
+
+    def shift(self, yaw: float, by: Vec3) -> None:
+        """Turn the state by `yaw` rad about the foot and move it by `by` m, navigation frame.
+
+        The covariance does not change, because this is no motion."""
+        self._propagate()
+        self.turn_about(yaw, by)
+        self._mark_start()
 
     def flat(self, start: Vec3, turn: float) -> None:
         if not self.settings.level:
             return
         self._propagate()
-        (x, y, z), (sx, sy, sz) = self.position, start
+        x, y, _ = self.position
         variance = self.uncertainty[HEIGHT]
-        height, level = self.level.judge((x - sx, y - sy, z - sz), turn, variance, self.attitude)
+        height, level = self.level.judge(sub(self.position, start), turn, variance, self.attitude)
         # tilt and velocity stay, because the removed height is a systematic error and not caused by theirs
-        self.position = self.start_position = (x, y, sz + height)
+        self.position = self.start_position = (x, y, start[2] + height)
         least = FLOOR_SIGMA * FLOOR_SIGMA
         if variance > least:
             self.uncertainty = constrain_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 
     def anchor(self) -> tuple[float, ...]:
         self.recovery.end_stride()
-        return PropagatedCovariance.anchor(self)
+        self._propagate()
+        stretch = self.covariance()
+        self.time_since_anchor = 0.0
+        covariance = list(self.uncertainty)
+        # a stretch starts at a known position and yaw, so their covariance is 0: pp, pv, pt and all of yaw
+        for i in (*range(24), 32, 35, 38, 41, 43, 44):
+            covariance[i] = 0.0
+        self.uncertainty = tuple(covariance)
+        return stretch
+
+    def covariance(self) -> tuple[float, ...]:
+        covariance = self._propagated() if self.elapsed > 0.0 else self.uncertainty
+        return (*covariance[:6], HEADING_DRIFT * HEADING_DRIFT * self.time_since_anchor)
 
     def _tilt_correction(self, share: float) -> tuple[float, float]:
         """Return `share` (0 to 1) of the turn about x and y, f x up / g, rad, that makes the force f point up.
@@ -297,3 +405,46 @@ class ErrorStateFilter(PropagatedCovariance):
             return 0.0, 0.0
         fx, fy, _ = self.force
         return share * fy / GRAVITY, -share * fx / GRAVITY
+
+    def _propagated(self) -> Covariance:
+        """Return the current covariance."""
+        t = self.elapsed
+        vx, vy, vz = self.velocity
+        ux, uy, uz = self.start_velocity
+        x, y, z = self.position
+        ox, oy, oz = self.start_position
+        # S = dv + g T, D = dp - v0 T + g T^2 / 2: integrals of the specific force, from its effect on the state
+        s = (vx - ux, vy - uy, vz - uz + GRAVITY * t)
+        d = (x - ox - ux * t, y - oy - uy * t, z - oz - uz * t + 0.5 * GRAVITY * t * t)
+        q = self.acc_variance
+        return propagate(self.uncertainty, t, s, d, q * t * t / 3.0, q * t / 2.0, q, self.gyro_variance)
+
+    def _propagate(self) -> None:
+        if self.elapsed > 0.0:
+            self.uncertainty = self._propagated()
+            self._mark_start()
+
+    def _mark_start(self) -> None:
+        self.elapsed = self.acc_variance = self.gyro_variance = 0.0
+        self.start_velocity = self.velocity
+        self.start_position = self.position
+
+    def _inflate(
+        self, velocity: float, tilt: float, position: float = 0.0, height: float = 0.0, yaw: float = 0.0
+    ) -> None:
+        """Add to the variances of each axis of velocity, (m/s)^2, and position, m^2, and of the angles, rad^2."""
+        added = (position, position, height, velocity, velocity, velocity, tilt, tilt, yaw)
+        covariance = list(self.uncertainty)
+        for i, variance in zip(VARIANCES, added, strict=True):
+            covariance[i] += variance
+        self.uncertainty = tuple(covariance)
+
+    def _inject(self, error: Correction, tilt_x: float, tilt_y: float) -> None:
+        """Correct the state by `error`, and turn it by `tilt_x` and `tilt_y` rad more."""
+        px, py, pz, vx, vy, vz, tx, ty, tz = error
+        x, y, z = self.position
+        self.position = self.start_position = (x + px, y + py, z + pz)
+        x, y, z = self.velocity
+        self.velocity = self.start_velocity = (x + vx, y + vy, z + vz)
+        # q <- dq(theta) * q with a global attitude error (Sola 2017, section 7)
+        self.attitude = tipped(self.attitude, 0.5 * (tx + tilt_x), 0.5 * (ty + tilt_y), 0.5 * tz)

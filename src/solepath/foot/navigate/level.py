@@ -27,8 +27,8 @@ from __future__ import annotations
 from math import exp, hypot, log, pi, sqrt
 
 from ...types import Quat, Vec3
-from ...types.attrs import define, field
-from ...types.vector import ZERO, rotate_back
+from ...types.attrs import define
+from ...types.vector import ZERO, add, dot, rotate_back, sub
 
 UP_VECTOR = (0.0, 0.0, 1.0)
 """Up as a unit vector, navigation frame."""
@@ -70,29 +70,29 @@ MOST_AVERAGED_STRIDES = 25.0
 class LevelGround:
     """Estimates the height of every stride (`judge`) at the foot-flat that ends it. Units: m and rad."""
 
-    rise_bias: float = field(default=0.0, init=False)
+    rise_bias: float = 0.0
     """Height for each metre of path that the errors of this sensor cause."""
-    rise_bias_information: float = field(default=0.0, init=False)
+    rise_bias_information: float = 0.0
     """Inverse of the variance of the rise bias, without its prior."""
-    scale: float = field(default=0.25, init=False)
+    scale: float = 0.25
     """Square of the scatter of heights, as a share of the filter's variance of the height."""
-    scale_weight: float = field(default=4.0, init=False)
+    scale_weight: float = 4.0
     """Number of level strides in `scale`; four stand for the prior."""
-    upright: Vec3 = field(default=ZERO, init=False)
+    upright: Vec3 = ZERO
     """Mean of up at the foot-flats of level strides, sensor frame."""
-    upright_weight: float = field(default=0.0, init=False)
+    upright_weight: float = 0.0
     """Number of level strides in `upright`."""
-    pitch_variance: float = field(default=5e-4, init=False)
+    pitch_variance: float = 5e-4
     """Variance of the pitch of a flat foot from stride to stride, rad^2."""
-    slope_strides: int = field(default=0, init=False)
+    slope_strides: int = 0
     """Number of strides in a row on a slope, up to now."""
-    grade: float = field(default=0.0, init=False)
+    grade: float = 0.0
     """Mean rise for each metre of path of the `slope_strides`."""
-    slope_upright: Vec3 = field(default=ZERO, init=False)
+    slope_upright: Vec3 = ZERO
     """Mean of up at the foot-flats of the `slope_strides`, sensor frame."""
-    slope: float = field(default=0.02, init=False)
+    slope: float = 0.02
     """Probability that the last stride was on a slope."""
-    stair: float = field(default=0.02, init=False)
+    stair: float = 0.02
     """Probability that the last stride was on a stair."""
 
     def judge(self, displacement: Vec3, turn: float, variance: float, attitude: Quat) -> tuple[float, float]:
@@ -154,10 +154,7 @@ class LevelGround:
         """Return the pitch relative to the mean, toe up positive, in the direction (x, y) of the stride, rad.
 
         It is the change of up along this direction."""
-        fx, fy, fz = rotate_back(attitude, (x, y, 0.0))
-        ux, uy, uz = up
-        rx, ry, rz = self.upright
-        return (ux - rx) * fx + (uy - ry) * fy + (uz - rz) * fz
+        return dot(sub(up, self.upright), rotate_back(attitude, (x, y, 0.0)))
 
     def _pitch_likelihood(self, difference: float, variance: float) -> float:
         """Return the likelihood of a pitch that differs by `difference` rad; outliers are uniform within a radian."""
@@ -182,10 +179,7 @@ class LevelGround:
             )
         self.upright_weight = min(self.upright_weight + level, MOST_AVERAGED_STRIDES)
         if self.upright_weight > 0.0:
-            k = level / self.upright_weight
-            x, y, z = self.upright
-            ux, uy, uz = up
-            self.upright = (x + k * (ux - x), y + k * (uy - y), z + k * (uz - z))
+            self.upright = add(self.upright, sub(up, self.upright), level / self.upright_weight)
 
     def _follow_slope(self, slope: float, grade: float, up: Vec3) -> None:
         """Add a stride of `grade`, rise for each metre, that was on a slope with the probability `slope`.
@@ -198,9 +192,7 @@ class LevelGround:
         self.slope_strides = min(self.slope_strides + 1, MOST_SLOPE_STRIDES)
         k = 1.0 / self.slope_strides
         self.grade += k * (grade - self.grade)
-        x, y, z = self.slope_upright
-        ux, uy, uz = up
-        self.slope_upright = (x + k * (ux - x), y + k * (uy - y), z + k * (uz - z))
+        self.slope_upright = add(self.slope_upright, sub(up, self.slope_upright), k)
         rise_bias, other_rise_bias = self.rise_bias, self.rise_bias + self.grade
         odds = 0.5 * (rise_bias * rise_bias - other_rise_bias * other_rise_bias) / (RISE_BIAS_SIGMA * RISE_BIAS_SIGMA)
         # a start on a slope has a probability, and each further stride on it the probability that the slope goes on

@@ -11,7 +11,7 @@ from math import cos, sin, sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, normalise, rotate
+from ...types.vector import GRAVITY, IDENTITY, ZERO, add, from_yaw, multiply, normalise, rotate, turned
 from .corrector import Corrector
 
 WIDEST_SERIES = 0.06
@@ -48,28 +48,21 @@ class Strapdown(Corrector):
 
     def turn_about(self, yaw: float, by: Vec3) -> None:
         """Turn attitude, velocity and force by `yaw` rad about the foot, and move it by `by` m."""
-        c, s = cos(yaw), sin(yaw)
         self.attitude = normalise(multiply(from_yaw(yaw), self.attitude))
-        x, y, z = self.velocity
-        self.velocity = (c * x - s * y, s * x + c * y, z)
+        self.velocity = turned(self.velocity, yaw)
         if self.force is not None:
-            x, y, z = self.force
-            self.force = (c * x - s * y, s * x + c * y, z)
-        (x, y, z), (dx, dy, dz) = self.position, by
-        self.position = (x + dx, y + dy, z + dz)
+            self.force = turned(self.force, yaw)
+        self.position = add(self.position, by)
 
     def integrate(self, dt: float, acc: Vec3, gyro: Vec3) -> Vec3:
         """Integrate one sample; return the mean acceleration over dt, m/s^2."""
         # half the rotation vector of a rate that changes linearly; series for sin and cos, because its angle is small
         gx, gy, gz = gyro
-        if self.rate is None:
-            hx, hy, hz = 0.5 * dt * gx, 0.5 * dt * gy, 0.5 * dt * gz
-        else:
-            rx, ry, rz = self.rate
-            k, m = 0.25 * dt, CONING * dt * dt
-            hx = k * (gx + rx) + m * (ry * gz - rz * gy)
-            hy = k * (gy + ry) + m * (rz * gx - rx * gz)
-            hz = k * (gz + rz) + m * (rx * gy - ry * gx)
+        rx, ry, rz = self.rate or gyro
+        k, m = 0.25 * dt, CONING * dt * dt
+        hx = k * (gx + rx) + m * (ry * gz - rz * gy)
+        hy = k * (gy + ry) + m * (rz * gx - rx * gz)
+        hz = k * (gz + rz) + m * (rx * gy - ry * gx)
         self.rate = gyro
         n = hx * hx + hy * hy + hz * hz
         if n < WIDEST_SERIES:
@@ -87,15 +80,11 @@ class Strapdown(Corrector):
         qy = w * hy - x * hz + y * c + z * hx
         qz = w * hz + x * hy - y * hx + z * c
         k = 1.5 - 0.5 * (qw * qw + qx * qx + qy * qy + qz * qz)  # one Newton step towards length 1
-        attitude = (qw * k, qx * k, qy * k, qz * k)
-        self.attitude = attitude
-        force = rotate(attitude, acc)
-        fx, fy, fz = force
-        if self.force is None:
-            ax, ay, az = fx, fy, fz - GRAVITY
-        else:
-            px, py, pz = self.force
-            ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
+        self.attitude = attitude = (qw * k, qx * k, qy * k, qz * k)
+        fx, fy, fz = force = rotate(attitude, acc)
+        px, py, pz = self.force or force
+        # trapezoidal rule: a = (f + f_previous) / 2 - g, v <- v + a dt, p <- p + (v + v_previous) dt / 2
+        ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
         self.force = force
         vx, vy, vz = self.velocity
         ux, uy, uz = vx + ax * dt, vy + ay * dt, vz + az * dt

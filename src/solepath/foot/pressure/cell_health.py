@@ -2,7 +2,7 @@
 
 Cells are judged over windows of walking, each of which contains SWINGS_OF_WINDOW swings of the foot.
 
-- DEAD, STUCK and SATURATED are reported when two windows in a row show the fault (cell_window.py).
+- DEAD, STUCK and SATURATED are reported when two windows in a row show the fault (`CellWindow`).
 - MISSING is reported when for MISSING_TIME the cell gives no number, or samples do not have as many cells as the
   insole. This needs no swings.
 
@@ -15,14 +15,13 @@ A cell is "lively" in a window in which it both loads and unloads. The numbers w
 
 from __future__ import annotations
 
-from math import hypot
+from math import atan2, hypot, pi
 
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads
 from ...types import Layout, Phase, Site, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ..rejection import ABSURD_PRESSURE
-from .cell_window import LIVELY_WINDOWS_ALONE, CellWindow, unloads
-from .cells import CellSpan
+from .insole import add_up
 
 CHECK_INTERVAL = 0.0795
 """Interval at which the cells are checked, s; a load under the toes lasts about 0.15 s."""
@@ -34,6 +33,174 @@ SWINGS_OF_WINDOW, MISSING_TIME = 4, 1.0
 """Number of swings in a window, and time without a number after which a cell is missing, s."""
 
 
+LIVELY_RANGE = 0.15
+"""Range above which a cell is lively, as a share of the largest range."""
+SILENT_RANGE = 0.01
+"""Largest range of a cell that bears no load, as a share of the largest range."""
+CONSTANT_RANGE = 0.0025
+"""Largest range of a cell that shows one value or two neighbouring counts, as a share of the largest range."""
+RAISED_VALUE = 0.1
+"""Excess over the median cell in the air above which a value is not that of an unloaded cell.
+
+It is a share of the largest range."""
+LIVELY_WINDOWS = 3
+"""Number of lively windows in a row after which a cell should load."""
+LIVELY_WINDOWS_ALONE = 8
+"""Number of lively windows in a row after which a cell should load if its neighbours are unknown."""
+MOST_PRESSED_CELLS = 4
+"""Largest number of cells of an insole that has all its cells where the foot presses."""
+FULL_SCALE_SHARE = 0.99
+"""Share of the full scale from which on a cell is saturated."""
+LOADED_SHARE = 0.3
+"""Lowest load in N above which an insole does not unload, as a share of its highest load."""
+LOADED_SHARE_IN_COUNTS = 0.9
+"""Value of LOADED_SHARE for loads in counts, whose zero is unknown."""
+LEAST_VARIATION = 0.01
+"""Largest range of cells that show no load at all, as a share of the highest value."""
+
+
+NEIGHBOUR_DISTANCE = 1.7
+"""Largest distance of a neighbour, as a multiple of the usual distance between cells; chosen by hand."""
+WIDEST_NEIGHBOUR_ANGLE = 2.6
+"""Widest angle at a cell between two neighbours next to each other if it lies among them, rad; chosen by hand.
+
+A cell with a wider angle lies at the rim of its neighbours."""
+
+
+@define
+class CellSpan:
+    """The lowest and highest value of each cell, and of their sum, over a span of time."""
+
+    lows: list[float] = field(factory=list)
+    """Lowest value of each cell."""
+    highs: list[float] = field(factory=list)
+    """Highest value of each cell."""
+    low: float = 0.0
+    """Lowest sum of the cells."""
+    high: float = 0.0
+    """Highest sum of the cells."""
+
+    def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
+        """Add one sample; cells with an index in `excluded` do not count in the sum."""
+        total = add_up(tuple([v for i, v in enumerate(cells) if i not in excluded]) if excluded else cells)
+        if not self.lows:
+            self.lows, self.highs = list(cells), list(cells)
+            self.low = self.high = total
+            return
+        # takes half the time of map(min, ...), which calls a function for every cell
+        self.lows = [low if low < value else value for low, value in zip(self.lows, cells, strict=True)]
+        self.highs = [high if high > value else value for high, value in zip(self.highs, cells, strict=True)]
+        self.low, self.high = min(self.low, total), max(self.high, total)
+
+
+def enclosed(layout: Layout, i: int, loading: list[bool]) -> tuple[bool, bool]:
+    """Return whether loading neighbours lie on all sides of cell `i`, and whether at least two neighbours load.
+
+    `loading` is True for each cell that loads."""
+    cell_i, farthest = layout.cells[i], NEIGHBOUR_DISTANCE * layout.spacing
+    angles, unloaded_neighbours = [], 0
+    for j, cell in enumerate(layout.cells):
+        dx, dy = cell.x - cell_i.x, cell.y - cell_i.y
+        if j == i or hypot(dx, dy) > farthest:
+            continue
+        if loading[j]:
+            angles.append(atan2(dy, dx))
+        else:
+            unloaded_neighbours += 1
+    if len(angles) < 2:
+        return False, False
+    if len(angles) < 4 or unloaded_neighbours > 1:
+        return False, True
+    angles.sort()
+    angles_between = [b - a for a, b in zip(angles, angles[1:], strict=False)]
+    widest_angle = max([*angles_between, angles[0] + 2.0 * pi - angles[-1]])
+    return widest_angle < WIDEST_NEIGHBOUR_ANGLE, True
+
+
+@frozen
+class CellWindow:
+    """The extremes of the cells in one window of walking, of which those that have not failed are judged.
+
+    The range of a cell is its highest minus its lowest value in the window. Of earlier windows only the number of
+    windows in a row in which each cell was lively is used.
+
+    - DEAD: the range of the cell is below 1 % of the largest range, although the cell should load. It should load if
+      cells on all its sides load (this needs a layout), if it was lively in several windows in a row, or if the insole
+      has at most four cells, because these are put where the foot presses.
+    - STUCK: the cell shows one value, well above that of the other cells in the air.
+    - SATURATED: the cell is at the end of its measuring range, even while the foot is in the air (this needs a layout).
+
+    A cell at the rim of the sole or under a high arch may never bear load. A cell there that was dead from the start
+    looks the same: it is not reported, and does no harm."""
+
+    lows: list[float]
+    """Lowest value of each cell, unit of the samples."""
+    ranges: list[float]
+    """Range of each cell: highest minus lowest value, unit of the samples."""
+    working: list[int]
+    """Indices of the cells that have not failed."""
+    largest_range: float
+    """Largest range of any working cell, unit of the samples."""
+    highest: float
+    """Highest value of any working cell, unit of the samples."""
+
+    @classmethod
+    def from_span(cls, span: CellSpan, excluded: list[int]) -> CellWindow:
+        """Return the window of a span; `excluded` holds the indices of the failed cells."""
+        ranges = [high - low for low, high in zip(span.lows, span.highs, strict=True)]
+        working = [i for i in range(len(ranges)) if i not in excluded]
+        largest_range = max([ranges[i] for i in working], default=0.0)
+        highest = max([span.highs[i] for i in working], default=0.0)
+        return cls(span.lows, ranges, working, largest_range, highest)
+
+    @property
+    def varies(self) -> bool:
+        """Flag: at least one cell varies enough to show a load."""
+        return self.largest_range > LEAST_VARIATION * self.highest and self.largest_range > 0.0
+
+    def find_lively(self) -> list[bool]:
+        """Return for each cell whether it is lively."""
+        return [r > LIVELY_RANGE * self.largest_range for r in self.ranges]
+
+    def find_faults(self, layout: Layout | None, lively_windows: list[int]) -> dict[CellFault, list[int]]:
+        """Return the faults of the working cells, each with the indices of its cells.
+
+        `lively_windows` is, for each cell, the number of earlier windows in a row in which it was lively; [] if there
+        are none."""
+        lows, ranges, largest_range = self.lows, self.ranges, self.largest_range
+        air_value = sorted([lows[i] for i in self.working])[len(self.working) // 2]
+        full_scale_value = None if layout is None else layout.full_scale
+        faults: dict[CellFault, list[int]] = {}
+        for i in self.working:
+            if full_scale_value is not None and 0.0 < FULL_SCALE_SHARE * full_scale_value <= lows[i]:
+                fault = CellFault.SATURATED
+            elif ranges[i] > SILENT_RANGE * largest_range:
+                continue
+            elif lows[i] - air_value > RAISED_VALUE * largest_range:
+                if ranges[i] > CONSTANT_RANGE * largest_range:
+                    continue
+                fault = CellFault.STUCK
+            elif self._should_load(i, layout, lively_windows[i] if lively_windows else 0):
+                fault = CellFault.DEAD
+            else:
+                continue
+            faults.setdefault(fault, []).append(i)
+        return faults
+
+    def _should_load(self, i: int, layout: Layout | None, lively_windows: int) -> bool:
+        if layout is None:
+            return len(self.ranges) <= MOST_PRESSED_CELLS or lively_windows >= LIVELY_WINDOWS_ALONE
+        is_enclosed, any_neighbours = enclosed(layout, i, self.find_lively())
+        return is_enclosed or (lively_windows >= LIVELY_WINDOWS and any_neighbours)
+
+
+def unloads(span: CellSpan, layout: Layout | None) -> bool:
+    """Return whether the load of the insole falls to a small share of its highest value, or is always zero."""
+    in_newtons = layout is not None and layout.scale is not None
+    share = LOADED_SHARE if in_newtons else LOADED_SHARE_IN_COUNTS
+    return not (span.high > 0.0 and span.low > share * span.high)
+
+
 @define
 class CellHealth:
     """The health of the cells of one insole.
@@ -42,41 +209,41 @@ class CellHealth:
     12 times a second a sample also updates the extremes of each cell."""
 
     site: Site
-    count: int = field(default=0, init=False)
+    count: int = 0
     """Number of cells; 0 before any."""
-    span: CellSpan = field(factory=CellSpan, init=False)
+    span: CellSpan = field(factory=CellSpan)
     """Extremes of the cells in the current window."""
-    checked_at: float | None = field(default=None, init=False)
+    checked_at: float | None = None
     """Time of the last check of the cells, s; None before any."""
-    window_start: float | None = field(default=None, init=False)
+    window_start: float | None = None
     """Start of the current window, s; None before any."""
-    swings: int = field(default=0, init=False)
+    swings: int = 0
     """Number of swings in the current window."""
-    swing_start: float | None = field(default=None, init=False)
+    swing_start: float | None = None
     """Start of the last swing, s; None before any."""
-    airborne: bool = field(default=False, init=False)
+    airborne: bool = False
     """The foot was in the air in the last sample without an angular rate."""
-    suspected: dict[CellFault, list[int]] = field(factory=dict, init=False)
+    suspected: dict[CellFault, list[int]] = field(factory=dict)
     """Faults that the last window showed, each with the indices of its cells."""
-    failed: dict[CellFault, list[int]] = field(factory=dict, init=False)
+    failed: dict[CellFault, list[int]] = field(factory=dict)
     """Faults that were reported and last, each with the indices of its cells."""
-    excluded: list[int] = field(factory=list, init=False)
+    excluded: list[int] = field(factory=list)
     """Indices of all failed cells."""
-    lively_windows: list[int] = field(factory=list, init=False)
+    lively_windows: list[int] = field(factory=list)
     """For each cell, number of windows in a row in which it was lively."""
-    non_numeric: list[tuple[int, float]] = field(factory=list, init=False)
+    non_numeric: list[tuple[int, float]] = field(factory=list)
     """Index of each cell that gives no number now, and the time since which it gives none, s."""
-    wrong_count: int | None = field(default=None, init=False)
+    wrong_count: int | None = None
     """Number of cells of the current samples if it is wrong; None otherwise."""
-    wrong_count_since: float = field(default=0.0, init=False)
+    wrong_count_since: float = 0.0
     """Time since which the number of cells is wrong, s."""
-    wrong_count_reported: bool = field(default=False, init=False)
+    wrong_count_reported: bool = False
     """The wrong number of cells was reported."""
-    loaded_windows: int = field(default=0, init=False)
+    loaded_windows: int = 0
     """Number of windows in a row in which the insole did not unload."""
-    loaded_windows_start: float = field(default=0.0, init=False)
+    loaded_windows_start: float = 0.0
     """Start of the first window in which the insole did not unload, s."""
-    constant_windows: int = field(default=0, init=False)
+    constant_windows: int = 0
     """Number of windows in a row in which no cell showed any load."""
 
     def reset(self) -> None:

@@ -6,7 +6,7 @@ threshold lies between the lowest and the highest statistic of the last 1.2 to 1
 
 The noise of the evidence follows from the motion: a foot that turns at w rad/s about a point of the sole at distance
 r m moves the sensor at r w. The known part of this velocity follows from the height of the sensor above the sole
-(sensor_height.py); it is the reference velocity. The unknown part is noise. The noise has a second term that grows with
+(`SensorHeight`); it is the reference velocity. The unknown part is noise. The noise has a second term that grows with
 w^2, so that the many samples of early and late stance do not outweigh those of mid-stance.
 
 The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md. A table in that document
@@ -16,31 +16,131 @@ that rolls, no extra noise for a foot that brakes."""
 from __future__ import annotations
 
 from math import exp, inf, log, sqrt
-from typing import Final
 
-from ...types import Phase, Quat, Vec3
+from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
+from ...types.vector import IDENTITY, TIE, ZERO
+from ..phase import STATIONARY, SWING
 from ..settings import CycleSettings
-from .sensor_height import SensorHeight
 from .shoe import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
 from .stance import Detector, Load, Stance
 
 ACC_SQUARE = SIGMA_ACC**2
 GYRO_SQUARE = SIGMA_GYRO**2
-TWO_G = 2.0 * GRAVITY
-SHOE_WINDOW = 0.025
-"""Duration of the window of the SHOE statistic, s."""
 
-# Local names, because one look-up in the enum costs as much as five multiplications.
-SWING: Final = Phase.SWING
-STATIONARY: Final = Phase.STATIONARY
 
 make_stance = tuple.__new__
 """Constructor of a Stance from its five fields, which takes half the time of the class's own."""
 
 NO_STATISTIC = 1e12
 """Upper bound of any statistic, which stands for the lowest one before any sample."""
+
+
+Sums = tuple[float, ...]
+"""State of a stance, 18 numbers, in the units of `SensorHeight`.
+
+They are: number of samples, time; last acceleration x, y; u x, y; sums of t and t^2; sums of c^2 and u c over both
+axes; sums of u, t u, c and t c, each on x and on y."""
+EMPTY: Sums = (0.0,) * 18
+"""State of a stance without samples."""
+
+INITIAL_HEIGHT = 0.05
+"""Height before any stance, m: between that of a sensor in the sole and that of one on the instep."""
+INITIAL_WEIGHT = 0.005
+"""Weight of the initial height as a sum of c^2 dt, (rad/s)^2 s: half of what a slow stance gives."""
+STANCE_MEMORY = 0.95
+"""Factor by which each stance reduces the weight of the earlier ones."""
+SHORTEST_STANCE, LONGEST_STANCE = 0.06, 0.6
+"""Shortest and longest stance that is used, s.
+
+A longer stance is cut into pieces, because the integral of the acceleration drifts."""
+LOWEST_HEIGHT, HIGHEST_HEIGHT = -0.03, 0.2
+"""Limits of the estimated height, m."""
+
+
+@define
+class SensorHeight:
+    """The height of a sensor above the point over which the foot rolls, learnt from the wearer's own stances.
+
+    A foot on the ground is never quite still. It rolls over heel, sole and forefoot, and a sensor at distance r from
+    the point of contact moves at v = w x r. On the instep of a brisk walker this is 5 cm/s at the stillest moment, so
+    zero velocity makes every stride some per cent too short.
+
+    The height h of the sensor need not be configured, because the accelerometer measures the same motion: within one
+    stance, the change of velocity is the change of w x r. Let c = w x up, rad/s, and let u be the integral of the
+    acceleration, m/s; both are horizontal. The tilt is not known exactly, so u has an error that grows evenly. The
+    equation
+
+        u(t) = h c(t) + a + b t
+
+    is fitted by least squares to each stance. h is pooled over the stances, with less weight for older ones. The
+    numbers were chosen by hand on the recordings of docs/accuracy.md and not swept."""
+
+    height: float = INITIAL_HEIGHT
+    """Current estimate of the height, m."""
+    product: float = INITIAL_HEIGHT * INITIAL_WEIGHT
+    """Weighted sum of u c dt over the stances, m (rad/s)^2 s."""
+    square: float = INITIAL_WEIGHT
+    """Weighted sum of c^2 dt over the stances, (rad/s)^2 s."""
+    sums: Sums = EMPTY
+    """State of the current stance."""
+
+    def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> tuple[float, float]:
+        """Add one sample of a foot on the ground; return h w x up, the velocity x, y, m/s, navigation frame.
+
+        `acc` is in m/s^2, `gyro` in rad/s, both in the sensor frame. `attitude` is sensor to navigation frame."""
+        w, x, y, z = attitude
+        # the first two rows of the rotation matrix
+        xx, xy, xz = 1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)
+        yx, yy, yz = 2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)
+        wx, wy, wz = gyro
+        fx, fy, fz = acc
+        cx, cy = yx * wx + yy * wy + yz * wz, -(xx * wx + xy * wy + xz * wz)
+        ax, ay = xx * fx + xy * fy + xz * fz, yx * fx + yy * fy + yz * fz
+        n, t, bx, by, ux, uy, st, stt, scc, suc, sux, suy, stux, stuy, scx, scy, stcx, stcy = self.sums
+        if n:
+            t += dt
+            ux += 0.5 * dt * (ax + bx)
+            uy += 0.5 * dt * (ay + by)
+        self.sums = (
+            n + 1.0, t, ax, ay, ux, uy, st + t, stt + t * t, scc + cx * cx + cy * cy, suc + ux * cx + uy * cy,
+            sux + ux, suy + uy, stux + t * ux, stuy + t * uy, scx + cx, scy + cy, stcx + t * cx, stcy + t * cy,
+        )  # fmt: skip
+        if t > LONGEST_STANCE + TIE:
+            self.end_stance()
+        return self.height * cx, self.height * cy
+
+    def end_stance(self) -> None:
+        """End the stance and update the height from it."""
+        n, t, _, _, _, _, st, stt, scc, suc, sux, suy, stux, stuy, scx, scy, stcx, stcy = self.sums
+        self.sums = EMPTY
+        d = n * stt - st * st
+        if t < SHORTEST_STANCE - TIE or n < 5.0 or d <= 0.0:
+            return
+        # sums of u c and c^2 after the best a + b t was subtracted from u and c, axis by axis
+        square = (
+            scc
+            - (stt * (scx * scx + scy * scy) - 2.0 * st * (scx * stcx + scy * stcy) + n * (stcx * stcx + stcy * stcy))
+            / d
+        )
+        product = (
+            suc
+            - (
+                stt * (sux * scx + suy * scy)
+                - st * (sux * stcx + stux * scx + suy * stcy + stuy * scy)
+                + n * (stux * stcx + stuy * stcy)
+            )
+            / d
+        )
+        if (
+            square <= 0.0
+            or not 2.0 * LOWEST_HEIGHT - HIGHEST_HEIGHT < product / square < 2.0 * HIGHEST_HEIGHT - LOWEST_HEIGHT
+        ):
+            return  # no sensor on a foot has this height, so it was no stance
+        dt = t / n
+        self.square = STANCE_MEMORY * self.square + square * dt
+        self.product = STANCE_MEMORY * self.product + product * dt
+        self.height = min(max(self.product / self.square, LOWEST_HEIGHT), HIGHEST_HEIGHT)
 
 
 @define
@@ -71,31 +171,7 @@ class Cycle(Detector):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        # the sums of ShoeDetector.parts: a call would cost 4 % of this (tests/foot/test_alike.py checks both are equal)
-        ax, ay, az = acc
-        wx, wy, wz = gyro
-        a2, w2 = ax * ax + ay * ay + az * az, wx * wx + wy * wy + wz * wz
-        shoe = self.shoe
-        entries = shoe.entries
-        sx, sy, sz, s2, sw = shoe.sums
-        sx += ax
-        sy += ay
-        sz += az
-        s2 += a2
-        sw += w2
-        entries.append((t, ax, ay, az, a2, w2))
-        oldest = t - SHOE_WINDOW + 1e-9
-        while entries[0][0] < oldest and len(entries) > 1:
-            _, ax, ay, az, a2, w2 = entries.pop(0)
-            sx -= ax
-            sy -= ay
-            sz -= az
-            s2 -= a2
-            sw -= w2
-        shoe.sums = (sx, sy, sz, s2, sw)
-        n = len(entries)
-        force = s2 - TWO_G * sqrt(sx * sx + sy * sy + sz * sz) + n * GRAVITY * GRAVITY
-        force, rate = (force / n if force > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)
+        force, rate = self.shoe.mean_squares(t, acc, gyro)
         statistic = force / ACC_SQUARE + rate / GYRO_SQUARE
         # lowest and highest statistic of the current span
         if self.span_end is None or t >= self.span_end - TIE:

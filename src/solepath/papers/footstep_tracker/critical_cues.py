@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...foot.cues.cues import Cues, TimedCue
-from ...foot.cues.pressure import PressureCues
+from ...foot.cues.gait_cues import PressureCues
 from ...foot.phase import REMAINING_CUES, Cue
 from ...foot.stance.stance import Load, Stance
 from ...types import Phase, Vec3
@@ -23,7 +23,7 @@ class CriticalCues(Cues):
     Latency: all four are known when the static zone that ends the stride is detected, `loose_length` s after foot-flat
     (static_zones.py); toe-off, some 0.6 s after it happened. `PressureCues` handles a foot that has only an insole."""
 
-    pressure: PressureCues = field(factory=PressureCues)
+    pressure: PressureCues = field(factory=PressureCues, init=False)
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,

@@ -26,7 +26,7 @@ from ...foot.cues.cues import Cues, TimedCue
 from ...foot.cues.inertial import SHUFFLE_SPEED, InertialCues
 from ...foot.cues.touch import Touch
 from ...foot.phase import Cue
-from ...foot.pressure.cells import centre
+from ...foot.pressure.insole import centre
 from ...foot.stance.stance import Load, Stance
 from ...types import Layout, Phase, Vec3
 from ...types.attrs import define, field, frozen
@@ -68,7 +68,7 @@ class CopCues(Cues):
     uses_centre: ClassVar[bool] = True
 
     settings: CopCuesSettings = CopCuesSettings()
-    inertial: InertialCues = field(factory=InertialCues)
+    inertial: InertialCues = field(factory=InertialCues, init=False)
     touch: Touch = field(factory=Touch)
     sagittal: float = field(default=0.0, init=False)
     """Rate about the axis to the wearer's left in the last sample, positive toe down, rad/s (`Cues`)."""

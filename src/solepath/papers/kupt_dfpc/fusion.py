@@ -40,7 +40,7 @@ from typing import ClassVar
 
 from ...body.part import PartInput, PartOutput, Position, TrackPart
 from ...events import StrideFused, StrideTaken
-from ...foot.pressure.cells import centre
+from ...foot.pressure.insole import centre
 from ...foot.view import FootPose, FootView
 from ...types import OTHER, Foot, Site, Vec3
 from ...types.attrs import define, field, frozen

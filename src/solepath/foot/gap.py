@@ -12,10 +12,12 @@ from enum import Enum
 from math import hypot
 from typing import NamedTuple
 
-from ...types import Quat, Vec3
-from ...types.vector import (
+from ..types import Quat, Vec3
+from ..types.vector import (
     GRAVITY,
     ZERO,
+    add,
+    dot,
     from_yaw,
     heading_turned,
     multiply,
@@ -25,9 +27,8 @@ from ...types.vector import (
     sub,
     turned,
 )
-from ..navigate.corrector import LONGEST_BRIDGE, Corrector
-from .moment import RecordedStride, StrideMoment, interpolate_stride, limit_length, unpack_moments, vector_length
-from .template import StrideTemplate
+from .navigate.corrector import LONGEST_BRIDGE, Corrector
+from .template import RecordedStride, StrideMoment, StrideTemplate, interpolate_stride, limit_length, unpack_moments
 
 SHORTEST_FILLED_GAP = 0.06
 """Gap above which infill is used, s; shorter gaps are bridged by a straight line."""
@@ -94,10 +95,8 @@ def find_infill(
 
     The state of the corrector is that at `t_before`; `acc` (m/s^2) and `gyro` (rad/s) are those at `t_after`, without
     bias. The function changes nothing: `StrideTemplate.add_infill` and `Corrector.infill` apply the result."""
-    x, y, z = acc
-    force = hypot(x, y, z)
-    x, y, z = gyro
-    still = (x * x + y * y + z * z) / 0.25 + (force - GRAVITY) ** 2 / 2.0
+    force = hypot(*acc)
+    still = dot(gyro, gyro) / 0.25 + (force - GRAVITY) ** 2 / 2.0
     stride = template.last_stride
     if stride is None or t_after - t_before > LONGEST_FILLED_GAP:
         return NoInfill.STOOD if template.t_heel_off is None and still < 8.0 else NoInfill.UNKNOWN
@@ -124,8 +123,8 @@ def find_infill(
             break
         if template.t_heel_off is not None and moment.since < expected - LARGEST_TIME_SHIFT:
             continue
-        x, y, z = sub(gyro, moment.rate)
-        moment_mismatch = (x * x + y * y + z * z) / RATE_SIGMA**2 + ((force - moment.force) / FORCE_SIGMA) ** 2
+        rate = sub(gyro, moment.rate)
+        moment_mismatch = dot(rate, rate) / RATE_SIGMA**2 + ((force - moment.force) / FORCE_SIGMA) ** 2
         moment_mismatch += ((moment.since - expected) / expected_sigma) ** 2
         if moment_mismatch < least_mismatch:
             least_mismatch, end = moment_mismatch, moment
@@ -152,14 +151,14 @@ def _match_moment(template_moments: list[StrideMoment], corrector: Corrector, si
     if rate is None:
         return since, 0.0
     least_mismatch, best_since = 1e12, since
-    up, speed = rotate_back(corrector.attitude, UP_VECTOR), vector_length(corrector.velocity)
+    up, speed = rotate_back(corrector.attitude, UP_VECTOR), hypot(*corrector.velocity)
     for moment in template_moments:
         if abs(moment.since - since) < LARGEST_TIME_SHIFT:
-            x, y, z = sub(rate, moment.rate)
-            moment_mismatch = (x * x + y * y + z * z) / RATE_SIGMA**2 + ((moment.since - since) / TIME_SHIFT_SIGMA) ** 2
-            x, y, z = sub(up, rotate_back(moment.attitude, UP_VECTOR))
-            moment_mismatch += (x * x + y * y + z * z) / TILT_SIGMA**2
-            moment_mismatch += ((speed - vector_length(moment.velocity)) / SPEED_SIGMA) ** 2
+            d = sub(rate, moment.rate)
+            moment_mismatch = dot(d, d) / RATE_SIGMA**2 + ((moment.since - since) / TIME_SHIFT_SIGMA) ** 2
+            d = sub(up, rotate_back(moment.attitude, UP_VECTOR))
+            moment_mismatch += dot(d, d) / TILT_SIGMA**2
+            moment_mismatch += ((speed - hypot(*moment.velocity)) / SPEED_SIGMA) ** 2
             if moment_mismatch < least_mismatch:
                 least_mismatch, best_since = moment_mismatch, moment.since
     return best_since, least_mismatch
@@ -191,15 +190,11 @@ def _build_infill(
         rate_after = 0.0 if ends_flat else rotate(end_attitude, sub(gyro, end.rate))[2]
         end_attitude = multiply(from_yaw(0.5 * min(dt, t_after - t_before) * (rate_before + rate_after)), end_attitude)
     end_attitude = normalise(end_attitude)
-    ux, uy, uz = turned(end.velocity, yaw)
-    ex, ey, ez = limit_length(sub(corrector.velocity, turned(start_moment.velocity, yaw)), LARGEST_VELOCITY_DIFFERENCE)
-    k = VELOCITY_PERSISTENCE
-    end_velocity = ZERO if ends_flat else (ux + k * ex, uy + k * ey, uz + k * ez)
-    k *= 0.5 * dt
-    px, py, pz = turned(sub(end.position, start_moment.position), yaw)
-    x, y, z = corrector.position
-    wx, wy, wz = limit_length((px + k * ex, py + k * ey, pz + k * ez), FASTEST_FOOT * (t_after - t_before))
-    end_position = (x + wx, y + wy, z + wz)
+    excess = limit_length(sub(corrector.velocity, turned(start_moment.velocity, yaw)), LARGEST_VELOCITY_DIFFERENCE)
+    end_velocity = ZERO if ends_flat else add(turned(end.velocity, yaw), excess, VELOCITY_PERSISTENCE)
+    way = turned(sub(end.position, start_moment.position), yaw)
+    way = add(way, excess, VELOCITY_PERSISTENCE * (0.5 * dt))
+    end_position = add(corrector.position, limit_length(way, FASTEST_FOOT * (t_after - t_before)))
     t_heel_off = _time_of_heel_off(template, ends_flat, start, end, t_before, t_after)
     # events do not lie before the gap, because samples would have shown them
     t_toe_off = max(t_before, t_heel_off + stride.toe_off) if end.since >= stride.toe_off else None
