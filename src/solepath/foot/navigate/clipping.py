@@ -423,8 +423,6 @@ class Recovery:
         acc_clipping, acc_peaks = self.acc_clipping, None
         if acc_clipping.clipping or x * x + y * y + z * z > acc_clipping.near_end_square:
             acc_peaks = acc_clipping.update(dt, acc, self.last_acc, self.earlier_acc, self.earlier_dt, saturated)
-        self.earlier_acc, self.last_acc = self.last_acc, acc
-        self.earlier_rate, self.earlier_dt = previous_rate, dt
         return gyro_peaks, acc_peaks
 
     def reset(self) -> None:

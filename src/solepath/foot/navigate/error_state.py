@@ -212,12 +212,23 @@ class ErrorStateFilter(Strapdown):
         gx, gy, gz = gyro
         rate, last_force, recovery = self.rate or gyro, self.force, self.recovery
         dt_before, last_acc, earlier_acc = recovery.earlier_dt, recovery.last_acc, recovery.earlier_acc
-        gyro_peaks, acc_peaks = recovery.watch(dt, acc, gyro, rate, self.attitude, saturated)
+        gyro_peaks = acc_peaks = None
+        rate_square, (x, y, z) = gx * gx + gy * gy + gz * gz, acc
+        gyro_clipping, acc_clipping = recovery.gyro_clipping, recovery.acc_clipping
+        if (
+            rate_square > gyro_clipping.near_end_square
+            or x * x + y * y + z * z > acc_clipping.near_end_square
+            or gyro_clipping.clipping
+            or acc_clipping.clipping
+            or recovery.swing.rows
+        ):  # a call for every sample would cost 1 % of it
+            gyro_peaks, acc_peaks = recovery.watch(dt, acc, gyro, rate, self.attitude, saturated)
+        recovery.earlier_acc, recovery.last_acc = last_acc, acc
+        recovery.earlier_rate, recovery.earlier_dt = rate, dt
         ax, ay, az = self.integrate(dt, acc, gyro)
         (fx, fy, fz), (x, y, z) = self.force or ZERO, last_force or ZERO
         x, y, z = fx - x, fy - y, fz - z
         ratio = 1.0 if last_force is None else self.interval.update(dt, acc, dt_before, last_acc, earlier_acc)
-        rate_square = gx * gx + gy * gy + gz * gz
         rx, ry, rz = rate
         rx, ry, rz = gx - rx, gy - ry, gz - rz
         # noise of the sensor, noise that grows with the motion, and noise from the motion between independent readings:
@@ -238,7 +249,7 @@ class ErrorStateFilter(Strapdown):
             + difference_factor * (rx * rx + ry * ry + rz * rz)
         )
         if rate_square > settings.clipping_rate * settings.clipping_rate and not (
-            recovery.gyro_clipping.clipping and settings.recover
+            gyro_clipping.clipping and settings.recover
         ):
             noise += settings.clipping_noise * settings.clipping_noise
         self.gyro_variance += noise * dt
