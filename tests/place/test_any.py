@@ -41,10 +41,10 @@ from solepath import (
     recipes,
 )
 from solepath.body.part import Position, StartGiven
-from solepath.body.place.particles import Particles
-from solepath.body.place.place_hypotheses import PlaceSettings
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
+from solepath.place.particles import Particles
+from solepath.place.place_hypotheses import PlaceSettings
 from solepath.saving import codec as machine
 from solepath.saving.packed import Lists, write
 from solepath.saving.schema import record_of

@@ -129,7 +129,7 @@ ELSEWHERE = {
 }
 """Methods that go on with a packet, see the relations of streams; and those whose records are no state of a session: a
 device's setup and its watchdog (tests/link/test_device_setup.py), and a shoe's gauge (tests/papers/kupt_dfpc)."""
-ROOMS = ("link", "foot", "body", "floorplan", "papers", "session", "saving")
+ROOMS = ("link", "foot", "body", "place", "floorplan", "papers", "session", "saving")
 """Rooms whose records can be in the state of a session."""
 
 

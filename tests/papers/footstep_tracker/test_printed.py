@@ -8,7 +8,6 @@ import pytest
 from floors import indexed_office
 from walks import of, run_session
 
-from solepath.body.place.rows.rows import Row as PlaceRow
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import Imu, TriadErrors
 from solepath.emulate.wearers.walker import Walker
@@ -21,6 +20,7 @@ from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.papers.footstep_tracker.segment import FootAxes, StrideSegment
 from solepath.papers.footstep_tracker.snake import PrintedSnake, SnakeGame, moved_rows
 from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
+from solepath.place.rows.rows import Row as PlaceRow
 from solepath.types import Foot, Phase, Sample, Vec3
 from solepath.types.attrs import evolve
 from solepath.types.vector import GRAVITY, ZERO

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from floors import CORNERS, LOW, METHODS, RIGHT, WIDE, Method, Pedestrian, follow
 
-from solepath.body.place.rows.rows import Row
+from solepath.place.rows.rows import Row
 
 ROUNDS = 3
 

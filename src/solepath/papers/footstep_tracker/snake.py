@@ -1,6 +1,6 @@
 """Snake game on the floor plan, after Liu et al. 2015 (IEEE MASS), section IV.E and figure 14.
 
-The paper has traces of the wearer's path, which are rows here (body/place/rows.py). Rows start at all stairs and
+The paper has traces of the wearer's path, which are rows here (place/rows.py). Rows start at all stairs and
 elevators of the plan, in evenly spaced headings. Each row moves with every stride of the track, and those that run into
 a wall are dropped. The last one left is the wearer's.
 
@@ -16,12 +16,12 @@ from __future__ import annotations
 
 from math import atan2
 
-from ...body.place.placing import Placing
-from ...body.place.rows.noise import next_random
-from ...body.place.rows.rows import Row, resample_rows
-from ...body.place.rows.sway import sway_rows
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
+from ...place.placing import Placing
+from ...place.rows.noise import next_random
+from ...place.rows.rows import Row, resample_rows
+from ...place.rows.sway import sway_rows
 from ...types.attrs import define
 
 CELL_SIZE = 0.25

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import cos, fsum, pi, sin, sqrt
 
-from ...floorplan.index import IndexedPlan
-from ...floorplan.plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Start
-from ...types.attrs import frozen
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Start
+from ..types.attrs import frozen
 from .connectors.landings import Landing, find_exits, find_nearest_landing, list_landings
 from .connectors.level_changes import LevelReached
 from .rows.noise import NOISE_ENTRIES, NOISE_TABLE

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from math import hypot
 
-from ....floorplan.plan import ConnectorKind
-from ....types import Foot, Vec3
-from ....types.attrs import define, field
+from ...floorplan.plan import ConnectorKind
+from ...types import Foot, Vec3
+from ...types.attrs import define, field
 
 RISER_HEIGHT = 0.165
 """Height of one riser of stairs, m, used when neither the track gives a height nor the plan its risers'."""

@@ -13,13 +13,13 @@ from collections.abc import Sequence
 from math import fsum, hypot, isfinite, pi
 from typing import ClassVar
 
-from ...events import Event, Placed, PlaceLost, PositionReported, StrideTaken, TrackRevised, TurnMade, WearerMoved
-from ...floorplan.index import IndexedPlan
-from ...floorplan.plan import Point, Start
-from ...foot.view import FootView
-from ...types.attrs import NOT_SAVED, define, field
-from ..fuse.position_covariance import LEAST_WAY
-from ..part import MOVEMENTS, PartInput, PartOutput, StartGiven
+from ..body.fuse.position_covariance import LEAST_WAY
+from ..body.part import MOVEMENTS, PartInput, PartOutput, StartGiven
+from ..events import Event, Placed, PlaceLost, PositionReported, StrideTaken, TrackRevised, TurnMade, WearerMoved
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import Point, Start
+from ..foot.view import FootView
+from ..types.attrs import NOT_SAVED, define, field
 from .arrivals import START_HEADING_ERROR, spread_rows, start_error
 from .connectors.level_changes import DirectionRevised, LevelChangePossible, LevelReached
 from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges

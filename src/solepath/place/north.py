@@ -10,7 +10,7 @@ from __future__ import annotations
 from enum import Enum
 from math import cos, fsum, hypot, pi, sin
 
-from ...floorplan.plan import FloorPlan
+from ..floorplan.plan import FloorPlan
 from .arrivals import ANY_HEADING_SHARE, Heading
 from .rows.rows import Row
 

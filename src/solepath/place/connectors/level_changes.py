@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ....floorplan.plan import ConnectorKind
-from ....types.attrs import frozen
+from ...floorplan.plan import ConnectorKind
+from ...types.attrs import frozen
 
 SURE_CERTAINTY, FAIR_CERTAINTY, HALF_CERTAINTY, RIDE_CERTAINTY = 0.97, 0.9, 0.1, 0.99
 """Certainties of an arrival: the height fits a storey; it is large enough; it is about half a storey; it is a ride."""

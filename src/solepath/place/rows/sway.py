@@ -5,8 +5,8 @@ from __future__ import annotations
 from itertools import chain, cycle
 from math import hypot
 
-from ....floorplan.index import IndexedPlan
-from ....floorplan.plan import Point
+from ...floorplan.index import IndexedPlan
+from ...floorplan.plan import Point
 from ..connectors.landings import is_near_landing
 from .noise import NOISE_ENTRIES, NOISE_TABLE
 from .rows import Row

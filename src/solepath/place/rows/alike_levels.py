@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from math import fsum, hypot
 
-from ....events import Placed
-from ....floorplan.index import IndexedPlan
-from ....floorplan.plan import Point
+from ...events import Placed
+from ...floorplan.index import IndexedPlan
+from ...floorplan.plan import Point
 from ..place_hypotheses import MAX_MOVE
 from .rows import CANDIDATE_RADIUS, MIN_CANDIDATE_WEIGHT, Row, resample_rows
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import atan2, cos, degrees, fsum, hypot, inf, pi, radians, sin
 
-from ...events import PlanContradicted
-from ...floorplan.plan import ConnectorKind, FloorPlan
+from ..events import PlanContradicted
+from ..floorplan.plan import ConnectorKind, FloorPlan
 from .arrivals import START_HEADING_ERROR, Heading
 from .connectors.landings import HEIGHT_ERROR, HEIGHT_ERROR_SHARE, list_landings, usual_rise
 from .connectors.level_changes import LevelReached

@@ -8,9 +8,9 @@ from __future__ import annotations
 from math import atan2, cos, fsum, hypot, sin, sqrt
 from struct import Struct
 
-from ....events import Candidate
-from ....floorplan.plan import FloorPlan
-from ....types.attrs import evolve
+from ...events import Candidate
+from ...floorplan.plan import FloorPlan
+from ...types.attrs import evolve
 
 Row = tuple[float, float, float, float, float, int, int, int]
 """One hypothesis: x, y, a, b, weight, level, origin, landing.

@@ -5,10 +5,10 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from math import cos, fsum, hypot, pi, sin
 
-from ...floorplan.index import IndexedPlan
-from ...floorplan.plan import Point
-from ...types.attrs import define, field, frozen
-from ..part import Part
+from ..body.part import Part
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import Point
+from ..types.attrs import define, field, frozen
 from .rows.noise import NOISE_ENTRIES, NOISE_TABLE, next_random
 from .rows.rows import Row, resample_rows, round_rows
 

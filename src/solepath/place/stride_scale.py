@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from math import hypot
 
-from ...events import StrideTaken
-from ...types import Foot, Vec3
-from ...types.attrs import define, field
+from ..events import StrideTaken
+from ..types import Foot, Vec3
+from ..types.attrs import define, field
 
 SCALE_GAIN = 0.06
 """Gain of the scale's low-pass filter for one comparison."""

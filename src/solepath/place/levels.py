@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from math import fsum, hypot, isfinite, pi
 
-from ...events import PlanContradicted, TrackRevised, WearerMoved
-from ...floorplan.index import IndexedPlan
-from ...floorplan.plan import ConnectorKind, FloorPlan, Point
-from ...types import Vec3
-from ...types.attrs import define, evolve, field
-from ...types.vector import ZERO
+from ..events import PlanContradicted, TrackRevised, WearerMoved
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import ConnectorKind, FloorPlan, Point
+from ..types import Vec3
+from ..types.attrs import define, evolve, field
+from ..types.vector import ZERO
 from .arrivals import (
     EXIT_TIMES,
     START_HEADING_ERROR,

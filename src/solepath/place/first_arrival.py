@@ -7,7 +7,7 @@ rows start once more from all exits, follow the track since then, and those that
 
 from __future__ import annotations
 
-from ...types.attrs import define, evolve
+from ..types.attrs import define, evolve
 from .connectors.level_changes import LevelReached
 
 STRIDES = (8, 16)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import fsum
 
-from ....floorplan.plan import ConnectorKind, FloorPlan
-from ....types.attrs import frozen
+from ...floorplan.plan import ConnectorKind, FloorPlan
+from ...types.attrs import frozen
 from .landings import MAX_STOREY_HEIGHT, MIN_STOREY_HEIGHT
 from .passage import RISER_HEIGHT
 

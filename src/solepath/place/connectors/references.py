@@ -13,10 +13,10 @@ from __future__ import annotations
 from collections import deque
 from math import hypot, inf, isfinite
 
-from ....events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
-from ....floorplan.plan import ConnectorKind, FloorPlan
-from ....types import Activity, Foot, Vec3
-from ....types.attrs import define, field
+from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
+from ...floorplan.plan import ConnectorKind, FloorPlan
+from ...types import Activity, Foot, Vec3
+from ...types.attrs import define, field
 from .level_changes import (
     FAIR_CERTAINTY,
     HALF_CERTAINTY,

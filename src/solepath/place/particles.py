@@ -6,9 +6,9 @@ the wearer. Random numbers come from a table (noise.py), so they are equal on ev
 
 from __future__ import annotations
 
-from ...floorplan.index import IndexedPlan
-from ...floorplan.plan import Point
-from ...types.attrs import define
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import Point
+from ..types.attrs import define
 from .placing import Placing
 from .rows.noise import NOISE_ENTRIES, NOISE_TABLE, next_random
 from .rows.rows import Row, resample_rows

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from math import atan2, exp, fsum, hypot
 
-from ...events import PositionRejected, PositionReported
-from ...floorplan.index import IndexedPlan
-from ...floorplan.plan import Point, Start
-from ..fuse.position_covariance import LEAST_WAY, POSITION_GATE
+from ..body.fuse.position_covariance import LEAST_WAY, POSITION_GATE
+from ..events import PositionRejected, PositionReported
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import Point, Start
 from .arrivals import EXIT_ERROR, START_HEADING_ERROR, Heading, Scatter, spread_rows, start_error
 from .levels import KNOWN_ROWS
 from .rows.rows import MAX_DISTANCE, Row

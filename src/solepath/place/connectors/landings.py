@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from math import exp, hypot
 
-from ....floorplan.index import IndexedPlan
-from ....floorplan.plan import ConnectorKind, FloorPlan, Point
-from ....types.attrs import frozen
+from ...floorplan.index import IndexedPlan
+from ...floorplan.plan import ConnectorKind, FloorPlan, Point
+from ...types.attrs import frozen
 
 LANDING_REACH = 5.0
 """Largest distance between the track and the stairs or elevator that the wearer enters, m."""
