@@ -165,7 +165,7 @@ PARTS: dict[str, str] = {
     "Altitude": _BODY + "altitude",
     "FootClocks": _BODY + "checks.foot_clocks",
     "GaitCycles": _BODY + "gait.cycles",
-    "Particles": "place.particles",
+    "Particles": "place.placing",
     "KnownVelocity": _KUPT + "known_velocity",
     "SwingDedrift": _KUPT + "swing.dedrift",
     "SoftSwing": _KUPT + "swing.soft",

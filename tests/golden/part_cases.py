@@ -20,7 +20,7 @@ from solepath.body.part import ClockUnsettled, Notice, Part, PartInput, StartGiv
 from solepath.events import Defect
 from solepath.foot.view import FootView
 from solepath.papers.footstep_tracker.snake import SnakeGame
-from solepath.place.particles import Particles
+from solepath.place.placing import Particles
 from solepath.types.attrs import define
 
 

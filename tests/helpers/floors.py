@@ -40,7 +40,7 @@ from solepath.floorplan.plan import (
     Wall,
 )
 from solepath.papers.footstep_tracker.snake import SnakeGame
-from solepath.place.particles import Particles
+from solepath.place.placing import Particles
 
 STOREY = 3.6
 WIDE, DEEP = 40.0, 30.0

@@ -12,7 +12,7 @@ from floors import FloorEvents, Method, follow, office, placed, tour
 from solepath import Event, PlanContradicted
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, FloorPlan
-from solepath.place.north import DECLINATION, heading_by_north
+from solepath.place.headings import DECLINATION, heading_by_north
 
 SEEDS = range(1, 5)
 BEARING = 0.6

@@ -84,10 +84,10 @@ def _codec(node: Node) -> tuple[_Saver, _Loader]:
             return (lambda word: word.value), partial(_load_enum, cls)
         case MaybeNode(of):
             return _maybe_codec(*_codec(of))
-        case TupleNode(items) if {*map(_is_float, items)} == {True}:
+        case TupleNode(items, make) if make is tuple and {*map(_is_float, items)} == {True}:
             return partial(_save_floats, len(items)), partial(_load_floats, tuple, len(items))
-        case TupleNode(items):
-            return _tuple_codec([_codec(item) for item in items])
+        case TupleNode(items, make):
+            return _tuple_codec(make, [_codec(item) for item in items])
         case SequenceNode(kind, of) if kind is not deque and _is_float(of):
             return partial(_save_floats, None), partial(_load_floats, kind, None)
         case SequenceNode(kind, of):
@@ -173,13 +173,13 @@ def _maybe_codec(save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader
     )
 
 
-def _tuple_codec(codecs: list[tuple[_Saver, _Loader]]) -> tuple[_Saver, _Loader]:
+def _tuple_codec(make: Any, codecs: list[tuple[_Saver, _Loader]]) -> tuple[_Saver, _Loader]:
     savers, loaders = [save_item for save_item, _ in codecs], [load_item for _, load_item in codecs]
 
-    def load_tuple(value: Any, classes: Classes) -> tuple[Any, ...]:
+    def load_tuple(value: Any, classes: Classes) -> Any:
         if len(_check_list(value)) != len(loaders):
             raise SnapshotError(f"expected {len(loaders)} items, found {len(value)}")
-        return tuple([load_item(item, classes) for load_item, item in zip(loaders, value, strict=True)])
+        return make([load_item(item, classes) for load_item, item in zip(loaders, value, strict=True)])
 
     return (lambda value: [save_item(item) for save_item, item in zip(savers, value, strict=True)]), load_tuple
 
@@ -224,7 +224,7 @@ def _pairs_codec(
     kind: type, save_key: _Saver, load_key: _Loader, save_item: _Saver, load_item: _Loader
 ) -> tuple[_Saver, _Loader]:
     """Return a codec that saves a dict as a list of pairs, since the keys of an object of JSON are strings."""
-    load_pairs = _sequence_codec(list, *_tuple_codec([(save_key, load_key), (save_item, load_item)]))[1]
+    load_pairs = _sequence_codec(list, *_tuple_codec(tuple, [(save_key, load_key), (save_item, load_item)]))[1]
     return (
         lambda value: [[save_key(key), save_item(item)] for key, item in value.items()],
         lambda value, classes: kind(dict(load_pairs(value, classes))),

@@ -114,7 +114,7 @@ class CodeGenerator:
                 variable = self.assign_name(value)
                 self.pending_numbers["M"].append(f"{variable} is not None")
                 self.add_block(f"if {variable} is not None:", (of, variable))
-            case TupleNode(items):
+            case TupleNode(items, _):
                 names = [self.new_name() for _ in items]
                 self.lines.append(f"[{', '.join(names)}] = {value}")
                 for item, variable in zip(items, names, strict=True):
@@ -173,12 +173,9 @@ class CodeGenerator:
             case MaybeNode(of):
                 presence = f"check_presence(m(), {t})" if _is_made(of) else "m()"
                 return f"({self.read_expression(of, t)} if {presence} else None)"
-            case TupleNode(items):
-                return (
-                    "("
-                    + "".join([self.read_expression(item, f"{t}[{k}]") + ", " for k, item in enumerate(items)])
-                    + ")"
-                )
+            case TupleNode(items, make):
+                values = "".join([self.read_expression(item, f"{t}[{k}]") + ", " for k, item in enumerate(items)])
+                return f"({values})" if make is tuple else f"{self.name_object('make', make)}(({values}))"
             case DictNode(key, of, kind):
                 inner = self.read_expression(of, f"{t}[k]")
                 pairs = f"{{(k := {self.read_expression(key, t)}): {inner} for _ in check_count(n())}}"
@@ -188,7 +185,7 @@ class CodeGenerator:
                 each = f"check_parts(n(), {t})" if _is_made(of) else "check_count(n())"
                 if _stream(of) == "F":
                     row = "take(F, n())"
-                elif isinstance(of, TupleNode) and {*map(_stream, of.items)} == {"F"}:
+                elif isinstance(of, TupleNode) and of.make is tuple and {*map(_stream, of.items)} == {"F"}:
                     row = f"rows(F, n(), {len(of.items)})"
                 else:
                     row = f"[{self.read_expression(of, 'i')} for i in {each}]"

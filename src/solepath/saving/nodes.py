@@ -33,9 +33,10 @@ class MaybeNode:
 
 @frozen(eq=False)
 class TupleNode:
-    """A tuple with one node for each item."""
+    """A tuple, which `make` makes of a list of its items, with one node for each item."""
 
     items: tuple[Node, ...]
+    make: Any = tuple
 
 
 @frozen(eq=False)

@@ -1,9 +1,9 @@
 """Schema of a record, from the type annotations of its class.
 
 A record is an attrs class, or a plain class with annotations in its body (a `ClassVar` is no field). A field may be a
-float, int, bool, string, bytes, enum member, another record, an optional of one of these, or a tuple, list, deque, dict
-or Counter of these. A record may be generic. Nothing else can be saved: generators, closures, rebound methods and
-arrays cannot.
+float, int, bool, string, bytes, enum member, another record, an optional of one of these, or a tuple, NamedTuple, list,
+deque, dict or Counter of these. A record may be generic. Nothing else can be saved: generators, closures, rebound
+methods and arrays cannot.
 
 An annotation that is a Protocol is *open*: the value is a record of any class. It is saved with the name of its class,
 and the caller of `load` passes a function that returns the class. A union of records is open too, but has only its own
@@ -180,6 +180,9 @@ class _SchemaBuilder:
             return SequenceNode(tuple, self.node(arguments[0], made))
         if origin is tuple:
             return TupleNode(tuple([self.node(argument, made) for argument in arguments]))
+        if make := getattr(hint, "_make", None):
+            items = typing.get_type_hints(hint).values()
+            return TupleNode(tuple([self.node(item, made) for item in items]), make)
         if origin in (list, deque):
             return SequenceNode(origin, self.node(arguments[0], made))
         if origin is dict:
@@ -261,7 +264,7 @@ def describe(*roots: RecordNode) -> dict[str, Any]:
                 return {"enum": name(cls)}
             case MaybeNode(of):
                 return {"maybe": kind(of)}
-            case TupleNode(items):
+            case TupleNode(items, _):
                 return {"tuple": [kind(item) for item in items]}
             case SequenceNode(cls, of):
                 return {"row" if cls is tuple else cls.__name__: kind(of)}

@@ -217,7 +217,7 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
     from ...floorplan.importers.reading import read_floorplan
     from ...floorplan.index import IndexedPlan
     from ...floorplan.plan import FloorPlanError
-    from ...place.arrivals import start_error
+    from ...place.placing import start_error
 
     start = None if options.start is None else start_of(options.start)
     if options.floorplan is None:
