@@ -47,8 +47,6 @@ _DIGITS = Struct("<eee")
 """Stored form of a, b and the weight of a particle: float16."""
 PLACES_PER_M = 128.0
 """Number of places of a particle in a metre, 1/m: 8 mm apart, a quarter of `PLACE_ERROR`, save 1 kB of a state."""
-MAX_COORDINATE = 2e7
-"""Largest coordinate of a particle, m: twice that of a plan."""
 MIN_WEIGHT = 1e-5
 """Least weight of a particle that is kept, as a share of the largest weight."""
 
@@ -67,17 +65,17 @@ def scaled(particles: list[Particle], factors: Iterable[float]) -> list[Particle
 
 
 def stored(particles: list[Particle]) -> list[Particle]:
-    """Return the particles as stored, with the largest weight scaled to 1, without those too far or too light.
+    """Return the particles as stored, with the largest weight scaled to 1, without those that are too light.
 
     a, b and the weight keep three digits, because no track is more accurate than 0.0005 rad, and x and y 1/128 m."""
     most = max([particle.weight for particle in particles], default=0.0)
     if not most > 0.0:
         return []
-    k, m, pack, unpack, far = 1.0 / most, PLACES_PER_M, _DIGITS.pack, _DIGITS.unpack, MAX_COORDINATE
+    k, m, pack, unpack = 1.0 / most, PLACES_PER_M, _DIGITS.pack, _DIGITS.unpack
     return [
         Particle._make((round(m * x) / m, round(m * y) / m, *unpack(pack(a, b, w * k)), level, origin, landing))
         for x, y, a, b, w, level, origin, landing in particles
-        if -far < x < far and -far < y < far and w * k > MIN_WEIGHT
+        if w * k > MIN_WEIGHT
     ]
 
 
@@ -125,15 +123,10 @@ def have_not_moved(particles: list[Particle], previous: list[Particle]) -> bool:
 NOISE_ENTRIES = 1021
 """Number of entries: a prime, so that no regular selection of entries repeats early."""
 _STEPS = (0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101)
-Noise = tuple[float, float, float, float]
-
-
-def _entry(k: int) -> Noise:
-    a, b, c, d = (2.0 * ((0.5 + k * step) % 1.0) - 1.0 for step in _STEPS)
-    return (a, b, c, d)
-
-
-NOISE_TABLE = tuple([_entry(k) for k in range(NOISE_ENTRIES)])
+Noise = tuple[float, ...]
+NOISE_TABLE: tuple[Noise, ...] = tuple(
+    [tuple([2.0 * ((0.5 + k * step) % 1.0) - 1.0 for step in _STEPS]) for k in range(NOISE_ENTRIES)]
+)
 """Table of quasi-random numbers; each entry has four numbers from -1 to 1."""
 
 
@@ -243,15 +236,11 @@ def _sway(
 def move_across_gap(plan: IndexedPlan, particles: list[Particle], move: Point, random: int) -> list[Particle]:
     """Return the particles after a gap that are within the plan; the straight line to them may cross walls."""
     error = GAP_ERROR * hypot(*move)
-    kept: list[Particle] = []
-    for k, particle in enumerate(particles):
-        x, y = particle.after(move)
-        for j in (0, 1):
-            ex, ey, _, _ = NOISE_TABLE[(random + 2 * k + j) % NOISE_ENTRIES]
-            nx, ny = x + error * ex, y + error * ey
-            if plan.inside(particle.level, nx, ny):
-                kept.append(particle._replace(x=nx, y=ny))
-    return kept
+    moved: list[Particle] = []
+    for k in range(2 * len(particles)):
+        (x, y), (ex, ey, _, _) = particles[k // 2].after(move), NOISE_TABLE[(random + k) % NOISE_ENTRIES]
+        moved.append(particles[k // 2]._replace(x=x + error * ex, y=y + error * ey))
+    return [one for one in moved if plan.inside(one.level, one.x, one.y)]
 
 
 WRONG_TURN_SHARE = 0.1
@@ -264,7 +253,7 @@ def after_wrong_turn(plan: IndexedPlan, particles: list[Particle], displacement:
     """Return a few particles of low weight in all headings, because the track's angle of an about-turn may be wrong.
 
     The walls decide between them. `displacement` is the track's since the turn, m."""
-    (dx, dy), added = displacement, list[Particle]()
+    (dx, dy), turned_back = displacement, list[Particle]()
     drawn = resample([particle for particle in particles if not particle.landing], PARTICLES_PER_HEADING)
     share = WRONG_TURN_SHARE * total_weight(particles) / (total_weight(drawn) or 1.0) / (HEADING_COUNT - 1)
     for k in range(1, HEADING_COUNT):
@@ -272,11 +261,15 @@ def after_wrong_turn(plan: IndexedPlan, particles: list[Particle], displacement:
             # evenly spaced over the sector of each heading
             turn = 2.0 * pi * (k + (j + 0.5) / len(drawn) - 0.5) / HEADING_COUNT
             c, s, (x, y), a, b = cos(turn), sin(turn), particle.after((-dx, -dy)), particle.a, particle.b
-            one = particle._replace(x=x, y=y, a=a * c - b * s, b=b * c + a * s, weight=share * particle.weight)
-            nx, ny = one.after(displacement)
-            if not plan.crosses(one.level, x, y, nx, ny):
-                added.append(one._replace(x=nx, y=ny))
-    return added
+            weight = share * particle.weight
+            turned_back.append(particle._replace(x=x, y=y, a=a * c - b * s, b=b * c + a * s, weight=weight))
+    return moved_freely(plan, turned_back, displacement)
+
+
+def moved_freely(plan: IndexedPlan, particles: list[Particle], move: Point) -> list[Particle]:
+    """Return the particles after a move of the track, m, without those that cross a wall."""
+    moved = [(one, *one.after(move)) for one in particles]
+    return [one._replace(x=x, y=y) for one, x, y in moved if not plan.crosses(one.level, one.x, one.y, x, y)]
 
 
 # Candidates: groups of particles that are near each other.
@@ -329,9 +322,8 @@ class _Group:
         """Return whether a particle of the level at this distance, squared, m^2, belongs to the group."""
         if distance2 >= CANDIDATE_RADIUS * CANDIDATE_RADIUS:
             return False
-        cosine = self.a * particle.a + self.b * particle.b
-        length = sqrt(particle.a * particle.a + particle.b * particle.b)
-        return distance2 < NARROW_RADIUS * NARROW_RADIUS or cosine > MIN_TURN_COSINE * self.length * length
+        length, cosine = hypot(particle.a, particle.b) * self.length, self.a * particle.a + self.b * particle.b
+        return distance2 < NARROW_RADIUS * NARROW_RADIUS or cosine > MIN_TURN_COSINE * length
 
 
 def _group(particles: list[Particle], limit: float) -> list[_Group]:

@@ -166,10 +166,7 @@ class StairSpan:
     """Time from which the activity was reported, s."""
     net_up: int = 0
     """Number of strides, or of reports without strides, upwards minus the number downwards."""
-    left: int = 0
-    """Number of strides of the left foot."""
-    right: int = 0
-    """Number of strides of the right foot."""
+    strides: int = 0
 
 
 @define
@@ -183,6 +180,10 @@ class Passage:
     """Position of the track at the start, m."""
     spans: list[StairSpan] = field(factory=list)
     """The stairs and flights that were reported of it, the oldest first."""
+    foot: Foot | None = None
+    """Foot of the newest stride on the stairs; None before any."""
+    both_feet: bool = False
+    """Flag: both feet have made strides on the stairs."""
     flight_height: float = 0.0
     """Sum of the heights of the flights, m, positive upwards."""
     t_left: float | None = None
@@ -206,21 +207,21 @@ class Passage:
         since = t if revises is None else min(t, revises)
         for span in self.spans:
             if span.t >= since:
-                strides = span.left + span.right
-                span.net_up = strides if up else -strides
-        self.spans = [*[span for span in self.spans if span.left + span.right], StairSpan(t)]
+                span.net_up = span.strides if up else -span.strides
+        self.spans = [*[span for span in self.spans if span.strides], StairSpan(t)]
         if len(self.spans) > MAX_SPANS:
             old, one = self.spans[:2]
-            merged = StairSpan(old.t, old.net_up + one.net_up, old.left + one.left, old.right + one.right)
-            self.spans[:2] = [merged]
+            self.spans[:2] = [StairSpan(old.t, old.net_up + one.net_up, old.strides + one.strides)]
 
     def add_direction(self, up: bool, foot: Foot | None = None) -> None:
         """Add a stride of a foot to the newest report, or a report of the direction alone if there is no foot."""
         if not self.spans:
             self.spans.append(StairSpan(self.t))
-        span = self.spans[-1]
-        span.net_up += 1 if up else -1
-        span.left, span.right = span.left + (foot is Foot.LEFT), span.right + (foot is Foot.RIGHT)
+        self.spans[-1].net_up += 1 if up else -1
+        if foot is not None:
+            self.spans[-1].strides += 1
+            self.both_feet = self.both_feet or self.foot not in (None, foot)
+            self.foot = foot
 
     def move(self, by: Point) -> None:
         """Move with the track by x and y, m."""
@@ -235,13 +236,12 @@ class Passage:
     @property
     def strides(self) -> int:
         """Number of strides of both feet on the stairs."""
-        return sum([span.left + span.right for span in self.spans])  # whole numbers
+        return sum([span.strides for span in self.spans])  # whole numbers
 
     def _risers(self, strides: float) -> float:
         """Return the height of the risers of this number of strides, m."""
         # a stride of one foot climbs two risers; with both feet there is a stride for each riser
-        both = any([span.left for span in self.spans]) and any([span.right for span in self.spans])
-        return self.riser * strides * (1.0 if both else 2.0)
+        return self.riser * strides * (1.0 if self.both_feet else 2.0)
 
     @property
     def _counted_height(self) -> float:

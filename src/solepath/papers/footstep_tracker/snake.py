@@ -18,7 +18,7 @@ from math import atan2
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
-from ...place.particles import Noise, Particle, next_random, resample, sway
+from ...place.particles import Noise, Particle, moved_freely, next_random, resample, sway
 from ...place.placing import Particles
 from ...types.attrs import define
 
@@ -59,8 +59,7 @@ class PrintedSnake(Particles):
     def extend(
         self, plan: IndexedPlan, particles: list[Particle], move: Point, error_factor: float, turn: float
     ) -> list[Particle]:
-        moved = [(one, *one.after(move)) for one in particles]
-        return [one._replace(x=x, y=y) for one, x, y in moved if not plan.crosses(one.level, one.x, one.y, x, y)]
+        return moved_freely(plan, particles, move)
 
     def scatter(self, k: int, count: int) -> Noise:
         return (0.0, 0.0, 0.0, 0.0)
