@@ -78,16 +78,16 @@ def leaving(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached, 
     landings = list_landings(plan.plan)
     exits = {at: weigh_exits(plan.plan, landings, landings[at - 1], arrived) for at in landings_of(changing)}
     found: list[Particle] = []
-    for k, (_, _, a, b, w, _, origin, at) in enumerate(changing):
+    for k, one in enumerate(changing):
         ex, ey, eh, es = NOISE_TABLE[(random + k) % NOISE_ENTRIES]
         turn, stretch = TURN_ERROR * eh, 1.0 + STRETCH_ERROR * es
-        a, b = stretch * (a - b * turn), stretch * (b + a * turn)
-        for landing, share in exits[at]:
-            (px, py), level = landing.place, landing.level
-            x, y = px + EXIT_ERROR * ex, py + EXIT_ERROR * ey
-            if plan.crosses(level, px, py, x, y):
-                x, y = px, py
-            found.append(Particle(x, y, a, b, w * share, level, origin or landing.connector + 1))
+        a, b = stretch * (one.a - one.b * turn), stretch * (one.b + one.a * turn)
+        for landing, share in exits[one.landing]:
+            x, y = landing.place[0] + EXIT_ERROR * ex, landing.place[1] + EXIT_ERROR * ey
+            if plan.crosses(landing.level, *landing.place, x, y):
+                x, y = landing.place
+            origin = one.origin or landing.connector + 1
+            found.append(Particle(x, y, a, b, one.weight * share, landing.level, origin))
     return found
 
 
@@ -122,19 +122,22 @@ def levels_on_the_way(
     """Return the particles, those that change level with a level, and their heights, m, by landing of entry.
 
     The level is the nearer one; about half-way, particles alternate between both. Heights end at the next landing."""
-    landings, up = list_landings(plan), passage is not None and passage.net_up > 0
+    landings, up, height = list_landings(plan), False, 0.0
+    if passage is not None:
+        up, height = passage.net_up > 0, passage.height(here.position) or 0.0
     heights: dict[int, float] = {}
     levels: dict[int, tuple[int, int]] = {}
     for index in landings_of(particles):
         entered = landings[index - 1]
         exits = find_exits(plan, landings, entered, up) or find_exits(plan, landings, entered, not up)
-        heights[index], levels[index] = entered.elevation, (entered.level, entered.level)
-        if passage is not None and exits:
-            rise, above = min([(abs(one.elevation - entered.elevation), one.level) for one, _ in exits])
-            climbed = min(passage.height(here.position) or 0.0, rise)
-            heights[index] += climbed if plan.levels[above].elevation > entered.elevation else -climbed
-            first = entered.level if climbed < BOTH_LEVELS_LIMITS[1] * rise else above
-            levels[index] = (first, above if climbed > BOTH_LEVELS_LIMITS[0] * rise else entered.level)
+        next_one = min([one for one, _ in exits], key=entered.distance, default=entered)
+        rise = entered.distance(next_one)
+        climbed = min(height, rise)
+        heights[index] = entered.elevation + (climbed if next_one.elevation > entered.elevation else -climbed)
+        levels[index] = (
+            entered.level if climbed < BOTH_LEVELS_LIMITS[1] * rise else next_one.level,
+            next_one.level if climbed > BOTH_LEVELS_LIMITS[0] * rise else entered.level,
+        )
     if not levels:
         return particles, heights
     with_levels = [

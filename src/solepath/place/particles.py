@@ -313,17 +313,16 @@ class _Group:
             self.weight, self.x, self.y = self.weight * ratio, self.x * ratio, self.y * ratio
             self.a, self.b, self.length = self.a * ratio, self.b * ratio, self.length * ratio
 
-    def distance2(self, particle: Particle) -> float:
-        """Return the square of a particle's distance from the mean of the group, m^2."""
-        ex, ey = self.x / self.weight - particle.x, self.y / self.weight - particle.y
-        return ex * ex + ey * ey
+    def distance(self, particle: Particle) -> float:
+        """Return the distance of a particle from the mean of the group, m."""
+        return hypot(self.x / self.weight - particle.x, self.y / self.weight - particle.y)
 
-    def accepts(self, particle: Particle, distance2: float) -> bool:
-        """Return whether a particle of the level at this distance, squared, m^2, belongs to the group."""
-        if distance2 >= CANDIDATE_RADIUS * CANDIDATE_RADIUS:
+    def accepts(self, particle: Particle) -> bool:
+        """Return whether a particle is of the level and near enough to belong to the group."""
+        if particle.level != self.first.level:
             return False
-        length, cosine = hypot(particle.a, particle.b) * self.length, self.a * particle.a + self.b * particle.b
-        return distance2 < NARROW_RADIUS * NARROW_RADIUS or cosine > MIN_TURN_COSINE * length
+        cosine = (self.a * particle.a + self.b * particle.b) / (self.length * hypot(particle.a, particle.b))
+        return self.distance(particle) < (CANDIDATE_RADIUS if cosine > MIN_TURN_COSINE else NARROW_RADIUS)
 
 
 def _group(particles: list[Particle], limit: float) -> list[_Group]:
@@ -338,13 +337,17 @@ def _group(particles: list[Particle], limit: float) -> list[_Group]:
             return [whole]
     groups: list[_Group] = []
     for particle in sorted(particles, key=lambda one: one.weight, reverse=True):
-        distances = [(group.first.level != particle.level, group.distance2(particle), group) for group in groups]
-        if len(groups) < MAX_CANDIDATES:
-            distances = [one for one in distances if not one[0] and one[2].accepts(particle, one[1])]
-        if not distances:
-            distances = [(False, 0.0, _Group(particle))]
-            groups.append(distances[0][2])
-        min(distances, key=lambda one: one[:2])[2].add(particle)
+        is_full, level = len(groups) >= MAX_CANDIDATES, particle.level
+        near = [
+            (one.first.level != level, one.distance(particle), one)
+            for one in groups
+            if is_full or one.accepts(particle)
+        ]
+        if near:
+            min(near, key=lambda one: one[:2])[2].add(particle)
+        else:
+            groups.append(_Group(particle))
+            groups[-1].add(particle)
     return groups
 
 
@@ -365,12 +368,12 @@ def candidates_of(
     shares = [round(group.weight / total, 5) for group in groups[1:]]
     candidates = []
     for group, share in zip(groups, (1.0 - fsum(shares), *shares), strict=True):
-        _, _, _, _, _, level, origin, landing = group.first
-        height = heights.get(landing, plan.levels[level].elevation) if track_height is None else track_height
+        level, origin = plan.levels[group.first.level], group.first.origin
+        height = heights.get(group.first.landing, level.elevation) if track_height is None else track_height
         position = (round(x0 + group.x / group.weight, 3), round(y0 + group.y / group.weight, 3), round(height, 3))
         heading = round(atan2(group.b, group.a), 4) if hypot(group.a, group.b) > 0.5 * group.length else None
         name = plan.connectors[origin - 1].name if origin else "start"
-        candidates.append(Candidate(plan.levels[level].id, position, heading, share, name))
+        candidates.append(Candidate(level.id, position, heading, share, name))
     x, y = groups[0].x / groups[0].weight, groups[0].y / groups[0].weight
     squares = fsum([one.weight * ((one.x - x) ** 2 + (one.y - y) ** 2) for one in particles])
     return tuple(candidates), sqrt(squares / total)

@@ -395,7 +395,7 @@ class Particles(Part):
             else:
                 what += " and the plan has neither stairs nor lifts: the place cannot be known"
         self.last_place = (x, y)
-        return [PlaceLost(t=here.t, known_at=known_at, what=what)]
+        return [self._lose(here, known_at, what)]
 
     def _displacement_since(self, t: float) -> Point:
         """Return the displacement of the track since `t`, s, in m."""
@@ -467,14 +467,13 @@ class Particles(Part):
             self.particles = stored(particles)
         if not is_small:
             self.particles = stored(self.thin(particles, count))
-        room, door = plan.room(level, x, y), plan.door(level, x, y)
         self.place = Placed(
             t=here.t,
             known_at=known_at,
             level=heaviest.level,
             position=heaviest.position,
-            room=room,
-            door=door,
+            room=plan.room(level, x, y),
+            door=plan.door(level, x, y),
             spread=spread,
             candidates=candidates,
         )
@@ -532,8 +531,8 @@ class Particles(Part):
         changing = changing or self._entering(plan, staying, arrived)
         total, landings = total_weight(staying), list_landings(plan.plan)
         is_same_climb = self.arrived_at is not None and arrived.t_start < self.arrived_at + SAME_STAIRS_TIME
-        exits = [find_exits(plan.plan, landings, landings[at - 1], arrived.up) for at in landings_of(changing)]
-        if changing and is_same_climb and not any(exits):
+        entered = [landings[at - 1] for at in landings_of(changing)]
+        if is_same_climb and entered and not any([find_exits(plan.plan, landings, at, arrived.up) for at in entered]):
             self.particles = stored(staying)  # the rest of a climb that already counted as a whole storey
             return
         self.random = next_random(self.random)
@@ -575,13 +574,12 @@ class Particles(Part):
         for index in sorted(weights):
             landing, share = landings[index - 1], weights[index] / total
             count = max(int(most * sqrt(weights[index]) / roots), 8)
-            ways: list[tuple[Heading | None, float]] = [(None, share)]
+            at = (plan, landing.level, landing.place, EXIT_ERROR)
             if heading is not None:
-                known = share * (1.0 - ANY_HEADING_SHARE)
-                count, ways = count // 2, [(heading, known), (None, share * ANY_HEADING_SHARE)]
-            for way, weight in ways:
-                level, origin = landing.level, landing.connector + 1
-                particles += self._spread(plan, level, landing.place, EXIT_ERROR, way, count, weight, origin)
+                count, known = count // 2, share * (1.0 - ANY_HEADING_SHARE)
+                particles += self._spread(*at, heading, count, known, landing.connector + 1)
+                share *= ANY_HEADING_SHARE
+            particles += self._spread(*at, None, count, share, landing.connector + 1)
         return particles
 
     def _revise_direction(self) -> None:
@@ -636,41 +634,44 @@ class Particles(Part):
         rejected again, and nothing is added."""
         if not self.references.track and self.start is not None and self.start.place is not None:
             return []
-        (px, py), particles, other = place, self.particles, None
-        if self.rejected is not None and _distance(self.last_place, self.rejected[1]) < LEAST_WAY:
-            other = self.rejected[0]
-        again = other is not None and _distance(place, other) < LEAST_WAY
-        fault, distance = start_error(plan, Start(event.level, place)), 0.0
-        if fault is None:
-            level, sigma = plan.number(event.level), max(event.sigma, EXIT_ERROR)
-            heading, variance = self.known.heading, sigma * sigma + PARTICLE_SIGMA * PARTICLE_SIGMA
-            there = [one for one in particles if one.level == level or one.landing]
-            squares = [(one.x - px) ** 2 + (one.y - py) ** 2 for one in there]
-            distance = min([hypot(one.x - px, one.y - py) for one in there], default=NOWHERE_NEAR)
-            if not particles:
-                found = self._spread(plan, level, place, sigma, heading, self.settings.max_particles)
-            elif distance * distance < POSITION_GATE * variance and not again:
-                # the nearest particle keeps its weight, so that it does not become 0 by rounding
-                found = scaled(there, [exp(-0.5 * (one - distance * distance) / variance) for one in squares])
-            else:
-                fault, found = f"the nearest is {distance:.0f} m away" if there else "none is on this level", particles
-                fault = "it was rejected just before" if again else fault
-                if not again:
-                    sines = fsum([one.weight * one.b for one in particles])
-                    usual = atan2(sines, fsum([one.weight * one.a for one in particles]))
-                    weight = REPORTED_SHARE * total_weight(particles)
-                    found = particles + self._spread(
-                        plan, level, place, sigma, (usual, START_HEADING_ERROR), KNOWN_PARTICLES, weight
-                    )
-                fault = (
-                    f"the track may have led to several places on the plan, but not to this one: {fault}. If it is "
-                    "right, report another place further on: two that agree are believed"
-                )
-            self.set_particles(found)
-        if fault is None:
-            self.rejected, self.unmapped, self.first_arrival = None, [], None
-            return []
-        self.rejected, what = (place, self.last_place), fault.removeprefix("start: ")
+        fault = start_error(plan, Start(event.level, place))
+        if fault is not None:
+            return self._reject(event, place, 0.0, fault.removeprefix("start: "))
+        level, sigma, particles = plan.number(event.level), max(event.sigma, EXIT_ERROR), self.particles
+        variance = sigma * sigma + PARTICLE_SIGMA * PARTICLE_SIGMA
+        there = [one for one in particles if one.level == level or one.landing]
+        distances = [_distance((one.x, one.y), place) for one in there]
+        distance, again = min(distances, default=NOWHERE_NEAR), False
+        if self.rejected is not None:
+            before, track = self.rejected
+            again = max(_distance(self.last_place, track), _distance(place, before)) < LEAST_WAY
+        if not particles:
+            count = self.settings.max_particles
+            self.particles = stored(self._spread(plan, level, place, sigma, self.known.heading, count))
+        elif distance * distance < POSITION_GATE * variance and not again:
+            # the nearest particle keeps its weight, so that it does not become 0 by rounding
+            self.particles = stored(
+                scaled(there, [exp(-0.5 * (one * one - distance * distance) / variance) for one in distances])
+            )
+        else:
+            where = f"the nearest is {distance:.0f} m away" if there else "none is on this level"
+            if not again:
+                sines = fsum([one.weight * one.b for one in particles])
+                usual = atan2(sines, fsum([one.weight * one.a for one in particles])), START_HEADING_ERROR
+                weight = REPORTED_SHARE * total_weight(particles)
+                added = self._spread(plan, level, place, sigma, usual, KNOWN_PARTICLES, weight)
+                self.set_particles(particles + added)
+            what = (
+                "the track may have led to several places on the plan, but not to this one: "
+                f"{'it was rejected just before' if again else where}. If it is right, report another place further on: "
+                "two that agree are believed"
+            )
+            return self._reject(event, place, distance, what)
+        self.rejected, self.unmapped, self.first_arrival = None, [], None
+        return []
+
+    def _reject(self, event: PositionReported, place: Point, distance: float, what: str) -> list[Event]:
+        self.rejected = (place, self.last_place)
         return [PositionRejected(t=event.t, known_at=event.known_at, distance=distance, sigma=event.sigma, what=what)]
 
 

@@ -55,10 +55,14 @@ class Landing:
     place: Point
     """Place, m, plan frame."""
 
+    def distance(self, to: Landing) -> float:
+        """Return the difference of the elevations, m."""
+        return abs(to.elevation - self.elevation)
+
     def rise(self, plan: FloorPlan, to: Landing) -> tuple[float, float]:
         """Return the least and the largest height up or down to a landing, m; equal when the plan has heights."""
         if plan.heights_known:
-            return (abs(to.elevation - self.elevation),) * 2
+            return (self.distance(to),) * 2
         storeys = max(abs(to.ordinal - self.ordinal), 1)
         return MIN_STOREY_HEIGHT * storeys, MAX_STOREY_HEIGHT * storeys
 
@@ -133,7 +137,7 @@ def storeys_of(plan: FloorPlan, levels: frozenset[int], up: bool | None = None) 
     known = [plan.connectors[a.connector].flights for a, _ in pairs]
     flights = None if None in known else min([number for number in known if number is not None])
     if plan.heights_known:
-        rises = tuple(sorted({round(abs(b.elevation - a.elevation), 3) for a, b in pairs}))
+        rises = tuple(sorted({round(a.distance(b), 3) for a, b in pairs}))
         return Storeys(rises[0], rises[-1], rises, flights)
     return Storeys(MIN_STOREY_HEIGHT, max([a.rise(plan, b)[1] for a, b in pairs]), (), flights)
 
