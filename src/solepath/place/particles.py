@@ -178,58 +178,47 @@ def sway(
 
     `error_factor` multiplies the track's usual errors, `turn` is the size of the wearer's turn, rad, and `random` the
     first index in the table. With `both_sides`, a particle at a wall continues on both sides, not only the free one."""
-    error = error_factor * (HEADING_NOISE + TURN_NOISE * turn)
-    return _sway(plan, particles, move, error_factor, error, random, both_sides, BEND_ANGLES) or _sway(
-        plan, particles, move, 2.0 * error_factor, 2.0 * error, random + 499, both_sides, WIDE_BEND_ANGLES
-    )
-
-
-def _sway(
-    plan: IndexedPlan,
-    particles: list[Particle],
-    move: Point,
-    error_factor: float,
-    turn: float,
-    random: int,
-    both_sides: bool,
-    bends: tuple[float, ...],
-) -> list[Particle]:
-    (dx, dy), k, crosses = move, random % NOISE_ENTRIES, plan.crosses
-    move_error, stretch = error_factor * (MOVE_ERROR * hypot(dx, dy) + PLACE_ERROR), error_factor * STRETCH_NOISE
+    crosses = plan.crosses
     kept: list[Particle] = []
-    blocked: list[Particle] = []
-    noise = chain(NOISE_TABLE[k + 1 :], cycle(NOISE_TABLE))
-    for particle, (ex, ey, eh, es) in zip(particles, noise, strict=False):
-        x, y, a, b, w, level, origin, _ = particle
-        s = 1.0 + STRETCH_DECAY * (1.0 - a * a - b * b) + stretch * es
-        h = turn * eh
-        a1, b1 = a * s - b * h, b * s + a * h
-        nx, ny = x + a1 * dx - b1 * dy + move_error * ex, y + b1 * dx + a1 * dy + move_error * ey
-        if crosses(level, x, y, nx, ny):
-            blocked.append(particle)
-        else:
-            kept.append(Particle(nx, ny, a1, b1, w, level, origin))
-    k += len(particles)
-    for x, y, a, b, weight, level, origin, _ in blocked:
-        k = (k + 367) % NOISE_ENTRIES
-        ex, ey, eh, es = NOISE_TABLE[k]
-        count, side, w = len(kept), 1.0 if eh > 0.0 else -1.0, weight
-        for bend in bends:
-            w *= BEND_WEIGHT
-            # bend to one side, then to the other; the particle keeps the changed heading
-            for h in (side * bend, -side * bend):
-                h, s = h + turn * es, 1.0 - 0.5 * h * h
-                a1, b1 = a * s - b * h, b * s + a * h
-                nx, ny = x + a1 * dx - b1 * dy + 2.0 * move_error * ex, y + b1 * dx + a1 * dy + 2.0 * move_error * ey
-                if not crosses(level, x, y, nx, ny):
-                    kept.append(Particle(nx, ny, a1, b1, w, level, origin))
-                    if not both_sides:
-                        break
-            if len(kept) > count:
-                break
-        else:
-            if any([hypot(px - x, py - y) < NEAR_LANDING for px, py in plan.stop_places[level]]):
-                kept.append(Particle(x, y, a, b, weight * STAY_WEIGHT, level, origin))
+    for k, factor, bends in ((random, error_factor, BEND_ANGLES), (random + 499, 2.0 * error_factor, WIDE_BEND_ANGLES)):
+        turn_error, stretch = factor * (HEADING_NOISE + TURN_NOISE * turn), factor * STRETCH_NOISE
+        move_error = factor * (MOVE_ERROR * hypot(*move) + PLACE_ERROR)
+        noise = chain(NOISE_TABLE[k % NOISE_ENTRIES + 1 :], cycle(NOISE_TABLE))
+        (dx, dy), blocked = move, list[Particle]()
+        for particle, (ex, ey, eh, es) in zip(particles, noise, strict=False):
+            x, y, a, b, w, level, origin, _ = particle
+            s = 1.0 + STRETCH_DECAY * (1.0 - a * a - b * b) + stretch * es
+            h = turn_error * eh
+            a1, b1 = a * s - b * h, b * s + a * h
+            nx, ny = x + a1 * dx - b1 * dy + move_error * ex, y + b1 * dx + a1 * dy + move_error * ey
+            if crosses(level, x, y, nx, ny):
+                blocked.append(particle)
+            else:
+                kept.append(Particle(nx, ny, a1, b1, w, level, origin))
+        k += len(particles)
+        for x, y, a, b, weight, level, origin, _ in blocked:
+            k += 367
+            ex, ey, eh, es = NOISE_TABLE[k % NOISE_ENTRIES]
+            count, side, w = len(kept), 1.0 if eh > 0.0 else -1.0, weight
+            for bend in bends:
+                w *= BEND_WEIGHT
+                # bend to one side, then to the other; the particle keeps the changed heading
+                for h in (side * bend, -side * bend):
+                    h, s = h + turn_error * es, 1.0 - 0.5 * h * h
+                    a1, b1 = a * s - b * h, b * s + a * h
+                    nx = x + a1 * dx - b1 * dy + 2.0 * move_error * ex
+                    ny = y + b1 * dx + a1 * dy + 2.0 * move_error * ey
+                    if not crosses(level, x, y, nx, ny):
+                        kept.append(Particle(nx, ny, a1, b1, w, level, origin))
+                        if not both_sides:
+                            break
+                if len(kept) > count:
+                    break
+            else:
+                if any([hypot(px - x, py - y) < NEAR_LANDING for px, py in plan.stop_places[level]]):
+                    kept.append(Particle(x, y, a, b, weight * STAY_WEIGHT, level, origin))
+        if kept:
+            break
     return kept
 
 

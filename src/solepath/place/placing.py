@@ -663,8 +663,8 @@ class Particles(Part):
                 self.set_particles(particles + added)
             what = (
                 "the track may have led to several places on the plan, but not to this one: "
-                f"{'it was rejected just before' if again else where}. If it is right, report another place further on: "
-                "two that agree are believed"
+                f"{'it was rejected just before' if again else where}. If it is right, report another place further "
+                "on: two that agree are believed"
             )
             return self._reject(event, place, distance, what)
         self.rejected, self.unmapped, self.first_arrival = None, [], None
