@@ -43,6 +43,7 @@ class Particle(NamedTuple):
         return self.x + self.a * dx - self.b * dy, self.y + self.b * dx + self.a * dy
 
 
+_new = tuple.__new__  # Particle(...) takes twice as long, where every particle is made anew
 _DIGITS = Struct("<eee")
 """Stored form of a, b and the weight of a particle: float16."""
 PLACES_PER_M = 128.0
@@ -73,7 +74,7 @@ def stored(particles: list[Particle]) -> list[Particle]:
         return []
     k, m, pack, unpack = 1.0 / most, PLACES_PER_M, _DIGITS.pack, _DIGITS.unpack
     return [
-        Particle._make((round(m * x) / m, round(m * y) / m, *unpack(pack(a, b, w * k)), level, origin, landing))
+        _new(Particle, (round(m * x) / m, round(m * y) / m, *unpack(pack(a, b, w * k)), level, origin, landing))
         for x, y, a, b, w, level, origin, landing in particles
         if w * k > MIN_WEIGHT
     ]
@@ -194,7 +195,7 @@ def sway(
             if crosses(level, x, y, nx, ny):
                 blocked.append(particle)
             else:
-                kept.append(Particle(nx, ny, a1, b1, w, level, origin))
+                kept.append(_new(Particle, (nx, ny, a1, b1, w, level, origin, 0)))
         k += len(particles)
         for x, y, a, b, weight, level, origin, _ in blocked:
             k += 367
@@ -209,7 +210,7 @@ def sway(
                     nx = x + a1 * dx - b1 * dy + 2.0 * move_error * ex
                     ny = y + b1 * dx + a1 * dy + 2.0 * move_error * ey
                     if not crosses(level, x, y, nx, ny):
-                        kept.append(Particle(nx, ny, a1, b1, w, level, origin))
+                        kept.append(_new(Particle, (nx, ny, a1, b1, w, level, origin, 0)))
                         if not both_sides:
                             break
                 if len(kept) > count:
@@ -271,6 +272,8 @@ MIN_TURN_COSINE = 0.87
 """Cosine of the largest angle between two headings of the track that count as nearly equal."""
 MAX_CANDIDATES = 16
 """Largest number of candidates; further particles are added to the nearest candidate."""
+FAR = 1e6
+"""Length that is added to the distance of a candidate on another level, m."""
 MIN_CANDIDATE_WEIGHT = 0.002
 """Least share of the weight of a candidate; lighter candidates are added to the heaviest."""
 
@@ -279,8 +282,11 @@ MIN_CANDIDATE_WEIGHT = 0.002
 class _Group:
     """Sums over particles of their weight, and of weighted x, y, a, b and length of (a, b)."""
 
-    first: Particle
-    """The first particle, which gives the level and where they come from."""
+    level: int
+    origin: int
+    """Where the first particle comes from."""
+    landing: int
+    """Landing of the first particle."""
     weight: float = 0.0
     x: float = 0.0
     y: float = 0.0
@@ -290,7 +296,7 @@ class _Group:
 
     def add(self, particle: Particle) -> None:
         x, y, a, b, w, level, _, _ = particle
-        if level == self.first.level:
+        if level == self.level:
             self.weight += w
             self.x += w * x
             self.y += w * y
@@ -302,23 +308,17 @@ class _Group:
             self.weight, self.x, self.y = self.weight * ratio, self.x * ratio, self.y * ratio
             self.a, self.b, self.length = self.a * ratio, self.b * ratio, self.length * ratio
 
-    def distance(self, particle: Particle) -> float:
-        """Return the distance of a particle from the mean of the group, m."""
-        return hypot(self.x / self.weight - particle.x, self.y / self.weight - particle.y)
-
-    def accepts(self, particle: Particle) -> bool:
-        """Return whether a particle is of the level and near enough to belong to the group."""
-        if particle.level != self.first.level:
-            return False
-        cosine = (self.a * particle.a + self.b * particle.b) / (self.length * hypot(particle.a, particle.b))
-        return self.distance(particle) < (CANDIDATE_RADIUS if cosine > MIN_TURN_COSINE else NARROW_RADIUS)
+    def has_heading(self, particle: Particle) -> bool:
+        """Return whether the heading of the track is nearly equal."""
+        cosine = self.a * particle.a + self.b * particle.b
+        return cosine > MIN_TURN_COSINE * self.length * hypot(particle.a, particle.b)
 
 
 def _group(particles: list[Particle], limit: float) -> list[_Group]:
     """Return all particles as one group when their rms deviation is below `limit`, m; else grouped by distance."""
     level = particles[0].level
     if all([particle.level == level for particle in particles]):
-        whole = _Group(particles[0])
+        whole = _Group(*particles[0][5:])
         for particle in particles:
             whole.add(particle)
         w, square = whole.weight, fsum([one.weight * (one.x * one.x + one.y * one.y) for one in particles])
@@ -326,17 +326,19 @@ def _group(particles: list[Particle], limit: float) -> list[_Group]:
             return [whole]
     groups: list[_Group] = []
     for particle in sorted(particles, key=lambda one: one.weight, reverse=True):
-        is_full, level = len(groups) >= MAX_CANDIDATES, particle.level
-        near = [
-            (one.first.level != level, one.distance(particle), one)
-            for one in groups
-            if is_full or one.accepts(particle)
-        ]
-        if near:
-            min(near, key=lambda one: one[:2])[2].add(particle)
-        else:
-            groups.append(_Group(particle))
-            groups[-1].add(particle)
+        x, y, level = particle.x, particle.y, particle.level
+        is_full, best = len(groups) >= MAX_CANDIDATES, None
+        nearest = 2.0 * FAR if is_full else CANDIDATE_RADIUS
+        for group in groups:
+            is_here = group.level == level
+            if is_here or is_full:
+                distance = hypot(group.x / group.weight - x, group.y / group.weight - y) + (0.0 if is_here else FAR)
+                if distance < nearest and (is_full or distance < NARROW_RADIUS or group.has_heading(particle)):
+                    best, nearest = group, distance
+        if best is None:
+            best = _Group(*particle[5:])
+            groups.append(best)
+        best.add(particle)
     return groups
 
 
@@ -357,8 +359,8 @@ def candidates_of(
     shares = [round(group.weight / total, 5) for group in groups[1:]]
     candidates = []
     for group, share in zip(groups, (1.0 - fsum(shares), *shares), strict=True):
-        level, origin = plan.levels[group.first.level], group.first.origin
-        height = heights.get(group.first.landing, level.elevation) if track_height is None else track_height
+        level, origin = plan.levels[group.level], group.origin
+        height = heights.get(group.landing, level.elevation) if track_height is None else track_height
         position = (round(x0 + group.x / group.weight, 3), round(y0 + group.y / group.weight, 3), round(height, 3))
         heading = round(atan2(group.b, group.a), 4) if hypot(group.a, group.b) > 0.5 * group.length else None
         name = plan.connectors[origin - 1].name if origin else "start"
