@@ -42,6 +42,10 @@ class Particle(NamedTuple):
         dx, dy = move
         return self.x + self.a * dx - self.b * dy, self.y + self.b * dx + self.a * dy
 
+    def weighing(self, weight: float) -> Particle:
+        """Return the particle with another weight."""
+        return _new(Particle, (*self[:4], weight, *self[5:]))
+
 
 _new = tuple.__new__  # Particle(...) takes twice as long, where every particle is made anew
 _DIGITS = Struct("<eee")
@@ -60,7 +64,7 @@ def total_weight(particles: Iterable[Particle]) -> float:
 def scaled(particles: list[Particle], factors: Iterable[float]) -> list[Particle]:
     """Return the particles, the weight of each times its factor."""
     return [
-        particle if k == 1.0 else particle._replace(weight=k * particle.weight)
+        particle if k == 1.0 else particle.weighing(k * particle.weight)
         for particle, k in zip(particles, factors, strict=False)
     ]
 
@@ -100,7 +104,7 @@ def resample(particles: list[Particle], count: int, offset: float = 0.5) -> list
     for root, particle in zip(roots, particles, strict=True):
         cumulative += root
         while threshold < cumulative and len(drawn) < count:
-            drawn.append(particle._replace(weight=root))
+            drawn.append(particle.weighing(root))
             threshold += step
     return drawn
 
@@ -114,7 +118,7 @@ def effective_count(particles: list[Particle]) -> float:
 def have_not_moved(particles: list[Particle], previous: list[Particle]) -> bool:
     """Return whether every particle has the place of a previous one."""
     places = {particle[:2] for particle in previous}
-    return all([particle[:2] in places for particle in particles])
+    return all(particle[:2] in places for particle in particles)
 
 
 # Quasi-random numbers: the additive recurrence of Roberts 2018 in four dimensions. They are fractional parts of
@@ -179,7 +183,7 @@ def sway(
 
     `error_factor` multiplies the track's usual errors, `turn` is the size of the wearer's turn, rad, and `random` the
     first index in the table. With `both_sides`, a particle at a wall continues on both sides, not only the free one."""
-    crosses = plan.crosses
+    crosses, new = plan.crosses, _new
     kept: list[Particle] = []
     for k, factor, bends in ((random, error_factor, BEND_ANGLES), (random + 499, 2.0 * error_factor, WIDE_BEND_ANGLES)):
         turn_error, stretch = factor * (HEADING_NOISE + TURN_NOISE * turn), factor * STRETCH_NOISE
@@ -195,22 +199,22 @@ def sway(
             if crosses(level, x, y, nx, ny):
                 blocked.append(particle)
             else:
-                kept.append(_new(Particle, (nx, ny, a1, b1, w, level, origin, 0)))
+                kept.append(new(Particle, (nx, ny, a1, b1, w, level, origin, 0)))
         k += len(particles)
         for x, y, a, b, weight, level, origin, _ in blocked:
             k += 367
             ex, ey, eh, es = NOISE_TABLE[k % NOISE_ENTRIES]
             count, side, w = len(kept), 1.0 if eh > 0.0 else -1.0, weight
+            error_x, error_y = 2.0 * move_error * ex, 2.0 * move_error * ey
             for bend in bends:
                 w *= BEND_WEIGHT
                 # bend to one side, then to the other; the particle keeps the changed heading
                 for h in (side * bend, -side * bend):
                     h, s = h + turn_error * es, 1.0 - 0.5 * h * h
                     a1, b1 = a * s - b * h, b * s + a * h
-                    nx = x + a1 * dx - b1 * dy + 2.0 * move_error * ex
-                    ny = y + b1 * dx + a1 * dy + 2.0 * move_error * ey
+                    nx, ny = x + a1 * dx - b1 * dy + error_x, y + b1 * dx + a1 * dy + error_y
                     if not crosses(level, x, y, nx, ny):
-                        kept.append(_new(Particle, (nx, ny, a1, b1, w, level, origin, 0)))
+                        kept.append(new(Particle, (nx, ny, a1, b1, w, level, origin, 0)))
                         if not both_sides:
                             break
                 if len(kept) > count:
@@ -272,8 +276,8 @@ MIN_TURN_COSINE = 0.87
 """Cosine of the largest angle between two headings of the track that count as nearly equal."""
 MAX_CANDIDATES = 16
 """Largest number of candidates; further particles are added to the nearest candidate."""
-FAR = 1e6
-"""Length that is added to the distance of a candidate on another level, m."""
+FAR = 1e10
+"""Area that is added to the square of the distance of a candidate on another level, m^2."""
 MIN_CANDIDATE_WEIGHT = 0.002
 """Least share of the weight of a candidate; lighter candidates are added to the heaviest."""
 
@@ -328,13 +332,15 @@ def _group(particles: list[Particle], limit: float) -> list[_Group]:
     for particle in sorted(particles, key=lambda one: one.weight, reverse=True):
         x, y, level = particle.x, particle.y, particle.level
         is_full, best = len(groups) >= MAX_CANDIDATES, None
-        nearest = 2.0 * FAR if is_full else CANDIDATE_RADIUS
+        nearest = 2.0 * FAR if is_full else CANDIDATE_RADIUS * CANDIDATE_RADIUS
         for group in groups:
             is_here = group.level == level
             if is_here or is_full:
-                distance = hypot(group.x / group.weight - x, group.y / group.weight - y) + (0.0 if is_here else FAR)
-                if distance < nearest and (is_full or distance < NARROW_RADIUS or group.has_heading(particle)):
-                    best, nearest = group, distance
+                ex, ey = group.x / group.weight - x, group.y / group.weight - y
+                square = ex * ex + ey * ey + (0.0 if is_here else FAR)
+                is_near = is_full or square < NARROW_RADIUS * NARROW_RADIUS
+                if square < nearest and (is_near or group.has_heading(particle)):
+                    best, nearest = group, square
         if best is None:
             best = _Group(*particle[5:])
             groups.append(best)

@@ -74,17 +74,17 @@ def merge(particles: list[Particle]) -> list[Particle]:
     """Merge particles of equal cell, heading and stretch into the heaviest of them, which gets the sum of weights."""
     heaviest: dict[tuple[int, int, int, int, int, int], Particle] = {}
     for particle in particles:
-        a, b, weight = particle.a, particle.b, particle.weight
+        x, y, a, b, weight, level, _, landing = particle
         key = (
-            particle.level,
-            particle.landing,
-            int(particle.x // CELL_SIZE),
-            int(particle.y // CELL_SIZE),
+            level,
+            landing,
+            int(x // CELL_SIZE),
+            int(y // CELL_SIZE),
             int(atan2(b, a) // HEADING_SECTOR),
             int((a * a + b * b) // (2.0 * STRETCH_INTERVAL)),  # the square varies twice as much as the stretch
         )
         other = heaviest.get(key)
         if other is not None:
-            particle = (particle if weight > other.weight else other)._replace(weight=weight + other.weight)
+            particle = (particle if weight > other.weight else other).weighing(weight + other.weight)
         heaviest[key] = particle
     return list(heaviest.values())
