@@ -38,7 +38,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = ROOT / ".mutations"
 SURVIVORS = Path(__file__).with_name("survivors.txt")
-ROOMS = ("wire", "link", "foot", "body", "floorplan", "papers", "session", "saving", "events", "recording")
+ROOMS = ("wire", "link", "foot", "body", "place", "floorplan", "papers", "session", "saving", "events", "recording")
 """Rooms that turn bytes into events; the place on a floor plan is in body."""
 MOST_SECONDS = 150.0
 """Time of the tests that are run against one bug, s; those that take longest are left out."""

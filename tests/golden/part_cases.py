@@ -17,10 +17,10 @@ from corpus import Case, given, kept, plain
 
 from solepath import Calibration, DefectFound, SampleGap, Session, Site, WearerMoved, recipes
 from solepath.body.part import ClockUnsettled, LayoutReported, Notice, Part, PartInput, StartGiven
-from solepath.body.place.particles import Particles
 from solepath.events import Defect
 from solepath.foot.view import FootView
 from solepath.papers.footstep_tracker.snake import SnakeGame
+from solepath.place.placing import Particles
 from solepath.types.attrs import define
 
 

@@ -45,11 +45,11 @@ from solepath import (
     read_floorplan,
 )
 from solepath.body.part import StartGiven
-from solepath.body.place.particles import Particles  # a track with known errors is given to it, without a session
 from solepath.floorplan.checks import find_fault, find_warnings
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlanError, Level, Wall
 from solepath.papers.footstep_tracker.snake import SnakeGame  # as Particles
+from solepath.place.placing import Particles  # a track with known errors is given to it, without a session
 from solepath.types import checking
 
 Place = tuple[float, float]

@@ -27,7 +27,6 @@ from solepath import (
     Vec3,
 )
 from solepath.body.part import Position, StartGiven
-from solepath.body.place.particles import Particles
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import (
     Anchor,
@@ -41,6 +40,7 @@ from solepath.floorplan.plan import (
     Wall,
 )
 from solepath.papers.footstep_tracker.snake import SnakeGame
+from solepath.place.placing import Particles
 
 STOREY = 3.6
 WIDE, DEEP = 40.0, 30.0

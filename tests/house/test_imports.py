@@ -21,8 +21,8 @@ from solepath.types.registry import TABLE, load
 
 ROOT = Path(solepath.__file__).parent
 
-CORE = {"types", "events", "saving", "calibration", "floorplan", "wire", "link", "foot", "body", "recipes", "papers",
-        "session"}  # fmt: skip
+CORE = {"types", "events", "saving", "calibration", "floorplan", "wire", "link", "foot", "body", "place",
+        "recipes", "papers", "session"}  # fmt: skip
 
 
 def rooms() -> dict[str, set[str]]:

@@ -41,9 +41,9 @@ from solepath import (
     recipes,
 )
 from solepath.body.part import Position, StartGiven
-from solepath.body.place.place_hypotheses import PlaceSettings
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
+from solepath.place.placing import PlaceSettings
 from solepath.saving import codec as machine
 from solepath.saving.schema import record_of
 from solepath.saving.streams import Lists, to_bytes
@@ -94,7 +94,7 @@ STARTS = st.one_of(
 @settings(max_examples=40)
 @given(start=STARTS, updates=UPDATES)
 def test_any_events_and_any_track_give_sound_events_and_no_exception(method, start, updates) -> None:  # type: ignore[no-untyped-def]
-    part = method(PlaceSettings(max_rows=60))
+    part = method(PlaceSettings(max_particles=60))
     if start is not None:
         told(part, StartGiven(start))
     for events, t, position in updates:
@@ -218,4 +218,4 @@ def square(side: float) -> FloorPlan:
 def test_a_start_of_what_is_no_number_is_the_callers_mistake() -> None:
     for start in (Start("0", (10.0, LOW), nan), Start("0", (nan, LOW)), Start("0", (10.0, LOW), 0.0, inf)):
         with pytest.raises(ValueError, match="start: "):
-            Session(floorplan=square(30.0), start=start)
+            Session(floorplan=office(), start=start)

@@ -10,9 +10,9 @@ from attrs import evolve
 from floors import FloorEvents, Method, follow, office, placed, tour
 
 from solepath import Event, PlanContradicted
-from solepath.body.place.north import DECLINATION, heading_by_north
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, FloorPlan
+from solepath.place.headings import DECLINATION, heading_by_north
 
 SEEDS = range(1, 5)
 BEARING = 0.6

@@ -17,11 +17,11 @@ from views import told
 from walks import insoles
 
 from solepath.body.part import StartGiven
-from solepath.body.place.particles import Particles
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
 from solepath.emulate import Route
 from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall, with_rooms
+from solepath.place.placing import Particles
 from solepath.show.places import PlaceCounts
 from solepath.show.tables.plan import PlanPicture
 from solepath.show.tables.summary import place_lines

@@ -76,7 +76,7 @@ def test_a_place_that_is_not_on_the_plan_is_rejected_with_the_reason(
 ) -> None:
     part.plan = indexed_office()
     (rejected,) = told(part, reported(1.0, place, level=level))
-    assert isinstance(rejected, PositionRejected) and word in rejected.what and not part.rows
+    assert isinstance(rejected, PositionRejected) and word in rejected.what and not part.particles
 
 
 def test_a_revision_of_the_track_moves_nobody_on_the_plan(part: Method) -> None:

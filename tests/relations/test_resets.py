@@ -105,7 +105,6 @@ StreamLink.restart_clock: off_rate_interval off_rate_packets packet_run* periodi
 StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped degraded* first_pitch flat_pitch
   heel_strike_pitch load_count load_sum next_pitch number peak_height peak_speed pitch pitch_high pitch_low pitches
   start t_heel_off t_heel_strike t_mid_stance t_pitch t_toe_off toe_off_pitch usual_flat_pitch usual_motion
-StrideScale.forget: factor
 StrideTemplate.reset: age bridged first_position infilled last_stride longest_stride stance_duration straight_on*
   t_last_flat t_next_moment
 StrideTurn.reset: stride_turn
@@ -129,7 +128,7 @@ ELSEWHERE = {
 }
 """Methods that go on with a packet, see the relations of streams; and those whose records are no state of a session: a
 device's setup and its watchdog (tests/link/test_device_setup.py), and a shoe's gauge (tests/papers/kupt_dfpc)."""
-ROOMS = ("link", "foot", "body", "floorplan", "papers", "session", "saving")
+ROOMS = ("link", "foot", "body", "place", "floorplan", "papers", "session", "saving")
 """Rooms whose records can be in the state of a session."""
 
 

@@ -8,7 +8,8 @@ import pytest
 from here import ROOT
 
 SRC = ROOT / "src" / "solepath"
-CORE = ("types", "wire", "link", "foot", "body", "session", "events", "saving", "calibration", "papers", "floorplan")
+CORE = ("types", "wire", "link", "foot", "body", "place", "session", "events", "saving", "calibration", "papers",
+        "floorplan")  # fmt: skip
 """Folders of what runs for a sample, or makes a state."""
 MARK = "# whole numbers"
 """Comment of a line that may use `sum` all the same."""

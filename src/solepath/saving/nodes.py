@@ -236,9 +236,10 @@ def _code(node: Node, value: str, made: str, names: dict[str, Any]) -> tuple[str
 
 @frozen(eq=False)
 class TupleNode(GeneratedNode):
-    """A tuple with one node for each item."""
+    """A tuple with one node for each item; `make` makes it of a list: `tuple`, or `_make` of a NamedTuple."""
 
     items: tuple[Node, ...]
+    make: Any = tuple
 
     def save(self, value: Any) -> Json:
         return [node.save(item) for node, item in zip(self.items, value, strict=True)]
@@ -246,13 +247,15 @@ class TupleNode(GeneratedNode):
     def load(self, value: Any, classes: Classes) -> Any:
         if len(_exact(list, value)) != len(self.items):
             raise SnapshotError(f"expected {len(self.items)} items, found {len(value)}")
-        return tuple([node.load(item, classes) for node, item in zip(self.items, value, strict=True)])
+        return self.make([node.load(item, classes) for node, item in zip(self.items, value, strict=True)])
 
     def _functions(self) -> Code:
-        names: dict[str, Any] = {}
+        names: dict[str, Any] = {"make": self.make}
         code = [_code(node, f"x{k}", f"t and t[{k}]", names) for k, node in enumerate(self.items)]
         start = f"[{', '.join([f'x{k}' for k, _ in enumerate(code)])}] = o"
-        return [start, *[line for line, _ in code]], [f"return ({''.join([f'{one}, ' for _, one in code])})"], names
+        made = f"({''.join([f'{one}, ' for _, one in code])})"
+        returned = made if self.make is tuple else f"make({made})"
+        return [start, *[line for line, _ in code]], [f"return {returned}"], names
 
 
 @frozen(eq=False)

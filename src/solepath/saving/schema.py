@@ -160,6 +160,8 @@ def _node(hint: Any, made: bool) -> Node:
         return record_of(hint, made)
     if origin is tuple and arguments[1:] != (...,):
         return TupleNode(tuple([_node(argument, made) for argument in arguments]))
+    if make := getattr(hint, "_make", None):
+        return TupleNode(tuple([_node(item, made) for item in typing.get_type_hints(hint).values()]), make)
     if origin in (tuple, list, deque):
         return RowNode(origin, _node(arguments[0], made), made)
     if origin in (dict, Counter):

@@ -49,7 +49,7 @@ TABLE: dict[str, dict[str, str]] = {
         "Altitude": "solepath.body.altitude:Altitude",
         "FootClocks": "solepath.body.checks.foot_clocks:FootClocks",
         "GaitCycles": "solepath.body.gait.cycles:GaitCycles",
-        "Particles": "solepath.body.place.particles:Particles",
+        "Particles": "solepath.place.placing:Particles",
         "KnownVelocity": "solepath.papers.kupt_dfpc.known_velocity:KnownVelocity",
         "SwingDedrift": "solepath.papers.kupt_dfpc.swing.dedrift:SwingDedrift",
         "SoftSwing": "solepath.papers.kupt_dfpc.swing.soft:SoftSwing",

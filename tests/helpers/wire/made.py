@@ -67,8 +67,8 @@ class Maker:
                 return self.words.choice([*cls])
             case MaybeNode(of):
                 return self.value(of) if self.shape.random() < 0.6 else None
-            case TupleNode(items):
-                return tuple([self.value(item) for item in items])
+            case TupleNode(items, make):
+                return make([self.value(item) for item in items])
             case RowNode(kind, of):
                 items = [self.value(of) for _ in range(self.shape.randrange(3))]
                 return deque(items, self.shape.choice([None, 5])) if kind is deque else kind(items)

@@ -8,7 +8,6 @@ import pytest
 from floors import indexed_office
 from walks import of, run_session
 
-from solepath.body.place.rows.rows import Row as PlaceRow
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import Imu, TriadErrors
 from solepath.emulate.wearers.walker import Walker
@@ -19,8 +18,9 @@ from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row
 from solepath.papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.papers.footstep_tracker.segment import FootAxes, StrideSegment
-from solepath.papers.footstep_tracker.snake import PrintedSnake, SnakeGame, moved_rows
+from solepath.papers.footstep_tracker.snake import PrintedSnake, SnakeGame
 from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
+from solepath.place.particles import Particle
 from solepath.types import Foot, Phase, Sample, Vec3
 from solepath.types.attrs import evolve
 from solepath.types.vector import GRAVITY, ZERO
@@ -95,12 +95,9 @@ def test_the_axis_of_the_foot_is_read_before_the_shoe_leaves_the_ground() -> Non
 
 def test_as_printed_a_wall_drops_a_candidate_and_changes_no_weight() -> None:
     # two candidates in the corridor at the bottom of the office: one walks along it, the other into a room's wall
-    along: PlaceRow = (10.0, 6.2, 1.0, 0.0, 0.25, 0, 0, 0)
-    across: PlaceRow = (10.0, 6.2, 0.0, 1.0, 0.75, 0, 0, 0)
-    kept = moved_rows(indexed_office(), [along, across], (2.0, 0.0))
-    assert kept == [(12.0, 6.2, 1.0, 0.0, 0.25, 0, 0, 0)]
+    along, across = Particle(10.0, 6.2, 1.0, 0.0, 0.25, 0), Particle(10.0, 6.2, 0.0, 1.0, 0.75, 0)
     game = PrintedSnake()
-    assert game.extend(indexed_office(), [along, across], (2.0, 0.0), 1.0, 0.0) == kept
+    assert game.extend(indexed_office(), [along, across], (2.0, 0.0), 1.0, 0.0) == [along._replace(x=12.0)]
     assert game.thin([along, across], 1) == [along, across]
     assert len(SnakeGame().extend(indexed_office(), [along], (2.0, 0.0), 1.0, pi)) == 1
 

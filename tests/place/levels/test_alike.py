@@ -5,8 +5,6 @@ from __future__ import annotations
 import pytest
 from floors import CORNERS, LOW, METHODS, RIGHT, WIDE, Method, Pedestrian, follow
 
-from solepath.body.place.rows.rows import Row
-
 ROUNDS = 3
 
 
@@ -16,9 +14,10 @@ def on_both_floors(part: Method, pedestrian: Pedestrian, share: float) -> None:
     pedestrian.walk((20.0, LOW))
     follow(part, pedestrian.received)
     pedestrian.received.clear()
-    rows: list[Row] = [(*row[:4], (1.0 - share) * row[4], *row[5:]) for row in part.rows]
-    other = 1 - rows[0][5]
-    part.set_rows(rows + [(*row[:4], share * row[4], other, *row[6:]) for row in part.rows[::3]])
+    staying = [one._replace(weight=(1.0 - share) * one.weight) for one in part.particles]
+    other = 1 - staying[0].level
+    moved = [one._replace(weight=share * one.weight, level=other) for one in part.particles[::3]]
+    part.set_particles(staying + moved)
 
 
 def weight_of(part: Method, level: str) -> float:

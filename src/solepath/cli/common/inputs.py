@@ -213,11 +213,11 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
     """Return the plan of --floorplan and the start of --start; print warnings about the plan on stderr.
 
     Failure is raised when the plan cannot be used, or when a walk cannot start at --start."""
-    from ...body.place.arrivals import start_error
     from ...floorplan.checks import find_warnings
     from ...floorplan.importers.reading import read_floorplan
     from ...floorplan.index import IndexedPlan
     from ...floorplan.plan import FloorPlanError
+    from ...place.placing import start_error
 
     start = None if options.start is None else start_of(options.start)
     if options.floorplan is None:

@@ -1,0 +1,262 @@
+"""Levels: what stairs and elevators make of particles, and levels between which walls cannot decide.
+
+Activities are uncertain: level walking may be reported as stairs, and stairs down as stairs up. Therefore, after a
+possible change of level, there are particles for both levels and both directions, each with its probability. The walls
+of the plan and later events decide between them."""
+
+from __future__ import annotations
+
+from math import exp, fsum, hypot, inf
+
+from ..events import Placed, PlanContradicted, WearerMoved
+from ..floorplan.index import IndexedPlan
+from ..floorplan.plan import ConnectorKind, FloorPlan, Point
+from .particles import (
+    CANDIDATE_RADIUS,
+    MAX_MOVE,
+    MIN_CANDIDATE_WEIGHT,
+    NOISE_ENTRIES,
+    NOISE_TABLE,
+    Particle,
+    resample,
+    scaled,
+    total_weight,
+)
+from .references import HEIGHT_ERROR, HEIGHT_ERROR_SHARE, Landing, LevelReached, Passage, find_exits, list_landings
+
+LANDING_REACH = 5.0
+"""Largest distance between the track and the stairs or elevator that the wearer enters, m."""
+DISTANCE_DEVIATION = 2.5
+"""Standard deviation of the distance between the track and the landing that is entered, m."""
+EXIT_ERROR = 0.5
+"""Largest distance between a landing and the place at which the wearer leaves it, on each axis, m."""
+TURN_ERROR, STRETCH_ERROR = 0.07, 0.02
+"""Largest errors of the track's heading, rad, and of its stretch that stairs or a ride add."""
+ON_STAIRS_WEIGHT = 2.0
+"""Likelihood of being on stairs divided by that of walking past them, when climbing is reported near stairs."""
+LEAST_OPPOSITE_SHARE = {ConnectorKind.STAIRS: 0.1, ConnectorKind.LIFT: 0.01}
+"""Least probability that the wearer's direction, up or down, is not the reported one: feet move alike in both."""
+BOTH_LEVELS_LIMITS = (0.3, 0.8)
+"""Limits, as shares of the climb to the next landing, between which the wearer may be on either level."""
+
+
+def entering(plan: FloorPlan, particles: list[Particle], kind: ConnectorKind, displacement: Point) -> list[Particle]:
+    """Return a particle that changes level for each particle near stairs or an elevator, as `kind` says.
+
+    `displacement` is that of the track since the change may have started, m."""
+    landings, back = list_landings(plan), (-displacement[0], -displacement[1])
+    found: list[Particle] = []
+    for particle in particles:
+        x, y = particle.after(back)
+        near = [
+            (hypot(one.place[0] - x, one.place[1] - y), one.index)
+            for one in landings
+            if one.kind is kind and one.level == particle.level
+        ]
+        distance, index = min(near, default=(inf, 0))
+        if distance <= LANDING_REACH:
+            likelihood = exp(-0.5 * (distance / DISTANCE_DEVIATION) ** 2)
+            weight = ON_STAIRS_WEIGHT * particle.weight * likelihood
+            found.append(particle._replace(weight=weight, landing=index))
+    return found
+
+
+def weigh_exits(
+    plan: FloorPlan, landings: list[Landing], entered: Landing, arrived: LevelReached
+) -> list[tuple[Landing, float]]:
+    """Return the possible exits after entering at a landing, each with its probability, in both directions."""
+    opposite = max(arrived.opposite_share, LEAST_OPPOSITE_SHARE[arrived.kind])
+    return [
+        (landing, likelihood * share)
+        for up, share in ((arrived.up, 1.0 - opposite), (not arrived.up, opposite))
+        for landing, likelihood in find_exits(plan, landings, entered, up, arrived.height, arrived.flights)
+    ]
+
+
+def leaving(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached, random: int) -> list[Particle]:
+    """Return a particle at each possible exit of each one that changes level; the other direction weighs less."""
+    landings = list_landings(plan.plan)
+    exits = {at: weigh_exits(plan.plan, landings, landings[at - 1], arrived) for at in landings_of(changing)}
+    found: list[Particle] = []
+    for k, one in enumerate(changing):
+        ex, ey, eh, es = NOISE_TABLE[(random + k) % NOISE_ENTRIES]
+        turn, stretch = TURN_ERROR * eh, 1.0 + STRETCH_ERROR * es
+        a, b = stretch * (one.a - one.b * turn), stretch * (one.b + one.a * turn)
+        for landing, share in exits[one.landing]:
+            x, y = landing.place[0] + EXIT_ERROR * ex, landing.place[1] + EXIT_ERROR * ey
+            if plan.crosses(landing.level, *landing.place, x, y):
+                x, y = landing.place
+            origin = one.origin or landing.connector + 1
+            found.append(Particle(x, y, a, b, one.weight * share, landing.level, origin))
+    return found
+
+
+def landings_of(particles: list[Particle]) -> list[int]:
+    """Return the indices of the landings at which particles change level."""
+    return sorted({particle.landing for particle in particles} - {0})
+
+
+def odds_of_reversal(plan: FloorPlan, changing: list[Particle], arrived: LevelReached) -> dict[int, float] | None:
+    """Return how a level's weight changes if the stairs are later reported in the other direction, by level.
+
+    Levels to which they lead in both directions are left out. None for a lift."""
+    if arrived.kind is ConnectorKind.LIFT:
+        return None
+    landings = list_landings(plan)
+    expected, opposite = [
+        {
+            one.level
+            for at in landings_of(changing)
+            for one, _ in find_exits(plan, landings, landings[at - 1], up, arrived.height)
+        }
+        for up in (arrived.up, not arrived.up)
+    ]
+    share = max(arrived.opposite_share, LEAST_OPPOSITE_SHARE[arrived.kind])
+    odds = share / (1.0 - share)
+    return {level: odds if level in expected else 1.0 / odds for level in sorted(expected ^ opposite)}
+
+
+def levels_on_the_way(
+    plan: FloorPlan, particles: list[Particle], passage: Passage | None, here: WearerMoved
+) -> tuple[list[Particle], dict[int, float]]:
+    """Return the particles, those that change level with a level, and their heights, m, by landing of entry.
+
+    The level is the nearer one; about half-way, particles alternate between both. Heights end at the next landing."""
+    landings, up, height = list_landings(plan), False, 0.0
+    if passage is not None:
+        up, height = passage.net_up > 0, passage.height(here.position) or 0.0
+    heights: dict[int, float] = {}
+    levels: dict[int, tuple[int, int]] = {}
+    for index in landings_of(particles):
+        entered = landings[index - 1]
+        exits = find_exits(plan, landings, entered, up) or find_exits(plan, landings, entered, not up)
+        next_one = min([one for one, _ in exits], key=entered.distance, default=entered)
+        rise = entered.distance(next_one)
+        climbed = min(height, rise)
+        heights[index] = entered.elevation + (climbed if next_one.elevation > entered.elevation else -climbed)
+        levels[index] = (
+            entered.level if climbed < BOTH_LEVELS_LIMITS[1] * rise else next_one.level,
+            next_one.level if climbed > BOTH_LEVELS_LIMITS[0] * rise else entered.level,
+        )
+    if not levels:
+        return particles, heights
+    with_levels = [
+        one._replace(level=levels[one.landing][k % 2]) if one.landing else one for k, one in enumerate(particles)
+    ]
+    return with_levels, heights
+
+
+# Rides that the plan does not have.
+
+HEIGHT_RATIO = 2.0
+"""Deviation of a ride's height from every one of the plan, as a ratio to its error, at which the plan contradicts it.
+
+With 2, half a storey of 2.7 m or more contradicts, and an error of 1.5 m does not."""
+
+
+def contradicted_height(
+    plan: FloorPlan, ride: LevelReached, particles: list[Particle], known_at: float
+) -> PlanContradicted | None:
+    """Return the event if no lift of the plan makes a ride of this height and direction from a particle's level.
+
+    If there are no particles, the place is not known, and any level counts."""
+    landings, levels = list_landings(plan), {particle.level for particle in particles}
+    if ride.kind is ConnectorKind.STAIRS or all([landing.kind is not ride.kind for landing in landings]):
+        return None
+    rides: list[tuple[float, float]] = []
+    for entered in landings:
+        if entered.kind is ride.kind and (not levels or entered.level in levels):
+            for left, _ in find_exits(plan, landings, entered, ride.up):
+                low, high = entered.rise(plan, left)
+                height = 0.5 * (low + high) if ride.height is None else ride.height
+                allowed = min(max(height, low), high)
+                rides.append((abs(height - allowed) / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low), allowed))
+    deviation, nearest = min(rides, default=(inf, 0.0))
+    if deviation <= HEIGHT_RATIO:
+        return None
+    direction = "up" if ride.up else "down"
+    way = direction if ride.height is None else f"{direction} by {ride.height:.1f} m"
+    fault = f"the plan has none that goes {direction}{' from there' if levels else ''}"
+    if rides:
+        fault = f"the nearest landing of the plan is at {nearest:.1f} m"
+    what = (
+        f"a lift went {way}, and {fault}: it has stopped between two landings, or the plan lacks one. The wearer may "
+        "be at the next landing or where they were"
+    )
+    off = round(ride.height - nearest, 3) if rides and ride.height is not None else None
+    return PlanContradicted(t=ride.t, known_at=max(ride.t, known_at), what=what, height_off=off)
+
+
+# Levels whose walls are alike where the wearer is: walls cannot decide between them.
+#
+# Each level has few particles, and which of them bend at a wall or end there is chance. Without a remedy the weights of
+# two equal floors walk at random in the course of a walk, until the true one is gone. Therefore the particles of alike
+# levels at one place keep the ratio of their weights in each move, unless their walls differ there. Stairs, lifts and
+# reported places still change it, and so does the fading of light levels (`FADE_FACTOR` in placing.py): this keeps an
+# open choice open, and fading ends one that is nearly made.
+
+PLACE_RADIUS = 2.0 * CANDIDATE_RADIUS
+"""Largest distance on each axis of particles at one place, m: twice that of a candidate, as they move apart."""
+EVERY = 5
+"""One of so many particles is moved on both levels to see whether their walls are alike (saves time)."""
+TWINS = 30
+"""Number of particles that an alike level gets when it has none left: as many as are kept for a light candidate."""
+
+
+def hold_alike_levels(
+    plan: IndexedPlan, before: list[Particle], after: list[Particle], move: Point, placed: Placed
+) -> list[Particle]:
+    """Return the particles `after` a move of the track, m, with the ratios that alike levels at one place had `before`.
+
+    The place is that which was reported before the move, and its level the one to which others are compared. If an
+    alike level has no particle left there, it gets those of this level. A move across a gap of the track passes walls,
+    so it changes nothing here."""
+    length, level = hypot(*move), before[0].level
+    if length > MAX_MOVE or all([particle.level == level for particle in before]):
+        return after
+    level, (x, y, _), (dx, dy) = plan.number(placed.level), placed.position, move
+    old = _near(before, x, y)
+    if len(old) < 2 or level not in old:
+        return after
+    # the place moves with its particles, otherwise those at its edge would leave it and seem to be gone
+    weight = total_weight(old[level])
+    x += fsum([one.weight * (one.a * dx - one.b * dy) for one in old[level]]) / weight
+    y += fsum([one.weight * (one.b * dx + one.a * dy) for one in old[level]]) / weight
+    new, around = _near(after, x, y), _near(after, x, y, PLACE_RADIUS + length)
+    if level not in new:
+        return after
+    factors: dict[int, float] = {}
+    twins: list[Particle] = []
+    new_weight = total_weight(new[level])
+    for other, particles in old.items():
+        share = total_weight(particles) / weight
+        if other == level or share < MIN_CANDIDATE_WEIGHT or not _are_alike(plan, old, move, level, other):
+            continue
+        if other in new:
+            factors[other] = share * new_weight / total_weight(new[other])
+        elif other not in around:
+            drawn = resample(new[level], TWINS)
+            k = share * new_weight / total_weight(drawn)
+            twins += [one._replace(weight=k * one.weight, level=other) for one in drawn]
+    if factors:
+        after = scaled(after, [factors.get(one.level, 1.0) if _is_near(one, x, y) else 1.0 for one in after])
+    return after + twins
+
+
+def _near(particles: list[Particle], x: float, y: float, radius: float = PLACE_RADIUS) -> dict[int, list[Particle]]:
+    """Return the particles near (x, y) that do not change level, by level."""
+    near: dict[int, list[Particle]] = {}
+    for particle in particles:
+        if _is_near(particle, x, y, radius):
+            near.setdefault(particle.level, []).append(particle)
+    return near
+
+
+def _is_near(particle: Particle, x: float, y: float, radius: float = PLACE_RADIUS) -> bool:
+    return not particle.landing and -radius < particle.x - x < radius and -radius < particle.y - y < radius
+
+
+def _are_alike(plan: IndexedPlan, near: dict[int, list[Particle]], move: Point, level: int, other: int) -> bool:
+    """Return whether the walls of two levels allow and stop the same moves of the particles on both."""
+    moves = [(one.x, one.y, *one.after(move)) for one in (near[level] + near[other])[::EVERY]]
+    return all([plan.crosses(level, *one) is plan.crosses(other, *one) for one in moves])

@@ -1,0 +1,584 @@
+"""References to a floor plan: climbs and rides, which are possible only on its stairs and in its elevators.
+
+Activities, rides, flights and the track give three kinds of references (Liu et al. 2015, section IV.E): the wearer may
+be changing level on stairs or in an elevator (`LevelChangePossible`), was not (`LevelChangeCancelled`), or has come to
+another level (`LevelReached`), with a certainty. A climb of half a storey leads to a half-way landing, and a short
+report of stairs on level ground is a mistake; both have a low certainty or none.
+
+Latency: an elevator ride is known with its event; if there is none, after two strides or `RIDE_END_TIME`. Stairs are
+known with the next activity, or up to `MAX_WAIT` s or `WAIT_DISTANCE` m later when the height fits no storey."""
+
+from __future__ import annotations
+
+from collections import deque
+from math import exp, fsum, hypot, inf, isfinite
+
+from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
+from ..floorplan.plan import ConnectorKind, FloorPlan, Point
+from ..types import Activity, Foot, Vec3
+from ..types.attrs import define, field, frozen
+
+# What the plan says about its stairs and elevators.
+
+HEIGHT_ERROR = 0.35
+"""Standard deviation of a reported height: constant part, m."""
+HEIGHT_ERROR_SHARE = 0.12
+"""Standard deviation of a reported height: part that grows with the height, m per m."""
+MIN_STOREY_HEIGHT, MAX_STOREY_HEIGHT = 2.4, 5.0
+"""Least and largest usual height of a storey, m."""
+WRONG_FLIGHT, MIN_FLIGHTS_LIKELIHOOD = 0.2, 0.04
+"""Likelihood of one flight too many or too few, as a landing of one stride hides it, and the least of any number
+(assumed; of 50 emulated walks the number was right in 48 or more, docs/activities.md)."""
+MIN_EXIT_LIKELIHOOD = 0.02
+"""Least likelihood of an exit, as a share of that of the likeliest exit."""
+RISER_HEIGHT = 0.165
+"""Height of one riser of stairs, m, used when neither the track gives a height nor the plan its risers'."""
+MAX_RISERS = 18
+"""Largest number of risers of a flight, no unit (DIN 18065: after that there is a landing)."""
+
+
+@frozen
+class Landing:
+    """A landing: the stop of a connector (stairs or elevator) on one level, where it is entered and left."""
+
+    index: int
+    """Index among all landings of the plan, plus one."""
+    connector: int
+    """Index of the connector in the plan."""
+    kind: ConnectorKind
+    level: int
+    """Index of the level in the plan."""
+    ordinal: int
+    """Ordinal of the level among the storeys."""
+    elevation: float
+    """Elevation of the level, m."""
+    place: Point
+    """Place, m, plan frame."""
+
+    def distance(self, to: Landing) -> float:
+        """Return the difference of the elevations, m."""
+        return abs(to.elevation - self.elevation)
+
+    def rise(self, plan: FloorPlan, to: Landing) -> tuple[float, float]:
+        """Return the least and the largest height up or down to a landing, m; equal when the plan has heights."""
+        if plan.heights_known:
+            return (self.distance(to),) * 2
+        storeys = max(abs(to.ordinal - self.ordinal), 1)
+        return MIN_STOREY_HEIGHT * storeys, MAX_STOREY_HEIGHT * storeys
+
+
+def list_landings(plan: FloorPlan) -> list[Landing]:
+    """Return all landings, connector by connector, from the lowest up."""
+    levels = {level.id: k for k, level in enumerate(plan.levels)}
+    stops = [(c, one.kind, levels[stop.level], stop) for c, one in enumerate(plan.connectors) for stop in one.stops]
+    return [
+        Landing(index, c, kind, k, plan.levels[k].ordinal, plan.levels[k].elevation, stop.place)
+        for index, (c, kind, k, stop) in enumerate(stops, 1)
+    ]
+
+
+def find_exits(
+    plan: FloorPlan,
+    landings: list[Landing],
+    entered: Landing,
+    up: bool,
+    height: float | None = None,
+    flights: int | None = None,
+) -> list[tuple[Landing, float]]:
+    """Return the exits after a climb of `height`, m (None: any), from the landing `entered`, with their likelihoods.
+
+    When the plan has no heights, all usual heights of a storey are equally likely. If it has the number of flights of
+    the stairs, the number that was climbed counts too, None if it is not known."""
+    exits, usual = [], plan.connectors[entered.connector].flights
+    for landing in landings:
+        rise = landing.elevation - entered.elevation
+        if landing.connector == entered.connector and (rise > 0.0 if up else rise < 0.0):
+            low, high = entered.rise(plan, landing)
+            misfit = 0.0 if height is None else max(low - height, height - high, 0.0)
+            deviation = misfit / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low)
+            likelihood = exp(-0.5 * min(deviation * deviation, 1000.0))
+            if usual is not None and flights is not None:
+                wrong = abs(flights - usual * max(abs(landing.ordinal - entered.ordinal), 1))
+                likelihood *= max(WRONG_FLIGHT**wrong, MIN_FLIGHTS_LIKELIHOOD)
+            exits.append((landing, likelihood))
+    most = max([likelihood for _, likelihood in exits], default=0.0)
+    return [(landing, one / most) for landing, one in exits if one >= MIN_EXIT_LIKELIHOOD * most]
+
+
+@frozen
+class Storeys:
+    """Storeys of a plan by its stairs from the levels on which the wearer may be."""
+
+    least: float
+    """Least climb, m; 0 without stairs."""
+    most: float
+    """Largest climb, m."""
+    rises: tuple[float, ...]
+    """Every possible climb, m, the least first; empty when the plan has no heights."""
+    flights: int | None
+    """Least number of flights of a storey; None if the plan does not know it of every staircase."""
+
+
+def storeys_of(plan: FloorPlan, levels: frozenset[int], up: bool | None = None) -> Storeys:
+    """Return what the plan says about its stairs from these levels, indices in the plan, or from all if there are none.
+
+    With `up`, only stairs in this direction count. A wearer on a level without such stairs is on another one, so all
+    levels and directions count."""
+    stairs = [landing for landing in list_landings(plan) if landing.kind is ConnectorKind.STAIRS]
+    pairs = [
+        (a, b)
+        for a in stairs
+        for b in stairs
+        if a.connector == b.connector and a is not b and (not levels or a.level in levels)
+        if up is None or (b.elevation > a.elevation) is up
+    ]
+    if not pairs:
+        return storeys_of(plan, frozenset()) if levels or up is not None else Storeys(0.0, 0.0, (), None)
+    known = [plan.connectors[a.connector].flights for a, _ in pairs]
+    flights = None if None in known else min([number for number in known if number is not None])
+    if plan.heights_known:
+        rises = tuple(sorted({round(a.distance(b), 3) for a, b in pairs}))
+        return Storeys(rises[0], rises[-1], rises, flights)
+    return Storeys(MIN_STOREY_HEIGHT, max([a.rise(plan, b)[1] for a, b in pairs]), (), flights)
+
+
+def riser_height(plan: FloorPlan) -> float:
+    """Return the height of a riser, m: the mean of the plan's stairs that have one, or the usual one."""
+    known = [connector.rise for connector in plan.connectors if connector.rise is not None]
+    return fsum(known) / len(known) if known else RISER_HEIGHT
+
+
+# A passage over stairs or by elevator: its times, height and direction, as far as they are known.
+
+MAX_LENGTH_RATIO, LANDING_LENGTH = 2.5, 4.0
+"""Largest horizontal length of stairs as a multiple of their height, and additional length for landings, m."""
+MIN_TRACK_SHARE = 0.5
+"""Least height by the track that is used on stairs, as a share of the height by counted risers."""
+MIN_TRACK_HEIGHT, MIN_RIDE_HEIGHT = 0.3, 1.0
+"""Least heights by the track that are used on stairs and after a ride, m."""
+MAX_REST, MAX_LANDING_WIDTH = 120.0, 6.0
+"""Longest rest on a half-way landing, s, and largest distance between the flights that meet there, m (assumed)."""
+MAX_SPANS = 6
+"""Largest number of spans that are kept; the oldest two become one, which later reports revise together."""
+
+
+@define
+class StairSpan:
+    """The strides of stairs that were reported in one direction, or reports without strides."""
+
+    t: float
+    """Time from which the activity was reported, s."""
+    net_up: int = 0
+    """Number of strides, or of reports without strides, upwards minus the number downwards."""
+    strides: int = 0
+
+
+@define
+class Passage:
+    """A passage over stairs or by elevator."""
+
+    kind: ConnectorKind
+    t: float
+    """Start of the passage, s."""
+    start: Vec3
+    """Position of the track at the start, m."""
+    spans: list[StairSpan] = field(factory=list)
+    """The stairs and flights that were reported of it, the oldest first."""
+    foot: Foot | None = None
+    """Foot of the newest stride on the stairs; None before any."""
+    both_feet: bool = False
+    """Flag: both feet have made strides on the stairs."""
+    flight_height: float = 0.0
+    """Sum of the heights of the flights, m, positive upwards."""
+    t_left: float | None = None
+    """Time at which the wearer left the stairs or the elevator, s; None before."""
+    end: Vec3 | None = None
+    """Position of the track at `t_left`, m."""
+    strides_since: int = 0
+    """Number of strides since `t_left`."""
+    riser: float = RISER_HEIGHT
+    """Height of one riser of the stairs, m."""
+    flights: int = 0
+    """Number of flights upwards minus the number downwards."""
+    height_before: float = 0.0
+    """Height up to the half-way landing at which the passage starts, m, positive upwards; 0 from a level on."""
+
+    def report(self, t: float, up: bool, revises: float | None) -> None:
+        """Count further strides in the direction that is reported from `t`, s, on, and revise those reported before.
+
+        The report replaces every one from `revises`, s, on (None: none), and is repeated whenever one before it is
+        revised. So the direction is that of the whole stretch, whatever was reported of it at first."""
+        since = t if revises is None else min(t, revises)
+        for span in self.spans:
+            if span.t >= since:
+                span.net_up = span.strides if up else -span.strides
+        self.spans = [*[span for span in self.spans if span.strides], StairSpan(t)]
+        if len(self.spans) > MAX_SPANS:
+            old, one = self.spans[:2]
+            self.spans[:2] = [StairSpan(old.t, old.net_up + one.net_up, old.strides + one.strides)]
+
+    def add_direction(self, up: bool, foot: Foot | None = None) -> None:
+        """Add a stride of a foot to the newest report, or a report of the direction alone if there is no foot."""
+        if not self.spans:
+            self.spans.append(StairSpan(self.t))
+        self.spans[-1].net_up += 1 if up else -1
+        if foot is not None:
+            self.spans[-1].strides += 1
+            self.both_feet = self.both_feet or self.foot not in (None, foot)
+            self.foot = foot
+
+    def move(self, by: Point) -> None:
+        """Move with the track by x and y, m."""
+        self.start = _moved(self.start, by)
+        self.end = None if self.end is None else _moved(self.end, by)
+
+    @property
+    def net_up(self) -> int:
+        """Number of strides (stairs) or reports (elevator, lone flight) upwards minus the number downwards."""
+        return sum([span.net_up for span in self.spans])  # whole numbers
+
+    @property
+    def strides(self) -> int:
+        """Number of strides of both feet on the stairs."""
+        return sum([span.strides for span in self.spans])  # whole numbers
+
+    def _risers(self, strides: float) -> float:
+        """Return the height of the risers of this number of strides, m."""
+        # a stride of one foot climbs two risers; with both feet there is a stride for each riser
+        return self.riser * strides * (1.0 if self.both_feet else 2.0)
+
+    @property
+    def _counted_height(self) -> float:
+        # only strides in the direction of the majority count: the others may be wrong or not on stairs
+        return self._risers(0.5 * (self.strides + abs(self.net_up)))
+
+    @property
+    def height_one_way(self) -> float:
+        """Height, m, if all strides had the same direction, whatever direction was reported."""
+        return abs(self.height_before) + self._risers(self.strides)
+
+    def _rise(self, here: Vec3) -> float:
+        """Return the height of the track above the start, m."""
+        return (self.end or here)[2] - self.start[2]
+
+    def height(self, here: Vec3) -> float | None:
+        """Return the height, m, not negative, by the track or else by flights or counted risers; None when unknown."""
+        if self.kind is ConnectorKind.STAIRS:
+            return abs(self.height_signed(here))
+        track = abs(self._rise(here))
+        return track if track > MIN_RIDE_HEIGHT else None
+
+    def height_signed(self, here: Vec3) -> float:
+        """Return the height of stairs from the last level on, m, positive upwards."""
+        is_measured, counted = self.is_measured(here), max(abs(self.flight_height), self._counted_height)
+        own = abs(self._rise(here)) if is_measured else counted
+        return self.height_before + (own if self.net_up > 0 else -own)
+
+    def is_measured(self, here: Vec3) -> bool:
+        """Return whether the height of the track can be used for stairs."""
+        return abs(self._rise(here)) > max(MIN_TRACK_SHARE * self._counted_height, MIN_TRACK_HEIGHT)
+
+    def measured_up(self, here: Vec3) -> bool | None:
+        """Return whether stairs lead up by the track and by what was reported; None if one of them does not say so."""
+        up = self._rise(here) > 0.0
+        return up if self.is_measured(here) and up is (self.net_up > 0) else None
+
+    def is_continued(self, t: float, start: Vec3) -> bool:
+        """Return whether stairs that start at `t`, s, and `start`, m, continue this passage from a half-way landing."""
+        if self.t_left is None or self.end is None or not 0.0 <= t - self.t_left <= MAX_REST:
+            return False
+        return _distance(start, self.end) <= MAX_LANDING_WIDTH
+
+    @property
+    def opposite_share(self) -> float:
+        """Share of the strides whose reported direction differs from that of the majority."""
+        strides, net_up = self.strides, abs(self.net_up)
+        return 0.5 * (1.0 - net_up / strides) if self.kind is ConnectorKind.STAIRS and strides > net_up else 0.0
+
+    def leads_away(self, here: Vec3) -> bool:
+        """Return whether the passage is horizontally longer than stairs of its height can be."""
+        end = self.end or here
+        most = MAX_LENGTH_RATIO * (self.height(end) or 0.0) + LANDING_LENGTH
+        return self.kind is ConnectorKind.STAIRS and _distance(end, self.start) > most
+
+
+def _distance(one: Vec3, other: Vec3) -> float:
+    """Return the horizontal distance, m."""
+    return hypot(one[0] - other[0], one[1] - other[1])
+
+
+def _moved(position: Vec3, by: Point) -> Vec3:
+    return (position[0] + by[0], position[1] + by[1], position[2])
+
+
+# References.
+
+SURE_CERTAINTY, FAIR_CERTAINTY, HALF_CERTAINTY, RIDE_CERTAINTY = 0.97, 0.9, 0.1, 0.99
+"""Certainties of an arrival: the height fits a storey; it is large enough; it is about half a storey; it is a ride."""
+MAX_WAIT = 8.0
+"""Longest wait for the end of stairs whose height fits no storey, s."""
+WAIT_DISTANCE = 3.5
+"""Distance of the wearer from the end of the stairs at which this wait ends, m."""
+FIT_SHARE = 0.24
+"""Largest deviation of a height that fits a storey, as a share of the least storey; half a storey does not fit."""
+COUNTED_SHARE = 0.95
+"""Least height by counted risers that counts as a storey without waiting, as a share of the least storey."""
+MIN_STOREY_SHARE, MAX_CLIMB_RATIO = 0.6, 2.0
+"""Least height of a storey, as a share of the plan's least, and largest climb, as a multiple of the plan's largest."""
+KERB_SHARE = 0.35
+"""Share of the least storey below which a height is a kerb.
+
+Heights between this and `MIN_STOREY_SHARE` are half a storey, or a storey of which only half was detected."""
+RIDE_END_TIME = 4.0
+"""Time after the end of an elevator activity at which a ride without an event has ended, s; two strides also end it."""
+SAME_RIDE_TIME = 5.0
+"""Largest time between the ends of two reports of the same ride, s."""
+MAX_TRACK_POSITIONS = 24
+"""Number of positions of the track that are kept."""
+
+CONNECTOR_OF_ACTIVITY = {
+    Activity.STAIRS_UP: (ConnectorKind.STAIRS, True),
+    Activity.STAIRS_DOWN: (ConnectorKind.STAIRS, False),
+    Activity.ELEVATOR_UP: (ConnectorKind.LIFT, True),
+    Activity.ELEVATOR_DOWN: (ConnectorKind.LIFT, False),
+}
+"""Kind of connector for each activity, and a flag: the activity leads up."""
+
+
+@frozen
+class LevelChangePossible:
+    """The reference that the wearer may be on stairs or in an elevator from `t`, s, on."""
+
+    kind: ConnectorKind
+    t: float
+
+
+@frozen
+class LevelChangeCancelled:
+    """The reference that a possible change of level did not happen."""
+
+
+@frozen
+class LevelReached:
+    """The reference that the wearer left stairs or an elevator on another level at `t`, s."""
+
+    kind: ConnectorKind
+    up: bool
+    height: float | None
+    """Height of the climb, m, not negative; None when it is not known."""
+    t_start: float
+    """Time at which the stairs or the elevator were entered, s."""
+    t: float
+    certainty: float
+    """Probability that the wearer is on another level now; less than 1."""
+    opposite_share: float = 0.0
+    """Share of the strides that were reported in the other direction."""
+    flights: int | None = None
+    """Number of flights that were climbed; None when none was reported."""
+
+
+@frozen
+class DirectionRevised:
+    """The reference that the newest stairs, which were left already, led in the other direction."""
+
+
+Reference = LevelChangePossible | LevelChangeCancelled | LevelReached | DirectionRevised
+
+
+@define
+class References:
+    """Derives references from the wearer's activities and the newest positions of the track."""
+
+    activity: Activity = field(default=Activity.UNKNOWN, init=False)
+    passage: Passage | None = field(default=None, init=False)
+    """Passage under way, or left and not decided; None otherwise."""
+    track: deque[tuple[float, Vec3]] = field(factory=deque, init=False)
+    """Newest positions of the track: t, s, and position, m."""
+    ride_end: float | None = field(default=None, init=False)
+    """End of the last ride, s."""
+    decided: tuple[float, bool] | None = field(default=None, init=False)
+    """End of the newest stairs that led to another level, s, and a flag: they led up; None before any."""
+    partial: Passage | None = field(default=None, init=False)
+    """Newest passage that ended on a half-way landing; None otherwise."""
+
+    def reset(self) -> None:
+        """Discard the passages, the last ride and the track, because the clock restarts."""
+        self.passage = self.partial = self.decided = self.ride_end = None
+        self.track.clear()
+
+    def position_at(self, t: float) -> Vec3:
+        """Return the position of the track at `t`, s, in m, by interpolation, or the nearest position that is kept."""
+        t1, after = inf, (0.0, 0.0, 0.0)
+        for t0, before in reversed(self.track):
+            if t0 <= t:
+                if not t0 < t1 < inf:
+                    return before
+                k = (t - t0) / (t1 - t0)
+                (x, y, z), (x1, y1, z1) = before, after
+                return (x + k * (x1 - x), y + k * (y1 - y), z + k * (z1 - z))
+            t1, after = t0, before
+        return after
+
+    def move(self, by: Point) -> None:
+        """Move all positions that are kept by x and y, m, because the track was revised."""
+        self.track = deque([(t, _moved(position, by)) for t, position in self.track])
+        if self.passage is not None:
+            self.passage.move(by)
+
+    def reach_back_to(self, t: float) -> bool:
+        """Return whether no position since `t`, s, was discarded."""
+        return len(self.track) < MAX_TRACK_POSITIONS or self.track[0][0] <= t
+
+    def path_since(self, t: float) -> list[Vec3]:
+        """Return the position of the track at `t`, s, and all later positions that are kept, m."""
+        return [self.position_at(t), *(position for t_then, position in self.track if t_then > t)]
+
+    def update(
+        self, plan: FloorPlan, events: list[Event], here: WearerMoved, levels: frozenset[int] = frozenset()
+    ) -> list[Reference]:
+        """Return the references that follow from `events`; the wearer is at `here` now.
+
+        `levels` are those on which the wearer may be, as indices in the plan; none if that is not known."""
+        x, y, z = here.position
+        self.track.append((here.t, (round(x, 3), round(y, 3), round(z, 3))))
+        if len(self.track) > MAX_TRACK_POSITIONS:
+            self.track.popleft()
+        references: list[Reference] = []
+        for event in events:
+            if isinstance(event, StrideTaken):
+                self._add_stride(event.foot)
+            elif isinstance(event, ActivityChanged):
+                references += self._change_activity(plan, event)
+            elif isinstance(event, FlightClimbed):
+                references += self._add_flight(plan, event)
+            elif isinstance(event, LiftRidden):
+                references += self._add_ride(event)
+        if self.passage is not None:
+            if self.passage.t_left is not None:
+                references += self._decide(self.passage, self.passage.t_left, plan, levels, here)
+            elif self.passage.leads_away(here.position):
+                references += self._cancel()
+        return references
+
+    def _cancel(self) -> list[Reference]:
+        """Forget the passage, which was none."""
+        self.passage = None
+        return [LevelChangeCancelled()]
+
+    def _add_stride(self, foot: Foot) -> None:
+        passage, connector = self.passage, CONNECTOR_OF_ACTIVITY.get(self.activity)
+        if passage is None:
+            return
+        if passage.t_left is not None or connector is None:
+            passage.strides_since += 1
+        elif passage.kind is ConnectorKind.STAIRS:
+            passage.add_direction(connector[1], foot)
+
+    def _add_ride(self, event: LiftRidden) -> list[Reference]:
+        is_new = self.ride_end is None or event.t > self.ride_end + SAME_RIDE_TIME
+        if self.passage is not None and self.passage.kind is ConnectorKind.LIFT:
+            self.passage = None
+        if not is_new:
+            return []
+        self.ride_end = event.t
+        height = None if event.height is None or not isfinite(event.height) else abs(event.height)
+        t_start = min(event.t_start, event.t)
+        return [LevelReached(ConnectorKind.LIFT, event.up, height, t_start, event.t, RIDE_CERTAINTY)]
+
+    def _change_activity(self, plan: FloorPlan, event: ActivityChanged) -> list[Reference]:
+        self.activity = event.activity
+        connector, passage = CONNECTOR_OF_ACTIVITY.get(event.activity), self.passage
+        if connector is None:
+            if passage is not None and passage.t_left is None:
+                if event.t <= passage.t:
+                    return self._cancel()
+                passage.t_left, passage.end, passage.strides_since = event.t, self.position_at(event.t), 0
+            return []
+        kind, up = connector
+        if kind is ConnectorKind.LIFT and self.ride_end is not None and event.t < self.ride_end:
+            return []
+        if passage is None and kind is ConnectorKind.STAIRS and self.decided is not None and event.revises is not None:
+            t_left, was_up = self.decided
+            if event.t < t_left:  # a later report of the newest stairs, which were left already
+                self.decided = (t_left, up)
+                return [] if up is was_up else [DirectionRevised()]
+        references: list[Reference] = []
+        if passage is not None and passage.kind is kind:
+            passage.t_left = passage.end = None
+        else:
+            references = [] if passage is None else self._cancel()
+            passage = self.passage = self._enter(plan, kind, event.t)
+            references.append(LevelChangePossible(kind, event.t))
+        if kind is ConnectorKind.LIFT:
+            passage.add_direction(up)
+        else:
+            passage.report(event.t, up, event.revises)
+        return references
+
+    def _add_flight(self, plan: FloorPlan, event: FlightClimbed) -> list[Reference]:
+        """Add a flight to the passage over stairs; without one, the flight starts a passage."""
+        passage, references = self.passage, list[Reference]()
+        if passage is None:
+            t = min(event.t_start, event.t)
+            self.passage = passage = self._enter(plan, ConnectorKind.STAIRS, t)
+            passage.t_left = -inf
+            references = [LevelChangePossible(ConnectorKind.STAIRS, t)]
+            passage.add_direction(event.up)
+        elif passage.kind is ConnectorKind.LIFT:
+            return []
+        passage.flight_height += event.height if abs(event.height) < 100.0 else 0.0
+        passage.flights += 1 if event.up else -1
+        if passage.t_left is not None and event.t > passage.t_left:
+            passage.t_left, passage.end = event.t, self.position_at(event.t)
+        return references
+
+    def _enter(self, plan: FloorPlan, kind: ConnectorKind, t: float) -> Passage:
+        """Return a new passage from `t`, s, on; from a half-way landing it continues the one that ended there."""
+        start, partial = self.position_at(t), self.partial
+        passage, self.partial = Passage(kind, t, start, riser=riser_height(plan)), None
+        if partial is not None and kind is ConnectorKind.STAIRS and partial.is_continued(t, start):
+            passage.height_before, passage.flights = partial.height_signed(start), partial.flights
+        return passage
+
+    def _decide(
+        self, passage: Passage, t_left: float, plan: FloorPlan, levels: frozenset[int], here: WearerMoved
+    ) -> list[Reference]:
+        """Decide whether a passage that was left led to another level, when that is certain or the wait is over."""
+        kind, up, height = passage.kind, passage.net_up > 0, passage.height(here.position)
+        waiting_time = here.t - t_left
+        if kind is ConnectorKind.LIFT:
+            if waiting_time <= RIDE_END_TIME and passage.strides_since < 2:
+                return []
+            self.passage, self.ride_end = None, t_left
+            return [LevelReached(kind, up, height, passage.t, t_left, RIDE_CERTAINTY)]
+        # only the height of the track shows the direction beyond doubt
+        storeys = storeys_of(plan, levels, passage.measured_up(here.position))
+        least, rises = storeys.least, storeys.rises
+        if height is None or not storeys.most > 0.0:
+            return self._cancel()
+        end, measured = passage.end or passage.start, passage.is_measured(here.position)
+        if not measured and height < MIN_STOREY_SHARE * least <= passage.height_one_way:
+            height = passage.height_one_way  # half of the directions are wrong, or the wearer went up and down again
+        fits = min([abs(height - rise) for rise in rises], default=inf) <= FIT_SHARE * least
+        flights = abs(passage.flights) or None
+        is_partial = (
+            not fits
+            and storeys.flights is not None
+            and flights is not None
+            and flights < storeys.flights
+            and height <= flights * MAX_RISERS * passage.riser  # a higher one is two flights, taken for one
+        )
+        is_storey = height >= MIN_STOREY_SHARE * least and not is_partial
+        leads_away = passage.leads_away(end)
+        is_possible = KERB_SHARE * least <= height <= MAX_CLIMB_RATIO * storeys.most and not leads_away
+        # counted risers include steps on landings, so a flight and a landing must not count as a storey
+        is_settled = is_storey and is_possible and fits and (measured or height >= COUNTED_SHARE * least)
+        if not (is_settled or waiting_time > MAX_WAIT or _distance(here.position, end) > WAIT_DISTANCE):
+            return []
+        self.partial = passage if (is_possible or (flights and not leads_away)) and not is_storey else None
+        if not is_possible:
+            return self._cancel()
+        self.passage, self.decided, opposite = None, (t_left, up), passage.opposite_share
+        certainty = HALF_CERTAINTY if not is_storey else SURE_CERTAINTY if fits or not rises else FAIR_CERTAINTY
+        certainty *= 1.0 - opposite
+        return [LevelReached(kind, up, height, passage.t, t_left, certainty, opposite, flights)]
