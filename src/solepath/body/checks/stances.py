@@ -176,16 +176,9 @@ class StanceFinder:
         rate = 0.2 * (a + b + c + d + e)
         if rate > SWING_MOTION:
             return rate
-        around = self.intervals[i - HALF_WINDOW : i + HALF_WINDOW + 1]
-        (_, _, _, _, ax, ay, az), (_, _, _, _, bx, by, bz) = around[:2]
-        (_, _, _, _, cx, cy, cz), (_, _, _, _, dx, dy, dz), (_, _, _, _, ex, ey, ez) = around[2:]
-        x, y, z = ax + bx + cx + dx + ex, ay + by + cy + dy + ey, az + bz + cz + dz + ez
-        squares = (
-            (ax * ax + bx * bx + cx * cx + dx * dx + ex * ex)
-            + (ay * ay + by * by + cy * cy + dy * dy + ey * ey)
-            + (az * az + bz * bz + cz * cz + dz * dz + ez * ez)
-        )
-        variance = 5 * squares - (x * x + y * y + z * z)  # 25 times it, exact, because these are whole numbers
+        forces = [*zip(*self.intervals[i - HALF_WINDOW : i + HALF_WINDOW + 1], strict=True)][4:]
+        # 25 times the variance, exact, because these are whole numbers
+        variance = sum([5 * sum([v * v for v in axis]) - sum(axis) ** 2 for axis in forces])
         return rate + STEADINESS_WEIGHT * FORCE * 0.2 * sqrt(variance)
 
     def _time_between(self, first: int, last: int) -> float:
@@ -221,8 +214,6 @@ class StanceFinder:
 
 def _mean_acc(intervals: list[Interval]) -> Vec3:
     """Return the mean specific force of some intervals, m/s^2."""
-    x = y = z = 0
-    for _, _, _, _, ax, ay, az in intervals:
-        x, y, z = x + ax, y + ay, z + az
+    _, _, _, _, x, y, z = [sum(values) for values in zip(*intervals, strict=True)]  # whole numbers
     k = FORCE / len(intervals)
     return k * x, k * y, k * z
