@@ -22,6 +22,7 @@ from .stances import FORCE, TICK, TURN, Axes, ClosedStride, Finding, Interval
 # of s_k * M(p_i, p_k, k), with p_i the axis and s_i the sign of row i of P. An improper P is the negative of a proper
 # one, and needs M of the negative angular rate.
 
+
 def _row(axis: int) -> tuple[int, float]:
     return abs(axis) - 1, 1.0 if axis > 0 else -1.0
 
