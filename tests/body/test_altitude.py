@@ -132,13 +132,14 @@ def test_without_air_an_implausible_ride_has_no_height(height: float | None, las
     altitude = Altitude()
     step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
     for k in range(strides):
-        altitude.receive(evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k))
+        altitude.feed([evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k)], None)
     reported = ride(height, lasted)
-    assert altitude.receive(reported) == [Replacement(reported, evolve(reported, height=None)), HeightShift(0.0, 0.0)]
+    instead = Replacement(reported, evolve(reported, height=None))
+    assert altitude.feed([reported], None) == [instead, HeightShift(0.0, 0.0)]
 
 
 def test_a_plausible_lift_ride_is_trusted_without_air_pressure() -> None:
     altitude = Altitude()
-    instead, height = altitude.receive(ride(6.0, 8.0))
+    instead, height = altitude.feed([ride(6.0, 8.0)], None)
     assert instead == Replacement(ride(6.0, 8.0), ride(6.0, 8.0))
     assert isinstance(height, HeightShift) and height.above == 6.0

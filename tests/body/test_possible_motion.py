@@ -62,7 +62,7 @@ def test_a_stride_of_six_metres_is_impossible_and_reported_even_if_it_is_degrade
 
 def test_one_impossible_stride_is_degraded_and_reported_and_the_others_stay_as_they_are() -> None:
     part = PossibleMotion()
-    assert [told(part, changed()) for _ in range(6)] == [()] * 6
+    assert [told(part, changed()) for _ in range(6)] == [[]] * 6
     wrong = changed(rise=1.5)
     replacement, found = told(part, wrong)
     assert replacement == Replacement(wrong, evolve(wrong, degraded=True))

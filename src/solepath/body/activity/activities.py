@@ -88,6 +88,10 @@ class Activities(ActivityPart):
         """The newest activity that was reported, final or not."""
         return self.report.activity
 
+    @property
+    def _model(self) -> MotionModel:
+        return self.settings.model or load_released_model()
+
     def ready(self) -> None:
         """Read the motion model of this release, unless the settings have one."""
         if self.settings.model is None:
@@ -172,7 +176,7 @@ class Activities(ActivityPart):
 
     def _judge_block(self, index: int) -> bool:
         """Judge one block and return whether it has samples."""
-        model = self.settings.model or load_released_model()
+        model = self._model
         pressure_height = self.pressure_height
         features, forces = self._features(index), self._forces(index)
         self.hypotheses.update(
@@ -203,7 +207,7 @@ class Activities(ActivityPart):
 
         `followed` is the newest block of the report before. When that one, the newest block and the sequence all show
         the same activity, it goes on; otherwise every block that is not in the sequence yet is judged again."""
-        best, model = self.hypotheses.best, self.settings.model or load_released_model()
+        best, model = self.hypotheses.best, self._model
         newest = NO_ACTIVITY if best is None or not best.path else best.path[-1]
         levels, chain = None if best is None else best.ride.levels, model.chain
         t, shown = self._time(self.newest_block), self._show(self.newest_block)
@@ -223,7 +227,7 @@ class Activities(ActivityPart):
         features = self._features(index)
         if all([one is None for one in features]):
             return None
-        model = self.settings.model or load_released_model()
+        model = self._model
         return motion_votes(model, features), ElevatorEvidence(self._forces(index))
 
     def _report_early(self, known_at: float) -> list[Event]:
@@ -231,7 +235,7 @@ class Activities(ActivityPart):
         early = EarlyActivities(self.early)
         if self.stride_cue is not None and self.stride_cue[0] > self.newest_block:
             index, stride_cue, probability = self.stride_cue
-            model = self.settings.model or load_released_model()
+            model = self._model
             early.follow(self._time(index), (stride_cue, probability), model.chain)
         return self.report.add(self.hypotheses, early.found[1:], self._time(self.next_block), known_at)
 

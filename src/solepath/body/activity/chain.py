@@ -10,7 +10,6 @@ fitted to labels, but chosen by hand while looking at HuGaDB's recordings and em
 from __future__ import annotations
 
 from functools import lru_cache
-from itertools import zip_longest
 from math import fsum, log
 
 from ...types import Activity
@@ -105,10 +104,9 @@ class Chain:
 @lru_cache(maxsize=4)
 def chain_of(chances: Chances, shifts: Shifts) -> Chain:
     """Return the chain with the learnt chances and delays, and the fixed chances."""
-    chances_from = {
-        state: {**others, **{to: chance for to, chance in enumerate(row) if to != state}}
-        for (state, others), row in zip_longest(_OTHER_CHANCES.items(), chances, fillvalue=())
-    }
+    chances_from = {state: dict(others) for state, others in _OTHER_CHANCES.items()}
+    for state, row in enumerate(chances):
+        chances_from[state] |= {to: chance for to, chance in enumerate(row) if to != state}
     predecessors = tuple(
         [
             tuple(

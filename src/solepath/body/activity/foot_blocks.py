@@ -162,8 +162,9 @@ def stride_of(features: Sequence[float]) -> tuple[float, float, float] | None:
 
 
 def _log_variances(judged: float, window: list[float], whole: float) -> list[float]:
-    """Return the scaled logarithms of the variance of the judged block, of the least and the largest in its window, and
-    of all samples of the window: about -1 at rest and 1 when running."""
+    """Return the scaled logarithms of variances: about -1 at rest and 1 when running.
+
+    They are of the judged block, the least and the largest in its window, and of the whole window."""
     return [0.25 * log(max(1e-4, min(1e4, value))) for value in (judged, min(window), max(window), whole)]
 
 

@@ -7,7 +7,7 @@ from typing import ClassVar, Final
 
 from ...events import Defect, DefectFound, HeelStrike, SampleRejected, StrideTaken
 from ...foot.view import FootView
-from ...types import OTHER, SITE_OF_FOOT, Foot, Site, Vec3
+from ...types import OTHER, Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ..part import Part, PartInput, PartOutput
 from .axes import AxesCheck, BandwidthCheck
@@ -130,7 +130,7 @@ class SensorChecks(Part):
             check, other = self._check(event.foot), OTHER[event.foot]
             found = self._report(event.foot, event.t, event.known_at, [check.loads.add_stride(event, check.in_newtons)])
             return found + self._report(other, event.t, event.known_at, [_stuck(self._check(other), event)])
-        elif isinstance(event, SampleRejected) and event.defect is not None and event.site.foot is not None:
+        elif isinstance(event, SampleRejected) and event.site.foot is not None:
             finding = _wrong_unit(self._check(event.site.foot), event)
             return self._report(event.site.foot, event.t, event.known_at, [finding])
         elif isinstance(event, DefectFound) and event.site.foot is not None:
@@ -158,11 +158,11 @@ class SensorChecks(Part):
 
     def _report(self, foot: Foot, t: float, known_at: float, findings: Iterable[Finding | None]) -> list[DefectFound]:
         """Return the events for the findings that were not reported before."""
-        check, events, site = self._check(foot), [], SITE_OF_FOOT[foot]
+        check, events = self._check(foot), []
         for finding in findings:
             if finding is None:
                 continue
-            defect, what, spoils, axes = finding
+            defect, _, spoils, axes = finding
             is_worse = spoils and defect in check.mild
             if defect not in check.reported or is_worse or (axes is not None and check.corrected is None):
                 if is_worse:
@@ -172,10 +172,7 @@ class SensorChecks(Part):
                 if not spoils:
                     check.mild.append(defect)
                 check.corrected = axes or check.corrected
-                event = DefectFound(
-                    t=t, known_at=known_at, site=site, defect=defect, what=what, spoils=spoils, axes=axes
-                )
-                events.append(event)
+                events.append(finding.event(foot, t, known_at))
         return events
 
     def _examine(self, check: SensorCheck, rows: list[Row], gyro_bias: Vec3) -> list[Finding | None]:

@@ -9,8 +9,8 @@ from collections.abc import Iterable
 from math import sqrt
 from typing import NamedTuple
 
-from ...events import Defect
-from ...types import Vec3
+from ...events import Defect, DefectFound
+from ...types import SITE_OF_FOOT, Foot, Vec3
 from ...types.attrs import define, field
 
 # The finding of a check of a foot's sensors.
@@ -26,6 +26,11 @@ class Finding(NamedTuple):
     what: str
     spoils: bool = True
     axes: Axes | None = None
+
+    def event(self, foot: Foot, t: float, known_at: float) -> DefectFound:
+        """Return the event of a foot by which the finding is reported."""
+        site, (defect, what, spoils, axes) = SITE_OF_FOOT[foot], self
+        return DefectFound(t=t, known_at=known_at, site=site, defect=defect, what=what, spoils=spoils, axes=axes)
 
 
 INTERVAL = 0.0185

@@ -152,10 +152,10 @@ class Footfalls:
 # GaitCycleMeasured defines the values. Only steady cycles enter the running means. A gait cycle is steady when
 #
 # - no sample in it clipped, no gap in it is longer than `MAX_STEADY_GAP`, and none of its events is inferred;
-# - it follows another cycle without a pause. This leaves out the first three steps of a walk, after which gait is steady
-#   (Mann et al. 1979, J. Bone Joint Surg. Am. 61): the half stride from standing, and the first cycle;
-# - neither its time nor its length differs from that of the cycle before by a factor of `STEADY_FACTOR` or more, because
-#   a wearer who hesitates does not walk steadily;
+# - it follows another cycle without a pause. This leaves out the first three steps of a walk, after which gait is
+#   steady (Mann et al. 1979, J. Bone Joint Surg. Am. 61): the half stride from standing, and the first cycle;
+# - neither its time nor its length differs from that of the cycle before by a factor of `STEADY_FACTOR` or more,
+#   because a wearer who hesitates does not walk steadily;
 # - it turns by less than `MAX_TURN`, and its height changes by less than `MAX_SLOPE` of its length;
 # - a stride ends at the foot-flat after it, because stepping on the spot is not walking. This is checked only if the
 #   foot's position is known and there is such a foot-flat (a runner may have none).
