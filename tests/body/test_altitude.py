@@ -8,6 +8,7 @@ from math import exp, sin
 
 import pytest
 from attrs import evolve
+from views import told
 from walks import samples
 
 from solepath import ClockReset, Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
@@ -132,14 +133,13 @@ def test_without_air_an_implausible_ride_has_no_height(height: float | None, las
     altitude = Altitude()
     step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
     for k in range(strides):
-        altitude.feed([evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k)], None)
+        told(altitude, evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k))
     reported = ride(height, lasted)
-    instead = Replacement(reported, evolve(reported, height=None))
-    assert altitude.feed([reported], None) == [instead, HeightShift(0.0, 0.0)]
+    assert told(altitude, reported) == [Replacement(reported, evolve(reported, height=None)), HeightShift(0.0, 0.0)]
 
 
 def test_a_plausible_lift_ride_is_trusted_without_air_pressure() -> None:
     altitude = Altitude()
-    instead, height = altitude.feed([ride(6.0, 8.0)], None)
+    instead, height = told(altitude, ride(6.0, 8.0))
     assert instead == Replacement(ride(6.0, 8.0), ride(6.0, 8.0))
     assert isinstance(height, HeightShift) and height.above == 6.0

@@ -67,7 +67,7 @@ def test_one_impossible_stride_is_degraded_and_reported_and_the_others_stay_as_t
     replacement, found = told(part, wrong)
     assert replacement == Replacement(wrong, evolve(wrong, degraded=True))
     assert isinstance(found, DefectFound) and found.defect is Defect.IMPOSSIBLE_MOTION and not found.spoils
-    assert told(part, changed()) == ()
+    assert told(part, changed()) == []
     assert [type(output) for output in told(part, wrong)] == [Replacement], "it is reported once"
 
 

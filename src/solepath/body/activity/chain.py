@@ -47,15 +47,6 @@ Chances = tuple[tuple[float, ...], ...]
 Shifts = tuple[tuple[Activity, Activity, float], ...]
 """For each change: old activity, new activity, and time from the block of its detection to the change, s."""
 
-DEFAULT_CHANCES: Chances = (
-    (0.959, 0.03, 1e-3, 5e-3, 5e-3),
-    (0.03, 0.936, 4e-3, 0.015, 0.015),
-    (0.01, 0.03, 0.956, 2e-3, 2e-3),
-    (0.02, 0.05, 2e-3, 0.926, 2e-3),
-    (0.02, 0.05, 2e-3, 2e-3, 0.926),
-)
-"""Chances before anything is learnt: standing lasts 12 s on average, and most flights end on level ground."""
-
 
 def _to_ride(starts: float, moves: float) -> dict[int, float]:
     """Return the chances of the first two states of a ride, which are those of both directions."""
