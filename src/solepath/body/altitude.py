@@ -46,7 +46,7 @@ def height_of(pressure: float) -> float | None:
     return SCALE_HEIGHT * log(STANDARD_PRESSURE / pressure) if MIN_PRESSURE < pressure < MAX_PRESSURE else None
 
 
-# The height filter of altitude.py: its estimate of three values, and its recent inputs.
+# The height filter: its estimate of three values, and its recent inputs.
 #
 # An elevator ride is known only after it has ended; all inputs since its start are then processed again.
 
@@ -56,7 +56,7 @@ UNKNOWN_VARIANCE = 1e4
 """Variance of an unknown height, m^2."""
 
 HeightInput = tuple[float, int, float, float]
-"""Time, s; source (altitude.py lists them); value, m; its variance, m^2."""
+"""Time, s; source (`LEFT`, `RIGHT`, `MOVE`); value, m; its variance, m^2."""
 
 PackedInput = tuple[int, int, int, float]
 """A `HeightInput` in compact form: ticks, source, value in units of 1/`PARTS_PER_M` m, variance as float32."""

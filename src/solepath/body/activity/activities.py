@@ -1,9 +1,9 @@
 """Activities of the wearer: standing, walking, running, stairs and elevators, for any recipe.
 
-The samples of each foot are cut into blocks of half a second (features.py), and every block gives a likelihood of each
-motion (motion.py). Three kinds of evidence feed a Markov chain of sixteen states (chain.py): the motion likelihoods of
-both feet, the force that an elevator adds on a standing foot (elevator_evidence.py), and the height by air pressure, if
-there is a barometer (pressure_height.py). Viterbi's algorithm finds the likeliest sequence (hypotheses.py).
+The samples of each foot are cut into blocks of half a second (foot_blocks.py), and every block gives a likelihood of
+each motion (motion.py). Three kinds of evidence feed a Markov chain of sixteen states (chain.py): the likelihoods of
+both feet's motion, the force that an elevator adds on a standing foot (elevator_evidence.py), and the height by air
+pressure, if there is a barometer (pressure_height.py). Viterbi's algorithm finds the sequence (hypotheses.py).
 
 Latency: a block enters the sequence when two more blocks have come, 1 to 1.5 s after it. Until then a state machine
 (early.py) reports what the newest blocks show, up to half a second after it happens, and each stride at its end. All of

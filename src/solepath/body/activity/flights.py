@@ -13,8 +13,8 @@ height for `END_PAUSE` s, because a wearer need not walk on at the top. A wearer
 each tread has not arrived. Flights lower than `MIN_FLIGHT_HEIGHT` are kerbs and are not reported. Latency: that of the
 level strides, about a second, or `END_PAUSE`.
 
-A height change that is impossible on stairs (`is_stair_rise`), or that has the wrong sign, is an error of the track and
-is not trusted. Such a stride is counted with the mean height of the trusted strides of the flight. When less than half of
+A height change that is impossible on stairs (`is_stair_rise`), or of the wrong sign, is an error of the track and is
+not trusted. Such a stride is counted with the mean height of the trusted strides of the flight. When less than half of
 the strides are trusted, the height is unknown and no flight is reported. A stride that cannot be judged counts as level
 for the end of a flight; when a stair stride follows, the unjudged stride belongs to the flight."""
 

@@ -52,7 +52,7 @@ class ActivityBlock:
     variance: float
     """Variance of |acc|, (m/s^2)^2."""
     acc_bins: tuple[int, ...]
-    """Number of samples in each bin of |acc|, at most 255 each (features.py has the bins)."""
+    """Number of samples in each bin of |acc|, at most 255 each."""
     gyro_count: int
     """Number of samples with a gyroscope."""
     gyro_mean_square: float

@@ -199,7 +199,7 @@ class BlockEvidence:
 
     t: float
     motion_scores: tuple[float, ...]
-    """Log-likelihoods of the first six states of chain.py by the motion of the feet (votes.py)."""
+    """Log-likelihoods of the first six states of chain.py by the motion of the feet (`motion_votes`)."""
     forces: tuple[BlockForce | None, ...]
     """Force on the left and on the right foot."""
     pressure_scores: tuple[float, ...]

@@ -36,7 +36,7 @@ class AnglePerMetre(ActivityPart):
     and feet that move without a stride for `UNKNOWN_DELAY` are UNKNOWN. Every event is final and has no probability.
     Latency: a state that starts with a toe-off is known at the end of that stride; standing, after `STANDING_DELAY`.
 
-    A stride with a larger height change than stairs have (`is_stair_rise`) is an error of the track, so its angle is not
+    A stride with a larger height change than stairs have (`is_stair_rise`) is an error of the track; its angle is not
     used. The activity of a wearer who walked or climbed stays; STANDING becomes UNKNOWN. When the clock of foot A
     restarts, events have times of foot B's clock. Samples of A are ignored while its time differs from B's by more than
     `LARGEST_CLOCK_DIFFERENCE`. This ends when (1) the difference is smaller, (2) B's clock restarts too, or (3) B has
