@@ -7,8 +7,8 @@ from math import radians, sin
 import numpy as np
 import pytest
 
-from solepath.body.gait.running import vertical_oscillation
 from solepath.lab.emulated.runs import errors_of, run_of, score_run
+from solepath.show.report.running import vertical_oscillation
 from solepath.types.vector import GRAVITY
 
 

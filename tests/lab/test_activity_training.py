@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import isclose
 
-from solepath.body.activity.chain import DEFAULT_CHANCES, STAIRS_UP, WALK
-from solepath.lab.train.activities_course import LabelledCourse, chances, changes
+from solepath.body.activity.chain import STAIRS_UP, WALK
+from solepath.lab.train.activities_course import DEFAULT_CHANCES, LabelledCourse, chances, changes
 from solepath.lab.train.hugadb import spans
 from solepath.types import Activity
 

@@ -33,7 +33,7 @@ STAYS = """
 Activities._restart: feet flights strides pressure_height.restart()
 Activities.reset: feet* apart flights.reset() left.feet.restart() pressure_height.restart() right.feet.restart()
 AirPressure.reset: degraded apart
-Altitude.reset: base* noise now* inputs_kept.clear()
+Altitude.reset: base* noise now*
 AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* apart flights.reset()
 BiasFilter.forget: before bias* noise rate
 BiasFilter.reset: before bias* noise rate
@@ -86,7 +86,6 @@ PressureHeight.restart: blocks compared newest noise walked apart
 RateIntegral.clear:
 RateIntegral.restart: instants* t*
 Reassembly.drop: frame_id skipping
-RecentInputs.clear:
 Recognition.reset: load_count mean_load soles* apart
 Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing acc_clipping.reset()
 References.reset: activity

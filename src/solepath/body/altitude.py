@@ -20,7 +20,7 @@ known well enough."""
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from math import log
 from typing import ClassVar
 
@@ -46,7 +46,7 @@ def height_of(pressure: float) -> float | None:
     return SCALE_HEIGHT * log(STANDARD_PRESSURE / pressure) if MIN_PRESSURE < pressure < MAX_PRESSURE else None
 
 
-# The height filter of altitude.py: its estimate of three values, and its recent inputs.
+# The height filter: its estimate of three values, and its recent inputs.
 #
 # An elevator ride is known only after it has ended; all inputs since its start are then processed again.
 
@@ -56,7 +56,7 @@ UNKNOWN_VARIANCE = 1e4
 """Variance of an unknown height, m^2."""
 
 HeightInput = tuple[float, int, float, float]
-"""Time, s; source (altitude.py lists them); value, m; its variance, m^2."""
+"""Time, s; source (`LEFT`, `RIGHT`, `MOVE`); value, m; its variance, m^2."""
 
 PackedInput = tuple[int, int, int, float]
 """A `HeightInput` in compact form: ticks, source, value in units of 1/`PARTS_PER_M` m, variance as float32."""
@@ -75,7 +75,7 @@ class HeightEstimate:
     covariance: list[float] = field(factory=lambda: [0.0] * 9)
     """Covariance of the three values, row by row, m^2."""
     read_at: list[float | None] = field(factory=lambda: [None, None])
-    """Time of the newest reading of each barometer, s; None: never read."""
+    """Time of the newest reading of each barometer, s; None: the next reading gives an offset that fits."""
 
     def move(self, by: float, variance: float) -> None:
         """Change the correction by `by`, m; `variance` is that of the change, m^2."""
@@ -112,60 +112,15 @@ class HeightEstimate:
         for j in range(3):
             p[4 * j] = max(p[4 * j], 0.0)
 
-    def forget_offset(self, source: int) -> None:
-        """Forget the offset of a barometer; its next reading gives another one that fits the correction."""
-        self.read_at[source] = None
-
     def copy(self) -> HeightEstimate:
         """Return a copy of the estimate."""
         return HeightEstimate(list(self.values), list(self.covariance), list(self.read_at))
 
 
-@define
-class RecentInputs:
-    """The newest inputs, in the order in which the filter processed them."""
-
-    rows: deque[PackedInput] = field(factory=deque)
-
-    def add(self, entry: HeightInput) -> HeightInput:
-        """Add an input and return it as rounded for storage; the filter must process the rounded input."""
-        t, source, value, variance = entry
-        row = (round(t * TICKS_PER_S), source, round(value * PARTS_PER_M), single(variance))
-        self.rows.append(row)
-        return _unpack(row)
-
-    @property
-    def count(self) -> int:
-        """Number of inputs."""
-        return len(self.rows)
-
-    @property
-    def oldest(self) -> float | None:
-        """Time of the oldest input, s; None when nothing is kept."""
-        return self.rows[0][0] / TICKS_PER_S if self.rows else None
-
-    @property
-    def newest(self) -> HeightInput | None:
-        """The newest input; None when nothing is kept."""
-        return _unpack(self.rows[-1]) if self.rows else None
-
-    def pop(self) -> HeightInput:
-        """Remove the oldest input and return it; there must be one."""
-        return _unpack(self.rows.popleft())
-
-    def all(self) -> list[HeightInput]:
-        """Return all inputs, oldest first."""
-        return [_unpack(row) for row in self.rows]
-
-    def replace(self, inputs: Iterable[HeightInput]) -> None:
-        """Replace all inputs by these."""
-        self.clear()
-        for entry in inputs:
-            self.add(entry)
-
-    def clear(self) -> None:
-        """Remove all inputs."""
-        self.rows.clear()
+def _pack(entry: HeightInput) -> PackedInput:
+    """Return an input as rounded for storage; the filter processes the rounded one."""
+    t, source, value, variance = entry
+    return round(t * TICKS_PER_S), source, round(value * PARTS_PER_M), single(variance)
 
 
 def _unpack(row: PackedInput) -> HeightInput:
@@ -178,8 +133,8 @@ READING_INTERVAL = 0.5
 """Shortest interval between two readings of the filter, s; all pressures in between are averaged into one reading."""
 KEPT_TIME = 90.0
 """Time for which inputs are kept, s."""
-MAX_INPUT_RATE = 8.0
-"""Number of inputs per second of `KEPT_TIME` that may be kept."""
+MOST_INPUTS = 720
+"""Largest number of inputs that are kept: 8 a second."""
 NOISE_WEIGHT, MAX_NOISE_RATIO = 0.05, 3.0
 """Weight of one value in the low-pass filter of `Altitude.noise`, and largest ratio of a value to the filter's."""
 MIN_NOISE = 1e-4
@@ -237,8 +192,9 @@ class Altitude(Part):
     """Estimate after all inputs."""
     base: HeightEstimate = field(factory=HeightEstimate, init=False)
     """Estimate before the oldest input that is kept."""
-    inputs_kept: RecentInputs = field(factory=RecentInputs, init=False)
-    """Recent inputs: readings of both barometers and changes of the correction."""
+    inputs: deque[PackedInput] = field(factory=deque, init=False)
+    """Recent inputs, in the order in which they were processed: readings of both barometers and changes of the
+    correction."""
     sides: list[PendingReadings] = field(factory=lambda: [PendingReadings(), PendingReadings()], init=False)
     """Pending readings of the left and the right barometer."""
     noise: float = field(default=0.04, init=False)
@@ -294,15 +250,14 @@ class Altitude(Part):
     def _leave_out(self, source: int) -> Sequence[PartOutput]:
         """Stop to use a barometer that is wrong, and undo its readings that are kept."""
         self.faulty[source] = True
-        self._replace_inputs([entry for entry in self.inputs_kept.all() if entry[1] != source])
+        self._replace_inputs([entry for entry in map(_unpack, self.inputs) if entry[1] != source])
         return [self._height_shift()]
 
     def _replace_inputs(self, inputs: list[HeightInput]) -> None:
         """Process other inputs than those that are kept, and keep them instead."""
-        self.inputs_kept.replace(inputs)
-        self.now = self.base.copy()
-        for entry in self.inputs_kept.all():
-            self._apply_input(self.now, entry)
+        self.inputs, self.now = deque(), self.base.copy()
+        for entry in inputs:
+            self._process(entry)
 
     def _height_shift(self) -> HeightShift:
         return HeightShift(self.now.values[0], self.ride_variance)
@@ -315,18 +270,16 @@ class Altitude(Part):
             return
         source = LEFT if site.foot is Foot.LEFT else RIGHT
         self.sides[source], self.faulty[source] = PendingReadings(), False
-        newest = self.inputs_kept.newest
-        if newest is not None and newest[1] == FORGET + 1 - source:
-            # the clocks of both feet restart: no time that is kept can be compared with those to come
-            self.inputs_kept.clear()
-            self.strides.clear()
-            self.now.forget_offset(source)
-            self.base = self.now.copy()
-        elif newest is not None:
+        newest = _unpack(self.inputs[-1]) if self.inputs else None
+        if newest is not None and newest[1] != FORGET + 1 - source:
             self._add_input((newest[0], FORGET + source, 0.0, 0.0))
-        else:
-            self.now.forget_offset(source)
-            self.base = self.now.copy()
+            return
+        if newest is not None:
+            # the clocks of both feet restart: no time that is kept can be compared with those to come
+            self.inputs.clear()
+            self.strides.clear()
+        self.now.read_at[source] = None
+        self.base = self.now.copy()
 
     def _add_stride(self, stride: StrideTaken) -> Sequence[PartOutput]:
         self.strides.append((float(round(100.0 * stride.t_start)), float(round(100.0 * stride.t_end))))
@@ -348,21 +301,20 @@ class Altitude(Part):
     def _corrected_ride(self, ride: LiftRidden) -> LiftRidden:
         """Process the inputs since the ride's start again, and return the ride with its likeliest height."""
         start, end = ride.t_start, ride.t
-        inputs = self.inputs_kept.all()
-        readings = [
-            entry for entry in inputs if entry[1] < MOVE and not start - RIDE_MARGIN < entry[0] < end + RIDE_MARGIN
+        inputs = [
+            entry
+            for entry in map(_unpack, self.inputs)
+            if entry[1] >= MOVE or not start - RIDE_MARGIN < entry[0] < end + RIDE_MARGIN
         ]
+        readings = [entry for entry in inputs if entry[1] < MOVE]
         enclosed = any([entry[0] < start for entry in readings]) and any([entry[0] > end for entry in readings])
         if not enclosed and not self._is_plausible(ride):
             return evolve(ride, height=None)
         by = 0.0 if ride.height is None or not abs(ride.height) < MAX_TRACK_HEIGHT else ride.height
         variance = (RIDE_ERROR * by) ** 2 if by else UNKNOWN_VARIANCE
         previous = self.now.values[0]
-        inputs_kept = [
-            entry for entry in inputs if entry[1] >= MOVE or not start - RIDE_MARGIN < entry[0] < end + RIDE_MARGIN
-        ]
-        first = [entry for entry in inputs_kept if entry[0] <= end]
-        later = [entry for entry in inputs_kept if entry[0] > end]
+        first = [entry for entry in inputs if entry[0] <= end]
+        later = [entry for entry in inputs if entry[0] > end]
         self._replace_inputs([*first, (end, MOVE, by, variance), *later])
         height_gain = self.now.values[0] - previous
         self.ride_variance = min(self.ride_variance + min(variance, self.now.covariance[0]), UNKNOWN_VARIANCE)
@@ -382,19 +334,24 @@ class Altitude(Part):
         )
 
     def _add_input(self, entry: HeightInput) -> Sequence[PartOutput]:
-        inputs_kept = self.inputs_kept
-        while (oldest := inputs_kept.oldest) is not None and (
-            entry[0] - oldest > KEPT_TIME or inputs_kept.count >= MAX_INPUT_RATE * KEPT_TIME
-        ):
-            self._apply_input(self.base, inputs_kept.pop())
-        self._apply_input(self.now, inputs_kept.add(entry))
+        inputs = self.inputs
+        while inputs and (entry[0] - inputs[0][0] / TICKS_PER_S > KEPT_TIME or len(inputs) >= MOST_INPUTS):
+            _apply(_unpack(inputs.popleft()), self.base)
+        self._process(entry)
         return [self._height_shift()]
 
-    def _apply_input(self, estimate: HeightEstimate, entry: HeightInput) -> None:
-        t, source, value, variance = entry
-        if source == MOVE:
-            estimate.move(value, variance)
-        elif source >= FORGET:
-            estimate.forget_offset(source - FORGET)
-        else:
-            estimate.read(source, t, value, variance, OFFSET_DRIFT * OFFSET_DRIFT)
+    def _process(self, entry: HeightInput) -> None:
+        """Keep an input, and process it as it is kept."""
+        self.inputs.append(_pack(entry))
+        _apply(_unpack(self.inputs[-1]), self.now)
+
+
+def _apply(entry: HeightInput, estimate: HeightEstimate) -> None:
+    """Process an input in an estimate."""
+    t, source, value, variance = entry
+    if source == MOVE:
+        estimate.move(value, variance)
+    elif source >= FORGET:
+        estimate.read_at[source - FORGET] = None
+    else:
+        estimate.read(source, t, value, variance, OFFSET_DRIFT * OFFSET_DRIFT)

@@ -16,7 +16,7 @@ from ..types.attrs import ROW_SIZE, define, field, frozen
 from ..types.vector import ZERO, rotate_back
 from .part import LayoutReported, Notice, Part, PartInput, PartOutput
 
-# Integral of a foot's angular rate over the last second or two, which sides.py uses.
+# Integral of a foot's angular rate over the last second or two, which `Sides` uses.
 
 INSTANT = Struct("<i3q")
 """Time since the previous instant, ticks, and the components of the integral, in units of 1 / `UNITS_PER_RAD` rad."""

@@ -27,7 +27,7 @@ class GaitCycleMeasured(Happening):
     other foot's contact or toe-off lies in a gap in its samples, after a DefectFound of the clocks of the feet, and if
     the cycle would have both a double support and a flight of more than 50 ms, which neither a walk nor a run has.
 
-    The conditions for a `steady` cycle, which counts in the running means, are in body/gait/measuring.py."""
+    The conditions for a `steady` cycle, which counts in the running means, are in body/gait/cycles.py."""
 
     foot: Foot
     """Foot of the cycle."""

@@ -10,9 +10,7 @@ from attrs import evolve
 from strides import stride
 from walks import LEFT, RIGHT
 
-from solepath.body.gait.turn_detector import TurnDetector, TurnProcess
-from solepath.body.gait.turning_steps import TurningStrideFilter
-from solepath.body.gait.turns import WEIGHTS, classify
+from solepath.body.gait.turns import WEIGHTS, TurnDetector, TurningStrideFilter, TurnProcess, classify
 from solepath.calibration import Calibration, CalibrationError
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541

@@ -7,9 +7,9 @@ from math import atan, degrees, inf, radians
 import pytest
 from hypothesis import strategies as st
 
-from solepath.body.activity.flights import DOWNSTAIRS_THRESHOLD, UPSTAIRS_THRESHOLD, angle_per_metre, steepness
 from solepath.foot.stance.stance import Stance
 from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude, EnergySettings, ShortTimeEnergy
+from solepath.papers.shoe_sensing.steepness import DOWNSTAIRS_THRESHOLD, UPSTAIRS_THRESHOLD, angle_per_metre, steepness
 from solepath.types import Phase
 from solepath.types.vector import GRAVITY, ZERO
 

@@ -1,9 +1,9 @@
 """Activities of the wearer: standing, walking, running, stairs and elevators, for any recipe.
 
-The samples of each foot are cut into blocks of half a second (features.py), and every block gives a likelihood of each
-motion (motion.py). Three kinds of evidence feed a Markov chain of sixteen states (chain.py): the motion likelihoods of
-both feet, the force that an elevator adds on a standing foot (elevator_evidence.py), and the height by air pressure, if
-there is a barometer (pressure_height.py). Viterbi's algorithm finds the likeliest sequence (hypotheses.py).
+The samples of each foot are cut into blocks of half a second (foot_blocks.py), and every block gives a likelihood of
+each motion (motion.py). Three kinds of evidence feed a Markov chain of sixteen states (chain.py): the likelihoods of
+both feet's motion, the force that an elevator adds on a standing foot (elevator_evidence.py), and the height by air
+pressure, if there is a barometer (pressure_height.py). Viterbi's algorithm finds the sequence (hypotheses.py).
 
 Latency: a block enters the sequence when two more blocks have come, 1 to 1.5 s after it. Until then a state machine
 (early.py) reports what the newest blocks show, up to half a second after it happens, and each stride at its end. All of
@@ -84,6 +84,10 @@ class Activities(ActivityPart):
         """The newest activity that was reported, final or not."""
         return self.report.activity
 
+    @property
+    def _model(self) -> MotionModel:
+        return self.settings.model or load_released_model()
+
     def ready(self) -> None:
         """Read the motion model of this release, unless the settings have one."""
         if self.settings.model is None:
@@ -102,36 +106,29 @@ class Activities(ActivityPart):
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a sample of a foot with its air pressure and events; return activities, flights and rides."""
-        outputs: list[PartOutput] = [] if view is None else self._add_sample(view, events)
+        outputs: list[PartOutput] = []
+        if view is not None and (self.origin is not None or view.sample.acc is not None):
+            sample, t, side = view.sample, view.t, self.feet[view.foot]
+            acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
+            if self.origin is None:
+                self.origin = t
+            block_number = (t - self.origin + TIE) / BLOCK_DURATION
+            if sample.air_pressure is not None and side.index is not None:
+                self.pressure_height.add(view.foot, floor(block_number), sample.air_pressure)
+            if acc is not None:
+                if side.index is None or block_number >= side.index + 1:
+                    side.close()
+                    side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
+                    outputs += self._judge(t, view.known_at)
+                side.add(acc, sample.gyro, view.velocity if view.levelled else None, view.position[2])
+            if events:
+                side.add_events(events, view.position[2])
+                for event in events:
+                    if isinstance(event, StrideTaken):
+                        outputs += self._add_stride(event, floor(block_number))
         for event in events:  # a barometer that contradicts the strides is left out
             if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
                 self.pressure_height.leave_out(event.site.foot)
-        return outputs
-
-    def _add_sample(self, view: FootView, events: Sequence[PartInput]) -> list[PartOutput]:
-        sample = view.sample
-        acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
-        t, origin = view.t, self.origin
-        side = self.feet[view.foot]
-        outputs: list[PartOutput] = []
-        if origin is None:
-            if acc is None:
-                return outputs
-            self.origin = origin = t
-        block_number = (t - origin + TIE) / BLOCK_DURATION
-        if sample.air_pressure is not None and side.index is not None:
-            self.pressure_height.add(view.foot, floor(block_number), sample.air_pressure)
-        if acc is not None:
-            if side.index is None or block_number >= side.index + 1:
-                side.close()
-                side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
-                outputs += self._judge(t, view.known_at)
-            side.add(acc, sample.gyro, view.velocity if view.levelled else None, view.position[2])
-        if events:
-            side.add_events(events, view.position[2])
-            for event in events:
-                if isinstance(event, StrideTaken):
-                    outputs += self._add_stride(event, floor(block_number))
         return outputs
 
     def finish(self, now: float) -> Sequence[PartOutput]:
@@ -168,7 +165,7 @@ class Activities(ActivityPart):
 
     def _judge_block(self, index: int) -> bool:
         """Judge one block and return whether it has samples."""
-        model = self.settings.model or load_released_model()
+        model = self._model
         pressure_height = self.pressure_height
         features, forces = self._features(index), self._forces(index)
         self.hypotheses.update(
@@ -199,7 +196,7 @@ class Activities(ActivityPart):
 
         `followed` is the newest block of the report before. When that one, the newest block and the sequence all show
         the same activity, it goes on; otherwise every block that is not in the sequence yet is judged again."""
-        best, model = self.hypotheses.best, self.settings.model or load_released_model()
+        best, model = self.hypotheses.best, self._model
         newest = NO_ACTIVITY if best is None or not best.path else best.path[-1]
         levels, chain = None if best is None else best.ride.levels, model.chain
         t, shown = self._time(self.newest_block), self._show(self.newest_block)
@@ -219,7 +216,7 @@ class Activities(ActivityPart):
         features = self._features(index)
         if all([one is None for one in features]):
             return None
-        model = self.settings.model or load_released_model()
+        model = self._model
         return motion_votes(model, features), ElevatorEvidence(self._forces(index))
 
     def _report_early(self, known_at: float) -> list[Event]:
@@ -227,7 +224,7 @@ class Activities(ActivityPart):
         early = EarlyActivities(self.early)
         if self.stride_cue is not None and self.stride_cue[0] > self.newest_block:
             index, stride_cue, probability = self.stride_cue
-            model = self.settings.model or load_released_model()
+            model = self._model
             early.follow(self._time(index), (stride_cue, probability), model.chain)
         return self.report.add(self.hypotheses, early.found[1:], self._time(self.next_block), known_at)
 

@@ -43,53 +43,41 @@ UNACCELERATED_STATES = frozenset((ELEVATOR_MOVES_UP, ELEVATOR_CREEPS_UP, ELEVATO
 """States of a ride without acceleration, before its last pulse."""
 
 Chances = tuple[tuple[float, ...], ...]
-"""Chances of a transition from each of `_LEARNT_STATES` (rows) to each of them (columns); each row adds up to 1."""
+"""Chances of a transition from each of the first five states (rows) to each of them (columns); a row adds up to 1."""
 Shifts = tuple[tuple[Activity, Activity, float], ...]
 """For each change: old activity, new activity, and time from the block of its detection to the change, s."""
 
-DEFAULT_CHANCES: Chances = (
-    (0.959, 0.03, 1e-3, 5e-3, 5e-3),
-    (0.03, 0.936, 4e-3, 0.015, 0.015),
-    (0.01, 0.03, 0.956, 2e-3, 2e-3),
-    (0.02, 0.05, 2e-3, 0.926, 2e-3),
-    (0.02, 0.05, 2e-3, 2e-3, 0.926),
-)
-"""Chances before anything is learnt: standing lasts 12 s on average, and most flights end on level ground."""
 
-_RIDE_FROM_STANDING = {
-    "ELEVATOR_STARTS_UP": 3e-3,
-    "ELEVATOR_MOVES_UP": 1e-5,
-    "ELEVATOR_STARTS_DOWN": 3e-3,
-    "ELEVATOR_MOVES_DOWN": 1e-5,
-}
-_RIDE_FROM_MOVING = {
-    "ELEVATOR_STARTS_UP": 1e-3,
-    "ELEVATOR_MOVES_UP": 3e-4,
-    "ELEVATOR_STARTS_DOWN": 1e-3,
-    "ELEVATOR_MOVES_DOWN": 3e-4,
-}
-_LEARNT_STATES = ("STAND", "WALK", "RUN", "STAIRS_UP", "STAIRS_DOWN")
-_OTHER_CHANCES: dict[str, dict[str, float]] = {
-    "STAND": {"UNKNOWN": 1e-3, **_RIDE_FROM_STANDING},
-    "WALK": {"UNKNOWN": 1e-3, **_RIDE_FROM_MOVING},
-    "RUN": {"UNKNOWN": 1e-3},
-    "STAIRS_UP": {"UNKNOWN": 1e-3, **_RIDE_FROM_MOVING},
-    "STAIRS_DOWN": {"UNKNOWN": 1e-3, **_RIDE_FROM_MOVING},
-    "UNKNOWN": {"STAND": 0.1, "WALK": 0.1, "RUN": 0.02, "STAIRS_UP": 0.02, "STAIRS_DOWN": 0.02, **_RIDE_FROM_MOVING},
-    "ELEVATOR_STARTS_UP": {"ELEVATOR_MOVES_UP": 0.25, "ELEVATOR_STOPS_UP": 0.05},
-    "ELEVATOR_MOVES_UP": {"ELEVATOR_STOPS_UP": 0.07, "WALK": 3e-4, "STAND": 1e-5, "UNKNOWN": 3e-4},
-    "ELEVATOR_STOPS_UP": {"STAND": 0.2, "WALK": 0.02, "ELEVATOR_CREEPS_UP": 0.08},
-    "ELEVATOR_CREEPS_UP": {"ELEVATOR_HALTS_UP": 0.1, "WALK": 1e-3, "UNKNOWN": 1e-3},
-    "ELEVATOR_HALTS_UP": {"STAND": 0.4, "WALK": 0.02},
-    "ELEVATOR_STARTS_DOWN": {"ELEVATOR_MOVES_DOWN": 0.25, "ELEVATOR_STOPS_DOWN": 0.05},
-    "ELEVATOR_MOVES_DOWN": {"ELEVATOR_STOPS_DOWN": 0.07, "WALK": 3e-4, "STAND": 1e-5, "UNKNOWN": 3e-4},
-    "ELEVATOR_STOPS_DOWN": {"STAND": 0.2, "WALK": 0.02, "ELEVATOR_CREEPS_DOWN": 0.08},
-    "ELEVATOR_CREEPS_DOWN": {"ELEVATOR_HALTS_DOWN": 0.1, "WALK": 1e-3, "UNKNOWN": 1e-3},
-    "ELEVATOR_HALTS_DOWN": {"STAND": 0.4, "WALK": 0.02},
+def _to_ride(starts: float, moves: float) -> dict[int, float]:
+    """Return the chances of the first two states of a ride, which are those of both directions."""
+    return {
+        ELEVATOR_STARTS_UP: starts, ELEVATOR_MOVES_UP: moves, ELEVATOR_STARTS_DOWN: starts, ELEVATOR_MOVES_DOWN: moves
+    }  # fmt: skip
+
+
+def _in_ride(starts: int, moves: int, stops: int, creeps: int, halts: int) -> dict[int, dict[int, float]]:
+    """Return the chances from the states of a ride in one direction."""
+    return {
+        starts: {moves: 0.25, stops: 0.05},
+        moves: {stops: 0.07, WALK: 3e-4, STAND: 1e-5, UNKNOWN: 3e-4},
+        stops: {STAND: 0.2, WALK: 0.02, creeps: 0.08},
+        creeps: {halts: 0.1, WALK: 1e-3, UNKNOWN: 1e-3},
+        halts: {STAND: 0.4, WALK: 0.02},
+    }
+
+
+_FROM_MOVING = _to_ride(1e-3, 3e-4)
+_OTHER_CHANCES: dict[int, dict[int, float]] = {
+    STAND: {UNKNOWN: 1e-3, **_to_ride(3e-3, 1e-5)},
+    WALK: {UNKNOWN: 1e-3, **_FROM_MOVING},
+    RUN: {UNKNOWN: 1e-3},
+    STAIRS_UP: {UNKNOWN: 1e-3, **_FROM_MOVING},
+    STAIRS_DOWN: {UNKNOWN: 1e-3, **_FROM_MOVING},
+    UNKNOWN: {STAND: 0.1, WALK: 0.1, RUN: 0.02, STAIRS_UP: 0.02, STAIRS_DOWN: 0.02, **_FROM_MOVING},
+    **_in_ride(*range(ELEVATOR_STARTS_UP, ELEVATOR_STARTS_DOWN)),
+    **_in_ride(*range(ELEVATOR_STARTS_DOWN, ELEVATOR_HALTS_DOWN + 1)),
 }
 """Chances within one block of the transitions that are not learnt; the rest is the chance to stay."""
-_STATE_NAMES = tuple(_OTHER_CHANCES)
-"""Names of the states, in their order."""
 FIRST_CHANCES = (0.5, 0.25, 0.05, 0.05, 0.05, 0.04, *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5), *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5))
 """Probability of each state before any evidence, in the order of the states."""
 
@@ -107,19 +95,19 @@ class Chain:
 @lru_cache(maxsize=4)
 def chain_of(chances: Chances, shifts: Shifts) -> Chain:
     """Return the chain with the learnt chances and delays, and the fixed chances."""
-    chances_from = {name: dict(_OTHER_CHANCES[name]) for name in _STATE_NAMES}
-    for name, row in zip(_LEARNT_STATES, chances, strict=True):
-        chances_from[name] |= {to: chance for to, chance in zip(_LEARNT_STATES, row, strict=True) if to != name}
+    chances_from = {state: dict(others) for state, others in _OTHER_CHANCES.items()}
+    for state, row in enumerate(chances):
+        chances_from[state] |= {to: chance for to, chance in enumerate(row) if to != state}
     predecessors = tuple(
         [
             tuple(
                 [
-                    (i, log(1.0 - fsum(chances_from[name].values()) if name == to else chances_from[name][to]))
-                    for i, name in enumerate(_STATE_NAMES)
-                    if name == to or to in chances_from[name]
+                    (state, log(1.0 - fsum(others.values()) if state == to else others[to]))
+                    for state, others in chances_from.items()
+                    if state == to or to in others
                 ]
             )
-            for to in _STATE_NAMES
+            for to in chances_from
         ]
     )
     delays = {(a, b): shift for a, b, shift in shifts}

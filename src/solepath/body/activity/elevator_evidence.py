@@ -9,8 +9,11 @@ the same force by different levels. Accelerations are positive upwards."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
 from math import exp, log, pi, sqrt
 from operator import is_
+from typing import Any, TypeVar, cast
 
 from ...types.attrs import define
 from ...types.vector import GRAVITY
@@ -77,30 +80,38 @@ RestLevels = tuple[RestLevel, ...]
 """Rest levels of the left foot and of the right foot, in this order."""
 
 
+Method = TypeVar("Method", bound=Callable[..., Any])
+
+
+def _once(compute: Method) -> Method:
+    """Return a method of `ElevatorEvidence` that computes its result for the same levels and prior once."""
+
+    @wraps(compute)
+    def find(self: ElevatorEvidence, levels: RestLevels, *prior: float) -> Any:
+        key = (compute, id(levels), *prior)
+        if key not in self.found:
+            self.found[key] = compute(self, levels, *prior)
+        return self.found[key]
+
+    return cast(Method, find)
+
+
 class ElevatorEvidence:
     """The forces on both feet in half a second, compared with their levels at rest.
 
     Most paths share the same `RestLevels` object, so each result is computed once and cached. An instance is used
     for one block only and is not part of the state."""
 
-    __slots__ = ("_accelerations", "_pulses", "_standing", "_walks", "forces")
+    __slots__ = ("forces", "found")
 
     def __init__(self, forces: tuple[BlockForce | None, ...]) -> None:
         self.forces = forces
         # keys are ids of levels; they stay valid because tokens hold the levels longer than this object exists
-        self._accelerations: dict[int, tuple[float, float] | None] = {}
-        self._standing: dict[int, tuple[RestLevels, float]] = {}
-        self._walks: dict[int, tuple[RestLevels, float]] = {}
-        self._pulses: dict[tuple[int, float], tuple[RestLevels, float, float]] = {}
+        self.found: dict[tuple[object, ...], Any] = {}
 
+    @_once
     def add_rest(self, levels: RestLevels) -> tuple[RestLevels, float]:
         """Return the levels after a block without acceleration, and the log-likelihood of the forces."""
-        result = self._standing.get(id(levels))
-        if result is None:
-            result = self._standing[id(levels)] = self._compute_rest(levels)
-        return result
-
-    def _compute_rest(self, levels: RestLevels) -> tuple[RestLevels, float]:
         excess = self.estimate_acceleration(levels)
         if excess is None:
             return levels, 0.0
@@ -110,16 +121,11 @@ class ElevatorEvidence:
         # the variance of 1e9 keeps a stray block from changing the levels
         return self._update_levels(levels, 0.0, 0.0 if regular > stray else 1e9), log(regular + stray + LEAST_DENSITY)
 
+    @_once
     def add_pulse(self, levels: RestLevels, mean: float, deviation: float) -> tuple[RestLevels, float, float]:
         """Return the levels after a block of a pulse, its acceleration, m/s^2, and the log-likelihood of the forces.
 
         `mean` and `deviation` are the prior of the acceleration, m/s^2."""
-        result = self._pulses.get((id(levels), mean))
-        if result is None:
-            result = self._pulses[id(levels), mean] = self._compute_pulse(levels, mean, deviation)
-        return result
-
-    def _compute_pulse(self, levels: RestLevels, mean: float, deviation: float) -> tuple[RestLevels, float, float]:
         excess = self.estimate_acceleration(levels)
         if excess is None:
             return levels, mean, 0.0
@@ -130,14 +136,9 @@ class ElevatorEvidence:
         pulse_acceleration = mean + share * residual
         return self._update_levels(levels, pulse_acceleration, share * variance), pulse_acceleration, log_likelihood
 
+    @_once
     def add_walking(self, levels: RestLevels) -> tuple[RestLevels, float]:
         """Return the levels after a block of moving feet, and the log-likelihood of the forces outside an elevator."""
-        result = self._walks.get(id(levels))
-        if result is None:
-            result = self._walks[id(levels)] = self._compute_walking(levels)
-        return result
-
-    def _compute_walking(self, levels: RestLevels) -> tuple[RestLevels, float]:
         excess = self.estimate_acceleration(levels)
         walked = tuple(
             [
@@ -155,13 +156,9 @@ class ElevatorEvidence:
         far = _density(excess[0], excess[1] + MOVING_OUTLIER * MOVING_OUTLIER)
         return walked, log((1.0 - MOVING_OUTLIER_SHARE) * near + MOVING_OUTLIER_SHARE * far + LEAST_DENSITY)
 
+    @_once
     def estimate_acceleration(self, levels: RestLevels) -> tuple[float, float] | None:
         """Return the mean force above the rest levels, m/s^2, and its variance, (m/s^2)^2; None without samples."""
-        if id(levels) not in self._accelerations:
-            self._accelerations[id(levels)] = self._compute_acceleration(levels)
-        return self._accelerations[id(levels)]
-
-    def _compute_acceleration(self, levels: RestLevels) -> tuple[float, float] | None:
         total = weights = 0.0
         residuals = []
         for level, block in zip(levels, self.forces, strict=True):

@@ -52,7 +52,7 @@ class ActivityBlock:
     variance: float
     """Variance of |acc|, (m/s^2)^2."""
     acc_bins: tuple[int, ...]
-    """Number of samples in each bin of |acc|, at most 255 each (features.py has the bins)."""
+    """Number of samples in each bin of |acc|, at most 255 each."""
     gyro_count: int
     """Number of samples with a gyroscope."""
     gyro_mean_square: float
@@ -95,81 +95,60 @@ def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: Bloc
     """Return `FEATURE_COUNT` features, scaled to the order of 1, of the block `judged`; unknown features are 0.
 
     `window` has the blocks of the window, including `judged`; `stride` is the stride in the middle of `judged`."""
-    values = [0.0] * FEATURE_COUNT
-    earlier = [block for block in window if block.index < judged.index]
-    later = [block for block in window if block.index > judged.index]
-    with_gyro = [block for block in window if block.gyro_count]
-    tracked = [block for block in window if block.tracked]
+    parts = [
+        [block for block in window if block.index < judged.index],
+        [judged],
+        [block for block in window if block.index > judged.index],
+    ]
     samples, forces, squares = 0, 0.0, 0.0
-    least = most = judged.variance
     for block in window:
-        n, force, variance = block.count, block.force, block.variance
+        n, force = block.count, block.force
         samples += n
         forces += force * n
-        squares += (variance + force * force) * n
-        if variance < least:
-            least = variance
-        elif variance > most:
-            most = variance
-    values[0] = _log_variance(judged.variance)
-    values[1] = _log_variance(least)
-    values[2] = _log_variance(most)
-    mean = forces / samples
-    values[3] = _log_variance(max(0.0, squares / samples - mean * mean))
-    window_parts = (earlier, [judged], later)
-    start = 4
-    for blocks in window_parts:
-        if blocks:
-            values[start : start + BIN_COUNT] = _shares([b.acc_bins for b in blocks], [b.count for b in blocks])
-        start += BIN_COUNT
+        squares += (block.variance + force * force) * n
+    mean, variances = forces / samples, [block.variance for block in window]
+    values = _log_variances(judged.variance, variances, max(0.0, squares / samples - mean * mean))
+    for blocks in parts:
+        values += _shares([(block.acc_bins, block.count) for block in blocks])
+    with_gyro = [block for block in window if block.gyro_count]
     if with_gyro:
         gyro_count, squares = 0, 0.0
-        least = most = with_gyro[0].gyro_mean_square
         for block in with_gyro:
-            n, gyro_mean_square = block.gyro_count, block.gyro_mean_square
-            gyro_count += n
-            squares += gyro_mean_square * n
-            if gyro_mean_square < least:
-                least = gyro_mean_square
-            elif gyro_mean_square > most:
-                most = gyro_mean_square
-        values[FIRST_GYRO_FEATURE] = 1.0
-        values[FIRST_GYRO_FEATURE + 1] = _log_variance(
-            judged.gyro_mean_square if judged.gyro_count else with_gyro[0].gyro_mean_square
-        )
-        values[FIRST_GYRO_FEATURE + 2] = _log_variance(least)
-        values[FIRST_GYRO_FEATURE + 3] = _log_variance(most)
-        values[FIRST_GYRO_FEATURE + 4] = _log_variance(squares / gyro_count)
-        start = FIRST_GYRO_FEATURE + 5
-        for blocks in window_parts:
-            if len(with_gyro) < len(window):
-                blocks = [block for block in blocks if block.gyro_count]
-            if blocks:
-                values[start : start + BIN_COUNT] = _shares(
-                    [b.gyro_bins for b in blocks], [b.gyro_count for b in blocks]
-                )
-            start += BIN_COUNT
+            gyro_count += block.gyro_count
+            squares += block.gyro_mean_square * block.gyro_count
+        nearest = judged if judged.gyro_count else with_gyro[0]
+        mean_squares = [block.gyro_mean_square for block in with_gyro]
+        values += [1.0, *_log_variances(nearest.gyro_mean_square, mean_squares, squares / gyro_count)]
+        for blocks in parts:
+            values += _shares([(block.gyro_bins, block.gyro_count) for block in blocks if block.gyro_count])
+    else:
+        values += [0.0] * (FIRST_TRACK_FEATURE - FIRST_GYRO_FEATURE)
+    tracked = [block for block in window if block.tracked]
     if tracked:
-        values[FIRST_TRACK_FEATURE] = 1.0
-        values[FIRST_TRACK_FEATURE + 1] = min(max([block.climb for block in tracked]), 3.0)
-        values[FIRST_TRACK_FEATURE + 2] = max(min([block.sink for block in tracked]), -3.0)
-        values[FIRST_TRACK_FEATURE + 3] = 0.5 * min(max([block.speed for block in tracked]), 6.0)
-        values[FIRST_TRACK_FEATURE + 4] = min(judged.climb, 3.0)
-        values[FIRST_TRACK_FEATURE + 5] = max(judged.sink, -3.0)
-    if stride is not None:
-        duration = stride.end - stride.start
-        values[FIRST_STRIDE_FEATURE] = 1.0
-        values[FIRST_STRIDE_FEATURE + 1] = min(duration, 2.0)
-        values[FIRST_STRIDE_FEATURE + 2] = min(stride.length, MAX_LENGTH)
-        values[FIRST_STRIDE_FEATURE + 3] = 2.0 * min(max(stride.rise, -MAX_RISE), MAX_RISE)
-        values[FIRST_STRIDE_FEATURE + 4] = 2.0 * min(max(stride.clearance, 0.0), 0.5)
-        values[FIRST_STRIDE_FEATURE + 5] = 0.5 * min(stride.speed, 6.0)
-        values[FIRST_STRIDE_FEATURE + 6] = min(stride.pitch, 3.0)
-        values[FIRST_STRIDE_FEATURE + 7] = min(max(stride.rise / max(stride.length, 0.2), -1.0), 1.0)
-        values[FIRST_STRIDE_FEATURE + 8] = 2.0 * min(max(stride.top, -0.6), 0.6)
-        values[FIRST_STRIDE_FEATURE + 9] = 2.0 * min(max(stride.bottom, -0.6), 0.6)
-        values[FIRST_STRIDE_FEATURE + 10] = 2.0 * min(max(stride.strike_height, -0.6), 0.6)
-    return values
+        values += [
+            1.0,
+            min(max([block.climb for block in tracked]), 3.0),
+            max(min([block.sink for block in tracked]), -3.0),
+            0.5 * min(max([block.speed for block in tracked]), 6.0),
+            min(judged.climb, 3.0),
+            max(judged.sink, -3.0),
+        ]
+    else:
+        values += [0.0] * (FIRST_STRIDE_FEATURE - FIRST_TRACK_FEATURE)
+    if stride is None:
+        return values + [0.0] * (FEATURE_COUNT - FIRST_STRIDE_FEATURE)
+    return [
+        *values,
+        1.0,
+        min(stride.end - stride.start, 2.0),
+        min(stride.length, MAX_LENGTH),
+        2.0 * min(max(stride.rise, -MAX_RISE), MAX_RISE),
+        2.0 * min(max(stride.clearance, 0.0), 0.5),
+        0.5 * min(stride.speed, 6.0),
+        min(stride.pitch, 3.0),
+        min(max(stride.rise / max(stride.length, 0.2), -1.0), 1.0),
+        *[2.0 * min(max(height, -0.6), 0.6) for height in (stride.top, stride.bottom, stride.strike_height)],
+    ]
 
 
 def stride_of(features: Sequence[float]) -> tuple[float, float, float] | None:
@@ -182,17 +161,19 @@ def stride_of(features: Sequence[float]) -> tuple[float, float, float] | None:
     return duration, length, 0.5 * doubled_rise
 
 
-def _log_variance(variance: float) -> float:
-    """Return the scaled logarithm of a variance: about -1 at rest and 1 when running."""
-    return 0.25 * log(1e-4 if variance < 1e-4 else 1e4 if variance > 1e4 else variance)
+def _log_variances(judged: float, window: list[float], whole: float) -> list[float]:
+    """Return the scaled logarithms of variances: about -1 at rest and 1 when running.
+
+    They are of the judged block, the least and the largest in its window, and of the whole window."""
+    return [0.25 * log(max(1e-4, min(1e4, value))) for value in (judged, min(window), max(window), whole)]
 
 
-def _shares(bins: list[tuple[int, ...]], counts: list[int]) -> list[float]:
-    """Return the share of each bin among the samples of one part of a window, of one or two blocks."""
-    samples = sum(counts)  # whole numbers
-    if len(bins) == 1:
-        return [n / samples for n in bins[0]]
-    return [a / samples + b / samples for a, b in zip(*bins, strict=True)]
+def _shares(blocks: list[tuple[tuple[int, ...], int]]) -> list[float]:
+    """Return the share of each bin among the samples of up to two blocks, each with its bins and number of samples."""
+    shares, samples = [0.0] * BIN_COUNT, sum([count for _, count in blocks])  # whole numbers
+    for bins, _ in blocks:
+        shares = [share + n / samples for share, n in zip(shares, bins, strict=True)]
+    return shares
 
 
 MAX_BLOCKS = 2 * WINDOW_REACH + 1

@@ -13,7 +13,7 @@ from math import exp, inf, log
 from operator import attrgetter
 
 from ...types import Activity
-from ...types.attrs import define, field
+from ...types.attrs import define, evolve, field
 from ...types.vector import TIE
 from .chain import (
     ACTIVITIES,
@@ -84,50 +84,30 @@ class ElevatorRide:
     standing_time: float = 1e3
     """Time since the last ride ended, s."""
 
-    @staticmethod
-    def start(
-        has_first_pulse: bool, start_height: Height | None, levels: RestLevels, acceleration: float, block: float
-    ) -> ElevatorRide:
-        """Return a ride after its first block, which lasts `block` s.
-
-        `start_height` is by air pressure; see `move` for `levels` and `acceleration`."""
-        velocity = round(0.0 + acceleration * block, 6)
-        height = round(0.0 + 0.5 * velocity * block, 6)
-        return ElevatorRide(levels, velocity, abs(velocity), height, block, has_first_pulse, start_height)
-
-    def move(self, levels: RestLevels, acceleration: float, block: float) -> ElevatorRide:
-        """Return the ride after `block` s more with this elevator acceleration, m/s^2, and with new levels."""
+    def move(self, levels: RestLevels, acceleration: float) -> ElevatorRide:
+        """Return the ride after another block with this elevator acceleration, m/s^2, and with new levels."""
         old_velocity = self.velocity
-        velocity = round(old_velocity + acceleration * block, 6)
+        velocity = round(old_velocity + acceleration * BLOCK_DURATION, 6)
         speed = abs(velocity)
         return ElevatorRide(
             levels,
             velocity,
             speed if speed > self.top_speed else self.top_speed,
-            round(self.height + 0.5 * (old_velocity + velocity) * block, 6),
-            self.duration + block,
+            round(self.height + 0.5 * (old_velocity + velocity) * BLOCK_DURATION, 6),
+            self.duration + BLOCK_DURATION,
             self.has_first_pulse,
             self.start_height,
             self.standing_time,
         )
 
-    def wait(self, levels: RestLevels, block: float) -> ElevatorRide:
-        """Return the state after `block` s outside a ride, with new levels and the values of the last ride."""
+    def wait(self, levels: RestLevels) -> ElevatorRide:
+        """Return the state after a block outside a ride, with new levels and the values of the last ride."""
         standing_time = self.standing_time
         if standing_time < DWELL_TIME:
-            standing_time += block
+            standing_time += BLOCK_DURATION
         elif levels is self.levels:
             return self
-        return ElevatorRide(
-            levels,
-            self.velocity,
-            self.top_speed,
-            self.height,
-            self.duration,
-            self.has_first_pulse,
-            self.start_height,
-            standing_time,
-        )
+        return evolve(self, levels=levels, standing_time=standing_time)
 
     def end(self) -> ElevatorRide:
         """Return the state just after a ride ends: nothing but the levels is kept."""
@@ -219,7 +199,7 @@ class BlockEvidence:
 
     t: float
     motion_scores: tuple[float, ...]
-    """Log-likelihoods of the first six states of chain.py by the motion of the feet (votes.py)."""
+    """Log-likelihoods of the first six states of chain.py by the motion of the feet (`motion_votes`)."""
     forces: tuple[BlockForce | None, ...]
     """Force on the left and on the right foot."""
     pressure_scores: tuple[float, ...]
@@ -387,7 +367,7 @@ def _extend_path(
     start_height = block.before if state in STAIR_SIGNS else None
     if path and path[-1].activity is activity:
         if state in RIDE_STATES:
-            return path, ride.move(levels, acceleration, BLOCK_DURATION)
+            return path, ride.move(levels, acceleration)
         start_height = ride.start_height
     else:
         t = block.t
@@ -400,13 +380,13 @@ def _extend_path(
             t = max(t + chain.shift[token.state][state], last.t + TIE)
         if state in RIDE_STATES:
             has_first_pulse = state in PULSE_SIGNS and bool(path)
-            return (*path, ActivitySegment(t, activity, block.t)), ride.start(
-                has_first_pulse, block.before, levels, acceleration, BLOCK_DURATION
-            )
+            started = ElevatorRide(levels, has_first_pulse=has_first_pulse, start_height=block.before)
+            segment = ActivitySegment(t, activity, block.t)
+            return (*path, segment), started.move(levels, acceleration)
         path = (*path, ActivitySegment(t, activity))
     if state != STAND:
         ride = ElevatorRide(levels, start_height=start_height, standing_time=ride.standing_time)
-    return path, ride.wait(levels, BLOCK_DURATION)
+    return path, ride.wait(levels)
 
 
 FIRST_TOKENS = tuple(

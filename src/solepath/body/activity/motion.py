@@ -1,6 +1,6 @@
 """Parameters of the motion model: two small neural networks, and the statistics of their training data.
 
-votes.py turns one foot's features into the probability of each motion with them.
+`motion_votes` turns the features of both feet into the likelihood of each motion with them.
 
 Each network has one hidden layer of tanh units and softmax outputs. One network uses all features; the other one serves
 feet without a gyroscope. `solepath.lab.train.activities` trains them and lists the training data. The result is
@@ -100,7 +100,7 @@ class Network:
 
     @cached_property
     def hidden_half(self) -> Row:
-        """Bias of each hidden unit plus half the squared length of its weights (votes.py)."""
+        """Bias of each hidden unit plus half the squared length of its weights (`_weighted_sums`)."""
         return _with_half_squares(self.hidden, self.hidden_bias)
 
     @cached_property
@@ -210,7 +210,7 @@ MIN_VOTE = -12.0
 UNKNOWN_COST = 3.0
 """Penalty (minus log-likelihood) of an unknown activity for a foot of usual motion."""
 USUAL_STRANGENESS = 6.0
-"""Largest strangeness (motion.py) of usual motion; above it, an unknown activity becomes likelier."""
+"""Largest `strangeness` of usual motion; above it, an unknown activity becomes likelier."""
 MOVING_VARIANCE = 1.0
 """Least variance of |acc| of a foot that moves, (m/s^2)^2."""
 VARIANCE_SHARE = 0.05

@@ -13,24 +13,7 @@ from math import exp, fsum, log, sqrt
 from ...types import Foot
 from ...types.attrs import define, field
 from ..altitude import height_of
-from .chain import (
-    ELEVATOR_CREEPS_DOWN,
-    ELEVATOR_CREEPS_UP,
-    ELEVATOR_HALTS_DOWN,
-    ELEVATOR_HALTS_UP,
-    ELEVATOR_MOVES_DOWN,
-    ELEVATOR_MOVES_UP,
-    ELEVATOR_STARTS_DOWN,
-    ELEVATOR_STARTS_UP,
-    ELEVATOR_STOPS_DOWN,
-    ELEVATOR_STOPS_UP,
-    RUN,
-    STAIRS_DOWN,
-    STAIRS_UP,
-    STAND,
-    UNKNOWN,
-    WALK,
-)
+from .chain import ELEVATOR_CREEPS_DOWN, ELEVATOR_CREEPS_UP, STAND
 
 AIR_NOISE = 0.2
 """Standard deviation of the height over a block by doors and wind, m: 2.4 Pa (assumed)."""
@@ -65,28 +48,15 @@ DOOR_SHARE = 0.05
 
 It limits what the height of a whole stretch says to a ratio of 21 to 1."""
 
-_SLOPES = {
-    STAND: (0.0, 0.05),
-    WALK: (0.0, 0.15),
-    RUN: (0.0, 0.25),
-    STAIRS_UP: (0.3, 0.15),
-    STAIRS_DOWN: (-0.3, 0.15),
-    UNKNOWN: (0.0, 1.0),
-    ELEVATOR_MOVES_UP: (1.3, 0.8),
-    ELEVATOR_MOVES_DOWN: (-1.3, 0.8),
-    ELEVATOR_STARTS_UP: (0.6, 0.6),
-    ELEVATOR_STOPS_UP: (0.6, 0.6),
-    ELEVATOR_CREEPS_UP: (0.2, 0.2),
-    ELEVATOR_HALTS_UP: (0.1, 0.2),
-    ELEVATOR_STARTS_DOWN: (-0.6, 0.6),
-    ELEVATOR_STOPS_DOWN: (-0.6, 0.6),
-    ELEVATOR_CREEPS_DOWN: (-0.2, 0.2),
-    ELEVATOR_HALTS_DOWN: (-0.1, 0.2),
-}
+_RIDE_SLOPES = ((0.6, 0.6), (1.3, 0.8), (0.6, 0.6), (0.2, 0.2), (0.1, 0.2))
+_SLOPE_OF_STATE = (
+    *((0.0, 0.05), (0.0, 0.15), (0.0, 0.25), (0.3, 0.15), (-0.3, 0.15), (0.0, 1.0)),
+    *_RIDE_SLOPES,
+    *[(-mean, deviation) for mean, deviation in _RIDE_SLOPES],
+)
 """Mean and standard deviation of the vertical velocity in each state, m/s, positive upwards.
 
 Stairs are climbed at two treads per second; elevators move at 0.5 to 2.5 m/s."""
-_SLOPE_OF_STATE = tuple(_SLOPES[state] for state in range(len(_SLOPES)))
 NO_EVIDENCE = (0.0,) * len(_SLOPE_OF_STATE)
 Height = tuple[float, float]
 """A mean height, m above an arbitrary level, and its variance, m^2."""

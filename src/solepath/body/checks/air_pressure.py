@@ -11,12 +11,13 @@ from collections.abc import Sequence
 from math import exp
 from typing import ClassVar
 
-from ...events import Defect, DefectFound, StrideTaken
+from ...events import Defect, StrideTaken
 from ...foot.view import FootView
-from ...types import SITE_OF_FOOT, PerFoot, Site, per_foot
+from ...types import PerFoot, Site, per_foot
 from ...types.attrs import define, field
-from ..altitude import SCALE_HEIGHT, STANDARD_PRESSURE, height_of
+from ..altitude import DEGRADED_FACTOR, MAX_TRACK_HEIGHT, SCALE_HEIGHT, STANDARD_PRESSURE, height_of
 from ..part import Part, PartInput, PartOutput
+from .stances import Finding
 
 STRIDE_PAUSE = 2.5
 """Longest time since a stride of either foot in which the wearer is still walking, s: twice a slow stride."""
@@ -33,10 +34,6 @@ LARGEST_CHANGE = 2.0
 
 The difference of stairwells that are pressurised against smoke is 50 Pa (EN 12101-6). The error of a barometer whose
 readings have 0.5 m is 0.4 m over all ways on foot that `MEMORY` holds."""
-DEGRADED_RATIO = 3.0
-"""Ratio of that change after a degraded stride, whose height is less certain (`altitude.py` has the same)."""
-MAX_TRACK_HEIGHT = 1e5
-"""Largest height of a track that is used, m."""
 
 
 @define
@@ -104,10 +101,10 @@ class AirPressure(Part):
         height = height_of(pressure)
         if height is None or not abs(z) < MAX_TRACK_HEIGHT:
             return ()
-        if not barometer.add(t, height - z, LARGEST_CHANGE * (DEGRADED_RATIO if self.degraded else 1.0)):
+        if not barometer.add(t, height - z, LARGEST_CHANGE * (DEGRADED_FACTOR if self.degraded else 1.0)):
             return ()
         barometer.reported = True
-        return [_found(t, view.known_at, SITE_OF_FOOT[view.foot], barometer.change)]
+        return [_finding(barometer.change).event(view.foot, t, view.known_at)]
 
     def reset(self, site: Site) -> None:
         """Forget what was found at a site, where another device is worn or the clock has restarted."""
@@ -116,11 +113,11 @@ class AirPressure(Part):
         self.stride_at = None
 
 
-def _found(t: float, known_at: float, site: Site, change: float) -> DefectFound:
+def _finding(change: float) -> Finding:
     pascal = STANDARD_PRESSURE / SCALE_HEIGHT * abs(change)
     what = (
         f"the air pressure {'fell' if change > 0.0 else 'rose'} by {pascal:.0f} Pa against what the height of the "
         "strides explains, as behind the door of a pressurised stairwell, on an escalator, or by a barometer that "
         "drifts or is stuck; it is not used from now on. If nothing but the barometer explains it, replace the sensor"
     )
-    return DefectFound(t=t, known_at=known_at, site=site, defect=Defect.AIR_PRESSURE, what=what, spoils=False)
+    return Finding(Defect.AIR_PRESSURE, what, spoils=False)

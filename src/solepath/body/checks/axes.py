@@ -9,6 +9,7 @@ from typing import Final
 from ...events import Defect
 from ...types import Vec3
 from ...types.attrs import define, field
+from ...types.vector import IDENTITY, ZERO, multiply
 from .stances import FORCE, TICK, TURN, Axes, ClosedStride, Finding, Interval
 
 # Closure of the velocity of a stride, for each way in which the gyroscope's axes can be mounted.
@@ -20,9 +21,6 @@ from .stances import FORCE, TICK, TURN, Axes, ClosedStride, Finding, Interval
 # R_ij a_k dt, a proper rotation P turns R into P R P^T, so that the integral becomes, in components, s_i * sum over k
 # of s_k * M(p_i, p_k, k), with p_i the axis and s_i the sign of row i of P. An improper P is the negative of a proper
 # one, and needs M of the negative angular rate.
-
-Matrix = tuple[Vec3, Vec3, Vec3]
-"""Matrix by rows."""
 
 
 def _row(axis: int) -> tuple[int, float]:
@@ -60,8 +58,7 @@ def closure_residuals(stride: ClosedStride) -> list[float] | None:
         return None
     steps = _steps(stride)
     up_first, up_last = _scaled(stride.first, g), _scaled(stride.last, g)
-    proper = _ends(_integrals(steps, 1.0), up_last)
-    improper = _ends(_integrals(steps, -1.0), up_last)
+    proper, improper = _integrals(steps, 1.0, up_last), _integrals(steps, -1.0, up_last)
     return [
         log(_residual(rows, proper if is_proper else improper, up_first) + LEAST_RESIDUAL)
         for rows, is_proper in zip(ROWS, ARE_PROPER, strict=True)
@@ -86,64 +83,21 @@ def _steps(stride: ClosedStride) -> list[Step]:
     return steps
 
 
-def _integrals(steps: list[Step], sign: float) -> tuple[list[Vec3], Matrix]:
-    """Return M / T as rows 3 i + j, each over k, m/s^2, and the rotation of the stride; `sign` is that of the rate."""
-    w, x, y, z = 1.0, 0.0, 0.0, 0.0
-    m000 = m001 = m002 = m010 = m011 = m012 = m020 = m021 = m022 = 0.0
-    m100 = m101 = m102 = m110 = m111 = m112 = m120 = m121 = m122 = 0.0
-    m200 = m201 = m202 = m210 = m211 = m212 = m220 = m221 = m222 = 0.0
+def _integrals(steps: list[Step], sign: float, up_last: Vec3) -> list[tuple[Vec3, Vec3]]:
+    """Return the rows 3 i + j of M / T, each over k, m/s^2, and what is left of each without gravity at the end.
+
+    `sign` is that of the rate, and `up_last` gravity at the stride's last end."""
+    attitude, sums = IDENTITY, [ZERO] * 9
     for e, p, q, r, a, b, c in steps:
-        p, q, r = sign * p, sign * q, sign * r
-        w, x, y, z = (
-            w * e - x * p - y * q - z * r,
-            w * p + x * e + y * r - z * q,
-            w * q - x * r + y * e + z * p,
-            w * r + x * q - y * p + z * e,
-        )
+        w, x, y, z = attitude = multiply(attitude, (e, sign * p, sign * q, sign * r))
         twice_x, twice_y, twice_z = x + x, y + y, z + z
         xx, yy, zz, xy = twice_x * x, twice_y * y, twice_z * z, twice_x * y
         xz, yz, wx, wy, wz = twice_x * z, twice_y * z, twice_x * w, twice_y * w, twice_z * w
-        r = 1.0 - yy - zz
-        m000, m001, m002 = m000 + r * a, m001 + r * b, m002 + r * c
-        r = xy - wz
-        m010, m011, m012 = m010 + r * a, m011 + r * b, m012 + r * c
-        r = xz + wy
-        m020, m021, m022 = m020 + r * a, m021 + r * b, m022 + r * c
-        r = xy + wz
-        m100, m101, m102 = m100 + r * a, m101 + r * b, m102 + r * c
-        r = 1.0 - xx - zz
-        m110, m111, m112 = m110 + r * a, m111 + r * b, m112 + r * c
-        r = yz - wx
-        m120, m121, m122 = m120 + r * a, m121 + r * b, m122 + r * c
-        r = xz - wy
-        m200, m201, m202 = m200 + r * a, m201 + r * b, m202 + r * c
-        r = yz + wx
-        m210, m211, m212 = m210 + r * a, m211 + r * b, m212 + r * c
-        r = 1.0 - xx - yy
-        m220, m221, m222 = m220 + r * a, m221 + r * b, m222 + r * c
-    sums = [
-        (m000, m001, m002), (m010, m011, m012), (m020, m021, m022),
-        (m100, m101, m102), (m110, m111, m112), (m120, m121, m122),
-        (m200, m201, m202), (m210, m211, m212), (m220, m221, m222),
-    ]  # fmt: skip
-    return sums, _matrix(w, x, y, z)
-
-
-def _matrix(w: float, x: float, y: float, z: float) -> Matrix:
-    return (
-        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
-        (2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)),
-        (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)),
-    )
-
-
-def _ends(integrals: tuple[list[Vec3], Matrix], up_last: Vec3) -> list[tuple[Vec3, Vec3]]:
-    """Return for each row 3 i + j of M / T the row, and what is left of it without gravity at the stride's last end."""
-    sums, turn = integrals
-    return [
-        ((x, y, z), (x - r * up_last[0], y - r * up_last[1], z - r * up_last[2]))
-        for (x, y, z), r in zip(sums, (*turn[0], *turn[1], *turn[2]), strict=True)
-    ]
+        turn = [1.0 - yy - zz, xy - wz, xz + wy, xy + wz, 1.0 - xx - zz, yz - wx, xz - wy, yz + wx, 1.0 - xx - yy]
+        sums = [(x + r * a, y + r * b, z + r * c) for (x, y, z), r in zip(sums, turn, strict=True)]
+    turn[::4] = 1.0 - (yy + zz), 1.0 - (xx + zz), 1.0 - (xx + yy)
+    u, v, w = up_last
+    return [((x, y, z), (x - r * u, y - r * v, z - r * w)) for (x, y, z), r in zip(sums, turn, strict=True)]
 
 
 def _residual(rows: Rows, ends: list[tuple[Vec3, Vec3]], up_first: Vec3) -> float:

@@ -10,7 +10,7 @@ both with hand labels and with detected events. They need not for a wearer whose
 of the swings raises the standard deviation of the offset. A walk in which each foot's cycles differ from the other's,
 or in which the distance scatters, shows nothing about the clocks.
 
-Clocks that are many seconds apart show where one foot walks while the other one stands (lone_strides.py)."""
+Clocks that are many seconds apart show where one foot walks while the other one stands (`LoneStrides`)."""
 
 from __future__ import annotations
 
@@ -25,8 +25,6 @@ from ...types.attrs import define, field, frozen
 from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
 
 # The offset between the clocks of the feet, from comparisons of the stances of each foot with the other's swings.
-#
-# clocks.py has what is compared and why.
 
 MIN_COMPARISONS = 16
 """Least number of comparisons for an offset, about 9 s of walking.

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from ...events import Defect, DefectFound, StrideTaken
+from ...events import Defect, StrideTaken
 from ...foot.view import FootView
-from ...types import OTHER, SITE_OF_FOOT, PerFoot, Site, per_foot
+from ...types import OTHER, PerFoot, Site, per_foot
 from ...types.attrs import define, field
 from ..part import Part, PartInput, PartOutput
+from .stances import Finding
 
 FIRST_STRIDES = 20
 """Number of strides from which the usual error of the velocity is learnt."""
@@ -29,6 +30,9 @@ MOST_OF_ONE = 3.0
 """Largest ratio of the squared error of one stride to the least of a loose sensor that counts.
 
 Four strides or more have to show it then; the one after a gap in the samples ends with any velocity."""
+LOOSE = Finding(
+    Defect.LOOSE, "the sensor moves while the foot stands, and did not before: it came loose. Fix it to the shoe"
+)
 
 
 @define
@@ -82,17 +86,10 @@ class Looseness(Part):
             is_unusual = this.recent > LEAST_ERROR * LEAST_ERROR and this.exceeds(UNUSUAL)
             if compares and is_unusual and not other.exceeds(USUAL):
                 this.reported = True
-                found.append(_loose(event))
+                found.append(LOOSE.event(event.foot, event.t, event.known_at))
         return found
 
     def reset(self, site: Site) -> None:
         """Forget a foot whose device or clock is another one."""
         if site.foot is not None:
             self.feet[site.foot] = LandingErrors()
-
-
-def _loose(event: StrideTaken) -> DefectFound:
-    what = "the sensor moves while the foot stands, and did not before: it came loose. Fix it to the shoe"
-    return DefectFound(
-        t=event.t, known_at=event.known_at, site=SITE_OF_FOOT[event.foot], defect=Defect.LOOSE, what=what
-    )

@@ -11,11 +11,12 @@ from math import degrees, radians, sqrt
 from ...events import Defect, DefectFound, SampleGap, StrideTaken
 from ...foot.stride import FASTEST_RUN
 from ...foot.view import FootView
-from ...types import SITE_OF_FOOT, PerFoot, Site, per_foot
+from ...types import PerFoot, Site, per_foot
 from ...types.attrs import define, evolve, field
 from ...types.vector import GRAVITY
 from ..activity.flights import HIGHEST_RISE
 from ..part import Part, PartInput, PartOutput, Replacement
+from .stances import Finding
 
 LONGEST_LEG = 1.15
 """Length of the longest legs, from hip to ground, m: 0.53 of a height of 2.1 m."""
@@ -107,23 +108,18 @@ class PossibleMotion(Part):
             if not record.all_reported:
                 record.one_reported = record.all_reported = True
                 text = f"{'most' if most else 'several'} strides cannot be right: the last one has {reason}. "
-                output.append(self._found(event, text + ADVICE, spoils=True))
+                finding = Finding(Defect.IMPOSSIBLE_MOTION, text + ADVICE)
+                output.append(finding.event(event.foot, event.t, event.known_at))
         elif motion is not None and not record.one_reported and (is_too_long or not event.degraded):
             record.one_reported = True
             text = f"a stride cannot be right, because it has {reason}; it is marked as degraded. "
-            output.append(self._found(event, text + "If it happens again: " + ADVICE, spoils=False))
+            finding = Finding(Defect.IMPOSSIBLE_MOTION, f"{text}If it happens again: {ADVICE}", spoils=False)
+            output.append(finding.event(event.foot, event.t, event.known_at))
         return output
 
     def reset(self, site: Site) -> None:
         if site.foot is not None:
             self.feet[site.foot] = FootRecord()
-
-    @staticmethod
-    def _found(event: StrideTaken, what: str, spoils: bool) -> DefectFound:
-        site = SITE_OF_FOOT[event.foot]
-        return DefectFound(
-            t=event.t, known_at=event.known_at, site=site, defect=Defect.IMPOSSIBLE_MOTION, what=what, spoils=spoils
-        )
 
 
 def impossible_motion(stride: StrideTaken) -> str | None:

@@ -186,8 +186,7 @@ class RateCheck:
         if interval >= SHORTEST_INTERVAL and interval * least_rate < 1.0:
             self.strange_blocks = self.slow_blocks = 0
             return self._find_bursts(times, interval) if self.blocks < EXAMINED_BLOCKS else None
-        steps = sorted([b - a for a, b in zip(times, times[1:], strict=False)])
-        interval = steps[len(steps) // 2]
+        interval = _usual_interval(times)
         if interval > LONGEST_INTERVAL and not moves:
             return None  # some devices send less while they lie still
         if not SHORTEST_INTERVAL <= interval <= LONGEST_INTERVAL:
@@ -195,19 +194,19 @@ class RateCheck:
             self.slow_blocks = 0
             return wrong_time_unit(interval) if self.strange_blocks >= TIME_BLOCKS else None
         self.strange_blocks = 0
-        if moves and interval * least_rate >= 1.0:
-            self.slow_blocks += 1
-            if self.slow_blocks >= SLOW_BLOCKS:
-                rate = 1.0 / interval
-                text = f"{rate:.3g} samples a second are too few to see every impact of a foot: choose 50 or more"
-                return Finding(Defect.LOW_RATE, text, spoils=False)
-        return None
+        if not moves or interval * least_rate < 1.0:
+            return None
+        self.slow_blocks += 1
+        if self.slow_blocks < SLOW_BLOCKS:
+            return None
+        rate = 1.0 / interval
+        text = f"{rate:.3g} samples a second are too few to see every impact of a foot: choose 50 or more"
+        return Finding(Defect.LOW_RATE, text, spoils=False)
 
     def _find_bursts(self, times: Sequence[float], interval: float) -> Finding | None:
         """Return that the samples of a block come in bursts, once some blocks show it; `interval`, s, is the mean."""
         self.blocks += 1
-        steps = sorted([b - a for a, b in zip(times, times[1:], strict=False)])
-        self.burst_blocks += steps[len(steps) // 2] < BURST_STEP * interval
+        self.burst_blocks += _usual_interval(times) < BURST_STEP * interval
         if self.burst_blocks < BURST_BLOCKS:
             return None
         text = "the samples come in bursts, with the time of the packet that brought them: give each sample the time at"
@@ -240,6 +239,12 @@ class RateCheck:
             return Finding(Defect.REPEATED, text)
         text = f"{'both sensors repeat' if acc_repeats and gyro_repeats else name} values: samples come more often than"
         return Finding(Defect.REPEATED, f"{text} it measures; choose the rate at which it measures", spoils=False)
+
+
+def _usual_interval(times: Sequence[float]) -> float:
+    """Return the median of the intervals between samples."""
+    steps = sorted([b - a for a, b in zip(times, times[1:], strict=False)])
+    return steps[len(steps) // 2]
 
 
 def wrong_time_unit(interval: float) -> Finding:

@@ -7,7 +7,7 @@ from typing import ClassVar, Final
 
 from ...events import Defect, DefectFound, HeelStrike, SampleRejected, StrideTaken
 from ...foot.view import FootView
-from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, Vec3, per_foot
+from ...types import OTHER, Foot, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import define, field, frozen
 from ..part import Part, PartInput, PartOutput
 from .axes import AxesCheck, BandwidthCheck
@@ -101,23 +101,18 @@ class SensorChecks(Part):
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a sample and events; return the defects that they show."""
-        outputs = () if view is None else self._add_sample(view)
-        return [*outputs, *[output for event in events for output in self._receive(event)]] if events else outputs
-
-    def _add_sample(self, view: FootView) -> Sequence[PartOutput]:
-        sample = view.sample
-        acc, gyro = sample.acc, sample.gyro
-        if acc is None or gyro is None:
-            return ()
-        check = self.feet[view.foot]
-        rows = check.rows
-        rows.append((view.t, acc, gyro))
-        if len(rows) < BLOCK:
-            return ()
-        check.rows = []
-        pressed = view.pressed
-        check.in_newtons = pressed is not None and pressed.in_newtons
-        return self._report(view.foot, view.t, view.known_at, self._examine(check, rows, view.gyro_bias))
+        outputs: list[PartOutput] = []
+        if view is not None and (acc := view.sample.acc) is not None and (gyro := view.sample.gyro) is not None:
+            check = self.feet[view.foot]
+            rows = check.rows
+            rows.append((view.t, acc, gyro))
+            if len(rows) == BLOCK:
+                check.rows, pressed = [], view.pressed
+                check.in_newtons = pressed is not None and pressed.in_newtons
+                outputs += self._report(view.foot, view.t, view.known_at, self._examine(check, rows, view.gyro_bias))
+        for event in events:
+            outputs += self._receive(event)
+        return outputs
 
     def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive contacts and strides, which an insole or a stuck sensor may contradict, and rejected samples."""
@@ -127,7 +122,7 @@ class SensorChecks(Part):
             check, other = self.feet[event.foot], OTHER[event.foot]
             found = self._report(event.foot, event.t, event.known_at, [check.loads.add_stride(event, check.in_newtons)])
             return found + self._report(other, event.t, event.known_at, [_stuck(self.feet[other], event)])
-        elif isinstance(event, SampleRejected) and event.defect is not None and event.site.foot is not None:
+        elif isinstance(event, SampleRejected) and event.site.foot is not None:
             finding = _wrong_unit(self.feet[event.site.foot], event)
             return self._report(event.site.foot, event.t, event.known_at, [finding])
         elif isinstance(event, DefectFound) and event.site.foot is not None:
@@ -150,11 +145,11 @@ class SensorChecks(Part):
 
     def _report(self, foot: Foot, t: float, known_at: float, findings: Iterable[Finding | None]) -> list[DefectFound]:
         """Return the events for the findings that were not reported before."""
-        check, events, site = self.feet[foot], [], SITE_OF_FOOT[foot]
+        check, events = self.feet[foot], []
         for finding in findings:
             if finding is None:
                 continue
-            defect, what, spoils, axes = finding
+            defect, _, spoils, axes = finding
             is_worse = spoils and defect in check.mild
             if defect not in check.reported or is_worse or (axes is not None and check.corrected is None):
                 if is_worse:
@@ -164,10 +159,7 @@ class SensorChecks(Part):
                 if not spoils:
                     check.mild.append(defect)
                 check.corrected = axes or check.corrected
-                event = DefectFound(
-                    t=t, known_at=known_at, site=site, defect=defect, what=what, spoils=spoils, axes=axes
-                )
-                events.append(event)
+                events.append(finding.event(foot, t, known_at))
         return events
 
     def _examine(self, check: SensorCheck, rows: list[Row], gyro_bias: Vec3) -> list[Finding | None]:

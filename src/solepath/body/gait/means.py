@@ -137,7 +137,7 @@ BETWEEN_FEET = (
 
 @frozen
 class GaitParameters:
-    """The running means over steady strides (body/gait/measuring.py has the rule for steady strides)."""
+    """The running means over steady strides (body/gait/cycles.py has the rule for steady strides)."""
 
     running: bool
     """Flag: the means are of running, not of walking."""

@@ -16,13 +16,13 @@ from operator import attrgetter
 import numpy as np
 from attrs import evolve, frozen
 
-from ...body.gait.running import Running, running_cycle
 from ...emulate.routes.route import Route
 from ...emulate.routes.styles import StrideKind
 from ...emulate.sensors.device import device_rng
 from ...emulate.wearers.walker import Walker
 from ...events import GaitCycleMeasured
 from ...session import Session
+from ...show.report.running import Running, running_cycle
 from ...types import OTHER, Foot
 from ...types.vector import GRAVITY
 from .heading_walks import insoles_of, wearer_of

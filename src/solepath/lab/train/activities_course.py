@@ -14,7 +14,7 @@ from statistics import median
 
 from attrs import frozen
 
-from ...body.activity.chain import DEFAULT_CHANCES, Chances, Shifts
+from ...body.activity.chain import Chances, Shifts
 from ...body.activity.elevator_evidence import BlockForce
 from ...body.activity.foot_blocks import BLOCK_DURATION
 from ...body.activity.hypotheses import BlockEvidence, Hypotheses
@@ -27,6 +27,14 @@ from .hugadb import SPAN_GAP, Span
 FootEvidence = tuple[list[float], BlockForce | None]
 """Features of a foot in a block, and the foot's vertical forces, in which an elevator ride can be detected."""
 
+DEFAULT_CHANCES: Chances = (
+    (0.959, 0.03, 1e-3, 5e-3, 5e-3),
+    (0.03, 0.936, 4e-3, 0.015, 0.015),
+    (0.01, 0.03, 0.956, 2e-3, 2e-3),
+    (0.02, 0.05, 2e-3, 0.926, 2e-3),
+    (0.02, 0.05, 2e-3, 2e-3, 0.926),
+)
+"""Chances before anything is learnt: standing lasts 12 s on average, and most flights end on level ground."""
 DEFAULT_WEIGHT = 0.5
 """Weight of `DEFAULT_CHANCES` in a chance; the rest is the observed chance, which may not hold for other wearers."""
 MATCHING_TIME = 4.0

@@ -18,8 +18,7 @@ from pathlib import Path
 import numpy as np
 from attrs import frozen
 
-from ...body.gait.turn_detector import TurnDetector, TurnProcess
-from ...body.gait.turns import features
+from ...body.gait.turns import TurnDetector, TurnProcess, features
 from ...emulate.routes.route import Route
 from ...emulate.sensors.sensortags import CC2541
 from ...emulate.walk import EmulatedWalk, emulate

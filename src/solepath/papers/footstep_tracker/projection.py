@@ -18,7 +18,7 @@ from enum import Enum
 from math import atan2, cos, fsum, hypot, inf, sin
 
 from ...body.activity.motion import slope_evidence
-from ...body.gait.turning_steps import TurningStrideFilter
+from ...body.gait.turns import TurningStrideFilter
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
 from ...foot.navigate.strapdown import Strapdown
@@ -83,7 +83,7 @@ class ProjectionSettings:
     turns_about_vertical: bool = True
     """Flag: the turn is that about the vertical up to rest, with pivots; otherwise (7) as printed."""
     keeps_corners: bool = True
-    """Flag: a corner and a curve keep their whole angle (turning_steps.py)."""
+    """Flag: a corner and a curve keep their whole angle (body/gait/turns.py)."""
     has_rise: bool = True
     """Flag: strides have a rise."""
 

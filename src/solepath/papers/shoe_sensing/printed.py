@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from math import hypot, sqrt
 
-from ...body.activity.flights import steepness
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
@@ -15,6 +14,7 @@ from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, ZERO, rotate
 from .posture import INITIAL_GAIN, INITIAL_TIME, gravity_direction, gravity_error, is_upside_down, turn
+from .steepness import steepness
 
 HIGHEST_SPEED = 15.0
 """Highest speed of a foot, m/s."""

@@ -1,20 +1,21 @@
 """Walking state by the angle per metre of each stride: its inclination divided by half its horizontal length.
 
 Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.4.1. The angle and its
-thresholds are in body/activity/flights.py. Numbers without a source were chosen by hand."""
+thresholds are in steepness.py. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import ClassVar
 
-from ...body.activity.flights import Flights, is_stair_rise, steepness
+from ...body.activity.flights import Flights, is_stair_rise
 from ...body.part import ActivityPart, PartInput, PartOutput
 from ...events import ActivityChanged, Event, Limitation, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Phase, Site
 from ...types.attrs import define, field
 from ...types.vector import TIE
+from .steepness import steepness
 
 STANDING_DELAY = 1.2
 """Time without motion after which the wearer is STANDING, s; longer than a stance of a slow walker."""
@@ -35,7 +36,7 @@ class AnglePerMetre(ActivityPart):
     and feet that move without a stride for `UNKNOWN_DELAY` are UNKNOWN. Every event is final and has no probability.
     Latency: a state that starts with a toe-off is known at the end of that stride; standing, after `STANDING_DELAY`.
 
-    A stride with a larger height change than stairs have (steepness.py) is an error of the track, so its angle is not
+    A stride with a larger height change than stairs have (`is_stair_rise`) is an error of the track; its angle is not
     used. The activity of a wearer who walked or climbed stays; STANDING becomes UNKNOWN. When the clock of foot A
     restarts, events have times of foot B's clock. Samples of A are ignored while its time differs from B's by more than
     `LARGEST_CLOCK_DIFFERENCE`. This ends when (1) the difference is smaller, (2) B's clock restarts too, or (3) B has

@@ -11,7 +11,7 @@ from math import degrees, hypot
 from attrs import frozen
 
 from ...body.gait.means import Figure, GaitParameters
-from ...body.gait.running import running_means
+from .running import running_means
 
 
 @frozen(kw_only=True)
@@ -98,7 +98,7 @@ def walk_measures(parameters: GaitParameters, difference: tuple[float, float] | 
 
 
 def run_measures(parameters: GaitParameters) -> list[Measure]:
-    """Return speed, cadence and stride length of a run, and its running measures (body/gait/running.py), if known."""
+    """Return speed, cadence and stride length of a run, and its running measures (running.py), if known."""
     both, run = parameters.both, running_means(parameters)
     measures = _of_figure("run_speed_m_per_s", both.speed)
     measures += _cadence("run_cadence_steps_per_min", both.stride_time)

@@ -22,8 +22,8 @@ DEFINITIONS = (
     "is of the state walked; table 2 is a wearer's mean error over the mean length, divided by 22.5, of the height "
     "upstairs and of the length otherwise; before is without and after is with the elimination of height errors on "
     "level steps; 19.2 m is the distance from one turn to the next, whose true value is that of the foot.",
-    "Table 1 is of steps before their heights are corrected. What theta' is made of is in body/activity/flights.py; "
-    "the paper's words for it do not fit its figures.",
+    "Table 1 is of steps before their heights are corrected. What theta' is made of is in "
+    "papers/shoe_sensing/steepness.py; the paper's words for it do not fit its figures.",
     "Rows named short are of one walk with all states, for ours, ours without one addition, the printed method with "
     "windows of N, the magnitude and the recipe default. Stair height is of single steps on stairs, end height of the "
     "whole track.",

@@ -10,10 +10,10 @@ from math import atan2, degrees, hypot, remainder
 import numpy as np
 from attrs import frozen
 
-from ....body.activity.flights import angle_per_metre, steepness
 from ....emulate.routes.styles import StrideKind
 from ....emulate.wearers.truth import TrueStride, Truth
 from ....events import StrideTaken
+from ....papers.shoe_sensing.steepness import angle_per_metre, steepness
 from ....types import Foot
 from ...measures.matching import pairs
 from ...measures.strides import ALIGNMENT_LENGTH
@@ -25,7 +25,7 @@ TWO_RISERS = 0.25
 LEAST_LEVEL_LENGTH = 0.3
 """Length above which a stride on the level is no part of a turn on the spot, m."""
 DIRECTIONS = {"upstairs": 1, "downstairs": -1}
-"""Steepness (body/activity/flights.py) by state; 0 for the others."""
+"""Steepness (papers/shoe_sensing/steepness.py) by state; 0 for the others."""
 
 Pair = tuple[float, float]
 
@@ -35,7 +35,7 @@ class StrideErrors:
     """The comparison of the strides of one session in one state with the truth."""
 
     angles: tuple[float, ...]
-    """Angle per metre of each matched stride (body/activity/flights.py), degrees/m, positive upwards."""
+    """Angle per metre of each matched stride (papers/shoe_sensing/steepness.py), degrees/m, positive upwards."""
     lengths: tuple[Pair, ...]
     """Error and true value of the length of each matched stride, m."""
     heights: tuple[Pair, ...]

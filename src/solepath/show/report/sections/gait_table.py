@@ -5,11 +5,11 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 from ....body.gait.means import GaitMeans, GaitParameters, StrideFigures
-from ....body.gait.running import running_means
 from ....types import Foot
 from ...tables.gait import MIN_STRIDES, gait_rows, strides_of
 from ...tables.table import milliseconds, number, percent
 from ..markup import add, table, terms
+from ..running import running_means
 
 HEADER = ("parameter", "left", "right", "both", "CV %", "asymmetry")
 NO_STEADY = (

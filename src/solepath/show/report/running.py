@@ -1,6 +1,6 @@
 """Contact and flight time, strike angle and vertical oscillation of a runner, from a measured gait cycle or from means.
 
-    from solepath.body.gait.running import running_cycle
+    from solepath.show.report.running import running_cycle
 
     for event in session.feed(samples):
         if isinstance(event, GaitCycleMeasured) and (run := running_cycle(event)) is not None:
@@ -12,10 +12,10 @@ from __future__ import annotations
 
 from math import pi
 
+from ...body.gait.means import Figure, GaitParameters
 from ...events.gait_cycle import GaitCycleMeasured
 from ...types.attrs import frozen
 from ...types.vector import GRAVITY
-from .means import Figure, GaitParameters
 
 MAX_SLOPE = 0.05
 """Largest rise over run with which the spring-mass model is used: contact and flight times do not give the oscillation
@@ -54,7 +54,7 @@ def running_cycle(cycle: GaitCycleMeasured) -> Running | None:
 def running_means(parameters: GaitParameters) -> Running | None:
     """Return the measures of both feet by the means of steady strides; None for means of walking.
 
-    Steady strides are level ones (body/gait/measuring.py)."""
+    Steady strides are level ones (body/gait/cycles.py)."""
     both = parameters.both
     if not parameters.running or both.stance_time is None:
         return None
