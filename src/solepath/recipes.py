@@ -74,7 +74,7 @@ class Recipe:
     needs_pressure: bool = False
     """True for a recipe that reports nothing without pressure cells."""
 
-    def exchanged(self, kind: type, by: Part | None, name: str | None = None) -> Recipe:
+    def replace_part(self, kind: type, by: Part | None, name: str | None = None) -> Recipe:
         """Return the recipe with its part of this kind replaced by `by`, or removed if `by` is None.
 
         `name` is the name of the new recipe. LookupError is raised when the recipe has no part of this kind."""
@@ -133,7 +133,7 @@ def part_class(name: str) -> type[Any]:
     raise SnapshotError(f"a snapshot of a part {name!r:.80} that is not known here")
 
 
-def own(recipe: Recipe) -> Recipe:
+def shared_copy(recipe: Recipe) -> Recipe:
     """Return a copy of the recipe that nobody changes, from which sessions copy their parts.
 
     Sessions whose recipes are equal bit for bit share this copy. The function is thread-safe. TypeError is raised when

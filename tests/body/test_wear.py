@@ -25,7 +25,7 @@ from solepath.types import Foot, Sample, Site
 
 WALK = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(6.0).stop(1.0)
 OTHER = {LEFT: RIGHT, RIGHT: LEFT}
-MEAN = recipes.DEFAULT.exchanged(TrackPart, MeanOfFeet())
+MEAN = recipes.DEFAULT.replace_part(TrackPart, MeanOfFeet())
 """The feet's own tracks, and their mean."""
 
 

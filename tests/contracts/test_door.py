@@ -161,7 +161,7 @@ def test_a_sample_without_known_at_was_known_at_once() -> None:
 def test_settings_and_calibrations_may_hold_numbers_of_numpy() -> None:
     checks = SensorChecks(SensorChecksSettings(least_rate=np.float64(20.0)))
     shoe = ShoeGeometry(heel_radius=np.float64(0.12))
-    session = Session(DEFAULT.exchanged(SensorChecks, checks), calibration=Calibration(shoe=shoe))
+    session = Session(DEFAULT.replace_part(SensorChecks, checks), calibration=Calibration(shoe=shoe))
     session.feed(samples())
     session.pack()
     saved = json.loads(json.dumps(session.snapshot(), allow_nan=False))

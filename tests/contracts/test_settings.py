@@ -9,20 +9,20 @@ from solepath import Foot, Session, recipes
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
 from solepath.body.part import TrackPart
 from solepath.emulate.sensors.insoles import layout
-from solepath.recipes import own
+from solepath.recipes import shared_copy
 from solepath.saving import codec as machine
 
 
 def test_sessions_of_one_recipe_hold_one_copy_of_it_and_of_a_recipe_that_was_changed_another() -> None:
     body = BothFeet()
-    recipe = recipes.DEFAULT.exchanged(TrackPart, body, "mine")
-    own_copy = own(recipe)
-    assert own_copy is own(recipe) is own(evolve(recipe)) and own_copy is not recipe
+    recipe = recipes.DEFAULT.replace_part(TrackPart, body, "mine")
+    own_copy = shared_copy(recipe)
+    assert own_copy is shared_copy(recipe) is shared_copy(evolve(recipe)) and own_copy is not recipe
     assert own_copy == recipe
     usual_settings, body.settings = body.settings, BothFeetSettings(straightness=False)
-    assert own(recipe) is not own_copy and own_copy != recipe
+    assert shared_copy(recipe) is not own_copy and own_copy != recipe
     body.settings = usual_settings
-    assert own(recipe) is own_copy
+    assert shared_copy(recipe) is own_copy
 
 
 def test_what_a_walk_does_to_parts_does_not_reach_the_recipe() -> None:

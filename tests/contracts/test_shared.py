@@ -13,7 +13,7 @@ from walks import samples
 from solepath import Foot, Session, recipes
 from solepath.foot.settings import CycleSettings
 from solepath.foot.stance.cycle import Cycle
-from solepath.recipes import own
+from solepath.recipes import shared_copy
 
 
 def test_sessions_are_started_in_many_threads_at_once() -> None:
@@ -76,4 +76,4 @@ def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_the_equalit
         again = Session.unpack(session.pack(), recipe)
         assert repr(again.recipe) == repr(session.recipe)
         assert repr(again.feet[Foot.LEFT].detector) == repr(session.feet[Foot.LEFT].detector)
-        assert again._state.settings.recipe is own(recipe), "and it is held once"
+        assert again._state.settings.recipe is shared_copy(recipe), "and it is held once"

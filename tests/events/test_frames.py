@@ -11,7 +11,7 @@ from strides import stride
 
 from solepath import HeelStrike, Packet, StrideTaken, to_frame
 from solepath.events import StrideFeatures
-from solepath.events.happening import Happening
+from solepath.events.happening import BaseEvent
 from solepath.types import Foot, Sample, Site
 from solepath.types.attrs import frozen
 from solepath.types.extras import install_hint
@@ -50,7 +50,7 @@ def test_samples_have_columns_of_their_own() -> None:
 
 
 @frozen(kw_only=True)
-class Weighed(Happening):
+class Weighed(BaseEvent):
     """An app's own event, whose `length` is a text and whose `weights` no table can have."""
 
     length: str

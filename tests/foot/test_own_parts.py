@@ -16,7 +16,7 @@ from solepath import Foot, HeelStrike, Session, SnapshotError, StrideTaken, reci
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.foot.stance.stance import Load, Stance
 from solepath.saving.codec import load, save
-from solepath.testing.promises import broken
+from solepath.testing.promises import violations
 from solepath.types import Quat, Vec3
 from solepath.types.vector import IDENTITY
 
@@ -119,7 +119,7 @@ class RecentRates(StillDetector):
 
 
 def test_a_bounded_window_stays_bounded_after_it_was_saved() -> None:
-    assert broken(RecentRates(), WALKED) == []
+    assert violations(RecentRates(), WALKED) == []
     one = RecentRates()
     for sample in WALKED[:20]:
         assert sample.acc is not None and sample.gyro is not None

@@ -19,7 +19,7 @@ from solepath.foot.cues.cues import TimedCue
 from solepath.foot.stance.stance import Stance
 from solepath.foot.view import FootView
 from solepath.recipes import NAMES, by_name
-from solepath.testing.promises import broken
+from solepath.testing.promises import violations
 from solepath.types import Vec3
 from solepath.types.vector import ZERO
 
@@ -29,7 +29,7 @@ PARTS: dict[str, Any] = {type(part).__name__: part for part in (*RECIPE_PARTS, S
 
 @pytest.mark.parametrize("name", PARTS)
 def test_the_parts_that_recipes_have_keep_their_promises(name: str) -> None:
-    assert broken(PARTS[name], WALKED, CELLS) == []
+    assert violations(PARTS[name], WALKED, CELLS) == []
 
 
 @define
@@ -181,9 +181,9 @@ class Turning(ByMotion):
 @pytest.mark.parametrize(
     ("part", "what"),
     [
-        (Hoarder(), "more and more"),
-        (Restless(), "twice"),
-        (Forgetful(), "in no field"),
+        (Hoarder(), "without bound"),
+        (Restless(), "second run"),
+        (Forgetful(), "not in a field"),
         (Sharing(), "share"),
         (Altered(), "its field counts comes back as a dict and was a Counter"),
         (Learning(), "its setting limit changes"),
@@ -196,16 +196,16 @@ class Turning(ByMotion):
         (Flat(), "position is three finite numbers"),
         (Growing(), "attitude is a unit quaternion"),
         (Certain(), "a covariance is seven finite numbers"),
-        (Hoarding(), "more and more"),
-        (Leaving(), "in no field"),
+        (Hoarding(), "without bound"),
+        (Leaving(), "not in a field"),
         (Foretelling(), "a cue is of the past"),
-        (Listing(), "more and more"),
+        (Listing(), "without bound"),
         (Turning(), "sagittal is finite"),
     ],
     ids=lambda value: value if isinstance(value, str) else type(value).__name__,
 )
 def test_a_broken_promise_is_named(part: Any, what: str) -> None:
-    assert any([what in sentence for sentence in broken(part, WALKED)])
+    assert any([what in sentence for sentence in violations(part, WALKED)])
 
 
 def test_a_detector_that_returns_something_else_or_has_unsavable_fields_is_named() -> None:
@@ -213,9 +213,9 @@ def test_a_detector_that_returns_something_else_or_has_unsavable_fields_is_named
         def update(self, t: float, *rest: Any) -> Any:
             return True
 
-    assert broken(Odd(), WALKED) == ["update returns a Stance, not a bool"]
+    assert violations(Odd(), WALKED) == ["update returns a Stance, not a bool"]
     with pytest.raises(TypeError):
-        broken(evolve(Odd(), limit=object()), WALKED)
+        violations(evolve(Odd(), limit=object()), WALKED)
 
 
 def test_a_class_that_extends_nothing_is_no_part() -> None:
@@ -224,7 +224,7 @@ def test_a_class_that_extends_nothing_is_no_part() -> None:
         limit: float = 1.0
 
     with pytest.raises(TypeError, match="Bare extends neither Detector nor Corrector nor Cues"):
-        broken(Bare(), WALKED)  # type: ignore[arg-type]
+        violations(Bare(), WALKED)  # type: ignore[arg-type]
 
 
 @define
@@ -269,9 +269,9 @@ class Lingering(Part):
 @pytest.mark.soak
 def test_parts_of_the_body_keep_their_promises_and_those_that_do_not_are_named() -> None:
     for part in recipes.DEFAULT.parts:
-        assert broken(part, WALKED, CELLS) == []
-    assert broken(Lasting(), WALKED) == ["its setting count changes: what does is state, a field with init=False"]
-    assert broken(Lingering(), WALKED) == []
+        assert violations(part, WALKED, CELLS) == []
+    assert violations(Lasting(), WALKED) == ["its setting count changes: what does is state, a field with init=False"]
+    assert violations(Lingering(), WALKED) == []
     for part, layout in ((Foreseeing(), None), (Lingering(), CELLS)):
-        (sentence,) = broken(part, WALKED, layout)
+        (sentence,) = violations(part, WALKED, layout)
         assert sentence.startswith("an event was when it was known or earlier")

@@ -67,8 +67,8 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
         Session.unpack(packed(), recipes.by_name("kupt"))
     for other, what in (
         (evolve(recipes.DEFAULT, detector=ShoeDetector()), "packed with Cycle, and this recipe has Shoe"),
-        (recipes.DEFAULT.exchanged(TrackPart, DoubleFoot()), "packed with BothFeet, and this recipe has DoubleFoot"),
-        (recipes.DEFAULT.exchanged(Altitude, None), "packed with 11 parts, and this recipe has 10"),
+        (recipes.DEFAULT.replace_part(TrackPart, DoubleFoot()), "packed with BothFeet, and this recipe has DoubleFoot"),
+        (recipes.DEFAULT.replace_part(Altitude, None), "packed with 11 parts, and this recipe has 10"),
         (evolve(OWN, name="default"), "packed with Cycle, and this recipe has StillDetector"),
     ):
         with pytest.raises(SnapshotError, match=what):

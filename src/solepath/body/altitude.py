@@ -28,7 +28,7 @@ from ..events import Defect, DefectFound, LiftRidden, StrideTaken
 from ..foot.view import FootView
 from ..types import Foot, Site
 from ..types.attrs import define, evolve, field
-from ..types.vector import single
+from ..types.vector import to_float32
 from .part import HeightShift, Part, PartInput, PartOutput, Replacement
 
 # Height by the pressure of the air.
@@ -120,7 +120,7 @@ class HeightEstimate:
 def _pack(entry: HeightInput) -> PackedInput:
     """Return an input as rounded for storage; the filter processes the rounded one."""
     t, source, value, variance = entry
-    return round(t * TICKS_PER_S), source, round(value * PARTS_PER_M), single(variance)
+    return round(t * TICKS_PER_S), source, round(value * PARTS_PER_M), to_float32(variance)
 
 
 def _unpack(row: PackedInput) -> HeightInput:

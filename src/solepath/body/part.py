@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, ClassVar, Protocol, Self
 
 from ..calibration import Calibration
 from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, TurnMade
-from ..events.happening import Happening
+from ..events.happening import BaseEvent
 from ..foot.view import FootPose, FootView
 from ..foot.world import Covariance3
 from ..types import Activity, Foot, Layout, Sample, Site, Vec3
@@ -105,7 +105,7 @@ class Position:
     None without magnetometers in the feet, and until turns have proven them (docs/compass.md)."""
 
 
-PartOutput = Happening | Shift | HeightShift | Replacement
+PartOutput = BaseEvent | Shift | HeightShift | Replacement
 """Everything that a part may return: corrections and events, including events of an app."""
 Notice = LayoutReported | ClockUnsettled | StartGiven | LimbSampled
 """What parts are told and an app is not."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from ..types import Activity, Turn
 from ..types.attrs import frozen
-from .happening import Happening
+from .happening import BaseEvent
 
 
 @frozen(kw_only=True)
-class ActivityChanged(Happening):
+class ActivityChanged(BaseEvent):
     """The wearer's activity is `activity` from `t` on, as the recipe's activity part reports it.
 
     An event that is not final may be replaced by a later event, which names it in `revises`. The activity at a time is
@@ -27,7 +27,7 @@ class ActivityChanged(Happening):
 
 
 @frozen(kw_only=True)
-class LiftRidden(Happening):
+class LiftRidden(BaseEvent):
     """An elevator ride ended; `t` is the time at which the elevator stopped.
 
     The default recipe reports it when the end is certain: mostly some seconds after `t`, at most 12 s. The recipe
@@ -42,7 +42,7 @@ class LiftRidden(Happening):
 
 
 @frozen(kw_only=True)
-class FlightClimbed(Happening):
+class FlightClimbed(BaseEvent):
     """A flight of stairs was climbed or descended; `t` is the end of its last stride.
 
     It is reported after as many level strides as there are feet with data (about 1 s after `t`), after the first stride
@@ -60,7 +60,7 @@ class FlightClimbed(Happening):
 
 
 @frozen(kw_only=True)
-class TurnMade(Happening):
+class TurnMade(BaseEvent):
     """The wearer turned during one stride or several strides in a row; `t` is the end of the last of them.
 
     Source: Liu et al. 2015, IEEE MASS, section IV.D. It is reported after three straight strides (two if only one foot

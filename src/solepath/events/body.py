@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from ..types import Foot, Vec3, WalkingMode
 from ..types.attrs import frozen
-from .happening import Happening
+from .happening import BaseEvent
 
 
 @frozen(kw_only=True)
-class StrideFused(Happening):
+class StrideFused(BaseEvent):
     """A stride of one foot with its length calibrated by a stride of the other foot.
 
     Source: Chen et al. 2019, IEEE Internet of Things Journal, equations (9) to (13), to which the numbers in brackets
@@ -49,7 +49,7 @@ class TrackNode:
 
 
 @frozen(kw_only=True)
-class TrackRevised(Happening):
+class TrackRevised(BaseEvent):
     """A position that a person has reported has corrected the track: where the wearer is and was.
 
     It is reported with the PositionReported. Earlier positions (WearerMoved, StrideTaken) were off in the way that the
@@ -64,7 +64,7 @@ class TrackRevised(Happening):
 
 
 @frozen(kw_only=True)
-class PositionRejected(Happening):
+class PositionRejected(BaseEvent):
     """A position that a person has reported contradicts the track, or all places on the plan, which stay as they are.
 
     It is reported with the PositionReported."""
@@ -78,7 +78,7 @@ class PositionRejected(Happening):
 
 
 @frozen(kw_only=True)
-class TouchedDown(Happening):
+class TouchedDown(BaseEvent):
     """A foot touched down and bears load; the other foot's position is measured from it until that foot touches down.
 
     Source: Gong et al. 2023, Sensors 23, 5417, equations (1) to (3) and (8). `t` is the sample that shows it. It is
@@ -100,7 +100,7 @@ class TouchedDown(Happening):
 
 
 @frozen(kw_only=True)
-class WalkingModeChanged(Happening):
+class WalkingModeChanged(BaseEvent):
     """The walking mode changed (Gong et al. 2023, section 3.3).
 
     One stance of a foot shows the change. `t` is the sample that ends this stance, most of a second after the

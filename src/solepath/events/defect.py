@@ -6,7 +6,7 @@ from enum import Enum
 
 from ..types import Site
 from ..types.attrs import frozen
-from .happening import Happening
+from .happening import BaseEvent
 
 
 class Defect(Enum):
@@ -55,7 +55,7 @@ class Defect(Enum):
 
 
 @frozen(kw_only=True)
-class DefectFound(Happening):
+class DefectFound(BaseEvent):
     """The data of a sensor contradict themselves or physics, so what follows from them cannot be trusted.
 
     `t` is the time of the sample or stride that showed it, with which it is reported. While a defect that `spoils`

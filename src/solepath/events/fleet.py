@@ -9,7 +9,7 @@ from __future__ import annotations
 from enum import Enum
 
 from ..types.attrs import frozen
-from .happening import Happening
+from .happening import BaseEvent
 
 
 class SentRejection(Enum):
@@ -29,7 +29,7 @@ class SentRejection(Enum):
 
 
 @frozen(kw_only=True)
-class StateRejected(Happening):
+class StateRejected(BaseEvent):
     """The saved state of a wearer cannot be used, so a fresh session starts.
 
     The state is damaged, or was saved by a later release, or with another recipe or floor plan. The event is reported
@@ -40,7 +40,7 @@ class StateRejected(Happening):
 
 
 @frozen(kw_only=True)
-class NumbersMissing(Happening):
+class NumbersMissing(BaseEvent):
     """Items with these numbers never came; it is reported when too many later items wait for them."""
 
     run: int
@@ -52,7 +52,7 @@ class NumbersMissing(Happening):
 
 
 @frozen(kw_only=True)
-class SentRejected(Happening):
+class SentRejected(BaseEvent):
     """An item is not used, and changed nothing.
 
     It is reported in the order of the items' numbers, or at once for an item without a usable number. A packet that
@@ -72,7 +72,7 @@ class SentRejected(Happening):
 
 
 @frozen(kw_only=True)
-class WearerFailed(Happening):
+class WearerFailed(BaseEvent):
     """A reader or a detector of the app raised an exception, or held data that cannot be saved.
 
     A fresh session starts for this wearer; other wearers are not affected. It is reported with the packet that caused

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from ..types import Foot, Vec3
 from ..types.attrs import frozen
-from .happening import Happening
+from .happening import BaseEvent
 
 
 @frozen(kw_only=True)
-class GaitEvent(Happening):
+class GaitEvent(BaseEvent):
     """The fields of HeelStrike, FootFlat, HeelOff and ToeOff; only these are reported."""
 
     foot: Foot
@@ -75,7 +75,7 @@ class StrideFeatures:
 
 
 @frozen(kw_only=True)
-class StrideTaken(Happening):
+class StrideTaken(BaseEvent):
     """One stride: a foot went from a foot-flat to its next foot-flat.
 
     `t` is the second foot-flat. The stride is known with that FootFlat. Vectors are in the world frame, m. The first

@@ -14,7 +14,7 @@ import attrs
 from ..types import Sample
 from ..types.attrs import define, fields, frozen
 from ..types.extras import install_hint
-from .happening import FIRST_KEYS, Happening, json_ready
+from .happening import FIRST_KEYS, BaseEvent, json_ready
 
 _NAMES = {
     "s": "t known_at t_start t_end t_toe_off t_heel_strike revises stride_time stance_time swing_time step_time "
@@ -65,7 +65,7 @@ TYPES = {
 
 
 def to_frame(
-    records: Iterable[Happening | Sample], of: type[Happening] | None = None, *, library: str | None = None
+    records: Iterable[BaseEvent | Sample], of: type[BaseEvent] | None = None, *, library: str | None = None
 ) -> Any:
     """Return a data frame with one row per event or sample, of pandas if that is installed, else of polars.
 
@@ -178,10 +178,10 @@ Path = tuple[str | int, ...]
 @cache
 def _columns_of(cls: Any) -> list[tuple[str, Form, str | None, Path]]:
     """Return name, form, unit and way to the value of each column of a class of records."""
-    if not (isinstance(cls, type) and issubclass(cls, Happening | Sample)):
+    if not (isinstance(cls, type) and issubclass(cls, BaseEvent | Sample)):
         raise TypeError(f"to_frame takes events and samples, not {getattr(cls, '__name__', cls)}")
     found = [*_fields_of(cls, cls.__name__, "", ())]
-    if issubclass(cls, Happening):
+    if issubclass(cls, BaseEvent):
         found.append(("event", TEXT, None, ("__class__", "__name__")))
     names = [one.name for one in fields(cls)]
     if "site" in names and "foot" not in names:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from ..types import Foot
 from ..types.attrs import frozen
-from .happening import Happening
+from .happening import BaseEvent
 
 
 @frozen(kw_only=True)
-class GaitCycleMeasured(Happening):
+class GaitCycleMeasured(BaseEvent):
     """One gait cycle of a foot, from its initial contact to its next initial contact.
 
     Sources: Perry and Burnfield, Gait Analysis, 2nd ed. 2010, chapter 1; Whittle, Gait Analysis, 4th ed. 2007, chapter

@@ -16,7 +16,7 @@ FIRST_KEYS = ("t", "known_at", "final", "foot")
 
 
 @frozen(kw_only=True)
-class Happening:
+class BaseEvent:
     """The base class of every event."""
 
     t: float

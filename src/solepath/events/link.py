@@ -7,7 +7,7 @@ from enum import Enum
 from ..types import Layout, Site
 from ..types.attrs import frozen
 from .defect import Defect
-from .happening import Happening
+from .happening import BaseEvent
 
 
 class Rejection(Enum):
@@ -29,7 +29,7 @@ class Rejection(Enum):
 
 
 @frozen(kw_only=True)
-class PacketRejected(Happening):
+class PacketRejected(BaseEvent):
     """A packet could not be used, and changed nothing; `t` is its arrival, with which it is reported."""
 
     site: Site
@@ -42,7 +42,7 @@ class PacketRejected(Happening):
 
 
 @frozen(kw_only=True)
-class SampleRejected(Happening):
+class SampleRejected(BaseEvent):
     """A sample could not be used, and changed no estimate.
 
     It is reported at once. `t` is the sample's time, or the previous sample's if the sample's time cannot be used."""
@@ -56,7 +56,7 @@ class SampleRejected(Happening):
 
 
 @frozen(kw_only=True)
-class PacketsLost(Happening):
+class PacketsLost(BaseEvent):
     """Packets never arrived; the device's counters show it, or the times of arrival if the device has no counters.
 
     `t` is the time of the first missing packet. It is reported at the arrival of the first packet after them."""
@@ -68,7 +68,7 @@ class PacketsLost(Happening):
 
 
 @frozen(kw_only=True)
-class SampleGap(Happening):
+class SampleGap(BaseEvent):
     """No samples came for longer than the sensor's rate allows; the stride with the gap is marked degraded.
 
     `t` is the last sample before the gap. It is reported with the first sample after the gap."""
@@ -79,7 +79,7 @@ class SampleGap(Happening):
 
 
 @frozen(kw_only=True)
-class ClockReset(Happening):
+class ClockReset(BaseEvent):
     """The device's clock jumped, the device restarted, or the receiver's clock did; sample times start from a new fit.
 
     A fit converts the device's ticks to time (link/clock.py). `t` is the first time of the new fit. It is reported at
@@ -91,7 +91,7 @@ class ClockReset(Happening):
 
 
 @frozen(kw_only=True)
-class StreamStale(Happening):
+class StreamStale(BaseEvent):
     """Nothing came from a site for longer than its device allows (`Profile.stale_after`; built-in devices: 1 or 2 s).
 
     `t` is the end of the allowed time. It is reported by the first `Session.advance` or packet of the site after `t`,
@@ -103,7 +103,7 @@ class StreamStale(Happening):
 
 
 @frozen(kw_only=True)
-class StreamResumed(Happening):
+class StreamResumed(BaseEvent):
     """Data came again after StreamStale; `t` is the arrival of the first packet, with which it is reported."""
 
     site: Site
@@ -112,7 +112,7 @@ class StreamResumed(Happening):
 
 
 @frozen(kw_only=True)
-class Connected(Happening):
+class Connected(BaseEvent):
     """The receiver connected to a device, for the first time or again, and sets it up next.
 
     `t` is the time of the connection on the receiver's clock. It is reported at once."""
@@ -127,7 +127,7 @@ class Connected(Happening):
 
 
 @frozen(kw_only=True)
-class Disconnected(Happening):
+class Disconnected(BaseEvent):
     """The connection to the device is lost; the receiver searches for it.
 
     `t` is the time at which the receiver noticed it, some seconds after the device went out of reach. It is reported
@@ -137,7 +137,7 @@ class Disconnected(Happening):
 
 
 @frozen(kw_only=True)
-class PacketsDropped(Happening):
+class PacketsDropped(BaseEvent):
     """Packets arrived and were dropped, the oldest first, because the app did not take them in time.
 
     It is reported when the next packet is taken. `t` is the arrival of the site's newest dropped packet."""
@@ -148,7 +148,7 @@ class PacketsDropped(Happening):
 
 
 @frozen(kw_only=True)
-class StreamRestarted(Happening):
+class StreamRestarted(BaseEvent):
     """A stream stopped while the device stayed connected, and the receiver set the device up again.
 
     `t` is the time of that setup, after the silence that the device's profile allows (`Profile.stale_after`, s). It is
@@ -160,7 +160,7 @@ class StreamRestarted(Happening):
 
 
 @frozen(kw_only=True)
-class PositionReported(Happening):
+class PositionReported(BaseEvent):
     """A person has reported where the wearer is at `t`; what the track makes of it follows at once.
 
     That is TrackRevised or PositionRejected. Nothing follows if a named place is noted for the first time, or if the
@@ -179,7 +179,7 @@ class PositionReported(Happening):
 
 
 @frozen(kw_only=True)
-class LinkTrouble(Happening):
+class LinkTrouble(BaseEvent):
     """The receiver cannot work, and a person has to help.
 
     `t` is the time at which the receiver noticed it. It is reported at once."""
@@ -190,7 +190,7 @@ class LinkTrouble(Happening):
 
 
 @frozen(kw_only=True)
-class LayoutKnown(Happening):
+class LayoutKnown(BaseEvent):
     """The layout of the pressure cells is known from the device or from the calibration.
 
     A layout of the calibration is used if it has as many cells as the samples. `t` is the time of the packet with the
@@ -202,7 +202,7 @@ class LayoutKnown(Happening):
 
 
 @frozen(kw_only=True)
-class BatteryLevel(Happening):
+class BatteryLevel(BaseEvent):
     """The device reported its battery level; `t` is the arrival of the packet, with which it is reported."""
 
     site: Site
@@ -211,7 +211,7 @@ class BatteryLevel(Happening):
 
 
 @frozen(kw_only=True)
-class KeysChanged(Happening):
+class KeysChanged(BaseEvent):
     """A key of the device was pressed or released; `t` is the arrival of the packet, with which it is reported."""
 
     site: Site
@@ -220,7 +220,7 @@ class KeysChanged(Happening):
 
 
 @frozen(kw_only=True)
-class Limitation(Happening):
+class Limitation(BaseEvent):
     """The session cannot measure something with the sensors that it has; it is reported once.
 
     `t` is the time of the packet or sample that shows it, with which it is reported. A value that is missing in samples

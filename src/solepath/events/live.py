@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import frozen
-from .happening import Happening
+from .happening import BaseEvent
 
 
 @frozen(kw_only=True)
-class FootMoved(Happening):
+class FootMoved(BaseEvent):
     """The position of a foot after one sample, reported with that sample; only from a session with `poses=True`.
 
     It is never final: the StrideTaken of the stride has the foot's final displacement."""
@@ -24,7 +24,7 @@ class FootMoved(Happening):
 
 
 @frozen(kw_only=True)
-class WearerMoved(Happening):
+class WearerMoved(BaseEvent):
     """The position of the wearer after a stride, as in `Session.position`; only from a session with `poses=True`.
 
     `t` is the newest sample of either foot. It is reported once for each sample that ends a stride, after the
@@ -42,7 +42,7 @@ class WearerMoved(Happening):
 
 
 @frozen(kw_only=True)
-class FootPressed(Happening):
+class FootPressed(BaseEvent):
     """The values of an insole's cells in one sample; only from a session with `pressures=True`.
 
     It is reported with every sample that has usable cells. It is never final."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from ..types import Vec3
 from ..types.attrs import frozen
-from .happening import Happening
+from .happening import BaseEvent
 
 
 @frozen
@@ -28,7 +28,7 @@ class Candidate:
 
 
 @frozen(kw_only=True)
-class Placed(Happening):
+class Placed(BaseEvent):
     """The wearer's place on the plan after a stride, or on arrival by stairs or elevator.
 
     Source: Liu et al. 2015, IEEE MASS, section IV.E. It is reported with the StrideTaken, or with the event of the
@@ -50,7 +50,7 @@ class Placed(Happening):
 
 
 @frozen(kw_only=True)
-class PlanContradicted(Happening):
+class PlanContradicted(BaseEvent):
     """A heading that was given or is the compass's, or the height of a ride, does not fit the plan; the place goes on.
 
     `t` is the newest sample, or the end of the ride. It is reported with the stride after which no candidate has the
@@ -67,7 +67,7 @@ class PlanContradicted(Happening):
 
 
 @frozen(kw_only=True)
-class PlaceLost(Happening):
+class PlaceLost(BaseEvent):
     """The place on the plan is unknown from `t` on, until a later Placed; the track continues without the plan.
 
     It is reported with the sample or stride that shows it. `t` is the newest sample at that moment."""

@@ -6,7 +6,7 @@ from enum import Enum
 
 from ..types import Foot, Site
 from ..types.attrs import frozen
-from .happening import Happening
+from .happening import BaseEvent
 
 
 class CellFault(Enum):
@@ -23,7 +23,7 @@ class CellFault(Enum):
 
 
 @frozen(kw_only=True)
-class CellsFailed(Happening):
+class CellsFailed(BaseEvent):
     """Some cells have a fault and are not used from `t` on; it is reported once for each fault and set of cells.
 
     `t` is the end of the second of two successive windows of walking that show the fault, at which it is reported; a
@@ -37,7 +37,7 @@ class CellsFailed(Happening):
 
 
 @frozen(kw_only=True)
-class InsoleNeverUnloads(Happening):
+class InsoleNeverUnloads(BaseEvent):
     """The insole shows load all the time while the foot walks: it is jammed, or the shoe presses on it too hard.
 
     While that lasts, phases come from the inertial sensor. `t` is the end of the second of two successive windows of
@@ -49,7 +49,7 @@ class InsoleNeverUnloads(Happening):
 
 
 @frozen(kw_only=True)
-class FeetSwapped(Happening):
+class FeetSwapped(BaseEvent):
     """The data of each foot look like those of the other foot, so the sensors or insoles may be on the wrong feet.
 
     It is reported once, and the session does not exchange the feet. `t` is the time at which it is reported: when the
@@ -58,7 +58,7 @@ class FeetSwapped(Happening):
 
 
 @frozen(kw_only=True)
-class FootSilent(Happening):
+class FootSilent(BaseEvent):
     """One foot continues to walk while no data come from the other foot.
 
     `t` is the walking foot's first sample after three of its strides and 3 s without a sample of the silent foot. It is
@@ -71,7 +71,7 @@ class FootSilent(Happening):
 
 
 @frozen(kw_only=True)
-class FootResumed(Happening):
+class FootResumed(BaseEvent):
     """Samples of a foot came again after FootSilent; `t` is the first of them, with which it is reported."""
 
     foot: Foot

@@ -11,7 +11,7 @@ from functools import cache
 from operator import index
 from typing import Any
 
-from ..events.happening import FIRST_KEYS, Happening, json_ready
+from ..events.happening import FIRST_KEYS, BaseEvent, json_ready
 from ..types import Packet, Site
 from ..types.attrs import fields
 from .step.sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_NAME_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
@@ -202,7 +202,7 @@ def event_row(numbered: NumberedEvent) -> dict[str, Any]:
 
     `fields` holds the other fields of the event as JSON, with the names of events.jsonl. An unpaired surrogate in the
     wearer's name is written `\\ud800`, since a table holds UTF-8."""
-    event: Happening = numbered.event
+    event: BaseEvent = numbered.event
     wearer = numbered.wearer
     if not wearer.isascii():
         wearer = wearer.encode("utf-8", "backslashreplace").decode()
@@ -219,7 +219,7 @@ def event_row(numbered: NumberedEvent) -> dict[str, Any]:
     return {"wearer": wearer, "number": numbered.number, **columns, "fields": others}
 
 
-def _foot_name(event: Happening) -> str | None:
+def _foot_name(event: BaseEvent) -> str | None:
     """Return the foot of an event, or that of its site; None for an event that has none."""
     site = getattr(event, "site", None)
     foot = getattr(event, "foot", site.foot if isinstance(site, Site) else None)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from ..types import Quat, Vec3
 from ..types.attrs import define, field
-from ..types.vector import GRAVITY, TIE, ZERO, levelling
+from ..types.vector import GRAVITY, TIME_EPSILON, ZERO, levelling
 from .navigate.bias import REST_SPAN, BiasFilter, RestSpan
 
 COARSEST_COUNT = 0.7
@@ -131,7 +131,7 @@ class Levelling:
         if self.started_at is None:
             self.started_at = self.span_start = self.short_span_start = t
         self.span.add(acc, gyro)
-        if t - self.span_start >= LEVEL_SPAN - TIE and self.span.count >= 3:
+        if t - self.span_start >= LEVEL_SPAN - TIME_EPSILON and self.span.count >= 3:
             mean_acc, _ = self.span.means()
             acc_variance, gyro_variance = self.span.variances()
             self.span = SampleSpan()
@@ -140,14 +140,14 @@ class Levelling:
                 self.final, self.walks = True, False
                 return levelling(mean_acc), REST_TILT_SIGMA
         attitude = self._level_in_stance(t, acc, gyro)
-        self.final = t - self.started_at >= LONGEST_STRIDE - TIE and self.least_motion < LARGEST_MOTION
+        self.final = t - self.started_at >= LONGEST_STRIDE - TIME_EPSILON and self.least_motion < LARGEST_MOTION
         return attitude
 
     def _level_in_stance(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[Quat, float] | None:
         """Return the same as `update`, from a short span that is stiller than any before."""
         short_span = self.short_span
         short_span.add(acc, gyro)
-        if t - self.short_span_start < SHORT_SPAN - TIE or short_span.count < 2:
+        if t - self.short_span_start < SHORT_SPAN - TIME_EPSILON or short_span.count < 2:
             return None
         (ax, ay, az), _ = short_span.means()
         gravity_difference = (ax * ax + ay * ay + az * az) ** 0.5 - GRAVITY
@@ -218,11 +218,11 @@ class Rest:
             self.grain = least_difference = y if y > 0.0 else -y
         if -least_difference < z < least_difference and not -LARGEST_SAME_COUNT <= z <= LARGEST_SAME_COUNT:
             self.grain = z if z > 0.0 else -z
-        if t < self.block_end - TIE:
+        if t < self.block_end - TIME_EPSILON:
             return False
         self.blocks.append((span.count, span.gyro))
         self.block_end = t + REST_BLOCK
-        if self.span_start is None or t - self.span_start < REST_SPAN - TIE or span.count < 4:
+        if self.span_start is None or t - self.span_start < REST_SPAN - TIME_EPSILON or span.count < 4:
             return False
         return self._end_span(t)
 
@@ -309,7 +309,7 @@ class WalkScale:
             self.span_start = t
         span = self.span
         span.add(acc, gyro)
-        if t - self.span_start < SHORT_SPAN - TIE or span.count < 2:
+        if t - self.span_start < SHORT_SPAN - TIME_EPSILON or span.count < 2:
             return
         motion = amount_of_motion(span)
         if motion < self.least_motion:

@@ -7,7 +7,7 @@ from math import hypot
 from ..events import StrideFeatures, StrideTaken
 from ..types import Foot, Quat, Vec3
 from ..types.attrs import define, field
-from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, single, sub
+from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
 from .navigate.corrector import Corrector
 from .rhythm import follow
 from .world import World
@@ -228,7 +228,7 @@ class StrideBuilder:
             return
         self.cop_skipped = 0
         x, y = cop
-        self.cop.append((single(x), single(y)))
+        self.cop.append((to_float32(x), to_float32(y)))
         if len(self.cop) > MOST_COP_POINTS:
             self.cop = self.cop[::2]
             self.cop_interval *= 2

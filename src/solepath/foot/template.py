@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from ..types import Quat, Vec3
 from ..types.attrs import ROW_SIZE, define, field, frozen
-from ..types.vector import ZERO, add, dot, normalise, single, sub, turned
+from ..types.vector import ZERO, add, dot, normalise, sub, to_float32, turned
 
 MOMENT = Struct("<15f")
 """Stored form of a moment: all numbers of `StrideMoment` in order, rounded to float32.
@@ -355,6 +355,9 @@ class StrideTemplate:
             t_heel_strike = t if heel_strike is None else heel_strike
             # rounded like the moments, because these times may be equal to that of a moment
             self.last_stride = RecordedStride(
-                self.moments, single(toe_off - self.t_heel_off), single(t_heel_strike - self.t_heel_off), displacement
+                self.moments,
+                to_float32(toe_off - self.t_heel_off),
+                to_float32(t_heel_strike - self.t_heel_off),
+                displacement,
             )
             self.age = 0

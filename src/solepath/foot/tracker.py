@@ -122,7 +122,7 @@ class FootTracker:
             rest.bias, rest.grain if rest.count else 0.0, pressed, after,
         )  # fmt: skip
 
-    def spoil(self) -> None:
+    def mark_degraded(self) -> None:
         """Mark all strides as degraded from now until `reset`, because a defect of the data was found."""
         self.gait.stride.mark_degraded(ABSURD_TIME)
 

@@ -73,7 +73,7 @@ def heading_walk(source: Iterable[Packet | Sample], calibration: Calibration | N
     """Return the drift of each foot that walked; CalibrationError says why a foot does not show it, or none walked."""
     known = calibration or Calibration()
     # each foot by itself, without any earlier calibration of its heading
-    session = Session(DEFAULT.exchanged(BothFeet, MeanOfFeet()), calibration=evolve(known, headings={}))
+    session = Session(DEFAULT.replace_part(BothFeet, MeanOfFeet()), calibration=evolve(known, headings={}))
     taken: dict[Foot, list[StrideTaken]] = {foot: [] for foot in Foot}
     before: dict[Foot, Bias] = {}
     for one in source:

@@ -15,7 +15,7 @@ from struct import Struct, error
 from typing import Any
 
 from ..calibration import Calibration
-from ..recipes import Recipe, own
+from ..recipes import Recipe, shared_copy
 from ..saving.codec import SnapshotError
 from ..saving.limits import shorten
 from ..saving.nodes import schema_check
@@ -85,7 +85,7 @@ def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> SessionStat
 
     Raises SnapshotError for other data. Raises TypeError and ValueError for an invalid recipe, invalid parts, or two
     parts of one name."""
-    own_recipe = own(recipe)
+    own_recipe = shared_copy(recipe)
     classes = make_class_lookup(parts)
     body = _check_header(data)
     try:
@@ -115,7 +115,7 @@ _templates: dict[tuple[int, str], SessionState] = {}
 
 
 def _read_state(streams: Streams, recipe: Recipe) -> SessionState:
-    """Return the state that the streams hold; `recipe` is a copy that nobody changes (recipes.own).
+    """Return the state that the streams hold; `recipe` is a copy that nobody changes (recipes.shared_copy).
 
     Raises SnapshotError when the state was packed with another recipe."""
     head: Head = HEAD.read(None, streams)

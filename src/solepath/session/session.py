@@ -17,7 +17,7 @@ from ..foot.phase import SUPPORT
 from ..foot.tracker import FootTracker
 from ..link.decoder import Decoder, is_address
 from ..link.kinds import DeviceKinds, make_kinds
-from ..recipes import DEFAULT, Recipe, own
+from ..recipes import DEFAULT, Recipe, shared_copy
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from ..types.plain import flag, text
 from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
@@ -67,7 +67,7 @@ class Session:
         self._plan = index_floorplan(floorplan)
         plan = None if self._plan is None else self._plan.fingerprint
         with_poses, with_pressures = flag("poses", poses), flag("pressures", pressures)
-        settings = SessionSettings(own(recipe), own_calibration, with_poses, with_pressures, plan)
+        settings = SessionSettings(shared_copy(recipe), own_calibration, with_poses, with_pressures, plan)
         state = self._state = SessionState(settings)
         if start is not None:
             state.notify(StartGiven(check_start(start, self._plan)))

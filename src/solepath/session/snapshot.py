@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ..link.kinds import DeviceKinds
-from ..recipes import Recipe, own, part_class
+from ..recipes import Recipe, part_class, shared_copy
 from ..saving.codec import Classes, Json, SnapshotError, checksum, load, save
 from ..saving.limits import check_size, shorten
 from ..saving.schema import is_record
@@ -44,7 +44,7 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
     if checksum(save(state)) != saved["check"]:
         raise SnapshotError("the snapshot was damaged: its checksum is another")
     settings = state.settings
-    state.settings = evolve(settings, recipe=own(settings.recipe))
+    state.settings = evolve(settings, recipe=shared_copy(settings.recipe))
     return state
 
 

@@ -348,7 +348,7 @@ class SessionState:
                 events[:] = [item.by if event is item.event else event for event in events]
             else:
                 if isinstance(item, DefectFound) and item.spoils and item.site.foot in self.feet:
-                    self.feet[item.site.foot].spoil()
+                    self.feet[item.site.foot].mark_degraded()
                 events.append(item)
 
     def _choose_sampled(self) -> None:

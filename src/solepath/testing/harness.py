@@ -13,7 +13,7 @@ from attrs import define, evolve, field
 from ..body.part import Part
 from ..calibration import Calibration
 from ..events import FootFlat, HeelOff, HeelStrike, LayoutKnown, ToeOff
-from ..events.happening import Happening
+from ..events.happening import BaseEvent
 from ..foot.cues.cues import Cues
 from ..foot.navigate.corrector import Corrector
 from ..foot.navigate.error_state import ErrorStateFilter
@@ -206,7 +206,7 @@ class WearerHarness(WalkHarness):
     def problems(self, events: Any) -> Iterator[str]:
         """Yield a sentence for every output that is no event, or that has `t` after `known_at`."""
         for event in events:
-            if not isinstance(event, Happening):
+            if not isinstance(event, BaseEvent):
                 yield f"a part returns events, a Shift, a HeightShift or a Replacement, not a {type(event).__name__}"
             elif not (isfinite(event.t) and event.t <= event.known_at):
                 yield f"an event was when it was known or earlier, not a {type(event).__name__} of {event.t} s"

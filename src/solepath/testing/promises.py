@@ -1,4 +1,4 @@
-"""Tests whether a part meets the contract of a session: call `broken` in a test of your own part.
+"""Tests whether a part meets the contract of a session: call `violations` in a test of your own part.
 
 It is meant for authors of a stance detector, a corrector, cues or a part of the body. It runs the part on the given
 samples: a detector alone, any other part within the default recipe. It tests neither the time that a sample takes nor
@@ -28,7 +28,7 @@ LARGEST_STATE_GROWTH = 1.5
 """Ratio of the second half's largest state to the first half's above which a state grows forever; chosen by hand."""
 
 
-def broken(
+def violations(
     part: Detector | Corrector | Cues | Part, samples: Iterable[Sample], layout: Layout | None = None
 ) -> list[str]:
     """Return a sentence for every rule that `part` breaks; the list is empty if it breaks none.
@@ -60,14 +60,14 @@ def broken(
     if save(part) != saved_part:
         sentences.append("two copies of it share something: feeding one changes the other")
     if repr(_run(deepcopy(harness), tested_samples)) != repr(outputs):
-        sentences.append("the same samples do not say the same twice")
+        sentences.append("a second run gives different output")
     sentences += [f"saved and restored, {what}" for what in altered_fields]
     if not altered_fields and repr(_run(restored_harness, tested_samples[middle:])) != repr(late_outputs):
-        sentences.append("saved and restored, it does not go on as before: it remembers what is in no field")
+        sentences.append("saved and restored, it does not go on as before: some state is not in a field")
     changed_names = _changed_settings(part, copy.part)
     sentences += [f"its setting {name} changes: what does is state, a field with init=False" for name in changed_names]
     if size_after > LARGEST_STATE_GROWTH * size_before:
-        sentences.append("it remembers more and more")
+        sentences.append("its state grows without bound")
     outputs += _run(copy, _extreme_samples(tested_samples))
     outputs += _run(copy, copy.pressure_only(tested_samples))
     copy.restart()

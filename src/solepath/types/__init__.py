@@ -15,10 +15,10 @@ from .records import (
     Site,
     Support,
     Turn,
+    ValueEnum,
     Vec2,
     Vec3,
     WalkingMode,
-    Word,
     per_foot,
 )
 
@@ -41,7 +41,7 @@ __all__ = [
     "Vec2",
     "Vec3",
     "WalkingMode",
-    "Word",
+    "ValueEnum",
     "per_foot",
     "shared",
 ]

@@ -20,7 +20,7 @@ Quat = tuple[float, float, float, float]
 """Unit quaternion (w, x, y, z) that turns sensor coordinates into world coordinates."""
 
 
-class Word(Enum):
+class ValueEnum(Enum):
     """An enum whose members are printed as their values and hashed by identity.
 
     The hash of Enum is a call of Python code at every look-up, and code that runs per sample looks up feet, sites and
@@ -32,7 +32,7 @@ class Word(Enum):
         return str(self.value)
 
 
-class Foot(Word):
+class Foot(ValueEnum):
     """One of the wearer's feet."""
 
     LEFT = "left"
@@ -52,7 +52,7 @@ def per_foot(make: Callable[[], _Value]) -> PerFoot[_Value]:
     return {foot: make() for foot in Foot}
 
 
-class OnBody(Word):
+class OnBody(ValueEnum):
     """A place on the body; the base class of `Site`."""
 
     foot: Foot | None
@@ -83,7 +83,7 @@ SITE_OF_FOOT = {Foot.LEFT: Site.LEFT_FOOT, Foot.RIGHT: Site.RIGHT_FOOT}
 """Site of each foot."""
 
 
-class Phase(Word):
+class Phase(ValueEnum):
     """A phase of one foot."""
 
     LOADING = "LOADING"
@@ -96,7 +96,7 @@ class Phase(Word):
     """From ToeOff to HeelStrike."""
 
 
-class Support(Word):
+class Support(ValueEnum):
     """The feet that are on the ground: both, left, right, or none (flight)."""
 
     DOUBLE = "DOUBLE"
@@ -105,7 +105,7 @@ class Support(Word):
     FLIGHT = "FLIGHT"
 
 
-class WalkingMode(Word):
+class WalkingMode(ValueEnum):
     """A mode of walking: straight on, round a bend of wide (4 m) or tight (2 m) radius, or standing."""
 
     STRAIGHT = "STRAIGHT"
@@ -116,7 +116,7 @@ class WalkingMode(Word):
     STANDING = "STANDING"
 
 
-class Activity(Word):
+class Activity(ValueEnum):
     """An activity of the wearer."""
 
     STANDING = "STANDING"
@@ -130,7 +130,7 @@ class Activity(Word):
     UNKNOWN = "UNKNOWN"
 
 
-class Turn(Word):
+class Turn(ValueEnum):
     """A direction in which the wearer turned."""
 
     LEFT = "LEFT"

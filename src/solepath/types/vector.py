@@ -9,7 +9,7 @@ from .records import Quat, Vec2, Vec3
 GRAVITY = 9.80665
 """Standard gravity, m/s^2 (ISO 80000-3)."""
 
-TIE = 1e-6
+TIME_EPSILON = 1e-6
 """Tolerance with which durations are compared, s: one that is shorter by less than this counts as long enough.
 
 Samples are often taken at round times. Rounding must not decide which sample ends a duration, otherwise the same walk
@@ -25,7 +25,7 @@ SPLIT = 2.0**29 + 1.0
 """Factor with which `single` removes the lower 29 of a float's 53 bits."""
 
 
-def single(x: float) -> float:
+def to_float32(x: float) -> float:
     """Return `x` rounded to the 24 bits of a float32, whose other bits are zeros that a packed state compresses.
 
     Use it for values that are stored, not for values that are propagated (a covariance, a position). It takes 60 ns.

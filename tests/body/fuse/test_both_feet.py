@@ -35,7 +35,7 @@ def _samples(seed: int) -> tuple[Sample, ...]:
 @cache
 def _walked(part: str) -> tuple[Session, list[Event]]:
     body = {"both": BothFeet(), "mean": MeanOfFeet()}[part]
-    session = Session(recipes.DEFAULT.exchanged(TrackPart, body))
+    session = Session(recipes.DEFAULT.replace_part(TrackPart, body))
     events = [event for sample in _samples(102) for event in session.feed(sample)]
     return session, events
 

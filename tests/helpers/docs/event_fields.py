@@ -13,7 +13,7 @@ import attrs
 
 from solepath import Event
 from solepath.events.frames import RENAMED, UNITS
-from solepath.events.happening import Happening
+from solepath.events.happening import BaseEvent
 
 Row = tuple[str, str, str]
 """Name, unit ("" without one) and meaning of a field."""
@@ -72,7 +72,7 @@ def table(found: list[Row]) -> list[str]:
 
 def event_fields() -> str:
     """Return a section for each event, and first one for the fields of all."""
-    common = list(rows(Happening))
+    common = list(rows(BaseEvent))
     names = frozenset(name for name, _, _ in common)
     lines = ["### All events", "", *table(common)]
     described = [(event.__name__, list(rows(event, skipped=names))) for event in get_args(Event)]

@@ -34,7 +34,7 @@ from solepath.types.vector import sub
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(99, foot)) for foot in Foot})
 BEND_ROUTE = Route().stand(2.0).walk(4.0, MARK_SPEED).turn(pi / 2, 2.0).walk(3.0).stop(1.0)
-METHOD_III = WALKING_MODES.exchanged(TrackPart, Modes())
+METHOD_III = WALKING_MODES.replace_part(TrackPart, Modes())
 KNOWN_HEADING = ModesSettings(heading=0.0)
 
 
@@ -52,14 +52,14 @@ def suit_samples(route: Route = BEND_ROUTE, north: float = 0.0, seed: int = 101)
 @cache
 def run_walk(heading: float | None = None, north: float = 0.0) -> list[Event]:
     session = Session(
-        METHOD_III.exchanged(TrackPart, Modes(settings=ModesSettings(heading=heading))), calibration=KNOWN
+        METHOD_III.replace_part(TrackPart, Modes(settings=ModesSettings(heading=heading))), calibration=KNOWN
     )
     return [*session.feed(suit_samples(north=north)), *session.finish()]
 
 
 def end_error(modes: Modes, samples: Sequence[Sample]) -> tuple[tuple[float, float], Covariance3]:
     """Return the distance of the last position from the end of the route, m, and its covariance."""
-    session = Session(METHOD_III.exchanged(TrackPart, modes), calibration=KNOWN)
+    session = Session(METHOD_III.replace_part(TrackPart, modes), calibration=KNOWN)
     session.feed(samples)
     position, end = session.position, walker_on().route.end
     assert position is not None
@@ -112,7 +112,7 @@ def share_of_contacts(mode: WalkingMode, rule: ModeRule, wearer: Wearer) -> floa
     """Return the share of contacts on 20 steps in a mode whose mode is recognised, in the order of the contacts."""
     walker = Walker(marked(mode, steps=20), wearer, seed=101)
     modes = Modes(settings=ModesSettings(rule=rule))
-    session = Session(METHOD_III.exchanged(TrackPart, modes), calibration=KNOWN)
+    session = Session(METHOD_III.replace_part(TrackPart, modes), calibration=KNOWN)
     changes = of(WalkingModeChanged, session.feed(limb_samples(walker, 50.0, seed=101, layouts=LAYOUTS)))
     right = whole = 0
     for foot in Foot:
@@ -127,7 +127,7 @@ def share_of_contacts(mode: WalkingMode, rule: ModeRule, wearer: Wearer) -> floa
 def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
     straight = {foot: {WalkingMode.STRAIGHT: (0.02, 0.0)} for foot in Foot}
     compensated = Modes(settings=evolve(KNOWN_HEADING, compensation=straight))
-    session = Session(METHOD_III.exchanged(TrackPart, compensated), calibration=KNOWN)
+    session = Session(METHOD_III.replace_part(TrackPart, compensated), calibration=KNOWN)
     downs = of(TouchedDown, session.feed(suit_samples()))
     ahead = [down for down in downs if down.mode is WalkingMode.STRAIGHT and down.t < 6.0]
     assert ahead and all(down.compensation[0] == pytest.approx(0.02, abs=0.002) for down in ahead[:-1])

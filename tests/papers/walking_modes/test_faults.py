@@ -29,7 +29,7 @@ LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(96, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
 WALK_LENGTH = 15.0
-TRACKS_RECIPE = DEFAULT.exchanged(TrackPart, MeanOfFeet())
+TRACKS_RECIPE = DEFAULT.replace_part(TrackPart, MeanOfFeet())
 """The feet's own tracks, and their mean."""
 RECIPES = ("walking-modes", "touchdown-height", "touchdown-acceleration", "touchdown-pressure")
 

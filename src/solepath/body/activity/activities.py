@@ -22,7 +22,7 @@ from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import define, evolve, field, frozen
-from ...types.vector import TIE, ZERO
+from ...types.vector import TIME_EPSILON, ZERO
 from ..part import ActivityPart, PartInput, PartOutput
 from .early import ActivityCue, ActivityReport, BlockSigns, EarlyActivities, cue_of_stride
 from .elevator_evidence import BlockForce, ElevatorEvidence
@@ -112,7 +112,7 @@ class Activities(ActivityPart):
             acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
             if self.origin is None:
                 self.origin = t
-            block_number = (t - self.origin + TIE) / BLOCK_DURATION
+            block_number = (t - self.origin + TIME_EPSILON) / BLOCK_DURATION
             if sample.air_pressure is not None and side.index is not None:
                 self.pressure_height.add(view.foot, floor(block_number), sample.air_pressure)
             if acc is not None:

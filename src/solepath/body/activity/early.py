@@ -12,7 +12,7 @@ from math import exp, fsum
 from ...events import ActivityChanged, Event, LiftRidden
 from ...types import Activity
 from ...types.attrs import define, field
-from ...types.vector import TIE
+from ...types.vector import TIME_EPSILON
 from .chain import ACTIVITIES, STAND, UNKNOWN, Chain
 from .elevator_evidence import PULSE_ACCELERATION, PULSE_DEVIATION, ElevatorEvidence, RestLevels
 from .hypotheses import ActivitySegment, Hypotheses
@@ -206,7 +206,7 @@ class EarlyActivities:
         if cue is None or following is newest.activity:
             return
         t += chain.shift[STATE_OF_ACTIVITY[newest.activity]][STATE_OF_ACTIVITY[following]]
-        self.found.append((ActivitySegment(max(t, newest.t + TIE), following), cue[1]))
+        self.found.append((ActivitySegment(max(t, newest.t + TIME_EPSILON), following), cue[1]))
 
     def follow_block(self, t: float, shown: BlockSigns | None, levels: RestLevels | None, chain: Chain) -> None:
         """Follow what a block that starts at `t`, s, shows; `levels` are the forces on the feet at rest."""

@@ -14,7 +14,7 @@ from operator import attrgetter
 
 from ...types import Activity
 from ...types.attrs import define, evolve, field
-from ...types.vector import TIE
+from ...types.vector import TIME_EPSILON
 from .chain import (
     ACTIVITIES,
     ELEVATOR_ACTIVITIES,
@@ -377,7 +377,7 @@ def _extend_path(
                 ended = ActivitySegment(last.t, last.activity, last.detected_at, t, ride.height_gain(block.after))
                 path = (*path[:-1], ended)
                 ride = ride.end()
-            t = max(t + chain.shift[token.state][state], last.t + TIE)
+            t = max(t + chain.shift[token.state][state], last.t + TIME_EPSILON)
         if state in RIDE_STATES:
             has_first_pulse = state in PULSE_SIGNS and bool(path)
             started = ElevatorRide(levels, has_first_pulse=has_first_pulse, start_height=block.before)

@@ -16,7 +16,7 @@ from math import fsum, sqrt
 from typing import Any
 
 from ...events import GaitCycleMeasured
-from ...types import Foot, PerFoot, Word, per_foot
+from ...types import Foot, PerFoot, ValueEnum, per_foot
 from ...types.attrs import define, evolve, field, fields, frozen
 
 MEMORY_STRIDES = 120
@@ -105,7 +105,7 @@ class StrideFigures:
 PARAMETER_NAMES = tuple(parameter.name for parameter in fields(StrideFigures))
 
 
-class Parameter(Word):
+class Parameter(ValueEnum):
     """The parameters that have running means: the fields of StrideFigures and OFF_PHASE, which is |phase - 0.5|."""
 
     STRIDE_TIME = "stride_time"

@@ -10,7 +10,7 @@ from attrs import astuple, field, frozen
 from ...calibration import Calibration
 from ...floorplan.index import IndexedPlan
 from ...link.driver import Driver
-from ...recipes import Recipe, own
+from ...recipes import Recipe, shared_copy
 from ...saving.codec import SnapshotError
 from ...session import Session
 
@@ -19,7 +19,7 @@ from ...session import Session
 class Sessions:
     """The maker of new and restored sessions; it holds no session."""
 
-    recipe: Recipe = field(converter=own)
+    recipe: Recipe = field(converter=shared_copy)
     """A private copy of the recipe, which never changes, so no session has to check for changes."""
     calibrations: Mapping[str, Calibration]
     floorplan: IndexedPlan | None

@@ -18,7 +18,7 @@ from math import sqrt
 
 from ...types import Phase, Vec3
 from ...types.attrs import define, field
-from ...types.vector import TIE, ZERO, add, dot, sub
+from ...types.vector import TIME_EPSILON, ZERO, add, dot, sub
 from ..phase import LOADING, PUSH_OFF, STATIONARY, SWING, Cue, in_columns
 from .cues import TimedCue
 
@@ -232,12 +232,12 @@ class InertialCues:
     def _stood(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
         """Return the time since which the foot stands still."""
         since = self.still_since
-        return since - STILLNESS_DELAY if since is not None and t - since >= STILLNESS_DEBOUNCE - TIE else None
+        return since - STILLNESS_DELAY if since is not None and t - since >= STILLNESS_DEBOUNCE - TIME_EPSILON else None
 
     def _moved(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
         """Return the time at which the foot, which moves, last did not turn."""
         since = self.moving_since
-        if since is None or t - since < STILLNESS_DEBOUNCE - TIE:
+        if since is None or t - since < STILLNESS_DEBOUNCE - TIME_EPSILON:
             return None
         return since if self.not_turning_at is None else min(self.not_turning_at, since)
 
@@ -254,7 +254,7 @@ class InertialCues:
     def _shuffled(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
         """Return the time since which the foot is too fast for one on the ground."""
         since, shuffle_time = self.fast_since, LOADING_SHUFFLE_TIME if phase is LOADING else SHUFFLE_TIME
-        return since if since is not None and t - since >= shuffle_time - TIE else None
+        return since if since is not None and t - since >= shuffle_time - TIME_EPSILON else None
 
     def _landed(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
         """Return the middle of the impact of a landing, once it is final."""
@@ -262,7 +262,9 @@ class InertialCues:
         if landing_at is None:
             return None
         mean_time = max(landing_at, self.impact.mean_time)
-        is_final = t - mean_time >= IMPACT_SETTLING_TIME - TIE or t - landing_at >= LONGEST_IMPACT_TIME - TIE
+        is_final = (
+            t - mean_time >= IMPACT_SETTLING_TIME - TIME_EPSILON or t - landing_at >= LONGEST_IMPACT_TIME - TIME_EPSILON
+        )
         return mean_time if is_final or self.still_since is not None else None
 
     def _stopped(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
@@ -274,7 +276,7 @@ class InertialCues:
         """Start a landing, or return the time of the impact of a foot that has become slow without one."""
         if self.landing_at is not None or self.still_since is not None:
             return None
-        if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING_TIME - TIE:
+        if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING_TIME - TIME_EPSILON:
             return None
         rate, impact = self.sagittal, self.impact
         if previous_rate < LANDING_RATE <= rate and self.lowest_rate < -LEAST_TROUGH_DEPTH and self.axis is not None:
@@ -282,7 +284,7 @@ class InertialCues:
         elif (
             speed < SHUFFLE_SPEED
             and impact.peak_shock > LEAST_LANDING_SHOCK
-            and t - impact.peak_shock_time >= IMPACT_SETTLING_TIME - TIE
+            and t - impact.peak_shock_time >= IMPACT_SETTLING_TIME - TIME_EPSILON
         ):
             return impact.peak_shock_time
         return None

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from ...types import Layout
 from ...types.attrs import define, evolve, field, frozen
-from ...types.vector import TIE
+from ...types.vector import TIME_EPSILON
 from ..pressure.insole import Extremes, centre
 from ..stance.stance import Load
 
@@ -93,7 +93,7 @@ class Touch:
     def update(self, t: float, load: Load | None, still: bool = False) -> bool:
         """Return whether the foot is in the air; `still` is True when the inertial sensor shows that it stands."""
         airborne = load is not None and self._is_airborne(t, load)
-        moved = self.moving_since is not None and t - self.moving_since >= TRUST_TIME - TIE
+        moved = self.moving_since is not None and t - self.moving_since >= TRUST_TIME - TIME_EPSILON
         if load is None:
             self.trusted = False
         elif self.load_unknown:
@@ -110,7 +110,7 @@ class Touch:
             self.still_since = None
         elif self.still_since is None:
             self.still_since = t
-        elif t - self.still_since >= TRUST_TIME - TIE:
+        elif t - self.still_since >= TRUST_TIME - TIME_EPSILON:
             self.trusted = False
         return airborne
 

@@ -15,7 +15,7 @@ from math import inf, sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, TIE, ZERO, sub, tipped
+from ...types.vector import GRAVITY, TIME_EPSILON, ZERO, sub, tipped
 from ..phase import STATIONARY
 from ..rhythm import StanceRhythm
 from ..settings import ErrorStateSettings
@@ -277,7 +277,7 @@ class ErrorStateFilter(Strapdown):
         if self.evidence_since is None:
             self.evidence_since = t
         if self.elapsed < (
-            SHORTEST_INTERVAL if t - self.evidence_since < EARLY_STANCE_TIME - TIE else LATE_STANCE_INTERVAL
+            SHORTEST_INTERVAL if t - self.evidence_since < EARLY_STANCE_TIME - TIME_EPSILON else LATE_STANCE_INTERVAL
         ):
             return (
                 self.accepted_at is not None and self.least_gated_statistic >= NO_STATISTIC
@@ -293,7 +293,7 @@ class ErrorStateFilter(Strapdown):
         vx, vy, vz = self.velocity
         is_lost = (
             not stands
-            and t - self.accepted_at > settings.time_until_lost - TIE
+            and t - self.accepted_at > settings.time_until_lost - TIME_EPSILON
             and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated_statistic
         )
         if is_lost or self._stands_after_all(t, self.evidence_since, self.accepted_at):
@@ -320,9 +320,9 @@ class ErrorStateFilter(Strapdown):
         """Return whether evidence that the gate rejects has lasted so long that the foot stands."""
         share, longest = self.settings.stance_share, self.settings.time_until_ungated
         if accepted_at >= evidence_since:  # the gate let the start of this stance pass
-            return t - accepted_at > self.rhythm.time_until_stance(inf, share, longest) - TIE
+            return t - accepted_at > self.rhythm.time_until_stance(inf, share, longest) - TIME_EPSILON
         until = self.rhythm.time_until_stance(evidence_since - accepted_at, share, longest)
-        return t - evidence_since > until - TIE
+        return t - evidence_since > until - TIME_EPSILON
 
     @property
     def velocity_error(self) -> Vec3:

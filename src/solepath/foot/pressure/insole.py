@@ -16,7 +16,7 @@ from collections.abc import Iterable
 from ...calibration import Calibration, Newtons
 from ...types import Foot, Layout
 from ...types.attrs import define, evolve, field
-from ...types.vector import TIE
+from ...types.vector import TIME_EPSILON
 from ..settings import InsoleSettings
 from ..stance.stance import Load
 
@@ -70,7 +70,7 @@ class Extremes:
 
     def update(self, t: float, value: float) -> float:
         """Add one value at `t`, s; return its difference from the lowest value."""
-        if self.span_end is None or t >= self.span_end - TIE:
+        if self.span_end is None or t >= self.span_end - TIME_EPSILON:
             self.span_end = t + SPAN_DURATION
             self.lows = [*self.lows[-4:], value]
             self.highs = [*self.highs[-4:], value]

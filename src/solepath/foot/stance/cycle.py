@@ -19,7 +19,7 @@ from math import exp, inf, log, sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import IDENTITY, TIE, ZERO
+from ...types.vector import IDENTITY, TIME_EPSILON, ZERO
 from ..phase import STATIONARY, SWING
 from ..settings import CycleSettings
 from .shoe import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
@@ -106,7 +106,7 @@ class SensorHeight:
             n + 1.0, t, ax, ay, ux, uy, st + t, stt + t * t, scc + cx * cx + cy * cy, suc + ux * cx + uy * cy,
             sux + ux, suy + uy, stux + t * ux, stuy + t * uy, scx + cx, scy + cy, stcx + t * cx, stcy + t * cy,
         )  # fmt: skip
-        if t > LONGEST_STANCE + TIE:
+        if t > LONGEST_STANCE + TIME_EPSILON:
             self.end_stance()
         return self.height * cx, self.height * cy
 
@@ -115,7 +115,7 @@ class SensorHeight:
         n, t, _, _, _, _, st, stt, scc, suc, sux, suy, stux, stuy, scx, scy, stcx, stcy = self.sums
         self.sums = EMPTY
         d = n * stt - st * st
-        if t < SHORTEST_STANCE - TIE or n < 5.0 or d <= 0.0:
+        if t < SHORTEST_STANCE - TIME_EPSILON or n < 5.0 or d <= 0.0:
             return
         # sums of u c and c^2 after the best a + b t was subtracted from u and c, axis by axis
         square = (
@@ -174,7 +174,7 @@ class Cycle(Detector):
         force, rate = self.shoe.mean_squares(t, acc, gyro)
         statistic = force / ACC_SQUARE + rate / GYRO_SQUARE
         # lowest and highest statistic of the current span
-        if self.span_end is None or t >= self.span_end - TIE:
+        if self.span_end is None or t >= self.span_end - TIME_EPSILON:
             self._start_span(t, statistic)
         elif statistic < self.lowest:
             self.lowest = statistic

@@ -51,9 +51,9 @@ ABLATED_RECIPES: dict[str, Recipe] = {
     "no tilt aiding": _filter(tilt_rate=0.0),
     "no noise of what lies between samples": _filter(noise_per_difference=0.0),
     "no recovery of a clipped gyroscope": _filter(recover=False),
-    "no straight ways": DEFAULT.exchanged(TrackPart, BothFeet(BothFeetSettings(straightness=False))),
-    "each foot by itself": DEFAULT.exchanged(TrackPart, MeanOfFeet()),
-    "no heights of elevators and air pressure": DEFAULT.exchanged(Altitude, None),
+    "no straight ways": DEFAULT.replace_part(TrackPart, BothFeet(BothFeetSettings(straightness=False))),
+    "each foot by itself": DEFAULT.replace_part(TrackPart, MeanOfFeet()),
+    "no heights of elevators and air pressure": DEFAULT.replace_part(Altitude, None),
 }
 """Recipes by the name of the part or step that each of them lacks."""
 

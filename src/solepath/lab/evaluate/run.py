@@ -78,7 +78,7 @@ def run(
     positions of the cells. `poses` requests each foot's live position at every sample, `body` the wearer's position."""
     known = settings.calibration if calibration is None else merged(settings.calibration, calibration)
     recipe = (
-        settings.recipe if settings.activity is None else settings.recipe.exchanged(ActivityPart, settings.activity)
+        settings.recipe if settings.activity is None else settings.recipe.replace_part(ActivityPart, settings.activity)
     )
     session = Session(recipe, calibration=known, poses=poses)
     recording = load_samples(path)

@@ -164,7 +164,7 @@ def _methods(calibration: Calibration, ours: Compensation) -> dict[str, tuple[Re
         **METHODS,
         "IV printed": WALKING_MODES_PRINTED,
         "IV our table 1": with_compensation(WALKING_MODES_PRINTED, ours),
-        "IV table 2": WALKING_MODES.exchanged(Modes, by_table_2),
+        "IV table 2": WALKING_MODES.replace_part(Modes, by_table_2),
         "IV one value": with_compensation(WALKING_MODES, one),
     }
     return {name: (recipe, calibration) for name, recipe in recipes.items()}

@@ -42,7 +42,7 @@ from ...link.decoder import Decoder
 from ...recipes import Recipe
 from ...recording.samples import load_samples
 from ...types import SITE_OF_FOOT, Activity, Foot, Sample, Site
-from ...types.vector import TIE
+from ...types.vector import TIME_EPSILON
 from . import emulated
 from .activities_course import FootEvidence, LabelledCourse, chances, shifts
 from .activities_net import CLASSES, feature_statistics, fit_networks, to_json
@@ -148,7 +148,7 @@ def _features(
     window, found = FootBlocks(), dict[int, list[list[float]]]()
     for sample in samples:
         events = tracker.feed(sample)
-        index = int((sample.t - t_start + TIE) / BLOCK_DURATION)
+        index = int((sample.t - t_start + TIME_EPSILON) / BLOCK_DURATION)
         if window.index is None or index > window.index:
             if window.index is not None:
                 window.close()

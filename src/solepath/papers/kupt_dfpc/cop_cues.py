@@ -30,7 +30,7 @@ from ...foot.pressure.insole import centre
 from ...foot.stance.stance import Load, Stance
 from ...types import Layout, Phase, Vec3
 from ...types.attrs import define, field, frozen
-from ...types.vector import TIE
+from ...types.vector import TIME_EPSILON
 from .stages import STAGES, CellCue, StrideStage
 
 LARGEST_JUMP = 1e3
@@ -123,7 +123,7 @@ class CopCues(Cues):
         if self.stage is StrideStage.LEAVING and phase is not Phase.SWING and speed >= SHUFFLE_SPEED:
             if self.fast_t_start is None:
                 self.fast_t_start = t
-            elif t - self.fast_t_start >= SHUFFLE_TIME - TIE:
+            elif t - self.fast_t_start >= SHUFFLE_TIME - TIME_EPSILON:
                 cues.append(TimedCue(Cue.CLEAR, self.fast_t_start))
         else:
             self.fast_t_start = None
@@ -183,7 +183,7 @@ class CopCues(Cues):
 
     def _cell_cues(self, t: float, stationary: bool, airborne: bool) -> list[CellCue]:
         """Return the cues of the cells in this sample, in order."""
-        rested = self.airborne_t_start is not None and t - self.airborne_t_start >= REST_TIME - TIE
+        rested = self.airborne_t_start is not None and t - self.airborne_t_start >= REST_TIME - TIME_EPSILON
         landing = self.stage is StrideStage.LANDING
         if airborne:
             if landing:
@@ -194,7 +194,7 @@ class CopCues(Cues):
             return [touched, CellCue.STANDS] if stationary else [touched]
         if stationary:
             return [CellCue.STANDS]
-        lingers = landing and t - self.stage_t_start >= LONGEST_LANDING - TIE
+        lingers = landing and t - self.stage_t_start >= LONGEST_LANDING - TIME_EPSILON
         return [CellCue.MOVES, CellCue.LINGERS] if lingers else [CellCue.MOVES]
 
     def _update_candidate(self, jump: float, last_t: float | None, t: float) -> None:

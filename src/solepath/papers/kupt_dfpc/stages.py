@@ -6,10 +6,10 @@ foot lies flat. A foot that was in the air for less than a swing has not left th
 from __future__ import annotations
 
 from ...foot.phase import Cue, in_columns
-from ...types import Word
+from ...types import ValueEnum
 
 
-class StrideStage(Word):
+class StrideStage(ValueEnum):
     """The stage of a stride by the pressure cells."""
 
     STANDING = "standing"  # stationary
@@ -18,7 +18,7 @@ class StrideStage(Word):
     LANDING = "landing"  # on the ground again after a normal swing
 
 
-class CellCue(Word):
+class CellCue(ValueEnum):
     """A cue from the pressure cells of one sample."""
 
     STANDS = "stands"  # the foot lies still on the ground

@@ -35,7 +35,7 @@ from operator import mul, sub
 
 from ...types import Cell, Layout
 from ...types.attrs import define, field, frozen
-from ...types.vector import TIE
+from ...types.vector import TIME_EPSILON
 
 HEEL_SHARE = 0.33
 """End of the heel's cells, measured from the heel's end, as a share of the insole's length."""
@@ -139,7 +139,7 @@ class Contours:
         if history and history[-1][0] >= t:  # the clock has restarted
             history.clear()
         earlier_radii = None
-        while history and history[0][0] <= t - COMPARISON_TIME + TIE:
+        while history and history[0][0] <= t - COMPARISON_TIME + TIME_EPSILON:
             earlier_radii = history.popleft()
         history.append((t, radii))
         if earlier_radii is None:

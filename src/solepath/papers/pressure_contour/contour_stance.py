@@ -11,7 +11,7 @@ from math import hypot, inf, sqrt
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Layout, Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
-from ...types.vector import IDENTITY, TIE, ZERO
+from ...types.vector import IDENTITY, TIME_EPSILON, ZERO
 from .contour import Contours
 
 KEPT_STANCES = 5
@@ -122,7 +122,7 @@ class GyroscopeMagnitude(Detector):
         """Return the maximum of |w| over the last `lasting` s, rad/s; None before samples cover that time."""
         recent_rates = self.recent_rates
         recent_rates.append((rate, t))
-        oldest = t - self.settings.lasting + TIE
+        oldest = t - self.settings.lasting + TIME_EPSILON
         while len(recent_rates) > 1 and recent_rates[1][1] <= oldest:
             recent_rates.popleft()
         if recent_rates[0][1] > oldest:
@@ -262,10 +262,10 @@ class ContourVelocity(Detector):
             if speed <= (self.settings.leave if self.standing else self._threshold()):
                 self.standing = True
                 self.still_t = self.rest_t = t
-        self.standing = self.standing and t - self.still_t <= HOLD_TIME + TIE
+        self.standing = self.standing and t - self.still_t <= HOLD_TIME + TIME_EPSILON
         if self.standing:
             self._set_evidence(t, Phase.STATIONARY, speed)
-        elif t - self.still_t < NO_CONTOUR_TIME - TIE and t - self.rest_t < STANCE_OVERDUE:
+        elif t - self.still_t < NO_CONTOUR_TIME - TIME_EPSILON and t - self.rest_t < STANCE_OVERDUE:
             self._set_evidence(t, None, speed)
 
     def _set_evidence(self, t: float, load_phase: Phase | None, speed: float) -> None:

@@ -12,7 +12,7 @@ from ...foot.navigate.level import LevelGround
 from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY, TIE, tipped
+from ...types.vector import GRAVITY, TIME_EPSILON, tipped
 from .printed import GatedTilt, GatedTiltSettings
 
 SHORTEST_SWING = 0.3
@@ -136,7 +136,7 @@ class ShoeSensing(GatedTilt):
         if was_standing:
             recent_samples = self.recent_samples
             recent_samples.append((t, self.last_dt, self.velocity_change))
-            oldest = t - self.settings.detector_delay + TIE
+            oldest = t - self.settings.detector_delay + TIME_EPSILON
             while recent_samples and recent_samples[0][0] <= oldest:
                 recent_samples.popleft()
         elif self.continued_motion is None:

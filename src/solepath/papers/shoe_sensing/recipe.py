@@ -17,7 +17,7 @@ Beyond the paper: uncertain stances and a tilt correction for joggers, motion th
 by height and pitch, and the activities of `recipes.DEFAULT`."""
 
 SHOE_SENSING_PRINTED = evolve(
-    SHOE_SENSING.exchanged(Activities, AnglePerMetre(), "shoe-sensing-printed"),
+    SHOE_SENSING.replace_part(Activities, AnglePerMetre(), "shoe-sensing-printed"),
     detector=printed_energy(),
     corrector=GatedTilt(),
 )

@@ -11,7 +11,7 @@ from math import inf, sqrt
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
+from ...types.vector import GRAVITY, IDENTITY, TIME_EPSILON, ZERO
 
 PAPER_RATE = 100.0
 """Sampling rate of the paper, Hz."""
@@ -95,7 +95,7 @@ class ShortTimeEnergy(Detector):
             still_count -= 1
             self.still_time -= old_dt
             self.still_energy -= old_energy
-        while self.total_time - entries[0][0] >= settings.window - TIE and len(entries) > 1:
+        while self.total_time - entries[0][0] >= settings.window - TIME_EPSILON and len(entries) > 1:
             old_dt, old_energy = entries.popleft()
             self.total_time -= old_dt
             self.total_energy -= old_energy
@@ -109,10 +109,10 @@ class ShortTimeEnergy(Detector):
         if still_count == len(entries):
             self.total_energy = self.still_energy
             self.total_time = self.still_time
-            if self.total_time >= settings.window - TIE:
+            if self.total_time >= settings.window - TIME_EPSILON:
                 return Stance(ZERO, settings.sigma, self.total_energy, Phase.STATIONARY)
         time = self.still_time
-        if time >= settings.shortest_stance - TIE:
+        if time >= settings.shortest_stance - TIME_EPSILON:
             return Stance(ZERO, settings.sigma * settings.window / time, self.total_energy, None)
         return Stance(ZERO, inf, self.total_energy, None)
 

@@ -14,7 +14,7 @@ from ...events import ActivityChanged, Event, Limitation, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Phase, Site
 from ...types.attrs import define, field
-from ...types.vector import TIE
+from ...types.vector import TIME_EPSILON
 from .steepness import steepness
 
 STANDING_DELAY = 1.2
@@ -103,7 +103,7 @@ class AnglePerMetre(ActivityPart):
                 self.moved_at = t
             if t - self.stride_t > UNKNOWN_DELAY and self.activity is not Activity.UNKNOWN:
                 self._report(Activity.UNKNOWN, self.stride_t, known_at, outputs)
-        elif t - self.moved_at >= STANDING_DELAY - TIE:
+        elif t - self.moved_at >= STANDING_DELAY - TIME_EPSILON:
             self.stride_t = max(self.stride_t, t)
             self._report(Activity.STANDING, self.moved_at, known_at, outputs)
         if self.flights.direction != 0:

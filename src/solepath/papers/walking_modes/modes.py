@@ -36,7 +36,7 @@ from ...foot.view import FootPose, FootView, PressedCells
 from ...foot.world import Covariance3
 from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site, Vec3
 from ...types.attrs import define, evolve, field
-from ...types.vector import TIE, ZERO, sub
+from ...types.vector import TIME_EPSILON, ZERO, sub
 from .compensation import epsilon_p, merge_own
 from .evidence import MOST_STRIDES_WITHOUT_SIGN
 from .limbs.limb_sensors import LimbSensors
@@ -209,7 +209,7 @@ class Modes(TrackPart):
         (_, touchdown_t), chain = self.pending, self.places.chain
         if chain.is_current(touchdown_t) and t - touchdown_t < LONGEST_WAIT:
             complete = chain.complete()
-            if complete is not None and complete < touchdown_t - TIE:
+            if complete is not None and complete < touchdown_t - TIME_EPSILON:
                 return []
         return self._flush_pending(known_at)
 

@@ -26,7 +26,7 @@ WALKING_MODES = Recipe(
 The mode follows from how the feet turn (turning.py), and the compensation is the wearer's own if there is one
 (`solepath calibrate modes`). Without it, it is the paper's table 1, which holds for the paper's wearers."""
 
-WALKING_MODES_PRINTED = WALKING_MODES.exchanged(
+WALKING_MODES_PRINTED = WALKING_MODES.replace_part(
     Modes,
     Modes(settings=ModesSettings(TABLE_1, rule=ModeRule.TABLE_2, own_compensation=False)),
     "walking-modes-printed",

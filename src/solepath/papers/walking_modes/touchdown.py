@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from ...types import OTHER, Foot, Vec3
 from ...types.attrs import define, field, frozen
-from ...types.vector import TIE, ZERO, sub
+from ...types.vector import TIME_EPSILON, ZERO, sub
 
 
 def v_change(left: Vec3, right: Vec3, reference: Foot) -> Vec3:
@@ -105,7 +105,7 @@ class NetAcceleration:
             return moving_t, False
         if moving_t is None or moving_t > t or acceleration >= A_A:
             return t, False
-        return moving_t, t - moving_t >= STEADY_TIME - TIE
+        return moving_t, t - moving_t >= STEADY_TIME - TIME_EPSILON
 
 
 @frozen

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from attrs import frozen
 
-from ...types import Word
+from ...types import ValueEnum
 
 
-class Sex(Word):
+class Sex(ValueEnum):
     """The sex for which a study gives values."""
 
     FEMALE = "female"

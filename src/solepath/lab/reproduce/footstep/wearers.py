@@ -82,7 +82,9 @@ LENGTH_RECIPES = {
     "+ offset": FOOTSTEP_TRACKER,
 }
 """Our additions to the stride length, one after the other; the last one has all but the toe-out."""
-ONE_METRE_RULE = FOOTSTEP_TRACKER.exchanged(Footsteps, Footsteps(FootstepsSettings(as_printed=True)), "one-metre rule")
+ONE_METRE_RULE = FOOTSTEP_TRACKER.replace_part(
+    Footsteps, Footsteps(FootstepsSettings(as_printed=True)), "one-metre rule"
+)
 """Ours with the one-metre rule as printed."""
 PRINTED_TURN = evolve(
     FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False, keeps_corners=False))

@@ -111,7 +111,7 @@ SAME_ADDITIONS = evolve(KUPT_DFPC, corrector=SoftSwing(SoftSwingSettings(uses_ro
 """ZUPT with all our additions to KUPT, fused: unlike in `KUPT_DFPC` no velocity of a rolling shoe corrects the track.
 
 Error indices (10) still tell which strides are normal; `DoubleFoot` leaves the others alone."""
-BY_ERROR_INDEX = KUPT_DFPC.exchanged(
+BY_ERROR_INDEX = KUPT_DFPC.replace_part(
     DoubleFoot, DoubleFoot(FusionSettings(by_variance=False)), "KUPT+DFPC by error index"
 )
 """Our KUPT with strides weighted by their error indices, as in (11)."""

@@ -174,14 +174,14 @@ def with_compensation(recipe: Recipe, compensation: Compensation) -> Recipe:
     """Return the recipe with this compensation, which a wearer's own does not replace."""
     modes = next(part for part in recipe.parts if isinstance(part, Modes))
     settings = evolve(modes.settings, compensation=compensation, own_compensation=False)
-    return recipe.exchanged(Modes, evolve(modes, settings=settings))
+    return recipe.replace_part(Modes, evolve(modes, settings=settings))
 
 
 def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
     """Return the final touchdowns by foot of a session that knows the direction of the rectangle's first side."""
     modes = next(part for part in recipe.parts if isinstance(part, Modes))
     with_heading = evolve(modes, settings=evolve(modes.settings, heading=0.0))
-    events = run_session(recipe.exchanged(Modes, with_heading), samples, calibration)
+    events = run_session(recipe.replace_part(Modes, with_heading), samples, calibration)
     return {foot: [e for e in events if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 
@@ -232,7 +232,7 @@ def recognise(job: BendsJob) -> dict[ModeRule, list[float]]:
         samples = conditions.samples(walker, calibration, job.seed)
         true = [mark for mark in marks_of(walker) if mark.mode is mode]
         for rule in ModeRule:
-            recipe = WALKING_MODES.exchanged(Modes, Modes(settings=ModesSettings(rule=rule)))
+            recipe = WALKING_MODES.replace_part(Modes, Modes(settings=ModesSettings(rule=rule)))
             found = _touchdowns(recipe, samples, calibration)
             right = sum(
                 any(down.mode is mode and abs(down.t - mark.t) < MAX_TIME_DIFFERENCE for down in found[mark.foot])

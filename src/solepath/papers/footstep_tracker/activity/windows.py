@@ -19,7 +19,7 @@ from math import fsum, radians, sqrt
 
 from ....types import Vec3
 from ....types.attrs import define, field, frozen
-from ....types.vector import GRAVITY, TIE
+from ....types.vector import GRAVITY, TIME_EPSILON
 
 HOP = 0.5
 """Time from the start of a window to that of the next, s."""
@@ -106,7 +106,7 @@ class FootWindows:
 
         `acc` is the specific force in m/s^2 and `gyro` the angular rate in rad/s, sensor frame. `since` is the time
         since the first sample, s."""
-        index = int((since + TIE) // HOP)
+        index = int((since + TIME_EPSILON) // HOP)
         is_next_block = index != self.newest
         if is_next_block:
             self._start_block(index)

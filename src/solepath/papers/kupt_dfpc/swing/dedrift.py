@@ -13,7 +13,7 @@ from ....foot.phase import Cue
 from ....foot.stance.stance import Stance
 from ....types import Phase, Quat, Vec3
 from ....types.attrs import define, field
-from ....types.vector import TIE, ZERO
+from ....types.vector import TIME_EPSILON, ZERO
 from .motion_moment import MotionMoment
 from .settings import SwingSettings
 
@@ -157,7 +157,7 @@ class SwingDedrift(LinearDedrift):
         is_settled = (
             previous is not None
             and heel_strike is not None
-            and previous.elapsed - heel_strike.elapsed >= self.settings.slide_time - TIE
+            and previous.elapsed - heel_strike.elapsed >= self.settings.slide_time - TIME_EPSILON
         )
         if is_settled and self.heel_strike_error is None:
             self.heel_strike = previous
