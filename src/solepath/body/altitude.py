@@ -208,8 +208,10 @@ class Altitude(Part):
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add the reading of a foot's barometer, if the sample has one, and strides and rides."""
-        outputs = () if view is None else self._add_reading(view)
-        return [*outputs, *[output for event in events for output in self._receive(event)]] if events else outputs
+        outputs: list[PartOutput] = [] if view is None else [*self._add_reading(view)]
+        for event in events:
+            outputs += self._receive(event)
+        return outputs
 
     def _add_reading(self, view: FootView) -> Sequence[PartOutput]:
         pressure = view.sample.air_pressure

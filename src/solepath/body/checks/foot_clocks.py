@@ -318,12 +318,14 @@ class FootClocks(Part):
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add events; return DefectFound with the one that shows that the clocks are apart."""
-        outputs: Sequence[PartOutput] = ()
+        outputs: list[PartOutput] = []
         if view is not None:
             self.lone.see(view)
             self.idle = self.lone.requested is None
-            outputs = self._report_lone(view.t, view.known_at)
-        return [*outputs, *[output for event in events for output in self._receive(event)]] if events else outputs
+            outputs += self._report_lone(view.t, view.known_at)
+        for event in events:
+            outputs += self._receive(event)
+        return outputs
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return DefectFound if the newest stride was the last sample."""

@@ -183,7 +183,10 @@ class BothFeet(MeanOfFeet):
             if returning and not self.return_strides and self.is_aligned and self.placed_last is not None:
                 self.errors.align(self.placed_last)
                 self._keep_placements()
-        return [output for event in events for output in self._receive(event, view)] if events else ()
+        outputs: list[PartOutput] = []
+        for event in events:
+            outputs += self._receive(event, view)
+        return outputs
 
     def _receive(self, event: PartInput, view: FootView | None) -> Sequence[PartOutput]:
         """Receive a stride or gap, a position that a person reports, or a defect that spoils straight ways."""
