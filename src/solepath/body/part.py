@@ -132,7 +132,9 @@ class Part(Protocol):
     sites: ClassVar[tuple[Site, ...]] = ()
     """Sites of limbs whose samples the part needs, each as a `LimbSampled`."""
     notices: ClassVar[tuple[type[Notice], ...]] = ()
-    """Kinds of notices that the part needs; a `LimbSampled` comes for its `sites`."""
+    """Kinds of notices that the part needs; what `feed` returns for one of them is not used.
+
+    A `LimbSampled` comes for the part's `sites` without being named here, and what `feed` returns for it is used."""
     needs_position: ClassVar[bool] = False
     """Flag: WearerMoved with the wearer's position comes after the events, if one of `MOVEMENTS` is among them."""
 

@@ -173,14 +173,14 @@ def _parse_object(line: Any) -> dict[str, Any]:
     try:
         value = _DECODER.decode(line.decode())
     except (ValueError, RecursionError):
-        raise _RowFlaw("a line that is no JSON") from None
+        raise _RowFlaw("a line that is not JSON") from None
     if not isinstance(value, dict):
-        raise _RowFlaw("a line that is no JSON object")
+        raise _RowFlaw("a line that is not a JSON object")
     return value
 
 
 def _reject_constant(name: str) -> None:
-    raise _RowFlaw(f"a line with {name}, which is no JSON")
+    raise _RowFlaw(f"a line with {name}, which is not JSON")
 
 
 _DECODER = json.JSONDecoder(parse_constant=_reject_constant)

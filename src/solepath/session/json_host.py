@@ -57,7 +57,7 @@ class JsonHost:
         try:
             received = json.loads(text, parse_constant=_reject_constant)
         except (ValueError, RecursionError) as error:
-            received, self._messages = [], [_error(f"no JSON: {error}")]
+            received, self._messages = [], [_error(f"not JSON: {error}")]
         for message in received if isinstance(received, list) else [received]:
             self._use(message)
         messages, self._messages = self._messages, []

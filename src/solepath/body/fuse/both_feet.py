@@ -31,7 +31,7 @@ from ..part import Notice, PartInput, PartOutput, Position, Shift, StartGiven
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import FEET, RATE, WIDTH, TrackErrorFilter, feet_apart, standing_foot
 from .moving_ground import MovingGround
-from .position import ABSENCE_TIME, MeanOfFeet, mean_place
+from .position import ABSENCE_TIME, MeanOfFeet, PlanStart, mean_place
 from .straight_ways import StraightWays
 from .walked_path import WalkedPath
 
@@ -67,8 +67,9 @@ GATE_LIMIT, NO_GATE = 16.0, 1e12
 MAX_STRIDE_LENGTH = 2.5
 """Longest plausible stride, m; the excess of a longer stride inflates the covariance."""
 UNSEEN_DISTANCE, ALIGNMENT_DISTANCE = 3.0, 5.0
-"""Distance that a wearer may walk while both clocks restart, m: that of a foot in a gap (propagated.py), and distance
-walked after which the tracks count as aligned and corrections go to the feet, m."""
+"""Distance that a wearer may walk while both clocks restart, m, which is that of a foot in a gap
+(foot/navigate/error_state.py), and distance walked after which the tracks count as aligned and corrections go to the
+feet, m."""
 
 
 @define
@@ -138,6 +139,9 @@ class BothFeet(MeanOfFeet):
     """The compass; None until a sample has a magnetic field."""
     measured_at: float = field(default=0.0, init=False)
     """Time of the newest sample that the compass has, s."""
+    plan_start: PlanStart | None = field(default=None, init=False)
+    """Wearer's first place on the floor plan, in whose frame a person may report positions; None if it or the first
+    heading is not known there."""
     path: WalkedPath = field(factory=WalkedPath, init=False)
     """Path of the wearer so far."""
     started: bool = field(default=False, init=False)
@@ -202,7 +206,9 @@ class BothFeet(MeanOfFeet):
         elif isinstance(event, DefectFound):
             self.straight_ways.add_defect(event)
         elif isinstance(event, StartGiven):
-            self.set_start(event.start)
+            start = event.start
+            if start.heading is not None and start.place is not None:
+                self.plan_start = PlanStart(start.place, start.heading, start.spread)
         elif isinstance(event, PositionReported) and (self.common.started or event.place):
             return self._use_position(event)
         return ()

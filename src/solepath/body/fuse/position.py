@@ -20,7 +20,7 @@ from ...types.vector import ZERO, across, add, along, sub, turned, unit_at
 from ..part import PartInput, PartOutput, Position, TrackPart
 
 if TYPE_CHECKING:
-    from ...floorplan.plan import Start
+    pass
 
 ABSENCE_TIME = 1.0
 """Time without samples, s, after which a foot is absent while the other foot has samples."""
@@ -120,18 +120,11 @@ class MeanOfFeet(TrackPart):
     tracks: PerFoot[PlacedTrack] = field(factory=lambda: per_foot(PlacedTrack), init=False)
     placed_last: Foot | None = field(default=None, init=False)
     """The foot that was last aligned with the other foot; None before any."""
-    plan_start: PlanStart | None = field(default=None, init=False)
-    """Wearer's first place on the floor plan; None if it or the first heading is not known there."""
     return_strides: list[tuple[bool, Vec3, Vec3]] = field(factory=list, init=False)
     """Newest strides of both feet while a foot is unplaced.
 
     Each has a flag for the left foot, the unplaced foot's position on its own track, and the other foot's position in
     the common frame, m."""
-
-    def set_start(self, start: Start) -> None:
-        """Take the wearer's first place on the floor plan, in whose frame a person may report positions."""
-        if start.heading is not None and start.place is not None:
-            self.plan_start = PlanStart(start.place, start.heading, start.spread)
 
     @property
     def is_aligned(self) -> bool:

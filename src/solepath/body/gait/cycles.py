@@ -262,7 +262,7 @@ def is_contradictory(cycle: PendingCycle, other_contact: float | None, other_toe
 
 
 def is_steady(cycle: PendingCycle, time: float, previous: GaitCycleMeasured | None, tracked: bool) -> bool:
-    """Return whether the cycle, whose duration is `time`, s, is steady by the rule at the top of this file."""
+    """Return whether the cycle, whose duration is `time`, s, is steady by the rule above."""
     if cycle.unsteady or not cycle.follows_cycle or previous is None or previous.t != cycle.start:
         return False
     if not _is_similar(time, previous.stride_time):

@@ -118,7 +118,7 @@ def parse_json(data: bytes) -> dict[str, Any]:
     except RecursionError:
         raise FloorPlanError("is nested too deeply") from None
     if not isinstance(value, dict):
-        raise FloorPlanError("is no JSON object")
+        raise FloorPlanError("is not a JSON object")
     return value
 
 

@@ -128,7 +128,7 @@ def to_json(value: Any) -> str:
 
 
 def read_json(path: Path) -> dict[str, Any]:
-    """Return the content of a metadata file; RecordingError when it is no JSON object."""
+    """Return the content of a metadata file; RecordingError when it is not a JSON object."""
     try:
         content = json.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
@@ -136,7 +136,7 @@ def read_json(path: Path) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         raise RecordingError(path, f"is not JSON: {printable(str(error))}") from None
     if not isinstance(content, dict):
-        raise RecordingError(path, "is no JSON object")
+        raise RecordingError(path, "is not a JSON object")
     return content
 
 

@@ -37,7 +37,7 @@ class FootColumns:
     """The columns of one foot in a table."""
 
     foot: Foot | None
-    """Foot whose they are; None in a table of one foot that names none."""
+    """Foot that the columns belong to; None in a table of one foot that names none."""
     columns: dict[str, tuple[NamedColumn, ...]]
     """Columns of each quantity; without `t` in a table that has a rate instead."""
     names: dict[str, str]

@@ -152,7 +152,7 @@ def _read_file(
 
 
 def _name_feet(paths: Sequence[Path], unnamed: Mapping[Path, Set[str]], problems: list[RecordingError]) -> str:
-    """Add a problem for files of which nothing says whose they are, if they cannot all be of one foot.
+    """Add a problem for files that do not say which foot they are of, if they cannot all be of one foot.
 
     `unnamed` has the quantities of each such file. The option that names the feet is returned; "" if none is needed."""
     quantities = [quantity for its_quantities in unnamed.values() for quantity in its_quantities & set(MEASURED)]

@@ -53,7 +53,7 @@ def parse_command(text: str) -> Command:
     except (ValueError, RecursionError):
         raise CommandError("a message is not JSON", is_json=False) from None
     if not isinstance(message, dict):
-        raise CommandError("a message is no JSON object")
+        raise CommandError("a message is not a JSON object")
     do = message.get("do")
     if do == HERE:
         return Command(HERE, position=_reported_position(message))
