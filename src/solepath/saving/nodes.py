@@ -104,7 +104,7 @@ class EnumNode:
     def read(self, made: Any, streams: Streams) -> Any:
         place = next(streams.ints)
         if place < 0:
-            raise SnapshotError(f"{self.cls.__name__} has no member of a negative number")
+            raise SnapshotError("no enum has a member with a negative number")
         return self.members[place]
 
 
