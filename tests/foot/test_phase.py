@@ -12,7 +12,7 @@ from walks import SHORT, insoles
 from solepath import Foot, Phase, Session, Support
 from solepath.foot import phase
 from solepath.foot.cues import inertial
-from solepath.foot.cues.inertial import SIGNS
+from solepath.foot.cues.inertial import MOVING_SIGNS, STILL_SIGNS
 from solepath.foot.phase import PHASES, SUPPORT, Cue, describe
 
 
@@ -64,10 +64,12 @@ def test_only_the_look_up_in_the_table_sets_a_phase() -> None:
 
 
 def test_each_sign_of_the_inertial_sensor_has_a_cue_that_changes_its_phase() -> None:
-    assert set(SIGNS) == set(Phase)
-    assert all(PHASES[now][cue] is not now for now, signs in SIGNS.items() for _, cue in signs)
+    tables = (STILL_SIGNS, MOVING_SIGNS)
+    assert all(set(table) == set(Phase) for table in tables)
+    assert all(PHASES[now][cue] is not now for table in tables for now, signs in table.items() for _, cue in signs)
     rows = [line.split() for line in inertial.describe().splitlines()[1:]]
-    assert ["SWING", "landed", "contact"] in rows and len(rows) == sum(map(len, SIGNS.values()))
+    assert ["SWING", "still", "landed", "contact"] in rows and ["SWING", "moving", "slowed", "contact"] in rows
+    assert len(rows) == sum(len(signs) for table in tables for signs in table.values())
 
 
 def test_walking_is_single_and_double_support_in_turn_and_never_flight() -> None:

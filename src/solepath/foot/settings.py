@@ -36,14 +36,10 @@ class CycleSettings:
     """Smallest stance threshold, no unit: a standing foot shows statistics up to this."""
     least_statistic: float = 3e3
     """Smallest statistic that enters the threshold, no unit: a stance of walking is less still than standing."""
-    largest_threshold: float = 6e6
-    """Largest stance threshold, no unit: the stance of a runner shows statistics up to this."""
     standing_statistic: float = 2e3
     """Statistic below which the foot stands for certain, no unit, whatever velocity the corrector estimates."""
     sigma: float = 0.01
     """Standard deviation of the velocity of a foot that shows no motion, m/s."""
-    noise_per_rate: float = 0.05
-    """Standard deviation of the velocity for each rad/s of angular rate, m: uncertainty of the sensor height."""
     noise_per_rate_square: float = 0.5
     """Standard deviation of the velocity for each (rad/s)^2, m s: a foot that turns fast rolls unevenly."""
     noise_per_acceleration: float = 0.05
@@ -102,16 +98,12 @@ class ErrorStateSettings:
     """Largest squared innovation, weighted by its covariance, with which evidence is used; no unit.
 
     It is the 99.3 % point of chi-square with three degrees of freedom."""
-    time_until_lost: float = 2.0
-    """Time without accepted evidence after which the filter is lost, s."""
     stance_share: float = 0.5
     """Share of the wearer's usual stance for which gated evidence must last until the foot stands for certain.
 
     From 0.35 to 0.6 `openshoe_loops` has the same strides."""
     time_until_ungated: float = 0.35
     """Longest duration of unbroken evidence that the innovation gate rejects, s, whatever the usual stance."""
-    tilt_rate: float = 2.0
-    """Inverse time constant with which gravity corrects the tilt of a foot that stands for certain, 1/s."""
     level: bool = True
     """Remove height errors of level walking (level.py)."""
 

@@ -30,16 +30,12 @@ OTHER_AXIS_PUSH_OFFS = 3
 """Number of push-offs in a row about another axis after which that axis replaces the learnt one."""
 AXIS_GAIN = 0.2
 """Weight of the newest push-off in the learnt sagittal axis, 0 to 1."""
-GAP_TROUGH_RATIO = 2.0
-"""Assumed depth of the negative rate of a swing whose start a gap has hidden, as a multiple of LEAST_TROUGH_DEPTH."""
 STILLNESS_DEBOUNCE = 0.009
 """Shortest duration of stillness that counts, and of motion that ends it, s."""
 LEAST_PUSH_OFF_RATE = 1.5
 """Smallest peak of the sagittal rate in a push-off, rad/s."""
 TOE_OFF_RATE_RATIO = 0.5
 """Ratio of the sagittal rate at toe-off to its peak in push-off; no unit."""
-LEAST_TROUGH_DEPTH = 1.0
-"""Smallest depth below zero of the sagittal rate in a swing, rad/s."""
 LANDING_RATE = 1.0
 """Rate through which the sagittal rate rises at about the landing of the heel, rad/s, toe down positive.
 
@@ -62,20 +58,14 @@ SHUFFLE_SPEED_PER_RATE = 0.2
 This is the largest distance of a sensor from the toes, over which the foot rolls."""
 SHUFFLE_TIME = 0.15
 """Time for which a foot must be faster than SHUFFLE_SPEED to have left the ground, s."""
-LOADING_SHUFFLE_TIME = 0.4
-"""Value of SHUFFLE_TIME after heel-strike, s; it is longer because the sensor still moves down with the sole."""
 STILLNESS_DELAY = 0.02
 """Time from the start of stillness to its detection, s, because stillness is judged over a window."""
 HEEL_DOWN_RATE = 0.12
 """Sagittal rate below which the heel has not left the ground, rad/s."""
 
 
-LARGEST_SHOCK = 1e12
-"""Largest shock that one sample may add, m^2/s^5."""
 SHOCK_MEMORY_TIME = 0.02
 """Time constant with which the shock decays before the foot lands, s."""
-SHORTEST_LANDING_DELAY = 0.1
-"""Shortest time from toe-off to the impact of landing, s; an earlier shock comes from leaving the ground."""
 
 
 @define
@@ -91,8 +81,6 @@ class Impact:
     This needs no threshold on the force and works for any mounting and rate. It is not early when the sole turns down
     well before it bears weight. "Shock" is the integral of the squared jerk, m^2/s^5."""
 
-    swing_start: float | None = None
-    """Start of the swing, s; None before any."""
     shock: float = 0.0
     """Recent shock, m^2/s^5."""
     mean_time: float = 0.0
@@ -106,7 +94,7 @@ class Impact:
 
     def start_swing(self, t: float) -> None:
         """Start a swing at toe-off at `t`, s."""
-        self.swing_start = self.mean_time = t
+        self.mean_time = t
         self.shock = self.peak_speed = self.peak_shock = 0.0
 
     def add_sample(self, t: float, dt: float, previous_acc: Vec3, acc: Vec3, speed: float, landing: bool) -> None:
@@ -125,17 +113,13 @@ class Impact:
         y -= py
         z -= pz
         sample_shock = (x * x + y * y + z * z) / dt
-        if sample_shock > LARGEST_SHOCK:
-            sample_shock = LARGEST_SHOCK
         shock = self.shock
         if not landing:
             shock = shock * (1.0 - dt / SHOCK_MEMORY_TIME) if dt < SHOCK_MEMORY_TIME else 0.0
         self.shock = shock = shock + sample_shock
         if sample_shock > 0.0:
             self.mean_time += (t - 0.5 * dt - self.mean_time) * sample_shock / shock
-        if shock > self.peak_shock and (
-            self.swing_start is None or self.mean_time - self.swing_start >= SHORTEST_LANDING_DELAY
-        ):
+        if shock > self.peak_shock:
             self.peak_shock = shock
             self.peak_shock_time = self.mean_time
 
@@ -145,8 +129,9 @@ class InertialCues:
     """Detects gait events from the inertial sensor: a small machine, whose states are the phases of the foot.
 
     Each sample first sets the timers of what the foot does (`still_since`, `moving_since` and `fast_since`; the others
-    are those of a stance or of a swing). Then the signs of the phase are tried in the order of SIGNS; the first that
-    has lasted for long enough gives the cue. `describe` prints them.
+    are those of a stance or of a swing). Then the signs of the phase are tried, in the order of STILL_SIGNS for a still
+    foot and of MOVING_SIGNS for one that moves; the first that has lasted for long enough gives the cue. `describe`
+    prints them.
 
     Latency: toe-off one sample; heel-strike IMPACT_SETTLING_TIME, or until the foot is still if no impact is found;
     foot-flat and heel-off STILLNESS_DEBOUNCE."""
@@ -223,40 +208,40 @@ class InertialCues:
                 self.turn = (x + gx * dt, y + gy * dt, z + gz * dt)
                 if rate > self.peak_rate:
                     self.peak_rate = rate
-        for sign, cue in SIGNS[phase]:
-            t_cue = sign(self, t, dt, speed, previous_rate, phase)
+        for sign, cue in (STILL_SIGNS if still else MOVING_SIGNS)[phase]:
+            t_cue = sign(self, t, dt, speed, previous_rate)
             if t_cue is not None:
                 return self._report(cue, t_cue)
         return None
 
-    def _stood(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+    def _stood(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
         """Return the time since which the foot stands still."""
         since = self.still_since
         return since - STILLNESS_DELAY if since is not None and t - since >= STILLNESS_DEBOUNCE - TIME_EPSILON else None
 
-    def _moved(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+    def _moved(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
         """Return the time at which the foot, which moves, last did not turn."""
         since = self.moving_since
         if since is None or t - since < STILLNESS_DEBOUNCE - TIME_EPSILON:
             return None
         return since if self.not_turning_at is None else min(self.not_turning_at, since)
 
-    def _pushed_off(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+    def _pushed_off(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
         """Return the time at which a straight line between two samples falls through the rate of toe-off."""
         rate, toe_off_rate = self.sagittal, TOE_OFF_RATE_RATIO * self.peak_rate
-        if self.still_since is not None or self.peak_rate <= LEAST_PUSH_OFF_RATE or rate >= toe_off_rate:
+        if self.peak_rate <= LEAST_PUSH_OFF_RATE or rate >= toe_off_rate:
             return None
         if not self._learn_axis():
             return None
         share = (previous_rate - toe_off_rate) / (previous_rate - rate) if previous_rate > toe_off_rate else 1.0
         return t - dt * (1.0 - share)
 
-    def _shuffled(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+    def _shuffled(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
         """Return the time since which the foot is too fast for one on the ground."""
-        since, shuffle_time = self.fast_since, LOADING_SHUFFLE_TIME if phase is LOADING else SHUFFLE_TIME
-        return since if since is not None and t - since >= shuffle_time - TIME_EPSILON else None
+        since = self.fast_since
+        return since if since is not None and t - since >= SHUFFLE_TIME - TIME_EPSILON else None
 
-    def _landed(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+    def _landed(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
         """Return the middle of the impact of a landing, once it is final."""
         landing_at = self.landing_at
         if landing_at is None:
@@ -267,19 +252,19 @@ class InertialCues:
         )
         return mean_time if is_final or self.still_since is not None else None
 
-    def _stopped(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+    def _stopped(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
         """Return the time of the largest impact of a foot that stands still."""
-        t_stood = self._stood(t, dt, speed, previous_rate, phase)
+        t_stood = self._stood(t, dt, speed, previous_rate)
         return self.impact.peak_shock_time if t_stood is not None and self.impact.peak_shock > 0.0 else t_stood
 
-    def _slowed(self, t: float, dt: float, speed: float, previous_rate: float, phase: Phase) -> float | None:
+    def _slowed(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
         """Start a landing, or return the time of the impact of a foot that has become slow without one."""
-        if self.landing_at is not None or self.still_since is not None:
+        if self.landing_at is not None:
             return None
         if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING_TIME - TIME_EPSILON:
             return None
         rate, impact = self.sagittal, self.impact
-        if previous_rate < LANDING_RATE <= rate and self.lowest_rate < -LEAST_TROUGH_DEPTH and self.axis is not None:
+        if previous_rate < LANDING_RATE <= rate and self.lowest_rate < 0.0 and self.axis is not None:
             self.landing_at = t - dt * (rate - LANDING_RATE) / (rate - previous_rate)
         elif (
             speed < SHUFFLE_SPEED
@@ -312,9 +297,7 @@ class InertialCues:
 
     def make_hidden_toe_off(self, t: float) -> TimedCue:
         """Return a toe-off at `t`, s, which a gap has hidden; the swing may go on after the gap."""
-        toe_off = self._report(Cue.CLEAR, t)
-        self.lowest_rate = -GAP_TROUGH_RATIO * LEAST_TROUGH_DEPTH
-        return toe_off
+        return self._report(Cue.CLEAR, t)
 
     def apply_toe_off(self, phase: Phase) -> None:
         """Learn the sagittal axis from a toe-off that the load has shown in `phase`."""
@@ -345,27 +328,32 @@ class InertialCues:
         return True
 
 
-Sign = Callable[[InertialCues, float, float, float, float, Phase], float | None]
-"""Method that returns the time of a sign, s, or None: t and dt (s), speed (m/s), rate before (rad/s), phase."""
+Sign = Callable[[InertialCues, float, float, float, float], float | None]
+"""Method that returns the time of a sign, s, or None: t and dt (s), speed (m/s), rate of the sample before (rad/s)."""
+Signs = dict[Phase, tuple[tuple[Sign, Cue], ...]]
 
-SIGNS: dict[Phase, tuple[tuple[Sign, Cue], ...]] = {
-    LOADING: ((InertialCues._stood, Cue.FLAT), (InertialCues._shuffled, Cue.CLEAR)),
-    STATIONARY: ((InertialCues._moved, Cue.LIFT),),
-    PUSH_OFF: (
-        (InertialCues._stood, Cue.FLAT),
-        (InertialCues._pushed_off, Cue.CLEAR),
-        (InertialCues._shuffled, Cue.CLEAR),
-    ),
-    SWING: (
-        (InertialCues._landed, Cue.CONTACT),
-        (InertialCues._stopped, Cue.CONTACT),
-        (InertialCues._slowed, Cue.CONTACT),
-    ),
+STILL_SIGNS: Signs = {
+    LOADING: ((InertialCues._stood, Cue.FLAT),),
+    STATIONARY: (),
+    PUSH_OFF: ((InertialCues._stood, Cue.FLAT),),
+    SWING: ((InertialCues._landed, Cue.CONTACT), (InertialCues._stopped, Cue.CONTACT)),
 }
-"""Signs that end each phase, in the order in which they are tried, with their cues."""
+"""Signs of a still foot that end each phase, in the order in which they are tried, with their cues."""
+MOVING_SIGNS: Signs = {
+    LOADING: ((InertialCues._shuffled, Cue.CLEAR),),
+    STATIONARY: ((InertialCues._moved, Cue.LIFT),),
+    PUSH_OFF: ((InertialCues._pushed_off, Cue.CLEAR), (InertialCues._shuffled, Cue.CLEAR)),
+    SWING: ((InertialCues._landed, Cue.CONTACT), (InertialCues._slowed, Cue.CONTACT)),
+}
+"""The same of a foot that moves."""
 
 
 def describe() -> str:
-    """Return SIGNS as text."""
-    rows = [[phase.name, sign.__name__[1:], cue.value] for phase, signs in SIGNS.items() for sign, cue in signs]
-    return in_columns([["phase", "sign", "cue"], *rows])
+    """Return both tables as text."""
+    rows = [
+        [phase.name, foot, sign.__name__[1:], cue.value]
+        for phase in STILL_SIGNS
+        for foot, table in (("still", STILL_SIGNS), ("moving", MOVING_SIGNS))
+        for sign, cue in table[phase]
+    ]
+    return in_columns([["phase", "foot", "sign", "cue"], *rows])

@@ -6,8 +6,8 @@ a state: it is learnt at rest (attitude.py), which costs less and, on short walk
 
 The covariance is propagated in one step from one correction to the next (covariance.py), so a
 swing costs no more than its integration. An innovation gate rejects evidence that the motion so far makes too unlikely,
-because a slow swing can look as still as a fast stance. A filter whose gate has rejected all evidence for some time is
-lost. It then accepts the stillest moment that comes."""
+because a slow swing can look as still as a fast stance. A foot whose evidence is rejected for as long as a stance lasts
+stands after all."""
 
 from __future__ import annotations
 
@@ -49,10 +49,6 @@ LATE_STANCE_INTERVAL = 0.0385
 
 The interval hardly matters: with 5, 20 and 40 ms the ARMSE2d of `pyshoe_vicon` was 0.0503, 0.0500 and 0.0496 m."""
 
-NO_STATISTIC = 1e12
-"""Upper bound of any statistic, which stands for the least rejected one while none was rejected."""
-LOST_STATISTIC_RATIO = 3.0
-"""Largest ratio of a statistic that a lost filter accepts to the least statistic that its gate has rejected."""
 EXPECTED_SQUARED_INNOVATION = 3.0
 """Mean of the squared innovation, weighted by its covariance, of a filter that is right: its degrees of freedom."""
 
@@ -183,8 +179,8 @@ class ErrorStateFilter(Strapdown):
     """Height correction of level walking."""
     accepted_at: float | None = field(default=None, init=False)
     """Time at which evidence was last accepted, s; None before any."""
-    least_gated_statistic: float = field(default=NO_STATISTIC, init=False)
-    """Smallest statistic that the gate has rejected since `accepted_at`."""
+    gated: bool = field(default=False, init=False)
+    """True while the gate rejects evidence: since `accepted_at` it has."""
     evidence_since: float | None = field(default=None, init=False)
     """Start of the current unbroken evidence, s; None without evidence."""
     landing_error: Vec3 = field(default=ZERO, init=False)
@@ -200,7 +196,7 @@ class ErrorStateFilter(Strapdown):
         self.attitude = attitude
         self.velocity = self.position = ZERO
         self.force = self.rate = self.accepted_at = self.evidence_since = None
-        self.least_gated_statistic = NO_STATISTIC
+        self.gated = False
         self._mark_start()
         self.time_since_anchor = 0.0
         # a foot whose tilt was not measured at rest may move
@@ -279,11 +275,7 @@ class ErrorStateFilter(Strapdown):
         if self.elapsed < (
             SHORTEST_INTERVAL if t - self.evidence_since < EARLY_STANCE_TIME - TIME_EPSILON else LATE_STANCE_INTERVAL
         ):
-            return (
-                self.accepted_at is not None and self.least_gated_statistic >= NO_STATISTIC
-            )  # same result as for the last sample
-        settings = self.settings
-        share = settings.tilt_rate * min(self.elapsed, LATE_STANCE_INTERVAL)
+            return self.accepted_at is not None and not self.gated  # same result as for the last sample
         r = sigma * sigma * REFERENCE_INTERVAL / self.elapsed
         self._propagate()
         stands = stance.hint is STATIONARY
@@ -291,29 +283,24 @@ class ErrorStateFilter(Strapdown):
             self.accepted_at = t
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
-        is_lost = (
-            not stands
-            and t - self.accepted_at > settings.time_until_lost - TIME_EPSILON
-            and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated_statistic
-        )
-        if is_lost or self._stands_after_all(t, self.evidence_since, self.accepted_at):
+        gate = inf if stands else self.settings.innovation_gate
+        if self._stands_after_all(t, self.evidence_since, self.accepted_at):
             # The foot stands, so the motion since the last stance was less certain than its covariance says. The whole
             # covariance is scaled, so that the position is corrected too: its error has the same cause.
             squared = squared_innovation(self.uncertainty, rx - vx, ry - vy, rz - vz, r)
             if squared > EXPECTED_SQUARED_INNOVATION:
                 self.uncertainty = scale(self.uncertainty, squared / EXPECTED_SQUARED_INNOVATION)
-        outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if stands else settings.innovation_gate)
+        outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, gate)
         if outcome is None:
-            self.least_gated_statistic = min(self.least_gated_statistic, stance.statistic)
+            self.gated = True
             return False
         self.uncertainty, error = outcome
-        tx, ty = self._tilt_correction(share) if stands else (0.0, 0.0)
-        self._inject(error, tx, ty)
+        self._inject(error)
         self.rhythm.add(t, self.accepted_at)
         if self.accepted_at < self.evidence_since:
             self.landing_error = sub((vx, vy, vz), stance.v_ref)
         self.accepted_at = t
-        self.least_gated_statistic = NO_STATISTIC
+        self.gated = False
         return True
 
     def _stands_after_all(self, t: float, evidence_since: float, accepted_at: float) -> bool:
@@ -406,17 +393,6 @@ class ErrorStateFilter(Strapdown):
         covariance = self._propagated() if self.elapsed > 0.0 else self.uncertainty
         return (*covariance[:6], HEADING_DRIFT * HEADING_DRIFT * self.time_since_anchor)
 
-    def _tilt_correction(self, share: float) -> tuple[float, float]:
-        """Return `share` (0 to 1) of the turn about x and y, f x up / g, rad, that makes the force f point up.
-
-        This correction of the tilt is outside the covariance on purpose: a standing foot trembles. The correction has a
-        time constant of half a second, so it averages the trembling. A Kalman update would take the trembling for
-        independent measurements."""
-        if self.force is None:
-            return 0.0, 0.0
-        fx, fy, _ = self.force
-        return share * fy / GRAVITY, -share * fx / GRAVITY
-
     def _propagated(self) -> Covariance:
         """Return the current covariance."""
         t = self.elapsed
@@ -450,12 +426,12 @@ class ErrorStateFilter(Strapdown):
             covariance[i] += variance
         self.uncertainty = tuple(covariance)
 
-    def _inject(self, error: Correction, tilt_x: float, tilt_y: float) -> None:
-        """Correct the state by `error`, and turn it by `tilt_x` and `tilt_y` rad more."""
+    def _inject(self, error: Correction) -> None:
+        """Correct the state by `error`."""
         px, py, pz, vx, vy, vz, tx, ty, tz = error
         x, y, z = self.position
         self.position = self.start_position = (x + px, y + py, z + pz)
         x, y, z = self.velocity
         self.velocity = self.start_velocity = (x + vx, y + vy, z + vz)
         # q <- dq(theta) * q with a global attitude error (Sola 2017, section 7)
-        self.attitude = tipped(self.attitude, 0.5 * (tx + tilt_x), 0.5 * (ty + tilt_y), 0.5 * tz)
+        self.attitude = tipped(self.attitude, 0.5 * tx, 0.5 * ty, 0.5 * tz)

@@ -6,8 +6,8 @@ threshold lies between the lowest and the highest statistic of the last 1.2 to 1
 
 The noise of the evidence follows from the motion: a foot that turns at w rad/s about a point of the sole at distance
 r m moves the sensor at r w. The known part of this velocity follows from the height of the sensor above the sole
-(`SensorHeight`); it is the reference velocity. The unknown part is noise. The noise has a second term that grows with
-w^2, so that the many samples of early and late stance do not outweigh those of mid-stance.
+(`SensorHeight`); it is the reference velocity. The unknown part is noise. It grows with w^2, so that the many samples
+of early and late stance do not outweigh those of mid-stance.
 
 The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md. A table in that document
 gives the accuracy without whole terms: one threshold for all, evidence of one noise, zero velocity for a foot
@@ -186,7 +186,7 @@ class Cycle(Detector):
         settings = self.settings
         if statistic < settings.least_threshold:
             hint = STATIONARY if statistic < settings.standing_statistic else None
-        elif statistic > settings.largest_threshold or statistic > self._threshold():
+        elif statistic > self._threshold():
             if self.sensor_height.sums[0]:
                 self.sensor_height.end_stance()
             return make_stance(Stance, (ZERO, inf, statistic, None, None))
@@ -194,11 +194,7 @@ class Cycle(Detector):
             hint = None
         variance = (
             settings.sigma * settings.sigma
-            + (
-                settings.noise_per_rate * settings.noise_per_rate
-                + settings.noise_per_rate_square * settings.noise_per_rate_square * rate
-            )
-            * rate
+            + settings.noise_per_rate_square * settings.noise_per_rate_square * rate * rate
             + (
                 settings.noise_per_acceleration * settings.noise_per_acceleration
                 + settings.noise_per_acceleration_square * settings.noise_per_acceleration_square * force

@@ -35,20 +35,15 @@ def _filter(**settings: Any) -> Recipe:
 
 
 ABLATED_RECIPES: dict[str, Recipe] = {
-    "one threshold for all, no wearer's own cycle": _cycle(
-        least_threshold=FIXED_THRESHOLD, largest_threshold=FIXED_THRESHOLD
-    ),
+    "one threshold for all, no wearer's own cycle": _cycle(least_threshold=FIXED_THRESHOLD, threshold_position=0.0),
     "evidence of one noise, whatever the motion": _cycle(
-        noise_per_rate=0.0, noise_per_rate_square=0.0, noise_per_acceleration=0.0, noise_per_acceleration_square=0.0
+        noise_per_rate_square=0.0, noise_per_acceleration=0.0, noise_per_acceleration_square=0.0
     ),
     "zero velocity, no rolling foot": _cycle(rolls=False),
     "no extra noise of a foot that is braked": _cycle(noise_per_acceleration_square=0.0),
     "no innovation gate": _filter(innovation_gate=UNREACHABLE_LIMIT),
-    "no recovery after gated evidence": _filter(
-        time_until_lost=UNREACHABLE_LIMIT, stance_share=UNREACHABLE_LIMIT, time_until_ungated=UNREACHABLE_LIMIT
-    ),
+    "no recovery after gated evidence": _filter(stance_share=UNREACHABLE_LIMIT, time_until_ungated=UNREACHABLE_LIMIT),
     "no level, slope or stair": _filter(level=False),
-    "no tilt aiding": _filter(tilt_rate=0.0),
     "no noise of what lies between samples": _filter(noise_per_difference=0.0),
     "no recovery of a clipped gyroscope": _filter(recover=False),
     "no straight ways": DEFAULT.replace_part(TrackPart, BothFeet(BothFeetSettings(straightness=False))),
