@@ -92,10 +92,7 @@ class Clock:
 
     def fit_time(self, ticks: float) -> float:
         """Return the time of `ticks` on the fitted line, s, without slewing; a later packet may change it."""
-        return self._fit_at((ticks - self.first_tick) / self.rate)
-
-    def _fit_at(self, x: float) -> float:
-        return self.origin + self.offset + x * (1.0 + self.drift)
+        return self.origin + self.offset + (ticks - self.first_tick) / self.rate * (1.0 + self.drift)
 
     def contradicts(self, ticks: float, arrival: float, held_back: bool = False) -> bool:
         """Return whether a packet measured at `ticks` that arrived at `arrival` (s) belongs to another clock.
@@ -104,7 +101,7 @@ class Clock:
         if not self.windows:
             return False
         x = (ticks - self.first_tick) / self.rate
-        delay = arrival - self._fit_at(x)
+        delay = arrival - (self.origin + self.offset + x * (1.0 + self.drift))
         if delay < 0.0:
             return delay < -(MAX_EARLY_ARRIVAL + EARLY_ARRIVAL_GROWTH * max(0.0, x - self.windows[-1][0]))
         has_jumped = delay > JUMP_DELAY and not held_back
@@ -164,45 +161,41 @@ class Clock:
         """Return the time that `assign_time(ticks)` would assign, s, without assigning it."""
         return copy(self).assign_time(ticks)
 
-    def _heights(self, drift: float) -> list[float]:
-        return [r - drift * x for x, r in self.windows]
-
     def _merge_windows(self) -> None:
         """Merge the windows in pairs, or drop the oldest window when windows have their largest length."""
         if self.window_length >= LAST_WINDOW_LENGTH:
             del self.windows[0]
             return
         self.window_length *= 2.0
-        windows, heights = self.windows, self._heights(self.drift)
-        pairs = [range(len(heights))[i : i + 2] for i in range(0, len(heights), 2)]
-        self.windows = [windows[min(pair, key=heights.__getitem__)] for pair in pairs]
+        lowest = []
+        for i in range(0, len(self.windows), 2):
+            lowest.append(min(self.windows[i : i + 2], key=lambda point: point[1] - self.drift * point[0]))
+        self.windows = lowest
 
     def _fit(self) -> None:
-        drift = max(-MAX_DRIFT, min(MAX_DRIFT, _support_slope(self.windows)))
+        """Fit the edge of the points' lower convex hull that spans their mean time."""
+        points, hull = self.windows, []
+        for point in points:
+            x, r = point
+            while len(hull) >= 2:
+                (x_a, r_a), (x_b, r_b) = hull[-2:]
+                if (r_b - r_a) * (x - x_a) < (r - r_a) * (x_b - x_a):
+                    break
+                hull.pop()
+            hull.append(point)
+        middle, slope = fsum([x for x, _ in points]) / len(points), 0.0
+        for (x_a, r_a), (x_b, r_b) in pairwise(hull):
+            if x_b >= middle:
+                slope = (r_b - r_a) / (x_b - x_a)
+                break
+        drift = max(-MAX_DRIFT, min(MAX_DRIFT, slope))
         # The uncertainty of the slope is four times the points' mean height above the line, divided by the span of
         # their times. Few points always lie close to a line, so `spare_points` enlarge it. A drift below its
         # uncertainty is reduced towards 0; a drift of 4 % is followed within about two seconds.
-        spare_points, share = len(self.windows) - 4, 0.0
+        spare_points, share = len(points) - 4, 0.0
         if spare_points > 0 and drift != 0.0:
-            heights, span = self._heights(drift), self.windows[-1][0] - self.windows[0][0]
+            heights, span = [r - drift * x for x, r in points], points[-1][0] - points[0][0]
             error = 4.0 * (fsum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / spare_points)
             share = drift * drift / (drift * drift + error * error)
         drift *= share
-        self.drift, self.offset = drift, min(self._heights(drift))
-
-
-def _support_slope(points: list[tuple[float, float]]) -> float:
-    """Return the slope of the edge of the points' lower convex hull that spans their mean time; times increase."""
-    hull: list[tuple[float, float]] = []
-    for x, r in points:
-        while len(hull) >= 2:
-            (x_a, r_a), (x_b, r_b) = hull[-2:]
-            if (r_b - r_a) * (x - x_a) < (r - r_a) * (x_b - x_a):
-                break
-            hull.pop()
-        hull.append((x, r))
-    middle = fsum([x for x, _ in points]) / len(points)
-    for (x_a, r_a), (x_b, r_b) in pairwise(hull):
-        if x_b >= middle:
-            return (r_b - r_a) / (x_b - x_a)
-    return 0.0
+        self.drift, self.offset = drift, min([r - drift * x for x, r in points])

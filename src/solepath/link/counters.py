@@ -92,21 +92,14 @@ class PacketRun:
     after_reconnection: bool = False
     """True until the first packet after a reconnection; counters that go back have then restarted."""
 
-    def count_packets(self, sequence: int, modulus: int, expected: float) -> tuple[int, int]:
+    def count_packets(self, sequence: int, modulus: int, ticks_after: float) -> tuple[int, int]:
         """Return the sequence difference nearest to zero, and the number of packets after the newest one.
 
         The counter wraps at `modulus`, so the number may include whole rounds: it is the possible value that is nearest
-        to `expected`, the number of packets that the time difference suggests."""
-        difference = signed_difference(sequence - self.sequence, modulus)
-        return difference, difference + modulus * round((expected - difference) / modulus)
-
-    def locate(
-        self, sequence: int, modulus: int, ticks: int, tick_modulus: int, interval: float, samples: int
-    ) -> PacketPosition:
-        """Return the position of a packet that has a sequence number and ticks, which wrap at these moduli."""
-        ticks_after = signed_difference(ticks - self.ticks, tick_modulus)
-        difference, packets = self.count_packets(sequence, modulus, ticks_after / self.packet_ticks)
-        return PacketPosition(int(sequence), int(ticks), interval, samples, difference, packets, ticks_after)
+        to the number of packets that `ticks_after` suggests, the ticks from the newest packet to this one."""
+        half = modulus // 2
+        difference = (sequence - self.sequence + half) % modulus - half
+        return difference, difference + modulus * round((ticks_after / self.packet_ticks - difference) / modulus)
 
     def accept(self, position: PacketPosition, rate: float, arrival: float, new_fit: bool = False) -> SampleTimes:
         """Accept a packet that arrived at `arrival`, s, from a device with `rate` ticks a second.
@@ -119,10 +112,12 @@ class PacketRun:
             clock = self._start_clock(position.ticks, rate, None)
         else:
             packets, ticks = position.packets_after, position.ticks_after
+            # Sequence and ticks agree on how far the packet is from the newest one.
+            same_run = abs(packets * self.packet_ticks - ticks) <= 2 * self.packet_ticks
+            held_back = same_run and not self.after_reconnection
             if ticks <= 0 or packets <= 0:
-                self._reject_repeated(clock, position, arrival)
+                self._reject_repeated(clock, position, arrival, same_run)
             last = self.ticks + ticks + packet_ticks - position.interval
-            held_back = self._is_same_run(position) and not self.after_reconnection
             other_clock = clock.rate != rate or clock.contradicts(last, arrival, held_back)
             if ticks <= 0 or packets <= 0 or new_fit or other_clock:
                 restarted = not 1 <= position.sequence_difference <= REMEMBERED_PACKETS
@@ -139,7 +134,9 @@ class PacketRun:
         self.after_reconnection = False
         self.sequence, self.interval, self.packet_ticks = position.sequence, float(position.interval), packet_ticks
         clock.observe(self.ticks + packet_ticks - position.interval, arrival)
-        times = [clock.assign_time(self.ticks + j * self.interval) for j in range(position.samples)]
+        times = []
+        for j in range(position.samples):
+            times.append(clock.assign_time(self.ticks + j * self.interval))
         return SampleTimes(times, lost_count, t_missing, restarted)
 
     def _start_clock(self, ticks: int, rate: float, t_min: float | None) -> Clock:
@@ -147,22 +144,17 @@ class PacketRun:
         self.ticks, self.accepted_bits = ticks, 1
         return self.clock
 
-    def _is_same_run(self, position: PacketPosition) -> bool:
-        """Return whether sequence and ticks agree on how far the packet is from the newest one."""
-        return abs(position.packets_after * self.packet_ticks - position.ticks_after) <= 2 * self.packet_ticks
-
-    def _reject_repeated(self, clock: Clock, position: PacketPosition, arrival: float) -> None:
+    def _reject_repeated(self, clock: Clock, position: PacketPosition, arrival: float, same_run: bool) -> None:
         """Raise WireError if a packet that is not newer is a duplicate or late; return if the device restarted."""
         packets, ticks = position.packets_after, position.ticks_after
-        is_same_run = self._is_same_run(position)
-        was_accepted = is_same_run and -REMEMBERED_PACKETS < packets <= 0 and bool(self.accepted_bits >> -packets & 1)
+        was_accepted = same_run and -REMEMBERED_PACKETS < packets <= 0 and bool(self.accepted_bits >> -packets & 1)
         if position.retransmitted and ticks < 0:
             if was_accepted:
                 raise WireError(Rejection.DUPLICATE, f"sent again, and it came already, {-packets} before the newest")
             raise WireError(Rejection.LATE, f"sent again, {-packets} packets old")
         overtaken = (
             not self.after_reconnection
-            and is_same_run
+            and same_run
             and ticks >= -MAX_OVERTAKING_TIME * clock.rate
             and arrival - clock.fit_time(self.ticks + ticks) <= MAX_OVERTAKING_TIME + self.packet_ticks / clock.rate
         )

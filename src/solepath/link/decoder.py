@@ -69,7 +69,8 @@ class Decoder:
         """Return the samples and events of one packet, in the order in which they become known."""
         self.used = False
         try:
-            self._check(packet)
+            if packet.device != self.device or packet.site is not self.site or not abs(packet.t) <= MAX_ARRIVAL_TIME:
+                self._check(packet)
             if self.newest_arrival is None or packet.t >= self.newest_arrival:
                 return self._use_packet(packet, kinds)
             if self.backward_packets + 1 >= SET_BACK_PACKETS:
@@ -88,8 +89,6 @@ class Decoder:
             raise WireError(Rejection.ABSURD, f"arrival time {packet.t:g} s")
         if packet.site is not self.site:
             raise WireError(Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
-        if packet.device == self.device:
-            return
         if not is_address(packet.device):
             raise WireError(Rejection.MALFORMED, f"device {packet.device!r:.80} is no address")
         speaks_for_itself = packet.device != "" or packet.channel.partition("/")[0] != "receiver"
@@ -102,16 +101,14 @@ class Decoder:
         if self.link is None or self.stale or self.link.may_be_silent or not isfinite(now):
             return []
         kind = kinds.loaded.get(self.link.name) or kinds.get(self.link.name)
-        silence = None if kind is None else self._make_stale(now, kind.profile.stale_after)
-        return [] if silence is None else [*self.link.flush(now), silence]
-
-    def _make_stale(self, now: float, limit: float) -> StreamStale | None:
-        """Return StreamStale if no stream packet came for more than `limit` s before `now`, and note that."""
-        t = self.newest_stream_arrival
-        if t is None or now - t <= limit:
-            return None
+        newest = self.newest_stream_arrival
+        if kind is None or newest is None or now - newest <= kind.profile.stale_after:
+            return []
         self.stale = True
-        return StreamStale(t=t + limit, known_at=now, site=self.site, silent_for=now - t)
+        return [*self.link.flush(now), self._silence(newest, now, kind.profile.stale_after)]
+
+    def _silence(self, newest: float, now: float, limit: float) -> StreamStale:
+        return StreamStale(t=newest + limit, known_at=now, site=self.site, silent_for=now - newest)
 
     def finish(self) -> Output:
         """Return the samples that still wait for other data; call it at the end of all data."""
@@ -136,40 +133,34 @@ class Decoder:
 
     def _use_packet(self, packet: Packet, kinds: DeviceKinds) -> Output:
         """Return the samples and events of a packet; one that cannot be used raises WireError and changes nothing."""
-        prefix, t = packet.channel.partition("/")[0], packet.t
-        if prefix == "device" or prefix == "receiver":
-            out = self._read_standard(packet) if prefix == "device" else self._read_receiver(packet)
-            self._note_use(packet)
-            return self.advance(t, kinds) + out
-        kind = kinds.loaded.get(prefix) or kinds.get(prefix)
-        if kind is None or packet.channel not in kind.profile.channel_names:
-            raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
-        link = self.link
-        if link is None:
-            link = kind.make_link(self.site)
-            link.set_firmware(self.firmware)
-        elif link.name != prefix:
-            detail = f"{packet.channel!r} at a site whose device is {link.name}"
-            raise WireError(Rejection.UNKNOWN_CHANNEL, detail)
-        out = kind.feed(link, packet.channel, packet.data, t)
-        self.link = link
-        self._note_use(packet)
-        if packet.channel not in kind.profile.streams:
+        prefix, t, link, kind = packet.channel.partition("/")[0], packet.t, self.link, None
+        if prefix == "device":
+            out = self._read_standard(packet)
+        elif prefix == "receiver":
+            out = self._read_receiver(packet)
+        else:
+            kind = kinds.loaded.get(prefix) or kinds.get(prefix)
+            if kind is None or packet.channel not in kind.profile.channel_names:
+                raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
+            if link is None:
+                link = kind.make_link(self.site)
+                link.set_firmware(self.firmware)
+            elif link.name != prefix:
+                detail = f"{packet.channel!r} at a site whose device is {link.name}"
+                raise WireError(Rejection.UNKNOWN_CHANNEL, detail)
+            out = kind.feed(link, packet.channel, packet.data, t)
+            self.link = link
+        self.device = self.device or packet.device
+        self.newest_arrival, self.backward_packets, self.used = t, 0, True
+        if link is None or kind is None or packet.channel not in kind.profile.streams:
             return self.advance(t, kinds) + out
         newest, limit = self.newest_stream_arrival, kind.profile.stale_after
-        if newest is not None and (self.stale or t - newest > limit):
-            silence = None if self.stale or link.may_be_silent else self._make_stale(t, limit)
-            if self.stale:
-                out.insert(0, StreamResumed(t=t, known_at=t, site=self.site, silent_for=t - newest))
-            if silence is not None:
-                out.insert(0, silence)
-            self.stale = False
         self.newest_stream_arrival = t
+        if newest is not None and (self.stale or (t - newest > limit and not link.may_be_silent)):
+            resumed = StreamResumed(t=t, known_at=t, site=self.site, silent_for=t - newest)
+            out[:0] = [resumed] if self.stale else [self._silence(newest, t, limit), resumed]
+            self.stale = False
         return out
-
-    def _note_use(self, packet: Packet) -> None:
-        self.device = self.device or packet.device
-        self.newest_arrival, self.backward_packets, self.used = packet.t, 0, True
 
     def _read_receiver(self, packet: Packet) -> Output:
         from .receiver import parse_receiver_event

@@ -206,10 +206,11 @@ class StreamLink(DeviceLink):
         if reading.ticks is None or (driver.sequence and reading.sequence is None):
             raise malformed("no device time or no sequence number, which this device has")
         interval = driver.tick_rate / rate if reading.interval is None else reading.interval
-        if reading.sequence is not None and driver.sequence:
-            counters = reading.sequence, driver.sequence, reading.ticks, driver.tick_modulus
-            return run.locate(*counters, interval, count)
         ticks = signed_difference(reading.ticks - run.ticks, driver.tick_modulus)
+        if reading.sequence is not None and driver.sequence:
+            sequence = int(reading.sequence)
+            difference, packets = run.count_packets(sequence, driver.sequence, ticks)
+            return PacketPosition(sequence, int(reading.ticks), interval, count, difference, packets, ticks)
         if ticks > 0:  # ticks were cut to whole ones: the true distance may be up to one tick less
             packets = max(1, round(ticks / run.packet_ticks)) if ticks - 1 >= MIN_LOSS_GAP * run.packet_ticks else 1
         else:
@@ -227,7 +228,7 @@ class StreamLink(DeviceLink):
             device_time = signed_difference(reading.ticks - self.coarse_ticks, driver.tick_modulus) / driver.tick_rate
             device_time = device_time if -MAX_DEVICE_LAG <= device_time - elapsed <= MAX_DEVICE_LEAD else None
         ticks = (elapsed if device_time is None else device_time) * rate * TICKS_PER_SAMPLE
-        difference, packets = run.count_packets(reading.sequence, driver.sequence, ticks / run.packet_ticks)
+        difference, packets = run.count_packets(reading.sequence, driver.sequence, ticks)
         ticks_after = round(packets * run.packet_ticks)
         if (
             packets >= 1

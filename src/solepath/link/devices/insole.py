@@ -19,7 +19,7 @@ from ...wire.fragment import Reassembly, is_fragment, parse_fragment
 from ...wire.insole import InsoleFrame, parse_frame
 from ...wire.insole_control import StartSampling, build_control, parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
-from ..counters import PacketRun
+from ..counters import PacketPosition, PacketRun, signed_difference
 from ..driver import FULL_SCALE_COUNTS
 from ..kinds import DeviceKind, DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
@@ -172,8 +172,11 @@ class InsoleLink(DeviceLink):
                 f"layout {frame.layout} of {cells} cells, not layout {self.layout} of {self.cells}",
             )
         run, count = self.packet_run, len(frame.samples)
-        position = run.locate(frame.sequence, SEQUENCE_MODULUS, frame.ticks, TICK_MODULUS, frame.interval, count)
-        position.retransmitted = frame.retransmitted
+        ticks_after = signed_difference(frame.ticks - run.ticks, TICK_MODULUS)
+        difference, packets = run.count_packets(frame.sequence, SEQUENCE_MODULUS, ticks_after)
+        position = PacketPosition(
+            frame.sequence, frame.ticks, frame.interval, count, difference, packets, ticks_after, frame.retransmitted
+        )
         sample_times = run.accept(position, float(self.rate), arrival)
         out: Output = []
         if sample_times.lost_count or sample_times.restarted is not None:
