@@ -7,7 +7,7 @@ from random import Random
 import pytest
 
 from solepath.link.clock import Clock
-from solepath.link.periodic import PeriodicClock, make_periodic_clock
+from solepath.link.periodic import PeriodicClock
 
 RATE = 32768
 INTERVAL = 328
@@ -166,13 +166,13 @@ def time_packets(packets: list[tuple[float, float]], stream: PeriodicClock) -> t
 @pytest.mark.parametrize("drift", [0.0, -0.04])
 def test_losses_without_counters_are_counted_by_their_holes(period: float, drift: float) -> None:
     packets = make_slots(60.0, period, drift=drift)
-    errors, lost_count = time_packets(packets, make_periodic_clock(period))
+    errors, lost_count = time_packets(packets, PeriodicClock(period))
     assert lost_count == int(60.0 / period) - len(packets)
     assert max(abs(e) for e in errors[len(errors) // 2 :]) < 0.003
 
 
 @pytest.mark.parametrize(("true", "assumed"), [(0.05, 0.1), (0.17, 0.1), (1.0, 0.1), (0.1, 0.05)])
 def test_a_period_that_was_never_written_is_found(true: float, assumed: float) -> None:
-    stream = make_periodic_clock(assumed)
+    stream = PeriodicClock(assumed)
     time_packets(make_slots(60.0, true, loss=0.02), stream)
     assert stream.period == pytest.approx(true, rel=0.04)

@@ -11,7 +11,7 @@ from solepath.link.decoder import Decoder
 from solepath.link.devices.cc2541 import counts_per_g
 from solepath.types import Sample
 from solepath.types.vector import GRAVITY
-from solepath.wire.device import build_firmware
+from solepath.wire.fields import build_text
 
 
 @pytest.mark.parametrize(
@@ -29,7 +29,7 @@ def test_the_scale_goes_by_firmware_and_range(firmware: str, code: int, expected
     assert counts_per_g(firmware, code) == expected
     decoder = Decoder(site=LEFT)
     if firmware:
-        feed(decoder, packet(0.0, "device/firmware", build_firmware(firmware)))
+        feed(decoder, packet(0.0, "device/firmware", build_text(firmware)))
     feed(decoder, packet(0.0, "cc2541/accelerometer-config", bytes([code])))
     outputs = feed(decoder, acc_packet(1.0, (0, 0, expected)), gyro_packet(1.05))
     assert outputs[0].acc == pytest.approx((0.0, 0.0, GRAVITY))

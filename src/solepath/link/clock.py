@@ -174,7 +174,8 @@ class Clock:
 
     def _fit(self) -> None:
         """Fit the edge of the points' lower convex hull that spans their mean time."""
-        points, hull = self.windows, []
+        points = self.windows
+        hull: list[tuple[float, float]] = []
         for point in points:
             x, r = point
             while len(hull) >= 2:

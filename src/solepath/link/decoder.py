@@ -97,8 +97,8 @@ class Decoder:
             raise WireError(Rejection.WRONG_DEVICE, detail)
 
     def advance(self, now: float, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:
-        """Return the events of time that passes until `now`, s, without packets; ignore a time that is not finite."""
-        if self.link is None or self.stale or self.link.may_be_silent or not isfinite(now):
+        """Return the events of time that passes until `now`, s, without packets."""
+        if self.link is None or self.stale or self.link.may_be_silent:
             return []
         kind = kinds.loaded.get(self.link.name) or kinds.get(self.link.name)
         newest = self.newest_stream_arrival
@@ -171,14 +171,15 @@ class Decoder:
         return [*out]
 
     def _read_standard(self, packet: Packet) -> Output:
-        from ..wire.device import parse_battery, parse_firmware
+        from ..wire.device import parse_battery
+        from ..wire.fields import parse_text
 
         if packet.channel == "device/battery":
             level = parse_battery(packet.data) / 100.0
             return [BatteryLevel(t=packet.t, known_at=packet.t, site=self.site, level=level)]
         if packet.channel != "device/firmware":
             raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
-        self.firmware = parse_firmware(packet.data).rstrip("\0")
+        self.firmware = parse_text(packet.data).rstrip("\0")
         if self.link is not None:
             self.link.set_firmware(self.firmware)
         return []

@@ -21,6 +21,9 @@ if TYPE_CHECKING:  # imported at run time only with a device that needs them
 Output = list[Sample | LinkEvent]
 """Samples and link events in the order in which they are returned."""
 
+MAX_PRESSURE_WAIT = 1.0
+"""Time without inertial samples after which air pressure no longer waits for a sample, s."""
+
 
 class DeviceLink(Protocol):
     """A plain record that turns the values of one device's channels into samples on one clock."""

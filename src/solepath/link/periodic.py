@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from math import floor
 
-from ..types.attrs import define
+from ..types.attrs import define, field
 from .clock import Clock
 from .counters import SampleTimes
 
@@ -57,8 +57,8 @@ class PeriodicClock:
 
     period: float
     """Period in s, as written to the device or from its profile."""
-    clock: Clock
-    """Fit of slot numbers to arrivals."""
+    clock: Clock = field(factory=lambda: Clock(1.0))
+    """Fit of slot numbers to arrivals, which starts with the first packet."""
     slot: float = 0.0
     """Slot number of the newest packet."""
     newest_arrival: float | None = None
@@ -124,12 +124,8 @@ class PeriodicClock:
 
     def set_period(self, period: float) -> None:
         """Set a period (s) that was written to the device; slots restart with the next packet, if it is another one."""
-        if period == self.period:
-            return
-        newest_arrival = self.newest_arrival
-        self.period, self.newest_arrival = period, None
-        if newest_arrival is None:
-            self.clock = Clock(1.0 / period)
+        if period != self.period:
+            self.period, self.newest_arrival = period, None
 
     def _count_lost(self, gap: float, delay: float, period: float) -> int:
         """Return the number of packets lost before a packet that is `delay` s behind its slot, after `gap` s."""
@@ -180,8 +176,3 @@ class PeriodicClock:
         self.slipped_packets = self.revisable_packets = self.settled_packets = self.rate_packets = self.wide_gaps = 0
         self.rate_start = arrival
         return SampleTimes([self.clock.assign_time(0.0)], lost_count, t_missing)
-
-
-def make_periodic_clock(period: float) -> PeriodicClock:
-    """Return a fresh clock with this nominal period, s."""
-    return PeriodicClock(period, Clock(1.0 / period))

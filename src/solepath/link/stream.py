@@ -19,11 +19,9 @@ from ..wire.fields import malformed
 from .clock import MIN_INCREMENT
 from .counters import PacketPosition, PacketRun, SampleTimes, signed_difference
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, DriverSignature, Reading, TimeAxis
-from .kinds import DeviceLink, Output
-from .periodic import PeriodicClock, make_periodic_clock
+from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
+from .periodic import PeriodicClock
 
-MAX_PRESSURE_WAIT = 1.0
-"""Time without samples after which air pressure no longer waits for a sample, s."""
 TICKS_PER_SAMPLE = 100
 """Ticks that stand for one sample of a device that only counts; more than one, as a pause may end between samples."""
 PAUSE_LEAD, PAUSE_RATIO = 0.25, 1.1
@@ -99,7 +97,7 @@ class StreamLink(DeviceLink):
         """Restart the clock fit and the times, because the receiver's clock restarted."""
         self.packet_run.clock, self.newest_arrival, self.last_t = None, None, None
         if self.periodic is not None:
-            self.periodic = make_periodic_clock(self.periodic.period)
+            self.periodic = PeriodicClock(self.periodic.period)
 
     def handle_reconnection(self) -> None:
         """Take counters that go back in the next packet as restarted: no packet is overtaken across two connections."""
@@ -133,7 +131,7 @@ class StreamLink(DeviceLink):
             self._set_rate(reading.rate)
         if reading.period is not None:
             if self.periodic is None:
-                self.periodic = make_periodic_clock(reading.period)
+                self.periodic = PeriodicClock(reading.period)
             self.periodic.set_period(reading.period)
 
     def _set_rate(self, rate: float) -> None:
@@ -268,7 +266,7 @@ class StreamLink(DeviceLink):
 
     def _time_by_arrival(self, count: int, rate: float, arrival: float) -> SampleTimes:
         if self.periodic is None:
-            self.periodic = make_periodic_clock(count / rate)
+            self.periodic = PeriodicClock(count / rate)
         sample_times = self.periodic.add_packet(arrival, counts_losses=not self.may_be_silent)
         (last,), interval = sample_times.times, self.periodic.period / count
         times = [last - (count - 1 - j) * interval for j in range(count)]

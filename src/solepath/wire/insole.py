@@ -7,7 +7,7 @@ from struct import Struct as Packing
 from struct import error as StructError
 from typing import Any, NamedTuple
 
-from construct import Array, Container, FormatField, If, IfThenElse, Int16ul, Pass, Renamed, Sequence, Struct
+from construct import Array, Container, FormatField, If, IfThenElse, Int16ul, Renamed, Sequence, Struct
 
 from ..types import Foot
 from ..types.attrs import define, frozen
@@ -25,39 +25,30 @@ from .fields import Definition, Fields, malformed
 def flat_struct(definition: Definition, **context: Any) -> Packing:
     """Return the struct of all numbers of `definition`, in order; a block of 12-bit values is one `bytes`.
 
-    `context` has what the parts before are to have been parsed to, by their names, as in construct. TypeError for a
-    construct without a notation in `struct`; ValueError if its numbers have different byte orders, or none."""
-    notations = _notations(definition, Container(context))
-    if any([notation[0] not in "<>" for notation in notations]):
-        raise ValueError("a notation without its byte order")
-    orders = {notation[0] for notation in notations if notation[1:].strip("0123456789bBs")}
-    if len(orders) > 1:
-        raise ValueError("numbers of different byte orders have no common notation")
-    return Packing("".join([*(orders or "<"), *[notation[1:] for notation in notations]]))
+    `context` has what the parts before are to have been parsed to, by their names, as in construct. Numbers are
+    little-endian. TypeError for a construct without a notation in `struct`."""
+    return Packing("<" + _notation(definition, Container(context)))
 
 
-def _in_context(number: Any, context: Container[Any]) -> int:
-    return int(number(context) if callable(number) else number)
-
-
-def _notations(definition: Any, context: Container[Any]) -> list[str]:
-    """Return the notation of each part: its byte order, and its numbers."""
+def _notation(definition: Any, context: Any) -> str:
+    """Return the notation of all numbers of a part, without their byte order."""
     if isinstance(definition, Renamed):
-        return _notations(definition.subcon, context)
+        return _notation(definition.subcon, context)
     if isinstance(definition, Fields):
-        return [definition.notation]
+        return definition.notation.removeprefix("<")
     if isinstance(definition, FormatField):
-        return [definition.fmtstr]
+        return definition.fmtstr.removeprefix("<")
     if isinstance(definition, Packed12):
-        return [f"<{packed_size(definition.count(context))}s"]
+        return f"{packed_size(definition.count(context))}s"
     if isinstance(definition, Array):
-        return _in_context(definition.count, context) * _notations(definition.subcon, context)
+        count: Any = definition.count  # a function, in all definitions here
+        return _notation(definition.subcon, context) * int(count(context))
     if isinstance(definition, IfThenElse):
-        chosen = definition.thensubcon if _in_context(definition.condfunc, context) else definition.elsesubcon
-        return [] if chosen is Pass else _notations(chosen, context)
+        condition: Any = definition.condfunc
+        return _notation(definition.thensubcon, context) if condition(context) else ""
     if isinstance(definition, (Struct, Sequence)):
         within = Container(context, _=context)
-        return [notation for part in definition.subcons for notation in _notations(part, within)]
+        return "".join([_notation(part, within) for part in definition.subcons])
     raise TypeError(f"{type(definition).__name__} has no notation in struct")
 
 
@@ -113,25 +104,13 @@ class FrameHeader(NamedTuple):
     cells: int
 
 
-def _cell_count(context: Any) -> int:
-    return int(context._.header.cells)
-
-
-def _has_imu(context: Any) -> bool:
-    return bool(context._.header.flags & _IMU_FLAG)
-
-
-def _has_quat(context: Any) -> bool:
-    return bool(context._.header.flags & _QUAT_FLAG)
-
-
-def _sample_count(context: Any) -> int:
-    return int(context.header.samples)
-
-
 _HEADER = Fields("<BBBBHIHBB", FrameHeader)
-_SAMPLE = Sequence(Packed12(_cell_count), If(_has_imu, Fields("<6h")), If(_has_quat, Fields("<4h")))
-FRAME = Struct("header" / _HEADER, "samples" / Array(_sample_count, _SAMPLE), "crc" / Int16ul)
+_SAMPLE = Sequence(
+    Packed12(lambda context: context._.header.cells),
+    If(lambda context: context._.header.flags & _IMU_FLAG, Fields("<6h")),
+    If(lambda context: context._.header.flags & _QUAT_FLAG, Fields("<4h")),
+)
+FRAME = Struct("header" / _HEADER, "samples" / Array(lambda context: context.header.samples, _SAMPLE), "crc" / Int16ul)
 """The construct of a frame, from which `flat_struct` generates reader and writer."""
 
 _HEADER_NUMBERS = flat_struct(_HEADER)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import groupby
 from math import isfinite
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from construct import Array, Bytes, Struct, Terminated
 
@@ -73,26 +73,14 @@ class _AreaRun(NamedTuple):
     area: int
 
 
-def _coordinate_count(context: Any) -> int:
-    return 2 * int(context.header.cells)
-
-
-def _run_count(context: Any) -> int:
-    return int(context.header.runs)
-
-
-def _firmware_size(context: Any) -> int:
-    return int(context.header.firmware_size)
-
-
 _HEADER = Fields("<BBBBIIHfffHBBB", _InfoHeader)
 _HEADER_SIZE = 31
 
 _BODY = Struct(
     "header" / _HEADER,
-    "coordinates" / Packed12(_coordinate_count),
-    "runs" / Array(_run_count, Fields("<BH", _AreaRun)),
-    "firmware" / Bytes(_firmware_size),
+    "coordinates" / Packed12(lambda context: 2 * context.header.cells),
+    "runs" / Array(lambda context: context.header.runs, Fields("<BH", _AreaRun)),
+    "firmware" / Bytes(lambda context: context.header.firmware_size),
     Terminated,
 )
 """Construct of the record without the CRC that follows it."""

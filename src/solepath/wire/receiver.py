@@ -4,7 +4,7 @@ The values of receiver/restarted (the name of a channel) and receiver/trouble (a
 
 from __future__ import annotations
 
-from construct import Float32l, Float64l, Int8sl, Int8ul, Int32ul, Struct, Terminated
+from construct import Float32l, Float64l, Int8sl, Int8ul, Int32ul, Struct
 
 from ..events import Rejection
 from ..types.attrs import frozen
@@ -16,8 +16,6 @@ UNKNOWN_SIGNAL = 127
 MAX_NAME_SIZE = 248
 """Largest size of a device name, bytes (Bluetooth Core, vol 3 part C, 12.1)."""
 
-_SIGNAL = Struct("signal" / Int8sl)
-_COUNT = Struct("count" / Int32ul, Terminated)
 _SIGMA = Struct("sigma" / Float32l, "kind" / Int8ul)
 _POSITION = Struct("x" / Float64l, "y" / Float64l)
 _START, _WORLD, _PLAN, _PLACE = range(4)
@@ -42,7 +40,7 @@ def parse_connected(data: bytes) -> ConnectionFrame:
         raise WireError(Rejection.TRUNCATED, "no signal strength")
     if len(data) > 1 + MAX_NAME_SIZE:
         raise WireError(Rejection.OVERSIZED, f"a name of {len(data) - 1} bytes, at most {MAX_NAME_SIZE}")
-    signal: int = parse_whole(_SIGNAL, data[:1]).signal
+    signal: int = parse_whole(Int8sl, data[:1])
     try:
         name = data[1:].decode("utf-8")
     except UnicodeDecodeError as error:
@@ -56,12 +54,12 @@ def build_connected(connection: ConnectionFrame) -> bytes:
     if len(name) > MAX_NAME_SIZE or connection.signal == UNKNOWN_SIGNAL:
         raise ValueError(f"a name of {len(name)} bytes, a signal of {connection.signal} dBm")
     signal = UNKNOWN_SIGNAL if connection.signal is None else connection.signal
-    return build_whole(_SIGNAL, {"signal": signal}) + name
+    return build_whole(Int8sl, signal) + name
 
 
 def parse_dropped(data: bytes) -> int:
     """Return the number of packets that receiver/dropped reports, at least 1; WireError when the bytes do not fit."""
-    count: int = parse_whole(_COUNT, bytes(data)).count
+    count: int = parse_whole(Int32ul, bytes(data))
     if count == 0:
         raise malformed("nothing was dropped")
     return count
@@ -71,7 +69,7 @@ def build_dropped(count: int) -> bytes:
     """Return the bytes of a number of dropped packets; ValueError unless it is 1 to 2^32 - 1."""
     if count < 1:
         raise ValueError(f"{count} packets dropped")
-    return build_whole(_COUNT, {"count": count})
+    return build_whole(Int32ul, count)
 
 
 @frozen

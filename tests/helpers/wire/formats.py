@@ -84,7 +84,7 @@ FORMATS = {
         insole_control.parse_control, insole_control.build_control, command_fields, command_record
     ),
     "device-battery": single("percent", device.parse_battery, device.build_battery),
-    "device-firmware": single("firmware", device.parse_firmware, device.build_firmware),
+    "device-firmware": single("firmware", parse_text, build_text),
     "receiver-connected": record(receiver.ConnectionFrame, receiver.parse_connected, receiver.build_connected),
     "receiver-disconnected": Format(receiver.parse_nothing, lambda _: b"", lambda _: {}, lambda _: None),
     "receiver-dropped": single("count", receiver.parse_dropped, receiver.build_dropped),

@@ -9,7 +9,8 @@ from math import ceil, floor, inf
 from attrs import frozen
 
 from ...link.profile import FIRMWARE, Profile, standard_uuid
-from ...wire.device import build_battery, build_firmware
+from ...wire.device import build_battery
+from ...wire.fields import build_text
 
 
 class AttCode(IntEnum):
@@ -121,7 +122,7 @@ def services(
 
 def device_information(firmware: str, **more: str) -> dict[str, bytes]:
     """Return the values of Device Information by channel; `more` has texts by the names of `_INFORMATION_NUMBERS`."""
-    found = {"device/firmware": build_firmware(firmware)}
+    found = {"device/firmware": build_text(firmware)}
     return found | {f"device/{name}": text.encode() for name, text in more.items()}
 
 

@@ -10,7 +10,8 @@ from attrs import frozen
 from ...link.devices.insole import PROFILE as INSOLE
 from ...types import Foot, Layout, Sample, Site
 from ...types.vector import GRAVITY, from_rotation_vector, multiply, rotate_back
-from ...wire.device import build_battery, build_firmware
+from ...wire.device import build_battery
+from ...wire.fields import build_text
 from ...wire.fragment import FRAME_ID_COUNT, split
 from ...wire.insole import InsoleFrame, InsoleSample, build_frame
 from ...wire.insole_info import InsoleInfo, build_info
@@ -154,7 +155,7 @@ class Insole:
         signal = self.measure(walker, site, rng)
         device_values = {
             "insole/info": build_info(self.info(signal)),
-            "device/firmware": build_firmware(self.firmware),
+            "device/firmware": build_text(self.firmware),
             "device/battery": build_battery(BATTERY),
         }
         sent = setup_notifications(INSOLE, device_values)

@@ -11,8 +11,8 @@ from attrs import asdict, frozen
 from ...link.devices import cc2541, cc2650
 from ...types import Site
 from ...types.vector import GRAVITY
-from ...wire.device import build_battery, build_firmware
-from ...wire.fields import build_whole
+from ...wire.device import build_battery
+from ...wire.fields import build_text, build_whole
 from ...wire.sensortag import PERIOD
 from ..wearers.curves import Array, Rng
 from ..wearers.shoe import ON_INSTEP, Mounting
@@ -69,7 +69,7 @@ class CC2650:
         barometer = worn.barometer(SLOW_PERIOD, BMP280, rng)
         config = cc2650.DRIVER.write("cc2650/movement-config", {**_ALL_SENSORS_ON, "range": self.range})
         device_values = {
-            "device/firmware": build_firmware(self.firmware),
+            "device/firmware": build_text(self.firmware),
             "device/battery": build_battery(BATTERY),
             "cc2650/movement-period": build_whole(PERIOD, {"period": period}),
             "cc2650/movement-config": config,
@@ -137,7 +137,7 @@ class CC2541:
         period_value = build_whole(PERIOD, {"period": period})
         slow_period_value = build_whole(PERIOD, {"period": SLOW_PERIOD})
         device_values = {
-            "device/firmware": build_firmware(self.firmware),
+            "device/firmware": build_text(self.firmware),
             "cc2541/accelerometer-period": period_value,
             "cc2541/accelerometer-config": cc2541_bytes("cc2541/accelerometer-config", code=self.code),
             "cc2541/gyroscope-period": period_value,

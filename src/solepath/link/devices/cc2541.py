@@ -18,8 +18,8 @@ from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD
 from ..driver import scaled
-from ..kinds import DeviceKind, DeviceLink, Output
-from ..periodic import PeriodicClock, make_periodic_clock
+from ..kinds import MAX_PRESSURE_WAIT, DeviceKind, DeviceLink, Output
+from ..periodic import PeriodicClock
 from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_sensor, ti_uuid
 from .assembler import Assembler
 
@@ -29,8 +29,6 @@ GYRO_SCALE = radians(500.0 / 65536.0)
 """Gyroscope scale, rad/s per count (TI, SensorTag user's guide: v * 500 / 65536 degrees/s)."""
 MAG_SCALE = 2000.0 / 65536.0 * 1e-6
 """Magnetometer scale, T per count (TI, SensorTag user's guide: v * 2000 / 65536 uT)."""
-MAX_PRESSURE_WAIT = 1.0
-"""Time without inertial samples after which air pressure no longer waits for a sample, s."""
 
 
 def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
@@ -93,16 +91,12 @@ FORMATS: dict[str, Definition] = {
 }
 
 COUNTS_PER_G = {
-    # (text in the firmware revision, value of AA12) -> counts per g of the 8-bit accelerometer chip KXTJ9, from the
-    # table of protocol/cc2541.md. Published drivers contradict each other (16 always, 64 always, opposite tests of the
-    # revision), so the table follows the firmware. From 1.5 on, AA12 = 1, 2, 3 sets 2, 4, 8 g. Before 1.5, each of them
-    # sets 2 g. "" stands for any other revision.
-    ("1.4", 1): 64,
-    ("1.4", 2): 64,
-    ("1.4", 3): 64,
-    ("", 1): 64,
-    ("", 2): 32,
-    ("", 3): 16,
+    # value of AA12 -> counts per g of the 8-bit accelerometer chip KXTJ9, from the table of protocol/cc2541.md.
+    # Published drivers contradict each other (16 always, 64 always, opposite tests of the revision), so the table
+    # follows the firmware. From 1.5 on, AA12 = 1, 2, 3 sets 2, 4, 8 g. Before 1.5, each of them sets 2 g.
+    1: 64,
+    2: 32,
+    3: 16,
 }
 WRITTEN_ACC_CODE = 3
 """Value of AA12 (accelerometer configuration) that the profile writes."""
@@ -110,7 +104,7 @@ WRITTEN_ACC_CODE = 3
 
 def counts_per_g(firmware: str, code: int) -> int:
     """Return the accelerometer's scale by firmware revision and value of AA12 (1 to 3), counts per g."""
-    return COUNTS_PER_G["1.4" if "1.4" in firmware else "", code]
+    return COUNTS_PER_G[1 if "1.4" in firmware else code]
 
 
 @frozen
@@ -154,8 +148,8 @@ class Cc2541Link(DeviceLink):
     firmware: str = ""
     code: int = WRITTEN_ACC_CODE
     """Newest value of AA12 other than 0 (off); it selects the accelerometer's scale."""
-    acc_clock: PeriodicClock = field(factory=lambda: make_periodic_clock(STOCK_PERIOD))
-    gyro_clock: PeriodicClock = field(factory=lambda: make_periodic_clock(STOCK_PERIOD))
+    acc_clock: PeriodicClock = field(factory=lambda: PeriodicClock(STOCK_PERIOD))
+    gyro_clock: PeriodicClock = field(factory=lambda: PeriodicClock(STOCK_PERIOD))
     acc_on: bool = True
     gyro_on: bool = True
     calibration: BarometerCalibration | None = None
@@ -210,10 +204,8 @@ class Cc2541Link(DeviceLink):
 
     def restart_clock(self) -> None:
         """Restart the clock fits and the times, because the receiver's clock restarted."""
-        self.acc_clock, self.gyro_clock = (
-            make_periodic_clock(self.acc_clock.period),
-            make_periodic_clock(self.gyro_clock.period),
-        )
+        self.acc_clock = PeriodicClock(self.acc_clock.period)
+        self.gyro_clock = PeriodicClock(self.gyro_clock.period)
         self.assembler = Assembler(self.site)
 
     def flush(self, known_at: float) -> Output:

@@ -74,11 +74,6 @@ _SAMPLES: dict[int, Definition] = {
     55: Array(4, Struct(*_IMU, _PRESSURE)),
     56: Array(2, Struct(_QUAT, *_IMU, _PRESSURE)),
 }
-_UNUSED_SIZES = {50: 12, 54: 0, 55: 0, 56: 32}
-
-
-def _unused_size(context: Any) -> int:
-    return _UNUSED_SIZES[context.header]
 
 
 def _is_short_enough(digits: str, _: Any) -> bool:
@@ -94,7 +89,7 @@ FORMATS = {
         "second" / OneOf(Int8ub, range(60)),
         "millisecond" / OneOf(Int16ub, range(1000)),
         "samples" / Switch(this.header, _SAMPLES),
-        "unused" / Hex(Bytes(_unused_size)),
+        "unused" / Hex(Switch(this.header, {50: Bytes(12), 56: Bytes(32)}, default=Bytes(0))),
         Terminated,
     ),
     "orphe/info": Struct(
