@@ -140,7 +140,7 @@ class Decoder:
             out = self._read_receiver(packet)
         else:
             kind = kinds.loaded.get(prefix) or kinds.get(prefix)
-            if kind is None or packet.channel not in kind.profile.channel_names:
+            if kind is None or packet.channel not in kind.profile.channel_by_name:
                 raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
             if link is None:
                 link = kind.make_link(self.site)

@@ -31,6 +31,8 @@ class DeviceLink(Protocol):
     site: Site
     limitation_reported: bool
     """True if a Limitation of the device was reported."""
+    signature: Any = None
+    """`DriverSignature` of the driver that the link was made with; None for devices without a driver."""
 
     @property
     def name(self) -> str:
@@ -66,10 +68,6 @@ class DeviceLink(Protocol):
         self.limitation_reported = True
         return [Limitation(t=arrival, known_at=arrival, site=self.site, what=what)]
 
-    def driver_signature(self) -> Any:
-        """Return the signature of the driver that the link was made with; None for devices without a driver."""
-        return None
-
 
 @frozen
 class DeviceKind:
@@ -86,7 +84,7 @@ class DeviceKind:
 
     def accepts(self, link: DeviceLink) -> bool:
         """Return whether a saved link was made by this kind."""
-        return link.name == self.profile.name and link.driver_signature() == self.signature
+        return link.name == self.profile.name and link.signature == self.signature
 
 
 def _declared_kind(driver: Driver, built_in: bool) -> DeviceKind:

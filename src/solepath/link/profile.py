@@ -74,19 +74,20 @@ class Profile:
     """Starts of names that it may advertise."""
 
     @cached_property
-    def channel_names(self) -> frozenset[str]:
-        """Names of all channels."""
-        return frozenset(channel.name for channel in self.channels)
+    def channel_by_name(self) -> dict[str, Channel]:
+        """All channels by their names."""
+        return {channel.name: channel for channel in self.channels}
 
     def __attrs_post_init__(self) -> None:
         if not self.name or "/" in self.name:
             raise ValueError(f"a profile's name is what stands before the first '/' of its channels, not {self.name!r}")
         used_names = {*self.streams, *self.reads}.union(*[(write.channel, *write.then_read) for write in self.setup])
+        foreign_names = used_names - self.channel_by_name.keys()
         notified = {channel.name for channel in self.channels if channel.access is Access.NOTIFY}
         is_finite = 0.0 < self.nominal_rate < inf and 0.0 < self.stale_after < inf
         for is_wrong, what in (
-            (len(self.channel_names) != len(self.channels), "two channels have one name"),
-            (used_names - self.channel_names, f"no channel of its own: {sorted(used_names - self.channel_names)}"),
+            (len(self.channel_by_name) != len(self.channels), "two channels have one name"),
+            (foreign_names, f"no channel of its own: {sorted(foreign_names)}"),
             ({*self.streams} - notified, f"a stream is notified, and {sorted({*self.streams} - notified)} are not"),
             (not is_finite, "nominal_rate and stale_after are finite and above 0"),
         ):
@@ -99,10 +100,7 @@ class Profile:
 
     def channel(self, name: str) -> Channel:
         """Return the channel of this name; KeyError when there is none."""
-        for channel in self.channels:
-            if channel.name == name:
-                return channel
-        raise KeyError(name)
+        return self.channel_by_name[name]
 
 
 def ti_uuid(short: int) -> str:

@@ -89,10 +89,6 @@ class StreamLink(DeviceLink):
         self._update_settings(driver, reading)
         return self._make_events(reading, arrival) + out + self._take_slow_values(reading, arrival)
 
-    def driver_signature(self) -> DriverSignature:
-        """Return the signature of the driver that the link was made with."""
-        return self.signature
-
     def restart_clock(self) -> None:
         """Restart the clock fit and the times, because the receiver's clock restarted."""
         self.packet_run.clock, self.newest_arrival, self.last_t = None, None, None
@@ -210,7 +206,7 @@ class StreamLink(DeviceLink):
             difference, packets = run.count_packets(sequence, driver.sequence, ticks)
             return PacketPosition(sequence, int(reading.ticks), interval, count, difference, packets, ticks)
         if ticks > 0:  # ticks were cut to whole ones: the true distance may be up to one tick less
-            packets = max(1, round(ticks / run.packet_ticks)) if ticks - 1 >= MIN_LOSS_GAP * run.packet_ticks else 1
+            packets = round(ticks / run.packet_ticks) if ticks - 1 >= MIN_LOSS_GAP * run.packet_ticks else 1
         else:
             packets = 0 if ticks == 0 else min(-1, round(ticks / run.packet_ticks))
         return PacketPosition(0, int(reading.ticks), interval, count, packets, packets, ticks)

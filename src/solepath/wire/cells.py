@@ -9,8 +9,6 @@ import struct
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from construct import FormatFieldError, StreamError
-
 from .fields import Definition, malformed
 
 if TYPE_CHECKING:
@@ -59,7 +57,9 @@ def pack12(values: Sequence[int]) -> bytes:
 
 
 class Packed12(Definition):
-    """A construct for a block of 12-bit values; `count` returns their number from construct's context."""
+    """A construct for a block of 12-bit values; `count` returns their number from construct's context.
+
+    The record around it checks first that it has all of its bytes."""
 
     def __init__(self, count: Callable[[Any], int]) -> None:
         super().__init__()
@@ -67,13 +67,8 @@ class Packed12(Definition):
 
     def _parse(self, stream: IO[bytes], context: Any, path: str) -> tuple[int, ...]:
         count = self.count(context)
-        data = stream.read(packed_size(count))
-        if len(data) != packed_size(count):
-            raise StreamError(f"{count} values need {packed_size(count)} bytes, has {len(data)}", path=path)
-        return unpack12(data, count)
+        return unpack12(stream.read(packed_size(count)), count)
 
     def _build(self, obj: Any, stream: IO[bytes], context: Any, path: str) -> Any:
-        if len(obj) != self.count(context):
-            raise FormatFieldError(f"{len(obj)} values where {self.count(context)} belong", path=path)
         stream.write(pack12(obj))
         return obj

@@ -103,16 +103,21 @@ def malformed(detail: str) -> WireError:
     return WireError(Rejection.MALFORMED, detail)
 
 
+def decode(data: bytes, subject: str = "") -> str:
+    """Return the text of UTF-8 bytes, which may be none; `subject` begins the WireError for other bytes."""
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise malformed(f"{subject}not UTF-8: {error}") from error
+
+
 def parse_text(data: bytes) -> str:
     """Return the text of 1 to LONGEST_VALUE bytes of UTF-8, with a trailing NUL if it has one; WireError otherwise."""
     if not data:
         raise WireError(Rejection.TRUNCATED, "no text")
     if len(data) > LONGEST_VALUE:
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes, at most {LONGEST_VALUE}")
-    try:
-        return bytes(data).decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise malformed(f"not UTF-8: {error}") from error
+    return decode(bytes(data))
 
 
 def build_text(text: str) -> bytes:

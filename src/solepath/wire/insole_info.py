@@ -12,7 +12,7 @@ from ..types import Cell, Foot
 from ..types.attrs import frozen
 from .cells import Packed12, packed_size
 from .envelope import CRC_SIZE, INFO_TYPE, MAGIC, check_end, check_start, seal
-from .fields import Fields, build_whole, malformed, parse_whole, to_counts
+from .fields import Fields, build_whole, decode, malformed, parse_whole, to_counts
 from .insole import MAX_CELLS
 
 _RIGHT_FLAG = 1
@@ -97,10 +97,6 @@ def parse_info(data: bytes) -> InsoleInfo:
     if problem:
         raise malformed(problem)
     areas = [run.area / _COUNTS_PER_SQUARE_METRE for run in body.runs for _ in range(run.cells)]
-    try:
-        firmware = body.firmware.decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise malformed(f"the firmware name is not UTF-8: {error}") from error
     return InsoleInfo(
         foot=Foot.RIGHT if header.flags & _RIGHT_FLAG else Foot.LEFT,
         layout=header.layout,
@@ -115,7 +111,7 @@ def parse_info(data: bytes) -> InsoleInfo:
             Cell(x / _COUNTS_PER_METRE, (y - _Y_ZERO_COUNTS) / _COUNTS_PER_METRE, area)
             for x, y, area in zip(body.coordinates[0::2], body.coordinates[1::2], areas, strict=True)
         ),
-        firmware=firmware,
+        firmware=decode(body.firmware, "the firmware name is "),
     )
 
 

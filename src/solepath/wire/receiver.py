@@ -4,20 +4,19 @@ The values of receiver/restarted (the name of a channel) and receiver/trouble (a
 
 from __future__ import annotations
 
-from construct import Float32l, Float64l, Int8sl, Int8ul, Int32ul, Struct
+from construct import Int8sl, Int32ul
 
 from ..events import Rejection
 from ..types.attrs import frozen
 from .error import WireError
-from .fields import build_whole, malformed, parse_text, parse_whole
+from .fields import Fields, build_whole, decode, malformed, parse_text, parse_whole
 
 UNKNOWN_SIGNAL = 127
 """Signal strength that means unknown, as in the Bluetooth HCI; no receiver measures 127 dBm."""
 MAX_NAME_SIZE = 248
 """Largest size of a device name, bytes (Bluetooth Core, vol 3 part C, 12.1)."""
 
-_SIGMA = Struct("sigma" / Float32l, "kind" / Int8ul)
-_POSITION = Struct("x" / Float64l, "y" / Float64l)
+_SIGMA_AND_KIND, _POSITION = Fields("<fB"), Fields("<2d")
 _START, _WORLD, _PLAN, _PLACE = range(4)
 MAX_COORDINATE, MAX_SIGMA = 1e6, 1e4
 """Largest size of a coordinate and largest standard deviation of a position that a person reports, m."""
@@ -41,11 +40,7 @@ def parse_connected(data: bytes) -> ConnectionFrame:
     if len(data) > 1 + MAX_NAME_SIZE:
         raise WireError(Rejection.OVERSIZED, f"a name of {len(data) - 1} bytes, at most {MAX_NAME_SIZE}")
     signal: int = parse_whole(Int8sl, data[:1])
-    try:
-        name = data[1:].decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise malformed(f"not UTF-8: {error}") from error
-    return ConnectionFrame(name, None if signal == UNKNOWN_SIGNAL else signal)
+    return ConnectionFrame(decode(data[1:]), None if signal == UNKNOWN_SIGNAL else signal)
 
 
 def build_connected(connection: ConnectionFrame) -> bytes:
@@ -89,20 +84,19 @@ class PositionFrame:
 def parse_position(data: bytes) -> PositionFrame:
     """Return the content of receiver/position; WireError when the bytes do not fit."""
     data = bytes(data)
-    head, rest = parse_whole(_SIGMA, data[:5]), data[5:]
-    sigma: float = head.sigma
+    (sigma, kind), rest = parse_whole(_SIGMA_AND_KIND, data[:5]), data[5:]
     position: tuple[float, float] | None = None
     place = level = ""
-    if head.kind in (_WORLD, _PLAN):
-        parsed = parse_whole(_POSITION, rest[:16])
-        position, rest = (parsed.x, parsed.y), rest[16:]
-        if not all([abs(value) <= MAX_COORDINATE for value in position]):
+    if kind in (_WORLD, _PLAN):
+        x, y = position = parse_whole(_POSITION, rest[:16])
+        rest = rest[16:]
+        if not (abs(x) <= MAX_COORDINATE and abs(y) <= MAX_COORDINATE):
             raise malformed(f"a position {position} m")
-    elif head.kind not in (_START, _PLACE):
-        raise malformed(f"a position of kind {head.kind}")
-    if head.kind == _PLAN:
+    elif kind not in (_START, _PLACE):
+        raise malformed(f"a position of kind {kind}")
+    if kind == _PLAN:
         level, rest = _parse_name(rest), b""
-    elif head.kind == _PLACE:
+    elif kind == _PLACE:
         place, rest = _parse_name(rest), b""
     parse_nothing(rest)
     if not 0.0 < sigma <= MAX_SIGMA:
@@ -122,9 +116,9 @@ def build_position(frame: PositionFrame) -> bytes:
     if frame.place:
         kind, data = _PLACE, frame.place.encode("utf-8")
     elif frame.position is not None:
-        (x, y), level = frame.position, frame.level.encode("utf-8")
-        kind, data = _PLAN if level else _WORLD, build_whole(_POSITION, {"x": x, "y": y}) + level
-    data = build_whole(_SIGMA, {"sigma": frame.sigma, "kind": kind}) + data
+        level = frame.level.encode("utf-8")
+        kind, data = _PLAN if level else _WORLD, build_whole(_POSITION, frame.position) + level
+    data = build_whole(_SIGMA_AND_KIND, (frame.sigma, kind)) + data
     try:
         parsed = parse_position(data)
         if (parsed.position, parsed.place, parsed.level) != (frame.position, frame.place, frame.level):

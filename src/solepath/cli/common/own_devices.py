@@ -170,7 +170,7 @@ class UnusedPackets:
             return
         self.count[item.site] += 1
         kind, is_used = self.kinds.get(item.channel.partition("/")[0]), True
-        is_known = kind is not None and item.channel in kind.profile.channel_names
+        is_known = kind is not None and item.channel in kind.profile.channel_by_name
         for event in events:
             if isinstance(event, PacketRejected):
                 is_used = False

@@ -151,14 +151,14 @@ class InsoleLink(DeviceLink):
         self.info_digest = digest
         self.layout, self.cells, self.rate = info.layout, len(info.cells), info.tick_rate
         self.acc_scale, self.gyro_scale, self.pressure_scale = info.acc_scale, info.gyro_scale, info.pressure_scale
-        is_calibrated = info.pressure_scale > 0.0
+        scale = info.pressure_scale or None  # 0 if pressure is not calibrated
         layout = Layout(
             id=info.layout,
             foot=info.foot,
             cells=info.cells,
             length=info.length,
-            scale=info.pressure_scale if is_calibrated else None,
-            full_scale=FULL_PRESSURE_COUNTS * info.pressure_scale if is_calibrated else FULL_PRESSURE_COUNTS,
+            scale=scale,
+            full_scale=FULL_PRESSURE_COUNTS * (scale or 1.0),
         )
         return [LayoutKnown(t=arrival, known_at=arrival, site=self.site, layout=shared(layout))]
 

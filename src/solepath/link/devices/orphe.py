@@ -82,7 +82,7 @@ def _is_short_enough(digits: str, _: Any) -> bool:
 
 FORMATS = {
     "orphe/values": Struct(
-        "header" / OneOf(Int8ub, [50, 54, 55, 56]),
+        "header" / OneOf(Int8ub, _SAMPLES),
         "serial" / Int16ub,
         "hour" / OneOf(Int8ub, range(24)),
         "minute" / OneOf(Int8ub, range(60)),

@@ -149,7 +149,7 @@ class DeviceSetup:
     _watched: tuple[str, ...] = field(default=(), init=False)
     """Streams that must notify in time; none when silence is allowed."""
     _last_t: dict[str, float] = field(factory=dict, init=False)
-    """Time of the newest notification of each channel, s."""
+    """Time of the newest notification of each channel since the last setup, s."""
     _set_up_at: float = field(default=0.0, init=False)
     """Time at which the device was last set up, s."""
     _tries: int = field(default=0, init=False)
@@ -223,15 +223,16 @@ class DeviceSetup:
             if self._tries >= MAX_TRIES:
                 self.end = f"{channel} is frozen"
             else:
-                self._tries, self._set_up_at = self._tries + 1, now
+                self._tries += 1
+                self.restart_clock(now)
                 self._queue += self._writes(before_subscribing=True) + self._writes(before_subscribing=False)
                 self._advance(now)
-        elif all([self._last_t.get(stream, self._set_up_at) > self._set_up_at for stream in self._watched]):
+        elif self._last_t.keys() >= {*self._watched}:
             self._tries = 0
         return self._take_values()
 
     def restart_clock(self, now: float) -> None:
-        """Go on at `now`, s, after the clock restarted or was set: streams have their whole time again."""
+        """Go on at `now`, s, after a setup, or after the clock restarted or was set: streams have their whole time."""
         self._last_t.clear()
         self._set_up_at = now
 
@@ -246,7 +247,7 @@ class DeviceSetup:
 
         The CC2650's movement sensor is known to freeze (firmware before 1.12 on a weak coin cell); writing its
         configuration again restarts it."""
-        return max(self._last_t.get(stream, self._set_up_at), self._set_up_at) + self.profile.stale_after
+        return self._last_t.get(stream, self._set_up_at) + self.profile.stale_after
 
     def _read_site(self, now: float, info: bytes) -> None:
         try:
@@ -286,7 +287,8 @@ class DeviceSetup:
                 self.request = request
                 return
         if not self.is_listening:
-            self.is_listening, self._set_up_at = True, now
+            self.is_listening = True
+            self.restart_clock(now)
             self._watched = () if may_be_silent(self.member.site, self._written) else self.profile.streams
 
     def _take_request(self) -> Request:

@@ -50,7 +50,7 @@ class KnownDevices:
 
     def characteristic_of(self, name: str) -> list[Channel]:
         """Return the channels of the characteristic to which the channel of this name belongs."""
-        profile = next(profile for profile in self.profiles if name in profile.channel_names)
+        profile = next(profile for profile in self.profiles if name in profile.channel_by_name)
         return [
             channel for channel in profile.channels if channel.characteristic == profile.channel(name).characteristic
         ]
@@ -138,7 +138,7 @@ def _is_compatible(
 ) -> bool:
     """Return whether the attribute's discovery, if any, allows that it is the channel of this name."""
     address, handle = hint
-    if device.profile is not None and channel_name not in device.profile.channel_names:
+    if device.profile is not None and channel_name not in device.profile.channel_by_name:
         return False
     characteristics = {channel.characteristic for channel in known.characteristic_of(channel_name)}
     uuid = types.get(handle)
