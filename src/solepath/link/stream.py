@@ -265,8 +265,8 @@ class StreamLink(DeviceLink):
             self.periodic = PeriodicClock(count / rate)
         sample_times = self.periodic.add_packet(arrival, counts_losses=not self.may_be_silent)
         (last,), interval = sample_times.times, self.periodic.period / count
-        times = [last - (count - 1 - j) * interval for j in range(count)]
-        return SampleTimes(times, sample_times.lost_count, sample_times.t_missing)
+        sample_times.times = [last - (count - 1 - j) * interval for j in range(count)]
+        return sample_times
 
     def _make_increasing(self, t: float) -> float:
         if self.last_t is not None and t <= self.last_t:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import groupby
+from itertools import groupby, pairwise
 from math import isfinite
 from typing import NamedTuple
 
@@ -164,6 +164,6 @@ def _find_problem(header: _InfoHeader, runs: list[_AreaRun]) -> str:
     cells = sum([run.cells for run in runs])  # whole numbers
     if cells != header.cells or any([run.cells == 0 for run in runs]):
         return f"areas for {cells} of {header.cells} cells"
-    if any(a.area == b.area for a, b in zip(runs, runs[1:], strict=False)):
+    if any(a.area == b.area for a, b in pairwise(runs)):
         return "neighbouring areas that should be one run"
     return ""

@@ -109,7 +109,7 @@ class Assembler:
         if self.gyro_newest is None:
             return None
         t_b, b = self.gyro_newest
-        t_a, a = self.gyro_newest if self.gyro_before is None else self.gyro_before
+        t_a, a = self.gyro_before or self.gyro_newest
         if t_a <= t <= t_b and 0.0 < t_b - t_a <= MAX_GAP_PERIODS * period:
             k = (t - t_a) / (t_b - t_a)
             x, y, z = [p + k * (q - p) for p, q in zip(a, b, strict=True)]

@@ -163,11 +163,8 @@ class Cc2541Link(DeviceLink):
     @property
     def unsettled_until(self) -> float | None:
         """Newest time that is not comparable with times of other devices (clock.py), s."""
-        return (
-            self.acc_clock.clock.unsettled_until
-            if self.acc_clock.clock.last_device_time is not None
-            else self.gyro_clock.clock.unsettled_until
-        )
+        acc_time = self.acc_clock.clock.unsettled_until
+        return self.gyro_clock.clock.unsettled_until if acc_time is None else acc_time
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         value = parse_whole(FORMATS[channel], data)

@@ -103,12 +103,12 @@ class ScanFilter:
 
 def scan_filters(profiles: Iterable[Profile]) -> tuple[ScanFilter, ...]:
     """Return the conditions under which a scan or the chooser of a browser shows the devices of these profiles."""
-    conditions: dict[ScanFilter, None] = {}
+    conditions: list[ScanFilter] = []
     for profile in profiles:
-        conditions |= dict.fromkeys(ScanFilter(service=service) for service in profile.services)
-        conditions |= dict.fromkeys(ScanFilter(name=name) for name in profile.names)
-        conditions |= dict.fromkeys(ScanFilter(prefix=prefix) for prefix in profile.prefixes)
-    return tuple(conditions)
+        conditions += [ScanFilter(service=service) for service in profile.services]
+        conditions += [ScanFilter(name=name) for name in profile.names]
+        conditions += [ScanFilter(prefix=prefix) for prefix in profile.prefixes]
+    return tuple(dict.fromkeys(conditions))
 
 
 def used_services(profiles: Iterable[Profile]) -> tuple[str, ...]:
