@@ -26,6 +26,8 @@ def side(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> in
 
     Exact for all finite floats; fractions are used only where floats cannot decide."""
     u, v = (bx - ax) * (cy - ay), (by - ay) * (cx - ax)
+    if u == v and (ax == bx or ay == cy) and (ay == by or ax == cx):  # along x or y, as most walls are
+        return 0
     if abs(u - v) > _ROUNDING * (abs(u) + abs(v)) + UNDERFLOW:  # not if it is NaN, after an overflow
         return 1 if u > v else -1
     x, y = Fraction(ax), Fraction(ay)

@@ -23,7 +23,7 @@ class IndexedPlan:
 
     Raises FloorPlanError when the plan cannot be used."""
 
-    __slots__ = ("_insides", "_numbers", "_rooms", "_walls", "fingerprint", "plan", "stop_places")
+    __slots__ = ("_insides", "_numbers", "_rooms", "fingerprint", "plan", "stop_places", "walls")
 
     def __init__(self, plan: FloorPlan) -> None:
         fault = find_fault(plan)
@@ -37,8 +37,8 @@ class IndexedPlan:
         self.stop_places = [[stop.place for stop in level_stops] for level_stops in stops]
         """Places at which stairs and elevators are entered and left, m, plan frame, of each level."""
         scale = scale_cells(plan)
-        self._walls = [Walls([wall.line for wall in level.walls], scale) for level in plan.levels]
-        for level, walls in zip(plan.levels, self._walls, strict=True):
+        self.walls = [Walls([wall.line for wall in level.walls], scale) for level in plan.levels]
+        for level, walls in zip(plan.levels, self.walls, strict=True):
             densest, x, y = walls.find_densest()
             if densest > MAX_WALLS_NEAR:
                 raise FloorPlanError(f"level {level.id!r}: {densest} walls lie around ({x:.0f}, {y:.0f})")
@@ -46,7 +46,7 @@ class IndexedPlan:
                        for level, level_stops in zip(plan.levels, stops, strict=True)]  # fmt: skip
         self._insides: list[Rooms | Enclosure] = [
             rooms if level.rooms else Enclosure(level, walls, len(plan.levels))
-            for level, walls, rooms in zip(plan.levels, self._walls, self._rooms, strict=True)
+            for level, walls, rooms in zip(plan.levels, self.walls, self._rooms, strict=True)
         ]
 
     def number(self, level: str) -> int:
@@ -60,7 +60,7 @@ class IndexedPlan:
 
         Touching a wall or a corner counts. Doors are gaps. Accepts any floats; True for a move with an end that is NaN
         or infinite."""
-        return self._walls[level].crosses(x0, y0, x1, y1)
+        return self.walls[level].crosses(x0, y0, x1, y1)
 
     def inside(self, level: int, x: float, y: float) -> bool:
         """Return whether a person can be at (x, y), m, plan frame, on this level.

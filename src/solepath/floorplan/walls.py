@@ -1,13 +1,14 @@
 """Test whether a straight move of a candidate crosses a wall, over square cells.
 
-A cell lists the walls within MAX_SHORT_MOVE of it and its distance from the nearest one. A move shorter than this
-distance crosses nothing. Other moves up to MAX_SHORT_MOVE are tested against the walls of their first cell, and longer
-moves against the walls of all cells along them. The signed distances of both ends from a wall's line and of a wall's
-ends from the move's line decide for most walls; else the exact test (geometry.py) does."""
+A cell lists the walls within MAX_SHORT_MOVE of it, the nearest first, and its distance from that. A move shorter than
+this distance crosses nothing. Other moves up to MAX_SHORT_MOVE are tested against the walls of their first cell: the
+signed distances of both ends from a wall's line and of a wall's ends from the move's line decide for most of them, else
+the exact test (geometry.py). Longer moves, which are rare, have this test with the walls of all cells along them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import chain
 from math import ceil, hypot, isfinite, sqrt
 
 from .geometry import UNDERFLOW, distance, touch
@@ -74,8 +75,7 @@ class Walls:
             for cell, far in find_cells(wall[3:], MAX_SHORT_MOVE, self._size):
                 near.setdefault(cell, []).append((far, wall))
         self._cells = {
-            cell: (min([far for far, _ in found]) ** 2, tuple([wall for _, wall in found]))
-            for cell, found in near.items()
+            cell: (min(found)[0] ** 2, tuple([wall for _, wall in sorted(found)])) for cell, found in near.items()
         }
 
     def crosses(self, x0: float, y0: float, x1: float, y1: float) -> bool:
@@ -88,16 +88,35 @@ class Walls:
             return self._crosses_far(x0, y0, x1, y1)
         size = self._size
         cell = self._cells.get(x0 // size * CELLS_PER_COLUMN + y0 // size)
-        return cell is not None and length2 >= cell[0] and _touches_any(cell[1], x0, y0, x1, y1)
+        if cell is None or length2 < cell[0]:
+            return False
+        margin = _SIDE_MARGIN * (abs(dx) + abs(dy)) + UNDERFLOW
+        certain = margin + _SIDE_MARGIN * _SIDE_MARGIN  # distances differ by the move's length: then both are certain
+        for a, b, c, ax, ay, bx, by in cell[1]:
+            sides = (a * x0 + b * y0 - c) * (a * x1 + b * y1 - c)
+            if sides > certain:
+                continue
+            if sides < -certain:  # the move crosses the wall's line: does it pass between its ends?
+                left = dx * (ay - y0) - dy * (ax - x0)
+                right = dx * (by - y0) - dy * (bx - x0)
+                if left > margin < right or left < -margin > right:
+                    continue
+                if left > margin > -margin > right or left < -margin < margin < right:
+                    return True
+            if touch(ax, ay, bx, by, x0, y0, x1, y1):
+                return True
+        return False
 
     def _crosses_far(self, x0: float, y0: float, x1: float, y1: float) -> bool:
         if not all(map(isfinite, (x0, y0, x1, y1))):
             return True
         pieces = hypot(x1 - x0, y1 - y0) / _PIECE_LENGTH
         if pieces > len(self._walls):
-            return any(touch(*wall[3:], x0, y0, x1, y1) for wall in self._walls)
-        dx, dy = (x1 - x0) / ceil(pieces), (y1 - y0) / ceil(pieces)
-        return any(_touches_any(self._list(x0 + k * dx, y0 + k * dy), x0, y0, x1, y1) for k in range(ceil(pieces)))
+            near: Iterable[_Wall] = self._walls
+        else:
+            dx, dy = (x1 - x0) / ceil(pieces), (y1 - y0) / ceil(pieces)
+            near = chain(*[self._list(x0 + k * dx, y0 + k * dy) for k in range(ceil(pieces))])
+        return any(touch(*wall[3:], x0, y0, x1, y1) for wall in near)
 
     def _list(self, x: float, y: float) -> tuple[_Wall, ...]:
         return self._cells.get(x // self._size * CELLS_PER_COLUMN + y // self._size, (0.0, ()))[1]
@@ -111,26 +130,6 @@ class Walls:
         count, cell = max([(len(found), cell) for cell, (_, found) in self._cells.items()], default=(0, 0.0))
         column = round(cell / CELLS_PER_COLUMN)
         return count, (column + 0.5) * self._size, (cell - column * CELLS_PER_COLUMN + 0.5) * self._size
-
-
-def _touches_any(walls: tuple[_Wall, ...], x0: float, y0: float, x1: float, y1: float) -> bool:
-    dx, dy = x1 - x0, y1 - y0
-    margin = _SIDE_MARGIN * (abs(dx) + abs(dy)) + UNDERFLOW
-    for a, b, c, ax, ay, bx, by in walls:
-        before = a * x0 + b * y0 - c
-        after = a * x1 + b * y1 - c
-        if before > _SIDE_MARGIN < after or before < -_SIDE_MARGIN > after:
-            continue
-        if abs(before) > _SIDE_MARGIN < abs(after):  # the move crosses the wall's line: does it pass between its ends?
-            left = dx * (ay - y0) - dy * (ax - x0)
-            right = dx * (by - y0) - dy * (bx - x0)
-            if left > margin < right or left < -margin > right:
-                continue
-            if abs(left) > margin < abs(right):
-                return True
-        if touch(ax, ay, bx, by, x0, y0, x1, y1):
-            return True
-    return False
 
 
 def _make_wall(ax: float, ay: float, bx: float, by: float) -> _Wall:

@@ -42,6 +42,10 @@ class Particle(NamedTuple):
         dx, dy = move
         return self.x + self.a * dx - self.b * dy, self.y + self.b * dx + self.a * dy
 
+    def at(self, x: float, y: float) -> Particle:
+        """Return the particle at another place, m."""
+        return _new(Particle, (x, y, *self[2:]))
+
     def weighing(self, weight: float) -> Particle:
         """Return the particle with another weight."""
         return _new(Particle, (*self[:4], weight, *self[5:]))
@@ -183,7 +187,7 @@ def sway(
 
     `error_factor` multiplies the track's usual errors, `turn` is the size of the wearer's turn, rad, and `random` the
     first index in the table. With `both_sides`, a particle at a wall continues on both sides, not only the free one."""
-    crosses, new = plan.crosses, _new
+    walls, new = plan.walls, _new
     kept: list[Particle] = []
     for k, factor, bends in ((random, error_factor, BEND_ANGLES), (random + 499, 2.0 * error_factor, WIDE_BEND_ANGLES)):
         turn_error, stretch = factor * (HEADING_NOISE + TURN_NOISE * turn), factor * STRETCH_NOISE
@@ -196,7 +200,7 @@ def sway(
             h = turn_error * eh
             a1, b1 = a * s - b * h, b * s + a * h
             nx, ny = x + a1 * dx - b1 * dy + move_error * ex, y + b1 * dx + a1 * dy + move_error * ey
-            if crosses(level, x, y, nx, ny):
+            if walls[level].crosses(x, y, nx, ny):
                 blocked.append(particle)
             else:
                 kept.append(new(Particle, (nx, ny, a1, b1, w, level, origin, 0)))
@@ -213,7 +217,7 @@ def sway(
                     h, s = h + turn_error * es, 1.0 - 0.5 * h * h
                     a1, b1 = a * s - b * h, b * s + a * h
                     nx, ny = x + a1 * dx - b1 * dy + error_x, y + b1 * dx + a1 * dy + error_y
-                    if not crosses(level, x, y, nx, ny):
+                    if not walls[level].crosses(x, y, nx, ny):
                         kept.append(new(Particle, (nx, ny, a1, b1, w, level, origin, 0)))
                         if not both_sides:
                             break
@@ -233,7 +237,7 @@ def move_across_gap(plan: IndexedPlan, particles: list[Particle], move: Point, r
     moved: list[Particle] = []
     for k in range(2 * len(particles)):
         (x, y), (ex, ey, _, _) = particles[k // 2].after(move), NOISE_TABLE[(random + k) % NOISE_ENTRIES]
-        moved.append(particles[k // 2]._replace(x=x + error * ex, y=y + error * ey))
+        moved.append(particles[k // 2].at(x + error * ex, y + error * ey))
     return [one for one in moved if plan.inside(one.level, one.x, one.y)]
 
 
@@ -263,7 +267,7 @@ def after_wrong_turn(plan: IndexedPlan, particles: list[Particle], displacement:
 def moved_freely(plan: IndexedPlan, particles: list[Particle], move: Point) -> list[Particle]:
     """Return the particles after a move of the track, m, without those that cross a wall."""
     moved = [(one, *one.after(move)) for one in particles]
-    return [one._replace(x=x, y=y) for one, x, y in moved if not plan.crosses(one.level, one.x, one.y, x, y)]
+    return [one.at(x, y) for one, x, y in moved if not plan.crosses(one.level, one.x, one.y, x, y)]
 
 
 # Candidates: groups of particles that are near each other.
@@ -358,7 +362,7 @@ def candidates_of(
     is below `limit`, m. There must be a particle. Places are rounded to a millimetre, because they are saved."""
     x0, y0 = plan.origin
     if (x0, y0) != (0.0, 0.0):  # sums of large coordinates would lose digits
-        particles = [particle._replace(x=particle.x - x0, y=particle.y - y0) for particle in particles]
+        particles = [particle.at(particle.x - x0, particle.y - y0) for particle in particles]
     groups = sorted(_group(particles, limit), key=lambda group: group.weight, reverse=True)
     total = fsum([group.weight for group in groups])
     groups = [group for group in groups if group.weight >= MIN_CANDIDATE_WEIGHT * total]

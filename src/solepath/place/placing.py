@@ -262,8 +262,7 @@ class Particles(Part):
     ) -> list[Particle]:
         """Return all particles after a move of the track, m."""
         # on stairs a particle follows the track, because the walls of neither level apply
-        ends = [(one, *one.after(move)) for one in particles if one.landing]
-        moved = [one._replace(x=x, y=y) for one, x, y in ends]
+        moved = [one.at(*one.after(move)) for one in particles if one.landing]
         walking = [one for one in particles if not one.landing] if moved else particles
         count = self.settings.max_particles
         if hypot(*move) > MAX_MOVE:
