@@ -85,7 +85,7 @@ def test_without_rooms_one_is_inside_what_the_walls_and_doors_enclose() -> None:
     plan = IndexedPlan(HOUSE)
     for x, y in ((0.01, 0.01), (5.0, 3.0), (9.99, 5.99), (4.5, 0.01)):
         assert plan.inside(0, x, y)
-    for x, y in ((-0.01, 3.0), (4.5, -0.01), (10.01, 3.0), (50.0, 3.0), (5.0, 6.01)):
+    for x, y in ((-0.01, 3.0), (4.5, -0.01), (10.01, 3.0), (50.0, 3.0), (5.0, 6.01), (10.7, 6.7)):
         assert not plan.inside(0, x, y)
 
 

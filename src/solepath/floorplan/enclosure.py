@@ -30,8 +30,7 @@ class Enclosure:
 
     `walls` are those of the level, `count` is the number of levels of the plan."""
 
-    __slots__ = ("_barriers", "_bottom", "_enclosed", "_hull", "_left", "_right", "_space", "_top", "open_end",
-                 "outside")  # fmt: skip
+    __slots__ = ("_barriers", "_bottom", "_enclosed", "_hull", "_left", "_space", "open_end", "outside")
 
     def __init__(self, level: Level, walls: Walls, count: int) -> None:
         doors = [door.line for door in level.doors if door.start != door.end]
@@ -44,7 +43,6 @@ class Enclosure:
         # an odd fraction, so that walls at round numbers do not lie on the lattice
         self._left, self._bottom = xs[0] - 1.37 * self._space, ys[0] - 1.37 * self._space
         columns, rows = ceil(width / self._space) + 3, ceil(depth / self._space) + 3
-        self._right, self._top = self._left + columns * self._space, self._bottom + rows * self._space
         self._enclosed = {(i, j): True for i in range(columns) for j in range(rows)}
         self.outside = list(self._flood())
         """The points outside, m, in the order in which the flood fill reaches them."""
@@ -87,7 +85,7 @@ class Enclosure:
             ends = zip(self._hull, self._hull[1:] + self._hull[:1], strict=True)
             return all(side(*a, *b, x, y) >= 0 for a, b in ends)
         i, j = self._find_nearest(x, y)
-        if not (self._left <= x <= self._right and self._bottom <= y <= self._top):
+        if (i, j) not in self._enclosed:
             return False
         for near in ((i, j), (i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
             if near in self._enclosed and not self._barriers.crosses(x, y, *self._point(*near)):
