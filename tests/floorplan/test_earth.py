@@ -26,7 +26,7 @@ def test_a_bearing_turns_the_plan_clockwise_from_north() -> None:
 
 
 def test_places_without_an_anchor_get_their_south_west_corner() -> None:
-    assert south_west([(48.151, 11.57), (48.15, 11.58)]) == Anchor(48.15, 11.57, 0.0)
+    assert south_west([(11.57, 48.151), (11.58, 48.15)]) == Anchor(48.15, 11.57, 0.0)
 
 
 @pytest.mark.parametrize(("latitude", "longitude"), [(48.5, 11.57), (-48.15, -168.43), (91.0, 0.0), (math.nan, 0.0)])

@@ -52,13 +52,13 @@ def _earth_fixed(latitude: float, longitude: float) -> tuple[float, float, float
     return axis_distance * cos(longitude), axis_distance * sin(longitude), prime * (1.0 - _E2) * sin(latitude)
 
 
-def south_west(places: list[tuple[float, float]]) -> Anchor:
-    """Return the south-west corner of points (latitude, longitude), degrees, as an anchor with +y to the north.
+def south_west(positions: list[tuple[float, float]]) -> Anchor:
+    """Return the south-west corner of points (longitude, latitude), degrees, as an anchor with +y to the north.
 
     It is rounded to 1e-7 degrees (1 cm). Raises FloorPlanError without points, and when they cannot be degrees."""
-    if not places:
+    if not positions:
         raise FloorPlanError("nothing is drawn in it")
-    latitudes, longitudes = zip(*places, strict=True)
+    longitudes, latitudes = zip(*positions, strict=True)
     latitude, longitude = min(latitudes), min(longitudes)
     if not (latitude >= -MAX_LATITUDE and max(latitudes) <= MAX_LATITUDE and abs(longitude) <= 180.0):
         raise FloorPlanError(f"latitude {latitude:g}, longitude {longitude:g} cannot be degrees: is it in metres?")

@@ -188,8 +188,7 @@ def parse_positions(value: object, feature: Feature, depth: int = 0) -> Any:
 
 def find_anchor(features: Iterable[Feature]) -> Anchor:
     """Return the south-west corner of all features, degrees, as an anchor."""
-    lines = chain(*[part for feature in features for part in feature.lines])
-    return south_west([(latitude, longitude) for longitude, latitude in chain(*lines)])
+    return south_west([*chain(*chain(*[part for feature in features for part in feature.lines]))])
 
 
 def parse_number(value: object, what: str) -> float:

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from itertools import groupby, pairwise
 
-from ..geometry import Ring, edges
+from ..geometry import Ring
 from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent
@@ -122,9 +122,7 @@ class _ImdfReader:
             self._names[feature.id] = name
             self._drawing.storeys[name] = Storey(self._label(feature, "name") or name, ordinal, float(ordinal))
             if feature.properties.get("outdoor") is not True:
-                for rings in self._rings(feature):
-                    for line in rings:
-                        self._drawing.storeys[name].lines += edges(line)
+                self._space(feature, name, Border.SOLID)
 
     def _level(self, feature: Feature) -> str:
         level = feature.properties.get("level_id")

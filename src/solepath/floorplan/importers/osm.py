@@ -7,11 +7,13 @@ are outlines (drawing.py), and levels lie one storey apart. Everything in the fi
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from itertools import chain, groupby, pairwise
 from math import floor, hypot, inf
 
+from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_RISE, MIN_RISE
-from ..geometry import Ring, distance, edges, share_along
+from ..geometry import Ring, distance, share_along
 from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point
 from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
@@ -19,10 +21,11 @@ from .earth import Tangent, south_west, to_mm
 from .osm_file import Element, OsmFile, Refs, find_shapes, parse_elements
 
 BORDERS = {"room": Border.WALL, "corridor": Border.OPEN, "area": Border.FREE, "column": Border.SOLID,
-           "wall": Border.SOLID}  # fmt: skip
+           "wall": Border.SOLID, "level": Border.SOLID}  # fmt: skip
 """Border for each value of indoor=* (OpenStreetMap wiki, Key:indoor).
 
-The values mean: a room with walls, a walled walkway between rooms, an area without walls, a pillar, a wall."""
+The values mean: a room with walls, a walled walkway between rooms, an area without walls, a pillar, a wall, and a whole
+level, of which the outline is a wall and no room."""
 
 CONNECTORS = {
     ("highway", "elevator"): ConnectorKind.LIFT,
@@ -58,15 +61,15 @@ def parse_levels(text: str) -> list[float]:
     return sorted(levels)
 
 
-def levels_of(element: Element) -> list[float]:
-    """Return the levels that an element is on, by `level` and `repeat_on`."""
+def levels_of(element: Element) -> dict[str, float]:
+    """Return the levels that an element is on, by `level` and `repeat_on`, ascending, each by its id."""
     levels: set[float] = set()
     for key in [key for key in ("level", "repeat_on") if key in element.tags]:
         try:
             levels.update(parse_levels(element.tags[key]))
         except FloorPlanError as error:
             raise FloorPlanError(f"{element.name}: its {key} {error}") from None
-    return sorted(levels)
+    return {f"{level:g}": level for level in sorted(levels)}
 
 
 def connector_kind(element: Element) -> ConnectorKind | None:
@@ -82,7 +85,7 @@ def is_door(element: Element) -> bool:
 
 def is_indoor(element: Element) -> bool:
     """Return whether the element draws something inside a building, on known levels."""
-    draws = element.tags.get("indoor") in (*BORDERS, "level") or connector_kind(element) is not None or is_door(element)
+    draws = element.tags.get("indoor") in BORDERS or connector_kind(element) is not None or is_door(element)
     return draws and ("level" in element.tags or "repeat_on" in element.tags)
 
 
@@ -155,123 +158,127 @@ def read_osm(data: bytes, storey: float) -> FloorPlan:
     return _OsmReader(parse_elements(data)).plan(storey)
 
 
+@define
+class _Drawn:
+    """An element that draws something on its levels: shapes and lines of a way or relation, or a node."""
+
+    element: Element
+    shapes: list[list[Refs]] = field(factory=list)
+    lines: list[Refs] = field(factory=list)
+    levels: dict[str, float] = field(init=False)
+
+    def __attrs_post_init__(self) -> None:
+        self.levels = levels_of(self.element)
+
+    @property
+    def chains(self) -> list[Refs]:
+        """All lines and rings as chains of nodes."""
+        return [*self.lines, *chain(*self.shapes)]
+
+
 class _OsmReader:
     """The conversion of the elements of one file into a Drawing."""
 
     def __init__(self, file: OsmFile) -> None:
-        drawn_elements = [element for element in (*file.way.values(), *file.relation.values()) if is_indoor(element)]
-        self._shapes = [(element, *find_shapes(element, file)) for element in drawn_elements]
-        drawn_refs = {ref for _, shapes, lines in self._shapes for refs in _join_shapes(shapes, lines) for ref in refs}
-        nodes_drawn = [
-            element for element in file.node.values() if connector_kind(element) is not None or is_door(element)
-        ]
-        self._nodes = [element for element in nodes_drawn if element.id in drawn_refs or is_indoor(element)]
+        ways = [*file.way.values(), *file.relation.values()]
+        self._ways = [_Drawn(way, *find_shapes(way, file)) for way in ways if is_indoor(way)]
+        drawn_refs = {ref for way in self._ways for ref in chain(*way.chains)}
         if not drawn_refs:
             raise FloorPlanError("has no ways or relations with indoor=* and level=*")
+        self._nodes = [
+            _Drawn(node) for node in file.node.values()
+            if is_indoor(node) or node.id in drawn_refs and (connector_kind(node) is not None or is_door(node))
+        ]  # fmt: skip
         nodes = [file.node[ref] for ref in sorted(drawn_refs)] + [
-            element for element in self._nodes if element.id not in drawn_refs
+            node.element for node in self._nodes if node.element.id not in drawn_refs
         ]
-        self._anchor = south_west([(node.latitude, node.longitude) for node in nodes])
+        self._anchor = south_west([node.position for node in nodes])
         tangent = Tangent(self._anchor)
         self._places: dict[str, Point] = {}
         for node in nodes:
             try:
-                self._places[node.id] = tangent.place((node.longitude, node.latitude))
+                self._places[node.id] = tangent.place(node.position)
             except FloorPlanError as error:
                 raise FloorPlanError(f"{node.name}: {error}") from None
         named = [element.tags["name"] for element in (*file.relation.values(), *file.way.values())
                  if "building" in element.tags and element.tags.get("name")]  # fmt: skip
         self._drawing = Drawing(named[0] if named else "")
-        self._levels = {element.id: levels_of(element) for element in self._nodes}
         self._neighbours: dict[str, dict[str, list[str]]] = {}
         """Nodes that a wall joins to each node, by level and node."""
         self._walls_by_level: dict[str, Walls] = {}
 
     def plan(self, storey: float) -> FloorPlan:
         self._storeys()
-        for element, shapes, lines in self._shapes:
-            self._draw(element, shapes, lines)
-        for element in self._nodes:
-            self._draw_node(element)
+        for way in self._ways:
+            self._draw(way)
+        for node in self._nodes:
+            self._draw_node(node)
         self._remove_inner_flights()
         return self._drawing.plan(self._anchor, storey)
 
     def _storeys(self) -> None:
-        levels = sorted({level for element, *_ in self._shapes for level in levels_of(element)}
-                       | {level for node_levels in self._levels.values() for level in node_levels})  # fmt: skip
+        levels = sorted({level for one in self._ways + self._nodes for level in one.levels.values()})
         all_whole, count_below = all(level == floor(level) for level in levels), sum(level < 0.0 for level in levels)
         for i, level in enumerate(levels):
             own_id = f"{level:g}"
             self._drawing.storeys[own_id] = Storey(own_id, int(level) if all_whole else i - count_below, level)
-        for element, *_ in self._shapes:
-            if element.tags.get("indoor") == "level":
-                name = element.tags.get("name") or element.tags.get("level:ref")
-                for level in levels_of(element):
-                    if name:
-                        self._drawing.storeys[f"{level:g}"].name = name
+        for way in self._ways:
+            tags = way.element.tags
+            name = tags.get("name") or tags.get("level:ref") if tags.get("indoor") == "level" else None
+            for own_id in way.levels if name else ():
+                self._drawing.storeys[own_id].name = name or own_id
 
-    def _draw(self, element: Element, shapes: list[list[Refs]], lines: list[Refs]) -> None:
-        level_ids = [f"{level:g}" for level in levels_of(element)]
-        kind, indoor = connector_kind(element), element.tags.get("indoor", "")
+    def _draw(self, way: _Drawn) -> None:
+        element, indoor = way.element, way.element.tags.get("indoor", "")
+        kind = connector_kind(element)
         if kind is not None:
-            self._connector(element, kind, level_ids, shapes, lines)
-        elif indoor == "level" or indoor in BORDERS:
-            self._space(element, level_ids, shapes, lines, BORDERS.get(indoor))
+            self._connector(way, kind)
+        elif indoor in BORDERS:
+            self._space(way, BORDERS[indoor])
         else:
-            chains = _join_shapes(shapes, lines)
-            for level in level_ids:
-                self._drawing.storeys[level].doors += [
-                    Door(a, b, label_of(element)) for refs in chains for a, b in self._lines(refs)
-                ]
+            doors = [Door(*line, label_of(element)) for refs in way.chains for line in pairwise(self._line(refs))]
+            for level in way.levels:
+                self._drawing.storeys[level].doors += doors
 
-    def _space(self, element: Element, level_ids: list[str], shapes: list[list[Refs]], lines: list[Refs],
-               border: Border | None) -> None:  # fmt: skip
-        """Draw a space; `border` is None for the outline of a level, which is a wall and no room."""
-        if lines and element.tags["indoor"] != "wall":
-            self._drawing.remarks.append(f"{element.name}: its outline does not close")
-        outlines = self._outlines(shapes)
-        for level in level_ids:
+    def _space(self, way: _Drawn, border: Border) -> None:
+        if way.lines and way.element.tags["indoor"] != "wall":
+            self._drawing.remarks.append(f"{way.element.name}: its outline does not close")
+        for level in way.levels:
             storey = self._drawing.storeys[level]
-            if border in (None, Border.SOLID):
-                storey.lines += [line for rings in outlines for ring in rings for line in edges(ring)]
-            else:
-                storey.spaces += [Space(rings, border, label_of(element)) for rings in outlines if border]
+            storey.spaces += [Space(rings, border, label_of(way.element)) for rings in self._outlines(way)]
             if border is not Border.FREE:
-                storey.lines += [(*a, *b) for refs in lines for a, b in self._lines(refs)]
-                self._add_walls(level, shapes, lines)
+                storey.lines += [(*a, *b) for refs in way.lines for a, b in pairwise(self._line(refs))]
+                self._add_walls(level, way.chains)
 
-    def _connector(self, element: Element, kind: ConnectorKind, level_ids: list[str], shapes: list[list[Refs]],
-                   lines: list[Refs]) -> None:  # fmt: skip
+    def _connector(self, way: _Drawn, kind: ConnectorKind) -> None:
+        element, parts = way.element, self._drawing.parts
         rise = parse_length(element.tags.get("step:height"))
         rise = rise if MIN_RISE <= (rise or 0.0) <= MAX_RISE else None
-        for rings in self._outlines(shapes):
-            parts = self._drawing.parts
-            parts += [
-                ConnectorPart(kind, label_of(element), level, None, rings, element.name, rise) for level in level_ids
-            ]
-        for level in level_ids:
-            self._add_walls(level, shapes, [])
-        for refs in lines:
+        label, group = label_of(element), element.name
+        for rings in self._outlines(way):
+            parts += [ConnectorPart(kind, label, level, None, rings, group, rise) for level in way.levels]
+        for level in way.levels:
+            self._add_walls(level, chain(*way.shapes))
+        for refs in way.lines:
             up = refs[::-1] if element.tags.get("incline", "up").startswith(("down", "-")) else refs
-            for i, level in enumerate(level_ids):  # the ends are known; levels in between are interpolated
-                place = self._places[up[round(i * (len(up) - 1) / max(len(level_ids) - 1, 1))]]
-                self._drawing.parts.append(ConnectorPart(kind, label_of(element), level, place, (), element.name, rise))
+            for i, level in enumerate(way.levels):  # the ends are known; levels in between are interpolated
+                place = self._places[up[round(i * (len(up) - 1) / max(len(way.levels) - 1, 1))]]
+                parts.append(ConnectorPart(kind, label, level, place, (), group, rise))
 
-    def _outlines(self, shapes: list[list[Refs]]) -> list[tuple[Ring, ...]]:
+    def _line(self, refs: Refs) -> list[Point]:
+        """Return the places of nodes, m, plan frame, each different from the one before it."""
+        return [place for place, _ in groupby([self._places[ref] for ref in refs])]
+
+    def _outlines(self, way: _Drawn) -> list[tuple[Ring, ...]]:
         """Return the outline and the holes of each shape, m, plan frame."""
-        outlines = []
-        for shape in shapes:
-            rings = [tuple([place for place, _ in groupby([self._places[ref] for ref in refs])]) for refs in shape]
-            outlines.append(tuple([ring for ring in rings if len(set(ring)) >= 3]))
+        shapes = [[tuple(self._line(refs[:-1])) for refs in shape] for shape in way.shapes]
+        outlines = [tuple([ring for ring in rings if len(set(ring)) >= 3]) for rings in shapes]
         return [rings for rings in outlines if rings]
 
-    def _lines(self, refs: Refs) -> list[tuple[Point, Point]]:
-        return list(pairwise([place for place, _ in groupby([self._places[ref] for ref in refs])]))
-
-    def _add_walls(self, level: str, shapes: list[list[Refs]], lines: list[Refs]) -> None:
+    def _add_walls(self, level: str, chains: Iterable[Refs]) -> None:
         """Add the pairs of nodes that walls join to `_neighbours`."""
         neighbours = self._neighbours.setdefault(level, {})
-        for a, b in chain(*map(pairwise, _join_shapes(shapes, lines))):
+        for a, b in chain(*map(pairwise, chains)):
             neighbours.setdefault(a, []).append(b)
             neighbours.setdefault(b, []).append(a)
 
@@ -286,35 +293,27 @@ class _OsmReader:
         inner = {group for group, _, _ in flights} - outer
         self._drawing.parts = [part for part in self._drawing.parts if part.group not in inner]
 
-    def _draw_node(self, element: Element) -> None:
+    def _draw_node(self, node: _Drawn) -> None:
+        element, label = node.element, label_of(node.element)
         kind, place = connector_kind(element), self._places[element.id]
-        level_ids = [f"{level:g}" for level in self._levels[element.id]]
         if kind is not None:
-            self._drawing.parts += [
-                ConnectorPart(kind, label_of(element), level, place, (), element.name) for level in level_ids
-            ]
+            self._drawing.parts += [ConnectorPart(kind, label, level, place, (), element.name) for level in node.levels]
             return
         width = parse_length(element.tags.get("width", element.tags.get("door:width"))) or 0.0
         width = width if MIN_DOOR_WIDTH <= width <= MAX_DOOR_WIDTH else DEFAULT_DOOR_WIDTH
-        for level in level_ids or sorted(self._neighbours):
+        for level in node.levels or sorted(self._neighbours):
             neighbours = [self._places[ref] for ref in self._neighbours.get(level, {}).get(element.id, [])]
             line = door_at(place, neighbours, width)
-            if line is None and level_ids:
+            if line is None and node.levels:
                 line = door_beside(place, self._near(place, level), width)
                 if line is None:
                     self._drawing.remarks.append(f"{element.name}: a door on level {level!r} that is in no wall")
             if line is not None:
-                self._drawing.storeys[level].doors.append(Door(*line, label_of(element)))
+                self._drawing.storeys[level].doors.append(Door(*line, label))
 
     def _near(self, place: Point, level: str) -> list[Line]:
-        walls = self._walls_by_level.get(level)
-        if walls is None:
+        if level not in self._walls_by_level:
             pairs = [(self._places[a], self._places[b])
                      for a, others in self._neighbours.get(level, {}).items() for b in others]  # fmt: skip
-            walls = self._walls_by_level[level] = Walls([(*a, *b) for a, b in pairs if a != b])
-        return walls.near(*place)
-
-
-def _join_shapes(shapes: list[list[Refs]], lines: list[Refs]) -> list[Refs]:
-    """Return all lines and rings as chains of nodes, in which a ring repeats its first node."""
-    return [*lines, *([*refs, refs[0]] for shape in shapes for refs in shape)]
+            self._walls_by_level[level] = Walls([(*a, *b) for a, b in pairs if a != b])
+        return self._walls_by_level[level].near(*place)

@@ -7,28 +7,27 @@ from __future__ import annotations
 from itertools import groupby
 from math import inf
 from typing import NoReturn
+from xml.etree.ElementTree import XML, ParseError, TreeBuilder, XMLParser
 from xml.etree.ElementTree import Element as XmlElement
-from xml.etree.ElementTree import TreeBuilder
-from xml.parsers import expat
+from xml.parsers.expat import ErrorString
 
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ..plan import FloorPlanError
 
 MAX_XML_TAGS = 4_000_000
 """Largest number of tags that begin and end elements."""
 
 
-@define
+@frozen
 class Element:
     """A node, a way or a relation.
 
-    `latitude` and `longitude` of a node are in degrees. `refs` of a way are the ids of its nodes. `members` of a
-    relation are (kind, ref, role)."""
+    `position` of a node is its longitude and latitude, degrees. `refs` of a way are the ids of its nodes. `members` of
+    a relation are (kind, ref, role)."""
 
     kind: str
     id: str
-    latitude: float
-    longitude: float
+    position: tuple[float, float]
     refs: list[str]
     members: list[tuple[str, str, str]]
     tags: dict[str, str]
@@ -48,55 +47,47 @@ class OsmFile:
     relation: dict[str, Element] = field(factory=dict)
 
 
+class _Builder(TreeBuilder):
+    def doctype(self, *_: object) -> NoReturn:
+        """Reject the declaration."""
+        raise FloorPlanError("has a document type, which no OpenStreetMap file has")
+
+
 def parse_elements(data: bytes) -> OsmFile:
     """Return all elements of an OSM XML file that are not marked as deleted; raise FloorPlanError for other data."""
     if data.count(b"<") > MAX_XML_TAGS:
         raise FloorPlanError(f"has more than {MAX_XML_TAGS} tags")
-    parser, builder = expat.ParserCreate(), TreeBuilder()
-
-    def start_root(tag: str, attributes: dict[str, str]) -> None:
-        if tag != "osm":
-            raise FloorPlanError(f"is XML, but not of OpenStreetMap: its root is {tag[:40]!r}")
-        parser.StartElementHandler = builder.start
-        builder.start(tag, attributes)
-
-    parser.StartElementHandler, parser.EndElementHandler = start_root, builder.end
-    parser.StartDoctypeDeclHandler = _reject_doctype
     try:
-        parser.Parse(data, True)
-    except expat.ExpatError as error:
-        raise FloorPlanError(f"is not XML ({expat.ErrorString(error.code)}, line {error.lineno})") from None
+        root = XML(data, XMLParser(target=_Builder()))
     except FloorPlanError:
         raise
+    except ParseError as error:
+        raise FloorPlanError(f"is not XML ({ErrorString(error.code)}, line {error.position[0]})") from None
     except (ValueError, LookupError) as error:
         raise FloorPlanError(f"is not XML ({error})") from None
+    if root.tag != "osm":
+        raise FloorPlanError(f"is XML, but not of OpenStreetMap: its root is {root.tag[:40]!r}")
     found = OsmFile()
-    for one in builder.close():
-        if one.tag in ("node", "way", "relation") and not (
-            one.get("action") == "delete" or one.get("visible") == "false"
-        ):
-            element, elements = _parse_element(one), getattr(found, one.tag)
-            if element.id in elements:
+    by_kind = {"node": found.node, "way": found.way, "relation": found.relation}
+    for one in root:
+        if one.tag in by_kind and one.get("action") != "delete" and one.get("visible") != "false":
+            element = _parse_element(one)
+            if by_kind[one.tag].setdefault(element.id, element) is not element:
                 raise FloorPlanError(f"two {one.tag}s have the id {element.id[:40]!r}")
-            elements[element.id] = element
     return found
-
-
-def _reject_doctype(*_: object) -> NoReturn:
-    raise FloorPlanError("has a document type, which no OpenStreetMap file has")
 
 
 def _parse_element(one: XmlElement) -> Element:
     own = one.get("id")
     if own is None:
         raise FloorPlanError(f"a {one.tag} has no id")
-    latitude, longitude = [
-        _parse_degrees(one, key, most) if one.tag == "node" else 0.0 for key, most in (("lat", 90.0), ("lon", 180.0))
-    ]
+    position = (0.0, 0.0)
+    if one.tag == "node":
+        position = _parse_degrees(one, "lon", 180.0), _parse_degrees(one, "lat", 90.0)
     refs = [child.get("ref", "") for child in one.iterfind("nd")]
     members = [(child.get("type", ""), child.get("ref", ""), child.get("role", "")) for child in one.iterfind("member")]
     tags = {child.get("k", ""): child.get("v", "") for child in one.iterfind("tag")}
-    return Element(one.tag, own, latitude, longitude, refs, members, tags)
+    return Element(one.tag, own, position, refs, members, tags)
 
 
 def _parse_degrees(node: XmlElement, key: str, most: float) -> float:
@@ -118,28 +109,23 @@ MAX_MEMBERS = 2000
 def find_shapes(element: Element, file: OsmFile) -> tuple[list[list[Refs]], list[Refs]]:
     """Return the closed shapes of a way or a relation, and its lines that do not close.
 
-    A shape is an outline followed by its holes, rings that do not repeat their first node. Raises FloorPlanError when a
-    way or node of the element is not in the file."""
+    A shape is an outline followed by its holes, rings that repeat their first node. Raises FloorPlanError when a way or
+    node of the element is not in the file."""
     if element.kind == "way":
-        return _split_closed([_find_refs(element, file)])
-    outer: list[Refs] = []
-    inner: list[Refs] = []
+        rings, lines = _split_closed([_find_refs(element, file)])
+        return [[ring] for ring in rings], lines
     if len(element.members) > MAX_MEMBERS:
         raise FloorPlanError(f"{element.name}: has more than {MAX_MEMBERS} members")
+    sides: tuple[list[Refs], list[Refs]] = [], []
     for kind, ref, role in element.members:
-        if kind != "way":
-            continue
-        if ref not in file.way:
-            raise FloorPlanError(f"{element.name}: its way {ref[:40]!r} is not in the file")
-        (inner if role == "inner" else outer).append(_find_refs(file.way[ref], file))
-    shapes, lines = _split_closed(_join_chains(outer))
-    holes, open_holes = _split_closed(_join_chains(inner))
-    if len(shapes) == 1:
-        shapes[0] += [rings[0] for rings in holes]
-        return shapes, lines + open_holes
-    return shapes, lines + open_holes + [
-        [*rings[0], rings[0][0]] for rings in holes
-    ]  # the file does not say which shape they belong to
+        if kind == "way":
+            if ref not in file.way:
+                raise FloorPlanError(f"{element.name}: its way {ref[:40]!r} is not in the file")
+            sides[role == "inner"].append(_find_refs(file.way[ref], file))
+    (rings, lines), (holes, open_holes) = [_split_closed(_join_chains(ways)) for ways in sides]
+    if len(rings) == 1:
+        return [[*rings, *holes]], lines + open_holes
+    return [[ring] for ring in rings], lines + open_holes + holes  # the file does not say in which outline they are
 
 
 def _find_refs(way: Element, file: OsmFile) -> Refs:
@@ -149,14 +135,10 @@ def _find_refs(way: Element, file: OsmFile) -> Refs:
     return [ref for ref, _ in groupby(way.refs)]
 
 
-def _split_closed(chains: list[Refs]) -> tuple[list[list[Refs]], list[Refs]]:
-    shapes, lines = [], []
-    for refs in chains:
-        if len(refs) >= 4 and refs[0] == refs[-1]:
-            shapes.append([refs[:-1]])
-        elif len(refs) >= 2:
-            lines.append(refs)
-    return shapes, lines
+def _split_closed(chains: list[Refs]) -> tuple[list[Refs], list[Refs]]:
+    """Return the rings among chains of nodes, and the other ones of two nodes or more."""
+    rings = [refs for refs in chains if len(refs) >= 4 and refs[0] == refs[-1]]
+    return rings, [refs for refs in chains if len(refs) >= 2 and refs not in rings]
 
 
 def _join_chains(ways: list[Refs]) -> list[Refs]:
