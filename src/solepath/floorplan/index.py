@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from math import isfinite
 
+from ..types.attrs import frozen
 from .checks import find_fault, scale_cells
 from .enclosure import Enclosure
-from .plan import FloorPlan, FloorPlanError
+from .plan import ConnectorKind, FloorPlan, FloorPlanError, Point
 from .rooms import Rooms
 from .walls import Walls
 
@@ -18,12 +19,35 @@ MAX_WALLS_NEAR = 2000
 """Largest number of walls that one cell lists: a move is tested against all of them."""
 
 
+@frozen
+class Landing:
+    """A landing: the stop of a connector (stairs or elevator) on one level, where it is entered and left."""
+
+    index: int
+    """Index among all landings of the plan, plus one."""
+    connector: int
+    """Index of the connector in the plan."""
+    kind: ConnectorKind
+    level: int
+    """Index of the level in the plan."""
+    ordinal: int
+    """Ordinal of the level among the storeys."""
+    elevation: float
+    """Elevation of the level, m."""
+    place: Point
+    """Place, m, plan frame."""
+
+    def distance(self, to: Landing) -> float:
+        """Return the difference of the elevations, m."""
+        return abs(to.elevation - self.elevation)
+
+
 class IndexedPlan:
     """A floor plan with its walls, rooms and doors in cells; levels are numbered by their index in `plan.levels`.
 
     Raises FloorPlanError when the plan cannot be used."""
 
-    __slots__ = ("_insides", "_numbers", "_rooms", "fingerprint", "plan", "stop_places", "walls")
+    __slots__ = ("_insides", "_numbers", "_rooms", "fingerprint", "landings", "plan", "stop_places", "walls")
 
     def __init__(self, plan: FloorPlan) -> None:
         fault = find_fault(plan)
@@ -32,9 +56,14 @@ class IndexedPlan:
         self.plan = plan
         self.fingerprint: int = plan.fingerprint
         self._numbers = {level.id: number for number, level in enumerate(plan.levels)}
-        stops = [[stop for connector in plan.connectors for stop in connector.stops if stop.level == level.id]
-                 for level in plan.levels]  # fmt: skip
-        self.stop_places = [[stop.place for stop in level_stops] for level_stops in stops]
+        stops = [(c, one.kind, self._numbers[stop.level], stop)
+                 for c, one in enumerate(plan.connectors) for stop in one.stops]  # fmt: skip
+        self.landings = [
+            Landing(index, c, kind, level, plan.levels[level].ordinal, plan.levels[level].elevation, stop.place)
+            for index, (c, kind, level, stop) in enumerate(stops, 1)
+        ]
+        """All landings, connector by connector, from the lowest up."""
+        self.stop_places = [[one.place for one in self.landings if one.level == k] for k in range(len(plan.levels))]
         """Places at which stairs and elevators are entered and left, m, plan frame, of each level."""
         scale = scale_cells(plan)
         self.walls = [Walls([wall.line for wall in level.walls], scale) for level in plan.levels]
@@ -42,8 +71,8 @@ class IndexedPlan:
             densest, x, y = walls.find_densest()
             if densest > MAX_WALLS_NEAR:
                 raise FloorPlanError(f"level {level.id!r}: {densest} walls lie around ({x:.0f}, {y:.0f})")
-        self._rooms = [Rooms(level, [stop.outline for stop in level_stops], scale)
-                       for level, level_stops in zip(plan.levels, stops, strict=True)]  # fmt: skip
+        self._rooms = [Rooms(level, [stop.outline for *_, at, stop in stops if at == number], scale)
+                       for number, level in enumerate(plan.levels)]  # fmt: skip
         self._insides: list[Rooms | Enclosure] = [
             rooms if level.rooms else Enclosure(level, walls, len(plan.levels))
             for level, walls, rooms in zip(plan.levels, self.walls, self._rooms, strict=True)

@@ -9,8 +9,8 @@ from __future__ import annotations
 from math import exp, fsum, hypot, inf
 
 from ..events import Placed, PlanContradicted, WearerMoved
-from ..floorplan.index import IndexedPlan
-from ..floorplan.plan import ConnectorKind, FloorPlan, Point
+from ..floorplan.index import IndexedPlan, Landing
+from ..floorplan.plan import ConnectorKind, Point
 from .particles import (
     CANDIDATE_RADIUS,
     MAX_MOVE,
@@ -22,7 +22,7 @@ from .particles import (
     scaled,
     total_weight,
 )
-from .references import HEIGHT_ERROR, HEIGHT_ERROR_SHARE, Landing, LevelReached, Passage, find_exits, list_landings
+from .references import HEIGHT_ERROR, HEIGHT_ERROR_SHARE, LevelReached, Passage, find_exits, rise_between
 
 LANDING_REACH = 5.0
 """Largest distance between the track and the stairs or elevator that the wearer enters, m."""
@@ -40,17 +40,17 @@ BOTH_LEVELS_LIMITS = (0.3, 0.8)
 """Limits, as shares of the climb to the next landing, between which the wearer may be on either level."""
 
 
-def entering(plan: FloorPlan, particles: list[Particle], kind: ConnectorKind, displacement: Point) -> list[Particle]:
+def entering(plan: IndexedPlan, particles: list[Particle], kind: ConnectorKind, displacement: Point) -> list[Particle]:
     """Return a particle that changes level for each particle near stairs or an elevator, as `kind` says.
 
     `displacement` is that of the track since the change may have started, m."""
-    landings, back = list_landings(plan), (-displacement[0], -displacement[1])
+    back = (-displacement[0], -displacement[1])
     found: list[Particle] = []
     for particle in particles:
         x, y = particle.after(back)
         near = [
             (hypot(one.place[0] - x, one.place[1] - y), one.index)
-            for one in landings
+            for one in plan.landings
             if one.kind is kind and one.level == particle.level
         ]
         distance, index = min(near, default=(inf, 0))
@@ -61,22 +61,19 @@ def entering(plan: FloorPlan, particles: list[Particle], kind: ConnectorKind, di
     return found
 
 
-def weigh_exits(
-    plan: FloorPlan, landings: list[Landing], entered: Landing, arrived: LevelReached
-) -> list[tuple[Landing, float]]:
+def weigh_exits(plan: IndexedPlan, entered: Landing, arrived: LevelReached) -> list[tuple[Landing, float]]:
     """Return the possible exits after entering at a landing, each with its probability, in both directions."""
     opposite = max(arrived.opposite_share, LEAST_OPPOSITE_SHARE[arrived.kind])
     return [
         (landing, likelihood * share)
         for up, share in ((arrived.up, 1.0 - opposite), (not arrived.up, opposite))
-        for landing, likelihood in find_exits(plan, landings, entered, up, arrived.height, arrived.flights)
+        for landing, likelihood in find_exits(plan, entered, up, arrived.height, arrived.flights)
     ]
 
 
 def leaving(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached, random: int) -> list[Particle]:
     """Return a particle at each possible exit of each one that changes level; the other direction weighs less."""
-    landings = list_landings(plan.plan)
-    exits = {at: weigh_exits(plan.plan, landings, landings[at - 1], arrived) for at in landings_of(changing)}
+    exits = {at: weigh_exits(plan, plan.landings[at - 1], arrived) for at in landings_of(changing)}
     found: list[Particle] = []
     for k, one in enumerate(changing):
         ex, ey, eh, es = NOISE_TABLE[(random + k) % NOISE_ENTRIES]
@@ -96,18 +93,17 @@ def landings_of(particles: list[Particle]) -> list[int]:
     return sorted({particle.landing for particle in particles} - {0})
 
 
-def odds_of_reversal(plan: FloorPlan, changing: list[Particle], arrived: LevelReached) -> dict[int, float] | None:
+def odds_of_reversal(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached) -> dict[int, float] | None:
     """Return how a level's weight changes if the stairs are later reported in the other direction, by level.
 
     Levels to which they lead in both directions are left out. None for a lift."""
     if arrived.kind is ConnectorKind.LIFT:
         return None
-    landings = list_landings(plan)
     expected, opposite = [
         {
             one.level
             for at in landings_of(changing)
-            for one, _ in find_exits(plan, landings, landings[at - 1], up, arrived.height)
+            for one, _ in find_exits(plan, plan.landings[at - 1], up, arrived.height)
         }
         for up in (arrived.up, not arrived.up)
     ]
@@ -117,19 +113,19 @@ def odds_of_reversal(plan: FloorPlan, changing: list[Particle], arrived: LevelRe
 
 
 def levels_on_the_way(
-    plan: FloorPlan, particles: list[Particle], passage: Passage | None, here: WearerMoved
+    plan: IndexedPlan, particles: list[Particle], passage: Passage | None, here: WearerMoved
 ) -> tuple[list[Particle], dict[int, float]]:
     """Return the particles, those that change level with a level, and their heights, m, by landing of entry.
 
     The level is the nearer one; about half-way, particles alternate between both. Heights end at the next landing."""
-    landings, up, height = list_landings(plan), False, 0.0
+    up, height = False, 0.0
     if passage is not None:
         up, height = passage.net_up > 0, passage.height(here.position) or 0.0
     heights: dict[int, float] = {}
     levels: dict[int, tuple[int, int]] = {}
     for index in landings_of(particles):
-        entered = landings[index - 1]
-        exits = find_exits(plan, landings, entered, up) or find_exits(plan, landings, entered, not up)
+        entered = plan.landings[index - 1]
+        exits = find_exits(plan, entered, up) or find_exits(plan, entered, not up)
         next_one = min([one for one, _ in exits], key=entered.distance, default=entered)
         rise = entered.distance(next_one)
         climbed = min(height, rise)
@@ -155,19 +151,19 @@ With 2, half a storey of 2.7 m or more contradicts, and an error of 1.5 m does n
 
 
 def contradicted_height(
-    plan: FloorPlan, ride: LevelReached, particles: list[Particle], known_at: float
+    plan: IndexedPlan, ride: LevelReached, particles: list[Particle], known_at: float
 ) -> PlanContradicted | None:
     """Return the event if no lift of the plan makes a ride of this height and direction from a particle's level.
 
     If there are no particles, the place is not known, and any level counts."""
-    landings, levels = list_landings(plan), {particle.level for particle in particles}
-    if ride.kind is ConnectorKind.STAIRS or all([landing.kind is not ride.kind for landing in landings]):
+    levels = {particle.level for particle in particles}
+    if ride.kind is ConnectorKind.STAIRS or all([landing.kind is not ride.kind for landing in plan.landings]):
         return None
     rides: list[tuple[float, float]] = []
-    for entered in landings:
+    for entered in plan.landings:
         if entered.kind is ride.kind and (not levels or entered.level in levels):
-            for left, _ in find_exits(plan, landings, entered, ride.up):
-                low, high = entered.rise(plan, left)
+            for left, _ in find_exits(plan, entered, ride.up):
+                low, high = rise_between(plan, entered, left)
                 height = 0.5 * (low + high) if ride.height is None else ride.height
                 allowed = min(max(height, low), high)
                 rides.append((abs(height - allowed) / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low), allowed))

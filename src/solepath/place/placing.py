@@ -71,7 +71,6 @@ from .references import (
     LevelReached,
     References,
     find_exits,
-    list_landings,
 )
 
 KNOWN_PARTICLES = 64
@@ -357,11 +356,11 @@ class Particles(Part):
                 self.wide_strides, self.first_arrival = ABOUT_TURN_STRIDES, None
         arrived = False
         levels = frozenset([particle.level for particle in self.particles])
-        for reference in self.references.update(plan.plan, events, here, levels):
+        for reference in self.references.update(plan, events, here, levels):
             match reference:
                 case LevelChangePossible(kind, t):
                     staying, displacement = self._staying(), self._displacement_since(t)
-                    self.set_particles(staying + entering(plan.plan, staying, kind, displacement))
+                    self.set_particles(staying + entering(plan, staying, kind, displacement))
                 case LevelReached():
                     outputs += self._arrive(plan, reference, known_at)
                     arrived = True
@@ -441,7 +440,7 @@ class Particles(Part):
     def _report_place(self, plan: IndexedPlan, here: WearerMoved, known_at: float) -> Event:
         """Return the place after a stride or an arrival, and keep as many particles as it needs."""
         particles, most = self.particles, self.settings.max_particles
-        with_levels, heights = levels_on_the_way(plan.plan, particles, self.references.passage, here)
+        with_levels, heights = levels_on_the_way(plan, particles, self.references.passage, here)
         limit = ONE_CANDIDATE_SPREAD if self.wide_strides == 0 else ABOUT_TURN_SPREAD
         height = None if plan.plan.heights_known else here.position[2]
         candidates, spread = candidates_of(with_levels, plan.plan, heights, height, limit)
@@ -494,11 +493,11 @@ class Particles(Part):
             height += self.unmapped_height
             whole = evolve(arrived, up=height > 0.0, height=abs(height))
             is_back = abs(height) < HEIGHT_ERROR
-            if is_back or contradicted_height(plan.plan, whole, self.unmapped, known_at) is None:
+            if is_back or contradicted_height(plan, whole, self.unmapped, known_at) is None:
                 self._come_back(plan, whole, is_back)
                 return []
             self.unmapped_height = height
-        wrong = contradicted_height(plan.plan, arrived, self.particles, known_at)
+        wrong = contradicted_height(plan, arrived, self.particles, known_at)
         if wrong is None:
             self.unmapped = []
             self._continue_from_exits(plan, arrived)
@@ -511,7 +510,7 @@ class Particles(Part):
         return [wrong]
 
     def _entering(self, plan: IndexedPlan, particles: list[Particle], arrived: LevelReached) -> list[Particle]:
-        return entering(plan.plan, particles, arrived.kind, self._displacement_since(arrived.t_start))
+        return entering(plan, particles, arrived.kind, self._displacement_since(arrived.t_start))
 
     def _come_back(self, plan: IndexedPlan, whole: LevelReached, is_back: bool) -> None:
         """Continue the particles of a lift that stopped between landings, after the rest of its way or back."""
@@ -525,14 +524,14 @@ class Particles(Part):
 
     def _continue_from_exits(self, plan: IndexedPlan, arrived: LevelReached) -> None:
         """Continue each particle that may have changed level from its exits, and keep those that stayed."""
-        if all([connector.kind is not arrived.kind for connector in plan.plan.connectors]):
+        if all([landing.kind is not arrived.kind for landing in plan.landings]):
             return
         staying, changing = self._staying(), [one for one in self.particles if one.landing]
         changing = changing or self._entering(plan, staying, arrived)
-        total, landings = total_weight(staying), list_landings(plan.plan)
+        total = total_weight(staying)
         is_same_climb = self.arrived_at is not None and arrived.t_start < self.arrived_at + SAME_STAIRS_TIME
-        entered = [landings[at - 1] for at in landings_of(changing)]
-        if is_same_climb and entered and not any([find_exits(plan.plan, landings, at, arrived.up) for at in entered]):
+        entered = [plan.landings[at - 1] for at in landings_of(changing)]
+        if is_same_climb and entered and not any([find_exits(plan, at, arrived.up) for at in entered]):
             self.particles = stored(staying)  # the rest of a climb that already counted as a whole storey
             return
         self.random = next_random(self.random)
@@ -551,7 +550,7 @@ class Particles(Part):
             self.odds = None
             self.particles = stored(staying)
             return
-        self.arrived_at, self.odds = arrived.t, odds_of_reversal(plan.plan, changing, arrived)
+        self.arrived_at, self.odds = arrived.t, odds_of_reversal(plan, changing, arrived)
         found = scaled(found, repeat(k))
         if len(found) > self.settings.max_particles:
             found = self.thin(found, self.settings.max_particles)
@@ -563,16 +562,16 @@ class Particles(Part):
         """Return about `most` particles, spread over all exits that `arrived` allows and over all headings.
 
         With a known heading of the track, half of them have it, and nearly all of the weight."""
-        landings, heading = list_landings(plan.plan), self.known.heading
+        heading = self.known.heading
         weights: dict[int, float] = {}
-        for entered in landings:
+        for entered in plan.landings:
             if entered.kind is arrived.kind:
-                for landing, share in weigh_exits(plan.plan, landings, entered, arrived):
+                for landing, share in weigh_exits(plan, entered, arrived):
                     weights[landing.index] = weights.get(landing.index, 0.0) + share
         total, roots = fsum(weights.values()), fsum([sqrt(weight) for weight in weights.values()])
         particles: list[Particle] = []
         for index in sorted(weights):
-            landing, share = landings[index - 1], weights[index] / total
+            landing, share = plan.landings[index - 1], weights[index] / total
             count = max(int(most * sqrt(weights[index]) / roots), 8)
             at = (plan, landing.level, landing.place, EXIT_ERROR)
             if heading is not None:

@@ -14,7 +14,8 @@ from collections import deque
 from math import exp, fsum, hypot, inf, isfinite
 
 from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
-from ..floorplan.plan import ConnectorKind, FloorPlan, Point
+from ..floorplan.index import IndexedPlan, Landing
+from ..floorplan.plan import ConnectorKind, Point
 from ..types import Activity, Foot, Vec3
 from ..types.attrs import define, field, frozen
 
@@ -37,63 +38,26 @@ MAX_RISERS = 18
 """Largest number of risers of a flight, no unit (DIN 18065: after that there is a landing)."""
 
 
-@frozen
-class Landing:
-    """A landing: the stop of a connector (stairs or elevator) on one level, where it is entered and left."""
-
-    index: int
-    """Index among all landings of the plan, plus one."""
-    connector: int
-    """Index of the connector in the plan."""
-    kind: ConnectorKind
-    level: int
-    """Index of the level in the plan."""
-    ordinal: int
-    """Ordinal of the level among the storeys."""
-    elevation: float
-    """Elevation of the level, m."""
-    place: Point
-    """Place, m, plan frame."""
-
-    def distance(self, to: Landing) -> float:
-        """Return the difference of the elevations, m."""
-        return abs(to.elevation - self.elevation)
-
-    def rise(self, plan: FloorPlan, to: Landing) -> tuple[float, float]:
-        """Return the least and the largest height up or down to a landing, m; equal when the plan has heights."""
-        if plan.heights_known:
-            return (self.distance(to),) * 2
-        storeys = max(abs(to.ordinal - self.ordinal), 1)
-        return MIN_STOREY_HEIGHT * storeys, MAX_STOREY_HEIGHT * storeys
-
-
-def list_landings(plan: FloorPlan) -> list[Landing]:
-    """Return all landings, connector by connector, from the lowest up."""
-    levels = {level.id: k for k, level in enumerate(plan.levels)}
-    stops = [(c, one.kind, levels[stop.level], stop) for c, one in enumerate(plan.connectors) for stop in one.stops]
-    return [
-        Landing(index, c, kind, k, plan.levels[k].ordinal, plan.levels[k].elevation, stop.place)
-        for index, (c, kind, k, stop) in enumerate(stops, 1)
-    ]
+def rise_between(plan: IndexedPlan, one: Landing, other: Landing) -> tuple[float, float]:
+    """Return the least and the largest height between two landings, m; equal when the plan has heights."""
+    if plan.plan.heights_known:
+        return (one.distance(other),) * 2
+    storeys = max(abs(other.ordinal - one.ordinal), 1)
+    return MIN_STOREY_HEIGHT * storeys, MAX_STOREY_HEIGHT * storeys
 
 
 def find_exits(
-    plan: FloorPlan,
-    landings: list[Landing],
-    entered: Landing,
-    up: bool,
-    height: float | None = None,
-    flights: int | None = None,
+    plan: IndexedPlan, entered: Landing, up: bool, height: float | None = None, flights: int | None = None
 ) -> list[tuple[Landing, float]]:
     """Return the exits after a climb of `height`, m (None: any), from the landing `entered`, with their likelihoods.
 
     When the plan has no heights, all usual heights of a storey are equally likely. If it has the number of flights of
     the stairs, the number that was climbed counts too, None if it is not known."""
-    exits, usual = [], plan.connectors[entered.connector].flights
-    for landing in landings:
+    exits, usual = [], plan.plan.connectors[entered.connector].flights
+    for landing in plan.landings:
         rise = landing.elevation - entered.elevation
         if landing.connector == entered.connector and (rise > 0.0 if up else rise < 0.0):
-            low, high = entered.rise(plan, landing)
+            low, high = rise_between(plan, entered, landing)
             misfit = 0.0 if height is None else max(low - height, height - high, 0.0)
             deviation = misfit / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low)
             likelihood = exp(-0.5 * min(deviation * deviation, 1000.0))
@@ -119,12 +83,12 @@ class Storeys:
     """Least number of flights of a storey; None if the plan does not know it of every staircase."""
 
 
-def storeys_of(plan: FloorPlan, levels: frozenset[int], up: bool | None = None) -> Storeys:
+def storeys_of(plan: IndexedPlan, levels: frozenset[int], up: bool | None = None) -> Storeys:
     """Return what the plan says about its stairs from these levels, indices in the plan, or from all if there are none.
 
     With `up`, only stairs in this direction count. A wearer on a level without such stairs is on another one, so all
     levels and directions count."""
-    stairs = [landing for landing in list_landings(plan) if landing.kind is ConnectorKind.STAIRS]
+    stairs = [landing for landing in plan.landings if landing.kind is ConnectorKind.STAIRS]
     pairs = [
         (a, b)
         for a in stairs
@@ -134,17 +98,17 @@ def storeys_of(plan: FloorPlan, levels: frozenset[int], up: bool | None = None) 
     ]
     if not pairs:
         return storeys_of(plan, frozenset()) if levels or up is not None else Storeys(0.0, 0.0, (), None)
-    known = [plan.connectors[a.connector].flights for a, _ in pairs]
+    known = [plan.plan.connectors[a.connector].flights for a, _ in pairs]
     flights = None if None in known else min([number for number in known if number is not None])
-    if plan.heights_known:
+    if plan.plan.heights_known:
         rises = tuple(sorted({round(a.distance(b), 3) for a, b in pairs}))
         return Storeys(rises[0], rises[-1], rises, flights)
-    return Storeys(MIN_STOREY_HEIGHT, max([a.rise(plan, b)[1] for a, b in pairs]), (), flights)
+    return Storeys(MIN_STOREY_HEIGHT, max([rise_between(plan, a, b)[1] for a, b in pairs]), (), flights)
 
 
-def riser_height(plan: FloorPlan) -> float:
+def riser_height(plan: IndexedPlan) -> float:
     """Return the height of a riser, m: the mean of the plan's stairs that have one, or the usual one."""
-    known = [connector.rise for connector in plan.connectors if connector.rise is not None]
+    known = [connector.rise for connector in plan.plan.connectors if connector.rise is not None]
     return fsum(known) / len(known) if known else RISER_HEIGHT
 
 
@@ -434,7 +398,7 @@ class References:
         return [self.position_at(t), *(position for t_then, position in self.track if t_then > t)]
 
     def update(
-        self, plan: FloorPlan, events: list[Event], here: WearerMoved, levels: frozenset[int] = frozenset()
+        self, plan: IndexedPlan, events: list[Event], here: WearerMoved, levels: frozenset[int] = frozenset()
     ) -> list[Reference]:
         """Return the references that follow from `events`; the wearer is at `here` now.
 
@@ -485,7 +449,7 @@ class References:
         t_start = min(event.t_start, event.t)
         return [LevelReached(ConnectorKind.LIFT, event.up, height, t_start, event.t, RIDE_CERTAINTY)]
 
-    def _change_activity(self, plan: FloorPlan, event: ActivityChanged) -> list[Reference]:
+    def _change_activity(self, plan: IndexedPlan, event: ActivityChanged) -> list[Reference]:
         self.activity = event.activity
         connector, passage = CONNECTOR_OF_ACTIVITY.get(event.activity), self.passage
         if connector is None:
@@ -515,7 +479,7 @@ class References:
             passage.report(event.t, up, event.revises)
         return references
 
-    def _add_flight(self, plan: FloorPlan, event: FlightClimbed) -> list[Reference]:
+    def _add_flight(self, plan: IndexedPlan, event: FlightClimbed) -> list[Reference]:
         """Add a flight to the passage over stairs; without one, the flight starts a passage."""
         passage, references = self.passage, list[Reference]()
         if passage is None:
@@ -532,7 +496,7 @@ class References:
             passage.t_left, passage.end = event.t, self.position_at(event.t)
         return references
 
-    def _enter(self, plan: FloorPlan, kind: ConnectorKind, t: float) -> Passage:
+    def _enter(self, plan: IndexedPlan, kind: ConnectorKind, t: float) -> Passage:
         """Return a new passage from `t`, s, on; from a half-way landing it continues the one that ended there."""
         start, partial = self.position_at(t), self.partial
         passage, self.partial = Passage(kind, t, start, riser=riser_height(plan)), None
@@ -541,7 +505,7 @@ class References:
         return passage
 
     def _decide(
-        self, passage: Passage, t_left: float, plan: FloorPlan, levels: frozenset[int], here: WearerMoved
+        self, passage: Passage, t_left: float, plan: IndexedPlan, levels: frozenset[int], here: WearerMoved
     ) -> list[Reference]:
         """Decide whether a passage that was left led to another level, when that is certain or the wait is over."""
         kind, up, height = passage.kind, passage.net_up > 0, passage.height(here.position)
