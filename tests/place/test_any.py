@@ -43,7 +43,6 @@ from solepath import (
 from solepath.body.part import Position, StartGiven
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
-from solepath.place.placing import PlaceSettings
 from solepath.saving import codec as machine
 from solepath.saving.schema import record_of
 from solepath.saving.streams import Lists, to_bytes
@@ -94,7 +93,7 @@ STARTS = st.one_of(
 @settings(max_examples=40)
 @given(start=STARTS, updates=UPDATES)
 def test_any_events_and_any_track_give_sound_events_and_no_exception(method, start, updates) -> None:  # type: ignore[no-untyped-def]
-    part = method(PlaceSettings(max_particles=60))
+    part = method()
     if start is not None:
         told(part, StartGiven(start))
     for events, t, position in updates:

@@ -31,7 +31,7 @@ from ..floorplan.index import IndexedPlan
 from ..floorplan.plan import ConnectorKind, FloorPlanError, Point, Start
 from ..foot.view import FootView
 from ..types import Foot, Vec3
-from ..types.attrs import NOT_SAVED, define, evolve, field, frozen
+from ..types.attrs import NOT_SAVED, define, evolve, field
 from .headings import ANY_HEADING_SHARE, START_HEADING_ERROR, Heading, KnownHeading
 from .levels import (
     EXIT_ERROR,
@@ -73,6 +73,8 @@ from .references import (
     find_exits,
 )
 
+MAX_PARTICLES = 260
+"""Largest number of particles that are kept."""
 KNOWN_PARTICLES = 64
 """Number of particles that are kept when the place is known."""
 PARTICLES_PER_CANDIDATE = 30
@@ -174,14 +176,6 @@ class StrideScale:
         self.last[stride.foot] = (here[0], here[1], stride.length)
 
 
-@frozen
-class PlaceSettings:
-    """The settings of every placing method."""
-
-    max_particles: int = 260
-    """Largest number of particles that are kept."""
-
-
 @define
 class Particles(Part):
     """The particle filter, the default method of every recipe."""
@@ -189,9 +183,8 @@ class Particles(Part):
     notices: ClassVar[tuple[type[Notice], ...]] = (StartGiven,)
     needs_position: ClassVar[bool] = True
 
-    settings: PlaceSettings = PlaceSettings()
     particles: list[Particle] = field(factory=list, init=False)
-    """The particles, at most `PlaceSettings.max_particles`."""
+    """The particles, at most `MAX_PARTICLES`."""
     random: int = field(default=1, init=False)
     """State of the random numbers."""
     plan: IndexedPlan | None = field(default=None, init=False, eq=False, repr=False, metadata=NOT_SAVED)
@@ -253,8 +246,7 @@ class Particles(Part):
 
     def set_particles(self, particles: list[Particle]) -> None:
         """Set the particles, thinned to the largest number that may be kept."""
-        count = self.settings.max_particles
-        self.particles = stored(particles if len(particles) <= count else self.thin(particles, count))
+        self.particles = stored(particles if len(particles) <= MAX_PARTICLES else self.thin(particles, MAX_PARTICLES))
 
     def _move(
         self, plan: IndexedPlan, particles: list[Particle], move: Point, error_factor: float, turn: float
@@ -263,11 +255,10 @@ class Particles(Part):
         # on stairs a particle follows the track, because the walls of neither level apply
         moved = [one.at(*one.after(move)) for one in particles if one.landing]
         walking = [one for one in particles if not one.landing] if moved else particles
-        count = self.settings.max_particles
         if hypot(*move) > MAX_MOVE:
             self.random = next_random(self.random)
             walking = move_across_gap(plan, walking, move, self.random)
-            walking = walking if len(walking) <= count else resample(walking, count)
+            walking = walking if len(walking) <= MAX_PARTICLES else resample(walking, MAX_PARTICLES)
         elif walking:
             walking = self.extend(plan, walking, move, error_factor, turn)
         return moved + walking
@@ -384,7 +375,7 @@ class Particles(Part):
             what = start_error(plan, start)
             if what is None:
                 level, heading = plan.number(start.level), self.known.heading
-                count = self.settings.max_particles if start.heading is None else 2 * KNOWN_PARTICLES
+                count = MAX_PARTICLES if start.heading is None else 2 * KNOWN_PARTICLES
                 self.particles = stored(self._spread(plan, level, start.place, start.spread, heading, count))
                 return []
         else:
@@ -439,7 +430,7 @@ class Particles(Part):
 
     def _report_place(self, plan: IndexedPlan, here: WearerMoved, known_at: float) -> Event:
         """Return the place after a stride or an arrival, and keep as many particles as it needs."""
-        particles, most = self.particles, self.settings.max_particles
+        particles = self.particles
         with_levels, heights = levels_on_the_way(plan, particles, self.references.passage, here)
         limit = ONE_CANDIDATE_SPREAD if self.wide_strides == 0 else ABOUT_TURN_SPREAD
         height = None if plan.plan.heights_known else here.position[2]
@@ -452,9 +443,9 @@ class Particles(Part):
             return self._lose(here, known_at, what)
         # one candidate: 8 more particles for each metre of spread
         more = PARTICLES_PER_CANDIDATE * fsum([min(1.0, 10.0 * one.weight) for one in others])
-        count = min(most, KNOWN_PARTICLES + int(more if others else 8.0 * min(spread, 5.0)))
+        count = min(MAX_PARTICLES, KNOWN_PARTICLES + int(more if others else 8.0 * min(spread, 5.0)))
         if self.wide_strides > 0:
-            self.wide_strides, count = self.wide_strides - 1, most
+            self.wide_strides, count = self.wide_strides - 1, MAX_PARTICLES
         is_wide = self.wide_strides > 0
         is_small = len(particles) <= 1.25 * count and (is_wide or effective_count(particles) >= 0.5 * count)
         if heaviest.weight >= MIN_CLEAR_WEIGHT and others and not is_wide and not self.level_uncertain:
@@ -540,7 +531,7 @@ class Particles(Part):
         if total_weight(found) > MIN_LANDING_SHARE * total:
             self.level_uncertain, self.first_arrival = False, None
         elif arrived.certainty > MIN_CERTAINTY:
-            found = self._spread_over_exits(plan, arrived, self.settings.max_particles)
+            found = self._spread_over_exits(plan, arrived, MAX_PARTICLES)
             is_first, self.strides_since = self.known.heading is None and not staying, 0
             self.first_arrival = arrived if is_first else None
             self.level_uncertain = arrived.kind is ConnectorKind.STAIRS
@@ -552,8 +543,8 @@ class Particles(Part):
             return
         self.arrived_at, self.odds = arrived.t, odds_of_reversal(plan, changing, arrived)
         found = scaled(found, repeat(k))
-        if len(found) > self.settings.max_particles:
-            found = self.thin(found, self.settings.max_particles)
+        if len(found) > MAX_PARTICLES:
+            found = self.thin(found, MAX_PARTICLES)
         found = self._move_from_exits(plan, found, arrived) + resample(staying, KNOWN_PARTICLES)
         if found:
             self.set_particles(found)
@@ -645,8 +636,7 @@ class Particles(Part):
             before, track = self.rejected
             again = max(_distance(self.last_place, track), _distance(place, before)) < LEAST_WAY
         if not particles:
-            count = self.settings.max_particles
-            self.particles = stored(self._spread(plan, level, place, sigma, self.known.heading, count))
+            self.particles = stored(self._spread(plan, level, place, sigma, self.known.heading, MAX_PARTICLES))
         elif distance * distance < POSITION_GATE * variance and not again:
             # the nearest particle keeps its weight, so that it does not become 0 by rounding
             self.particles = stored(

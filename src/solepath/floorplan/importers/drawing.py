@@ -134,14 +134,12 @@ class Drawing:
         return FloorPlan(self.name, levels, connectors, anchor, heights_known=False, remarks=tuple(self.remarks))
 
     def _level(self, level: str, storey: Storey, height: float) -> Level:
-        doors = {Door(min(one.start, one.end), max(one.start, one.end), one.name) for one in storey.doors}
+        doors = {(min(one.start, one.end), max(one.start, one.end), one.name) for one in storey.doors}
         rooms = [(normalize_ring(join_holes(space.rings)), space.name)
                  for space in storey.spaces if space.border is not Border.SOLID]  # fmt: skip
-        walls = self._walls(level, storey)
-        return with_rooms(
-            Level(level, storey.name, storey.ordinal, storey.order * height, walls,
-                  tuple(sorted(doors, key=lambda door: (door.start, door.end, door.name)))), sorted(rooms)
-        )  # fmt: skip
+        drawn = Level(level, storey.name, storey.ordinal, storey.order * height, self._walls(level, storey),
+                      tuple([Door(*door) for door in sorted(doors)]))  # fmt: skip
+        return with_rooms(drawn, sorted(rooms))
 
     def _walls(self, level: str, storey: Storey) -> tuple[Wall, ...]:
         outlines = [(_make_walls(chain(*map(edges, space.rings))), space.border) for space in storey.spaces]

@@ -19,7 +19,7 @@ from math import atan2
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...place.particles import Noise, Particle, moved_freely, next_random, resample, sway
-from ...place.placing import Particles
+from ...place.placing import MAX_PARTICLES, Particles
 from ...types.attrs import define
 
 CELL_SIZE = 0.25
@@ -39,9 +39,9 @@ class SnakeGame(Particles):
     def extend(
         self, plan: IndexedPlan, particles: list[Particle], move: Point, error_factor: float, turn: float
     ) -> list[Particle]:
-        self.random, most = next_random(self.random), self.settings.max_particles
+        self.random = next_random(self.random)
         extended = sway(plan, particles, move, error_factor, turn, self.random, both_sides=True)
-        return extended if len(extended) <= most else self.thin(extended, most)
+        return extended if len(extended) <= MAX_PARTICLES else self.thin(extended, MAX_PARTICLES)
 
     def scatter(self, k: int, count: int) -> Noise:
         return (0.0, 0.0, 0.0, float(k % 3 - 1))
@@ -66,8 +66,7 @@ class PrintedSnake(Particles):
 
     def thin(self, particles: list[Particle], count: int) -> list[Particle]:
         """Return all particles; only those beyond the largest number are drawn by weight."""
-        most = self.settings.max_particles
-        return particles if len(particles) <= most else resample(particles, most)
+        return particles if len(particles) <= MAX_PARTICLES else resample(particles, MAX_PARTICLES)
 
 
 def merge(particles: list[Particle]) -> list[Particle]:
