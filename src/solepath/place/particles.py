@@ -48,7 +48,8 @@ class Particle(NamedTuple):
 
     def weighing(self, weight: float) -> Particle:
         """Return the particle with another weight."""
-        return _new(Particle, (*self[:4], weight, *self[5:]))
+        x, y, a, b, _, level, origin, landing = self
+        return _new(Particle, (x, y, a, b, weight, level, origin, landing))
 
 
 _new = tuple.__new__  # Particle(...) takes twice as long, where every particle is made anew
