@@ -23,7 +23,7 @@ from __future__ import annotations
 from math import fsum
 
 from ...events import FlightClimbed, StrideTaken
-from ...types import Foot
+from ...types import PerFoot, per_foot
 from ...types.attrs import define, field
 
 LEAST_RISE = 0.08
@@ -59,6 +59,29 @@ Such a stride takes the first or last riser of the flight."""
 
 
 @define
+class FootClimb:
+    """The strides of one foot, as far as flights need them."""
+
+    stride_at: float | None = None
+    """Time of the last stride, s; None before any."""
+    height: float | None = None
+    """Height above the last level on which both feet stood, m; None while the foot has not left it."""
+    level_rise: float = 0.0
+    """Height gained by the last stride, m, if that was a level stride; 0 if it is not trusted."""
+    rise: float | None = None
+    """Height gained in the flight under way, m, negative downstairs; None without any trusted stride."""
+    untrusted: int = 0
+    """Number of strides in the flight under way whose height is not trusted."""
+    unjudged: int = 0
+    """Number of strides that could not be judged, since the last stair stride."""
+
+    def add(self, height: float) -> None:
+        """Add the height change of a stride of the flight, m."""
+        self.rise = (self.rise or 0.0) + height
+        self.height = (self.height or 0.0) + height
+
+
+@define
 class Flights:
     """Detects flights and returns a final `FlightClimbed` for each flight when it has ended."""
 
@@ -72,124 +95,113 @@ class Flights:
     """Number of strides of the flight under way."""
     level_stride_count: int = field(default=0, init=False)
     """Number of level strides since the last stair stride."""
-    rises: dict[Foot, float] = field(factory=dict, init=False)
-    """Height gained by each foot in the flight under way, m, negative downstairs."""
-    untrusted: dict[Foot, int] = field(factory=dict, init=False)
-    """Number of strides of each foot in the flight under way whose height is not trusted."""
-    unjudged: dict[Foot, int] = field(factory=dict, init=False)
-    """Number of strides of each foot that could not be judged, since the last stair stride."""
     trusted_rise: float = field(default=0.0, init=False)
     """Sum of the height changes of the trusted stair strides of the flight under way, m."""
-    heights: dict[Foot, float] = field(factory=dict, init=False)
-    """Height of each foot above the last level on which both feet stood, m."""
-    last_level_rise: dict[Foot, float] = field(factory=dict, init=False)
-    """Height gained by each foot's last stride, m, if that was a level stride; 0 if it is not trusted."""
-    last_stride_at: dict[Foot, float] = field(factory=dict, init=False)
-    """Time of each foot's last stride, s."""
+    feet: PerFoot[FootClimb] = field(factory=lambda: per_foot(FootClimb), init=False)
 
     def reset(self) -> None:
         """Discard the flight under way, because the clock restarts."""
-        self.direction = 0
-        self.heights, self.last_level_rise, self.last_stride_at = {}, {}, {}
+        self.direction, self.feet = 0, per_foot(FootClimb)
 
     def add_stride(self, stride: StrideTaken, direction: int | None) -> list[FlightClimbed]:
         """Add a stride of either foot and return the flights that it ends.
 
         `direction` is 1 upstairs, -1 downstairs, 0 level, None when it could not be judged."""
-        foot, height = stride.foot, stride.height_change
+        foot, height = self.feet[stride.foot], stride.height_change
         trusted = direction is not None and is_stair_rise(height, stride.degraded)
         events: list[FlightClimbed] = []
-        if direction and self.direction not in (0, direction):
-            self._end(stride.known_at, events)
         if direction:
+            if self.direction == -direction:
+                events = self.finish(stride.known_at)
             if self.direction == 0:
                 self._start(stride, direction)
             self._add_stair_stride(stride, direction, trusted and direction * height > -LEAST_RISE)
-        elif self.direction != 0:
-            self.level_stride_count += 1
-            if direction is None:
-                self.unjudged[foot] = self.unjudged.get(foot, 0) + 1
-            if trusted and self.direction * height > MIN_END_RISE and foot in self.rises:
-                self._add_rise(foot, height)
-            else:
-                self.last_level_rise[foot] = height if trusted else 0.0
-            if self.level_stride_count >= self._count_active_feet(foot, stride.t):
-                self._end(stride.known_at, events)
-                self.heights = {}
         else:
-            self.last_level_rise[foot] = height if trusted else 0.0
-        self.last_stride_at[foot] = stride.t
+            if trusted and self.direction * height > MIN_END_RISE and foot.rise is not None:
+                foot.add(height)
+            else:
+                foot.level_rise = height if trusted else 0.0
+            if self.direction != 0:
+                self.level_stride_count += 1
+                foot.unjudged += direction is None
+                if self.level_stride_count >= self._count_active_feet(foot, stride.t):
+                    events = self._arrive(stride.known_at)
+        foot.stride_at = stride.t
         return events
 
     def _add_stair_stride(self, stride: StrideTaken, direction: int, trusted: bool) -> None:
-        foot, height = stride.foot, stride.height_change
+        foot, height = self.feet[stride.foot], stride.height_change
         self.t_end = max(self.t_end, stride.t)
         self.level_stride_count = 0
         self.stride_count += 1
-        level_rise = self.last_level_rise.pop(foot, 0.0)
+        level_rise, foot.level_rise = foot.level_rise, 0.0
         if trusted:
             self.trusted_rise += height
-            self._add_rise(foot, height + (level_rise if direction * level_rise > MIN_END_RISE else 0.0))
+            foot.add(height + (level_rise if direction * level_rise > MIN_END_RISE else 0.0))
         else:
-            self.untrusted[foot] = self.untrusted.get(foot, 0) + 1
-        for other, stride_count in self.unjudged.items():
-            self.stride_count += stride_count
-            self.untrusted[other] = self.untrusted.get(other, 0) + stride_count
-        self.unjudged = {}
+            foot.untrusted += 1
+        for each in self.feet.values():
+            self.stride_count += each.unjudged
+            each.untrusted, each.unjudged = each.untrusted + each.unjudged, 0
 
     def advance(self, t: float, known_at: float) -> list[FlightClimbed]:
         """Return the flight that has ended at `t`, s, because no stride came for `END_PAUSE` s."""
-        events: list[FlightClimbed] = []
-        if self.direction != 0 and t - max(self.last_stride_at.values(), default=t) > END_PAUSE:
-            feet_heights = list(self.heights.values())
-            # without the heights of all strides, the heights of the feet cannot show a rest on the stairs
-            if self.untrusted or self.unjudged or max(feet_heights) - min(feet_heights) < LEVEL_TOLERANCE:
-                self._end(known_at, events)
-                self.heights = {}
-        return events
-
-    def finish(self, known_at: float) -> list[FlightClimbed]:
-        """Return the flight under way, because no more strides come."""
-        events: list[FlightClimbed] = []
-        if self.direction != 0:
-            self._end(known_at, events)
-        return events
+        feet = self.feet.values()
+        strides_at = [foot.stride_at for foot in feet if foot.stride_at is not None]
+        if self.direction == 0 or t - max(strides_at) <= END_PAUSE:
+            return []
+        heights = [foot.height for foot in feet if foot.height is not None]
+        # without the heights of all strides, the heights of the feet cannot show a rest on the stairs
+        are_known = not any([foot.untrusted or foot.unjudged for foot in feet])
+        if are_known and max(heights) - min(heights) >= LEVEL_TOLERANCE:
+            return []
+        return self._arrive(known_at)
 
     def _start(self, stride: StrideTaken, direction: int) -> None:
         self.direction = direction
         self.t_start, self.t_end = stride.t_start, stride.t
         self.stride_count = self.level_stride_count = 0
-        self.rises, self.untrusted, self.unjudged = {}, {}, {}
         self.trusted_rise = 0.0
+        for foot in self.feet.values():
+            foot.rise, foot.untrusted, foot.unjudged = None, 0, 0
 
-    def _add_rise(self, foot: Foot, height: float) -> None:
-        self.rises[foot] = self.rises.get(foot, 0.0) + height
-        self.heights[foot] = self.heights.get(foot, 0.0) + height
-
-    def _count_active_feet(self, foot: Foot, t: float) -> int:
+    def _count_active_feet(self, foot: FootClimb, t: float) -> int:
         """Return the number of feet with a stride shortly before `t`, s, including `foot`."""
-        others = [at for other, at in self.last_stride_at.items() if other is not foot]
+        others = [one.stride_at for one in self.feet.values() if one is not foot and one.stride_at is not None]
         return 1 + sum([abs(t - at) < ACTIVE_TIME for at in others])
 
-    def _end(self, known_at: float, events: list[FlightClimbed]) -> None:
-        untrusted = sum(self.untrusted.values())  # whole numbers
+    def _arrive(self, known_at: float) -> list[FlightClimbed]:
+        """Return the flight under way, after which both feet stand on one level."""
+        events = self.finish(known_at)
+        for foot in self.feet.values():
+            foot.height = None
+        return events
+
+    def finish(self, known_at: float) -> list[FlightClimbed]:
+        """Return the flight under way, because no more strides come."""
+        if self.direction == 0:
+            return []
+        feet = self.feet.values()
+        untrusted = sum([foot.untrusted for foot in feet])  # whole numbers
         trusted_count = self.stride_count - untrusted
         height = 0.0
         if 0 < trusted_count >= untrusted:
-            feet = len(self.rises | self.untrusted)
-            height = (fsum(self.rises.values()) + untrusted * self.trusted_rise / trusted_count) / feet
-        if self.direction * height >= MIN_FLIGHT_HEIGHT and self.stride_count > 1:
-            events.append(
-                FlightClimbed(
-                    t=self.t_end,
-                    known_at=max(known_at, self.t_end),
-                    t_start=min(self.t_start, self.t_end),
-                    up=self.direction > 0,
-                    steps=self.stride_count,
-                    height=height,
-                )
+            rises = [foot.rise or 0.0 for foot in feet if foot.rise is not None or foot.untrusted]
+            height = (fsum(rises) + untrusted * self.trusted_rise / trusted_count) / len(rises)
+        up, self.direction = self.direction > 0, 0
+        for foot in feet:
+            foot.level_rise = 0.0
+            if untrusted:
+                foot.height, foot.untrusted = None, 0
+        if (height if up else -height) < MIN_FLIGHT_HEIGHT or self.stride_count < 2:
+            return []
+        return [
+            FlightClimbed(
+                t=self.t_end,
+                known_at=max(known_at, self.t_end),
+                t_start=min(self.t_start, self.t_end),
+                up=up,
+                steps=self.stride_count,
+                height=height,
             )
-        self.direction = 0
-        self.last_level_rise = {}
-        if untrusted:
-            self.heights, self.untrusted = {}, {}
+        ]

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from itertools import permutations, product
-from math import log, pi, sqrt
+from collections.abc import Sequence
+from itertools import pairwise, permutations, product
+from math import dist, fsum, hypot, log, pi, sqrt
 from typing import Final
 
 from ...events import Defect
-from ...types import Vec3
+from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import IDENTITY, ZERO, multiply
-from .stances import FORCE, TICK, TURN, Axes, ClosedStride, Finding, Interval
+from ...types.vector import IDENTITY, ZERO, add, conjugate, from_rotation_vector, multiply
+from .stances import FORCE, NO_MOTION, TICK, TURN, Axes, ClosedStride, Finding
 
 # Closure of the velocity of a stride, for each way in which the gyroscope's axes can be mounted.
 #
@@ -20,31 +21,24 @@ from .stances import FORCE, TICK, TURN, Axes, ClosedStride, Finding, Interval
 # of the accelerometer. The 48 signed permutations P of the axes need two integrations only. With M_ijk the integral of
 # R_ij a_k dt, a proper rotation P turns R into P R P^T, so that the integral becomes, in components, s_i * sum over k
 # of s_k * M(p_i, p_k, k), with p_i the axis and s_i the sign of row i of P. An improper P is the negative of a proper
-# one, and needs M of the negative angular rate.
+# one, and needs M of the negative angular rate. Gravity u_k, in the frame of an instant with the rotation R, is
+# R_ij u_k in the same notation, so what is left without it is a residual of the same form.
 
-
-def _row(axis: int) -> tuple[int, float]:
-    return abs(axis) - 1, 1.0 if axis > 0 else -1.0
-
-
+Order = tuple[int, ...]
+Signs = tuple[float, ...]
+ORDERS: Final[tuple[Order, ...]] = tuple(permutations(range(3)))
+"""Axis of the gyroscope, 0 to 2, that belongs to each axis of the accelerometer, in each permutation."""
+ROTATIONS: Final = ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+"""Those of ORDERS that are rotations; each of the others is one with a mirror."""
+SIGNS: Final[tuple[Signs, ...]] = tuple(product((1.0, -1.0), repeat=3))
+"""Signs of these axes."""
 AXES: Final[tuple[Axes, ...]] = tuple(
-    (a * i, b * j, c * k) for i, j, k in permutations((1, 2, 3)) for a, b, c in product((1, -1), repeat=3)
+    (int(a) * (i + 1), int(b) * (j + 1), int(c) * (k + 1)) for i, j, k in ORDERS for a, b, c in SIGNS
 )
 """The signed permutations; the first one leaves the axes as they are."""
-ARE_PROPER: Final[tuple[bool, ...]] = tuple(
-    (a * b * c > 0) == ((abs(a), abs(b), abs(c)) in ((1, 2, 3), (2, 3, 1), (3, 1, 2))) for a, b, c in AXES
-)
-"""For each of AXES, whether it is a rotation; the others are rotations with a mirror."""
-SignedAxis = tuple[int, float]
-"""Axis of the gyroscope, 0 to 2, and sign, 1.0 or -1.0, that belong to an axis of the accelerometer."""
-Rows = tuple[SignedAxis, SignedAxis, SignedAxis]
-"""The rows of a signed permutation."""
-ROWS: Final[tuple[Rows, ...]] = tuple((_row(a), _row(b), _row(c)) for a, b, c in AXES)
-"""AXES in the form in which they are computed with."""
-Step = tuple[float, float, float, float, float, float, float]
-"""Rotation between the middles of two intervals, and the share of the latter in the mean specific force, m/s^2."""
-NO_MOTION: Final[Interval] = (0, 0, 0, 0, 0, 0, 0)
-"""An interval of no duration, which ends a stride."""
+Turn = tuple[float, ...]
+"""A rotation matrix, row by row."""
+NO_TURN: Final[Turn] = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 LEAST_RESIDUAL = 0.05
 """Residual, m/s^2, that is added to each one, so that a nearly perfect closure does not count without limit."""
 
@@ -53,79 +47,74 @@ def closure_residuals(stride: ClosedStride) -> list[float] | None:
     """Return the natural logarithm of the residual for each of AXES; None without any gravity.
 
     The residual is the worse one of the two ends of the stride, |S / T - g u|, m/s^2."""
-    g = 0.5 * (_norm(stride.first) + _norm(stride.last))
-    if g <= 0.0:
+    first, last = hypot(*stride.first), hypot(*stride.last)
+    if not (first > 0.0 and last > 0.0):
         return None
-    steps = _steps(stride)
-    up_first, up_last = _scaled(stride.first, g), _scaled(stride.last, g)
-    proper, improper = _integrals(steps, 1.0, up_last), _integrals(steps, -1.0, up_last)
+    g = 0.5 * (first + last)
+    ups = [[g / first * x for x in stride.first], [g / last * x for x in stride.last]]
+    steps, before = [], ZERO
+    for _, x, y, z, *_ in (*stride.intervals, NO_MOTION):  # from the middle of an interval to that of the next one
+        half = 0.5 * TURN * x, 0.5 * TURN * y, 0.5 * TURN * z
+        steps.append(from_rotation_vector(add(before, half)))
+        before = half
+    durations, _, _, _, *forces = zip(*stride.intervals, strict=True)
+    scale = FORCE * TICK / stride.duration
+    shares = [[scale * duration * force for duration, force in zip(durations, axis, strict=True)] for axis in forces]
+    proper = _ends(steps, shares, ups)
+    improper = _ends([conjugate(step) for step in steps], shares, ups)
     return [
-        log(_residual(rows, proper if is_proper else improper, up_first) + LEAST_RESIDUAL)
-        for rows, is_proper in zip(ROWS, ARE_PROPER, strict=True)
+        log(_residual(order, signs, proper if (order in ROTATIONS) == (a * b * c > 0.0) else improper) + LEAST_RESIDUAL)
+        for order in ORDERS
+        for signs in SIGNS
+        for a, b, c in (signs,)
     ]
 
 
-def _steps(stride: ClosedStride) -> list[Step]:
-    """Return the rotation to the middle of each interval, and a last one to the end of the stride without a force."""
-    steps: list[Step] = []
-    before_x = before_y = before_z = 0.0
-    unit, scale = 0.5 * TURN, FORCE * TICK / stride.duration
-    for duration, tx, ty, tz, ax, ay, az in (*stride.intervals, NO_MOTION):
-        half_x, half_y, half_z = unit * tx, unit * ty, unit * tz
-        x, y, z = before_x + half_x, before_y + half_y, before_z + half_z
-        square = 0.25 * (x * x + y * y + z * z)
-        # sin(h) / (2 h) and cos(h), h half of the angle, to 1e-5 up to an angle of 1.7 rad: a fast swing at 10 Hz
-        k = 0.5 - square * (1.0 / 12.0 - square * (1.0 / 240.0 - square / 10080.0))
-        e = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square / 720.0))
-        share = scale * duration
-        steps.append((e, k * x, k * y, k * z, share * ax, share * ay, share * az))
-        before_x, before_y, before_z = half_x, half_y, half_z
-    return steps
+def _ends(steps: list[Quat], shares: list[list[float]], ups: list[list[float]]) -> list[list[list[float]]]:
+    """Return what is left of M / T without gravity, for each end of the stride: rows 3 i + j over k, m/s^2.
+
+    `steps` rotate from one middle of an interval to the next, `shares` are the parts that the intervals have in each
+    axis of the mean specific force, m/s^2, and `ups` is gravity at both ends."""
+    attitude, turns = IDENTITY, []
+    for step in steps:
+        attitude = multiply(attitude, step)
+        turns.append(_turn(attitude))
+    columns = list(zip(*turns[:-1], strict=True))
+    # products of vectors by their distance, because that loop runs in C: c s = (c c + s s - |c - s|^2) / 2
+    squares = [hypot(*share) ** 2 for share in shares]
+    sums = [
+        [
+            0.5 * (hypot(*column) ** 2 + square - dist(column, share) ** 2)
+            for share, square in zip(shares, squares, strict=True)
+        ]
+        for column in columns
+    ]
+    return [
+        [[x - r * u for x, u in zip(row, up, strict=True)] for row, r in zip(sums, turn, strict=True)]
+        for turn, up in zip((NO_TURN, turns[-1]), ups, strict=True)
+    ]
 
 
-def _integrals(steps: list[Step], sign: float, up_last: Vec3) -> list[tuple[Vec3, Vec3]]:
-    """Return the rows 3 i + j of M / T, each over k, m/s^2, and what is left of each without gravity at the end.
-
-    `sign` is that of the rate, and `up_last` gravity at the stride's last end."""
-    attitude, sums = IDENTITY, [ZERO] * 9
-    for e, p, q, r, a, b, c in steps:
-        w, x, y, z = attitude = multiply(attitude, (e, sign * p, sign * q, sign * r))
-        twice_x, twice_y, twice_z = x + x, y + y, z + z
-        xx, yy, zz, xy = twice_x * x, twice_y * y, twice_z * z, twice_x * y
-        xz, yz, wx, wy, wz = twice_x * z, twice_y * z, twice_x * w, twice_y * w, twice_z * w
-        turn = [1.0 - yy - zz, xy - wz, xz + wy, xy + wz, 1.0 - xx - zz, yz - wx, xz - wy, yz + wx, 1.0 - xx - yy]
-        sums = [(x + r * a, y + r * b, z + r * c) for (x, y, z), r in zip(sums, turn, strict=True)]
-    turn[::4] = 1.0 - (yy + zz), 1.0 - (xx + zz), 1.0 - (xx + yy)
-    u, v, w = up_last
-    return [((x, y, z), (x - r * u, y - r * v, z - r * w)) for (x, y, z), r in zip(sums, turn, strict=True)]
+def _turn(attitude: Quat) -> Turn:
+    """Return the rotation matrix of an attitude."""
+    w, x, y, z = attitude
+    twice_x, twice_y, twice_z = x + x, y + y, z + z
+    xx, yy, zz, xy = twice_x * x, twice_y * y, twice_z * z, twice_x * y
+    xz, yz, wx, wy, wz = twice_x * z, twice_y * z, twice_x * w, twice_y * w, twice_z * w
+    return 1.0 - yy - zz, xy - wz, xz + wy, xy + wz, 1.0 - xx - zz, yz - wx, xz - wy, yz + wx, 1.0 - xx - yy
 
 
-def _residual(rows: Rows, ends: list[tuple[Vec3, Vec3]], up_first: Vec3) -> float:
-    """Return the worse of the residuals |S / T - g u| of the two ends, m/s^2."""
-    (q0, r0), (q1, r1), (q2, r2) = rows
-    from_first = from_last = 0.0
-    for (p, s), up in zip(rows, up_first, strict=True):
-        i = 3 * p
-        (x, _, _), (last_x, _, _) = ends[i + q0]
-        (_, y, _), (_, last_y, _) = ends[i + q1]
-        (_, _, z), (_, _, last_z) = ends[i + q2]
-        force = r0 * x + r1 * y + r2 * z - s * up  # in the gyroscope's frame; the size is the same
-        rest = r0 * last_x + r1 * last_y + r2 * last_z
-        from_first += force * force
-        from_last += rest * rest
-    return sqrt(max(from_first, from_last))
-
-
-def _norm(v: Vec3) -> float:
-    x, y, z = v
-    return sqrt(x * x + y * y + z * z)
-
-
-def _scaled(v: Vec3, size: float) -> Vec3:
-    x, y, z = v
-    n = _norm(v)
-    k = size / n if n > 0.0 else 0.0
-    return k * x, k * y, k * z
+def _residual(order: Order, signs: Signs, ends: list[list[list[float]]]) -> float:
+    """Return the worse of the residuals |S / T - g u| of the two ends, m/s^2, in the gyroscope's frame."""
+    (p, q, r), (a, b, c) = order, signs
+    largest = 0.0
+    for rows in ends:
+        square = 0.0
+        for i in (0, 3, 6):
+            force = a * rows[i + p][0] + b * rows[i + q][1] + c * rows[i + r][2]
+            square += force * force
+        largest = max(largest, square)
+    return sqrt(largest)
 
 
 SHORTEST_STRIDE, LONGEST_STRIDE = 0.8, 2.5
@@ -250,52 +239,38 @@ STRIDES = 6
 class BandwidthCheck:
     """Looks at how fast the specific force and the angular rate change over a stride."""
 
-    acc: list[float] = field(factory=list)
-    """Number of cycles of the specific force in each stride."""
-    gyro: list[float] = field(factory=list)
-    """Number of cycles of the angular rate in each stride."""
+    cycles: list[tuple[float, float]] = field(factory=list)
+    """Number of cycles of the specific force, and of the angular rate, in each stride."""
 
     def add(self, stride: ClosedStride) -> Finding | None:
         """Add a stride; return which sensor is filtered, once there are enough strides; they are judged once."""
         if self.judged or not SHORTEST_STRIDE < stride.duration < LONGEST_STRIDE:
             return None
-        rates, forces = [], []
-        for duration, tx, ty, tz, ax, ay, az in stride.intervals:
-            k = TURN / (TICK * duration)
-            rates.append((k * tx, k * ty, k * tz))
-            forces.append((FORCE * ax, FORCE * ay, FORCE * az))
-        self.acc.append(_cycles(forces))
-        self.gyro.append(_cycles(rates))
+        forces = [(x, y, z) for _, _, _, _, x, y, z in stride.intervals]
+        rates = [(x / duration, y / duration, z / duration) for duration, x, y, z, _, _, _ in stride.intervals]
+        self.cycles.append((_cycles(forces), _cycles(rates)))
         if not self.judged:
             return None
-        acc_is_filtered = sorted(self.acc)[STRIDES // 2] < LEAST_ACC
-        gyro_is_filtered = sorted(self.gyro)[STRIDES // 2] < LEAST_GYRO
-        if not (acc_is_filtered or gyro_is_filtered):
+        acc, gyro = [sorted(cycles)[STRIDES // 2] for cycles in zip(*self.cycles, strict=True)]
+        if acc >= LEAST_ACC and gyro >= LEAST_GYRO:
             return None
-        name = "the accelerometer is" if acc_is_filtered else "the gyroscope is"
-        name = "both sensors are" if acc_is_filtered and gyro_is_filtered else name
+        name = "the accelerometer is" if gyro >= LEAST_GYRO else "the gyroscope is"
+        name = "both sensors are" if acc < LEAST_ACC and gyro < LEAST_GYRO else name
         text = f"{name} filtered or averaged so much that a step is smoothed away: choose a bandwidth of 20 Hz or more"
         return Finding(Defect.BANDWIDTH, text)
 
     @property
     def judged(self) -> bool:
         """Return whether there were enough strides."""
-        return len(self.acc) >= STRIDES
+        return len(self.cycles) >= STRIDES
 
 
-def _cycles(values: list[Vec3]) -> float:
+def _cycles(values: Sequence[Vec3]) -> float:
     """Return the number of cycles of a signal in the duration of its values, by its root mean square frequency.
 
-    A signal of n cycles changes by 2 pi n of its own size in that duration."""
+    A signal of n cycles changes by 2 pi n of its own size in that duration; the unit does not matter."""
     n = len(values)
-    x = y = z = 0.0
-    for a, b, c in values:
-        x, y, z = x + a, y + b, z + c
-    x, y, z = x / n, y / n, z / n
-    power = change = 0.0
-    last_a, last_b, last_c = values[0]
-    for a, b, c in values:
-        power += (a - x) ** 2 + (b - y) ** 2 + (c - z) ** 2
-        change += (a - last_a) ** 2 + (b - last_b) ** 2 + (c - last_c) ** 2
-        last_a, last_b, last_c = a, b, c
+    mean = [fsum(axis) / n for axis in zip(*values, strict=True)]
+    power = fsum([dist(value, mean) ** 2 for value in values])
+    change = fsum([dist(a, b) ** 2 for a, b in pairwise(values)])
     return n * sqrt(change / power) / (2.0 * pi) if power > 0.0 else 0.0

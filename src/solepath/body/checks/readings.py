@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import log2
-from operator import eq
+from operator import and_, eq
 from typing import NamedTuple
 
 from ...events import Defect, StrideTaken
@@ -122,7 +122,7 @@ class RangeCheck:
         at_end = [value >= limit for value in channel]
         end.blocks += 1
         end.samples += at_end.count(True)
-        end.pairs += [a and b for a, b in zip(at_end, at_end[1:], strict=False)].count(True)
+        end.pairs += [*map(and_, at_end, at_end[1:])].count(True)
         return end.blocks >= LEAST_BLOCKS and end.pairs >= LEAST_PAIRS
 
 
@@ -179,11 +179,11 @@ class RateCheck:
     skips: int = 0
     """Number of blocks of motion that are not searched for repeats before the next one that is."""
 
-    def add_times(self, times: Sequence[float], moves: bool, least_rate: float) -> Finding | None:
+    def add_times(self, times: Sequence[float], moves: bool) -> Finding | None:
         """Add the times of a block, s; return a wrong unit, or a rate that is too low, once some blocks show it."""
         t, self.t = self.t, times[-1]
         interval = (times[-1] - times[0]) / (len(times) - 1) if t is None else (times[-1] - t) / len(times)
-        if interval >= SHORTEST_INTERVAL and interval * least_rate < 1.0:
+        if interval >= SHORTEST_INTERVAL and interval * LEAST_RATE < 1.0:
             self.strange_blocks = self.slow_blocks = 0
             return self._find_bursts(times, interval) if self.blocks < EXAMINED_BLOCKS else None
         interval = _usual_interval(times)
@@ -194,7 +194,7 @@ class RateCheck:
             self.slow_blocks = 0
             return wrong_time_unit(interval) if self.strange_blocks >= TIME_BLOCKS else None
         self.strange_blocks = 0
-        if not moves or interval * least_rate < 1.0:
+        if not moves or interval * LEAST_RATE < 1.0:
             return None
         self.slow_blocks += 1
         if self.slow_blocks < SLOW_BLOCKS:
@@ -219,25 +219,24 @@ class RateCheck:
             return None
         self.skips = SKIPPED_BLOCKS if self.had_none else 0
         # while a foot stands, the values of a coarse or silent sensor repeat by themselves
-        least = REPEAT_RATE * REPEAT_RATE
-        fast = [x * x + y * y + z * z > least for x, y, z in gyros[1:]]
-        self.acc_repeats += [a and b for a, b in zip(fast, map(eq, accs, accs[1:]), strict=False)].count(True)
-        self.gyro_repeats += [a and b for a, b in zip(fast, map(eq, gyros, gyros[1:]), strict=False)].count(True)
+        fast = [x * x + y * y + z * z > REPEAT_RATE * REPEAT_RATE for x, y, z in gyros[1:]]
+        self.acc_repeats += [*map(and_, fast, map(eq, accs, accs[1:]))].count(True)
+        self.gyro_repeats += [*map(and_, fast, map(eq, gyros, gyros[1:]))].count(True)
         self.moving += fast.count(True)
         if self.moving < REPEAT_SAMPLES:
             return None
-        limit = REPEAT_SHARE * self.moving
-        acc_repeats, gyro_repeats = self.acc_repeats > limit, self.gyro_repeats > limit
-        name = "the accelerometer repeats" if self.acc_repeats > self.gyro_repeats else "the gyroscope repeats"
-        is_stuck = max(self.acc_repeats, self.gyro_repeats) > STUCK_SHARE * self.moving
+        acc, gyro = self.acc_repeats / self.moving, self.gyro_repeats / self.moving
         self.moving = self.acc_repeats = self.gyro_repeats = 0
-        self.had_none = not (acc_repeats or gyro_repeats)
+        self.had_none = max(acc, gyro) <= REPEAT_SHARE
         if self.had_none:
             return None
-        if is_stuck:
+        name = "the accelerometer repeats" if acc > gyro else "the gyroscope repeats"
+        if max(acc, gyro) > STUCK_SHARE:
             text = f"{name} the same values while the foot moves: it is stuck; restart the sensor"
             return Finding(Defect.REPEATED, text)
-        text = f"{'both sensors repeat' if acc_repeats and gyro_repeats else name} values: samples come more often than"
+        text = (
+            f"{'both sensors repeat' if min(acc, gyro) > REPEAT_SHARE else name} values: samples come more often than"
+        )
         return Finding(Defect.REPEATED, f"{text} it measures; choose the rate at which it measures", spoils=False)
 
 

@@ -8,7 +8,7 @@ from typing import ClassVar, Final
 from ...events import Defect, DefectFound, HeelStrike, SampleRejected, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Site, Vec3, per_foot
-from ...types.attrs import define, field, frozen
+from ...types.attrs import define, field
 from ..part import Part, PartInput, PartOutput
 from .axes import AxesCheck, BandwidthCheck
 from .readings import (
@@ -36,14 +36,6 @@ UNUSABLE_TIME = 0.5
 """Time without a usable sample after which a rejected one shows the unit of all of them, s."""
 STUCK_STRIDES = 3
 """Number of strides of the other foot during which a sensor that does not change is stuck; a foot may stand for one."""
-
-
-@frozen
-class SensorChecksSettings:
-    """The settings of `SensorChecks`."""
-
-    least_rate: float = LEAST_RATE
-    """Rate, samples a second, below which a foot's samples are too few."""
 
 
 @define
@@ -96,7 +88,6 @@ class SensorChecks(Part):
 
     needs_samples: ClassVar[bool] = True
 
-    settings: SensorChecksSettings = SensorChecksSettings()
     feet: PerFoot[SensorCheck] = field(factory=lambda: per_foot(SensorCheck), init=False)
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
@@ -104,12 +95,12 @@ class SensorChecks(Part):
         outputs: list[PartOutput] = []
         if view is not None and (acc := view.sample.acc) is not None and (gyro := view.sample.gyro) is not None:
             check = self.feet[view.foot]
-            rows = check.rows
-            rows.append((view.t, acc, gyro))
-            if len(rows) == BLOCK:
-                check.rows, pressed = [], view.pressed
+            check.rows.append((view.t, acc, gyro))
+            if len(check.rows) == BLOCK:
+                pressed = view.pressed
                 check.in_newtons = pressed is not None and pressed.in_newtons
-                outputs += self._report(view.foot, view.t, view.known_at, self._examine(check, rows, view.gyro_bias))
+                outputs += self._report(view.foot, view.t, view.known_at, _examine(check, view.gyro_bias))
+                check.rows = []
         for event in events:
             outputs += self._receive(event)
         return outputs
@@ -136,69 +127,72 @@ class SensorChecks(Part):
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return wrong axes that too few strides have shown for them to be reported before."""
-        found: list[PartOutput] = []
-        for foot in Foot:
-            axes = self.feet[foot].axes
-            if axes.wrong:
-                found += self._report(foot, now, now, [axes.finding])
-        return found
+        return [
+            event
+            for foot, check in self.feet.items()
+            if check.axes.wrong
+            for event in self._report(foot, now, now, [check.axes.finding])
+        ]
 
     def _report(self, foot: Foot, t: float, known_at: float, findings: Iterable[Finding | None]) -> list[DefectFound]:
         """Return the events for the findings that were not reported before."""
-        check, events = self.feet[foot], []
-        for finding in findings:
-            if finding is None:
-                continue
-            defect, _, spoils, axes = finding
-            is_worse = spoils and defect in check.mild
-            if defect not in check.reported or is_worse or (axes is not None and check.corrected is None):
-                if is_worse:
-                    check.mild.remove(defect)
-                else:
-                    check.reported.append(defect)
-                if not spoils:
-                    check.mild.append(defect)
-                check.corrected = axes or check.corrected
-                events.append(finding.event(foot, t, known_at))
-        return events
+        check = self.feet[foot]
+        return [found.event(foot, t, known_at) for found in findings if found is not None and _is_new(check, found)]
 
-    def _examine(self, check: SensorCheck, rows: list[Row], gyro_bias: Vec3) -> list[Finding | None]:
-        """Examine a block of samples and return what it shows; the gyroscope has the bias `gyro_bias`, rad/s."""
-        times, accs, gyros = zip(*rows, strict=True)
-        acc_ends, gyro_ends = find_extremes(accs), find_extremes(gyros)
-        acc_range = max(acc_ends[0] + acc_ends[1], acc_ends[2] + acc_ends[3], acc_ends[4] + acc_ends[5])
-        gyro_peak = max(gyro_ends)
-        moves = gyro_peak > MOVING_GYRO
-        findings = [
-            check.rates.add_times(times, moves, self.settings.least_rate),
-            check.rates.add_values(accs, gyros) if moves else None,
-            check.acc_range.add(ACCELEROMETER, accs, acc_ends),
-            check.gyro_range.add(GYROSCOPE, gyros, gyro_ends),
-            check.gravity.add_block(times[0], times[-1], accs, acc_range, gyro_peak),
-        ]
-        if acc_range > 0.0 or gyros.count(gyros[0]) < len(gyros):
-            check.same_since, check.same_strides = None, 0
-        elif check.same_since is None:
-            check.same_since = times[0]
-        interval = (times[-1] - times[0]) / (len(times) - 1)
-        if interval * self.settings.least_rate > 1.0 or not BLINDING.isdisjoint(check.reported):
-            return findings
-        if check.settled_at is not None:
-            if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
-                check.settled_at = None
-            return findings
-        axes, is_slow, cuts_off = check.axes, interval > LONGEST_INTERVAL, check.gyro_range.cuts_off
-        axes.uncertain = is_slow
-        for t, stride in check.stances.add(rows, gyro_bias):
-            findings += [
-                check.gravity.add_stance(stride.last, stride.motion),
-                None if is_slow else check.bandwidth.add(stride),
-                None if axes.settled or cuts_off else axes.add(t, stride),
-            ]
-        if (axes.settled or cuts_off) and check.gravity.knows_stances and (is_slow or check.bandwidth.judged):
-            # what was learnt is reported, and the state of a session stays small
-            check.axes, check.stances, check.settled_at = AxesCheck(), StanceFinder(), times[-1]
+
+def _is_new(check: SensorCheck, finding: Finding) -> bool:
+    """Return whether a finding of a foot is to be reported, and keep that it was."""
+    defect, axes = finding.defect, finding.axes
+    is_worse = finding.spoils and defect in check.mild
+    if defect in check.reported and not is_worse and (axes is None or check.corrected is not None):
+        return False
+    if is_worse:
+        check.mild.remove(defect)
+    else:
+        check.reported.append(defect)
+    if not finding.spoils:
+        check.mild.append(defect)
+    check.corrected = axes or check.corrected
+    return True
+
+
+def _examine(check: SensorCheck, gyro_bias: Vec3) -> list[Finding | None]:
+    """Examine the block of samples and return what it shows; the gyroscope has the bias `gyro_bias`, rad/s."""
+    times, accs, gyros = zip(*check.rows, strict=True)
+    acc_ends, gyro_ends = find_extremes(accs), find_extremes(gyros)
+    acc_range = max(acc_ends[0] + acc_ends[1], acc_ends[2] + acc_ends[3], acc_ends[4] + acc_ends[5])
+    gyro_peak = max(gyro_ends)
+    moves = gyro_peak > MOVING_GYRO
+    findings = [
+        check.rates.add_times(times, moves),
+        check.rates.add_values(accs, gyros) if moves else None,
+        check.acc_range.add(ACCELEROMETER, accs, acc_ends),
+        check.gyro_range.add(GYROSCOPE, gyros, gyro_ends),
+        check.gravity.add_block(times[0], times[-1], accs, acc_range, gyro_peak),
+    ]
+    if acc_range > 0.0 or gyros.count(gyros[0]) < len(gyros):
+        check.same_since, check.same_strides = None, 0
+    elif check.same_since is None:
+        check.same_since = times[0]
+    interval = (times[-1] - times[0]) / (len(times) - 1)
+    if interval * LEAST_RATE > 1.0 or not BLINDING.isdisjoint(check.reported):
         return findings
+    if check.settled_at is not None:
+        if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
+            check.settled_at = None
+        return findings
+    axes, is_slow, cuts_off = check.axes, interval > LONGEST_INTERVAL, check.gyro_range.cuts_off
+    axes.uncertain = is_slow
+    for t, stride in check.stances.add(check.rows, gyro_bias):
+        findings += [
+            check.gravity.add_stance(stride.last, stride.motion),
+            None if is_slow else check.bandwidth.add(stride),
+            None if axes.settled or cuts_off else axes.add(t, stride),
+        ]
+    if (axes.settled or cuts_off) and check.gravity.knows_stances and (is_slow or check.bandwidth.judged):
+        # what was learnt is reported, and the state of a session stays small
+        check.axes, check.stances, check.settled_at = AxesCheck(), StanceFinder(), times[-1]
+    return findings
 
 
 def _stuck(check: SensorCheck, stride: StrideTaken) -> Finding | None:

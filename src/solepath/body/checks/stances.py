@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import sqrt
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from ...events import Defect, DefectFound
 from ...types import SITE_OF_FOOT, Foot, Vec3
@@ -39,6 +39,8 @@ LONGEST_SAMPLE = 0.15
 """Longest time between two samples that is integrated over, s; a stride with a longer one is discarded."""
 HALF_WINDOW = 2
 """Number of intervals before and after an instant over which its motion is averaged: 0.1 s in all."""
+WINDOW = 2 * HALF_WINDOW + 1
+"""Number of all these intervals."""
 STEADINESS_WEIGHT = 0.2
 """Motion for each unit of standard deviation of the specific force, (rad/s)/(m/s^2)."""
 SWING_MOTION, STANCE_MOTION = 2.0, 1.0
@@ -53,6 +55,8 @@ MOST_INTERVALS = 140
 Interval = tuple[int, int, int, int, int, int, int]
 """Duration, integral of the angular rate and mean specific force, sensor frame, as whole numbers: they are short in a
 saved state. The units are `TICK`, `TURN` and `FORCE`."""
+NO_MOTION: Final[Interval] = (0, 0, 0, 0, 0, 0, 0)
+"""An interval of no duration."""
 
 Row = tuple[float, Vec3, Vec3]
 """Time, s, specific force, m/s^2, and angular rate, rad/s, of a sample."""
@@ -74,6 +78,18 @@ class ClosedStride(NamedTuple):
 
 
 @define
+class Instant:
+    """The stillest instant of a part of a stance."""
+
+    i: int
+    """Index of its interval."""
+    motion: float
+    """Motion, rad/s."""
+    since: int = 0
+    """Time since it, in units of `TICK`."""
+
+
+@define
 class StanceFinder:
     """Divides the samples of one foot into strides, each from the stillest instant of a stance to the next one's."""
 
@@ -88,21 +104,15 @@ class StanceFinder:
     intervals: list[Interval] = field(factory=list)
     """Newest intervals: those of the stride under way and `HALF_WINDOW` before it."""
     rates: tuple[float, ...] = ()
-    """Mean angular rates of the newest intervals, rad/s: at most 2 HALF_WINDOW + 1 of them."""
+    """Mean angular rates of the newest intervals, rad/s: at most `WINDOW` of them."""
+    sums: tuple[int, int, int, int] = (0, 0, 0, 0)
+    """Sums of the specific forces of these intervals, `FORCE`, and of their squares."""
     start: int | None = None
     """Index of the instant at which the stride under way began; None when it is unknown."""
-    best: int | None = None
-    """Index of the stillest instant at the beginning of the current stance; None in a swing."""
-    latest: int | None = None
-    """Index of the stillest recent instant of the current stance, where the next stride begins; None in a swing."""
-    since_best: int = 0
-    """Time since `best`, in units of `TICK`."""
-    since_latest: int = 0
-    """Time since `latest`, in units of `TICK`."""
-    best_motion: float = 0.0
-    """Motion at `best`, rad/s."""
-    latest_motion: float = 0.0
-    """Motion at `latest`, rad/s."""
+    best: Instant | None = None
+    """Stillest instant at the beginning of the current stance; None in a swing."""
+    latest: Instant | None = None
+    """Stillest recent instant of the current stance, where the next stride begins; None in a swing."""
 
     def add(self, rows: Iterable[Row], bias: Vec3 = (0.0, 0.0, 0.0)) -> list[tuple[float, ClosedStride]]:
         """Add samples of a gyroscope with a `bias`, rad/s; return the strides that end, and when each is known, s."""
@@ -124,8 +134,7 @@ class StanceFinder:
             a, b, c = a - bx * duration, b - by * duration, c - bz * duration
             k = 1.0 / (duration * FORCE)
             turn, force = (int(a / TURN), int(b / TURN), int(c / TURN)), (int(k * p), int(k * q), int(k * r))
-            self.intervals.append((int(duration / TICK), *turn, *force))
-            self.rates = (*self.rates[-2 * HALF_WINDOW :], sqrt(a * a + b * b + c * c) / duration)
+            self._add_interval((int(duration / TICK), *turn, *force), sqrt(a * a + b * b + c * c) / duration)
             duration = a = b = c = p = q = r = 0.0
             stride = self._add_instant(len(self.intervals) - 1 - HALF_WINDOW)
             if stride is not None:
@@ -133,95 +142,79 @@ class StanceFinder:
         self.t, self.duration, self.turn, self.force = t_last, duration, (a, b, c), (p, q, r)
         return found
 
+    def _add_interval(self, interval: Interval, rate: float) -> None:
+        """Add an interval with its mean angular rate, rad/s."""
+        self.intervals.append(interval)
+        self.rates = (*self.rates[1 - WINDOW :], rate)
+        x, y, z, squares = self.sums
+        _, _, _, _, a, b, c = interval
+        _, _, _, _, p, q, r = self.intervals[-1 - WINDOW] if len(self.intervals) > WINDOW else NO_MOTION
+        squares += a * a + b * b + c * c - p * p - q * q - r * r
+        self.sums = x + a - p, y + b - q, z + c - r, squares
+
     def _restart(self) -> None:
-        self.intervals, self.rates = [], ()
+        self.intervals, self.rates, self.sums = [], (), (0, 0, 0, 0)
         self.start = self.best = self.latest = None
 
     def _add_instant(self, i: int) -> ClosedStride | None:
         """Use the motion at interval number `i`, which has `HALF_WINDOW` intervals after it."""
         if i < HALF_WINDOW:
             return None
-        motion = self._motion(i)
-        stride, ticks = None, self.intervals[i][0]
-        self.since_best += ticks
-        self.since_latest += ticks
-        if motion > SWING_MOTION:
-            if self.best is not None and self.latest is not None:
-                stride = self._close(self.best)
-                self._forget_before(self.latest)
-            self.best = self.latest = None
-        elif motion < STANCE_MOTION:
-            stride = self._add_still(i, motion)
+        motion = self._motion()
+        stride, best, latest = None, self.best, self.latest
+        if best is None or latest is None:
+            if motion < STANCE_MOTION:
+                self.best, self.latest = Instant(i, motion), Instant(i, motion)
+        else:
+            best.since += self.intervals[i][0]
+            latest.since += self.intervals[i][0]
+            if motion > SWING_MOTION:
+                stride = self._close(best)
+                del self.intervals[: latest.i - HALF_WINDOW]
+                self.start, self.best, self.latest = HALF_WINDOW, None, None
+            elif motion < STANCE_MOTION:
+                stride = self._add_still(best, latest, i, motion)
         if len(self.intervals) > MOST_INTERVALS:
             self._restart()
         return stride
 
-    def _add_still(self, i: int, motion: float) -> ClosedStride | None:
+    def _add_still(self, best: Instant, latest: Instant, i: int, motion: float) -> ClosedStride | None:
         """Use an instant of a stance; the stride before it is finished once a stiller instant is not expected."""
         stride = None
-        if self.best is None or self.latest is None:
-            self.best = self.latest = i
-            self.since_best = self.since_latest = 0
-            self.best_motion = self.latest_motion = motion
-            return None
-        if self.since_best >= BEST_WITHIN and self.start is not None:
-            stride = self._close(self.best)
-        elif motion < self.best_motion:
-            self.best, self.best_motion, self.since_best = i, motion, 0
-        if motion < self.latest_motion or self.since_latest >= BEST_WITHIN:
-            self.latest, self.latest_motion, self.since_latest = i, motion, 0
+        if best.since >= BEST_WITHIN and self.start is not None:
+            stride = self._close(best)
+        elif motion < best.motion:
+            self.best = Instant(i, motion)
+        if motion < latest.motion or latest.since >= BEST_WITHIN:
+            self.latest = Instant(i, motion)
             if self.start is None:
-                self.best, self.since_best = i, 0
-                self._forget_before(self.latest, opens_stride=False)
+                del self.intervals[: i - HALF_WINDOW]
+                self.best, self.latest = Instant(HALF_WINDOW, motion), Instant(HALF_WINDOW, motion)
         return stride
 
-    def _motion(self, i: int) -> float:
-        """Return the mean rate around interval `i`, plus the weighted standard deviation of the specific force."""
-        a, b, c, d, e = self.rates  # 2 HALF_WINDOW + 1 of them
+    def _motion(self) -> float:
+        """Return the mean rate over the newest intervals, plus the weighted standard deviation of the specific force."""
+        a, b, c, d, e = self.rates  # `WINDOW` of them
         rate = 0.2 * (a + b + c + d + e)
         if rate > SWING_MOTION:
             return rate
-        around = self.intervals[i - HALF_WINDOW : i + HALF_WINDOW + 1]
-        (_, _, _, _, ax, ay, az), (_, _, _, _, bx, by, bz) = around[:2]
-        (_, _, _, _, cx, cy, cz), (_, _, _, _, dx, dy, dz), (_, _, _, _, ex, ey, ez) = around[2:]
-        x, y, z = ax + bx + cx + dx + ex, ay + by + cy + dy + ey, az + bz + cz + dz + ez
-        squares = (
-            (ax * ax + bx * bx + cx * cx + dx * dx + ex * ex)
-            + (ay * ay + by * by + cy * cy + dy * dy + ey * ey)
-            + (az * az + bz * bz + cz * cz + dz * dz + ez * ez)
-        )  # in a loop a sample takes 2 us more, until the axes are known
-        variance = 5 * squares - (x * x + y * y + z * z)  # 25 times it, exact, because these are whole numbers
-        return rate + STEADINESS_WEIGHT * FORCE * 0.2 * sqrt(variance)
+        x, y, z, squares = self.sums
+        variance = WINDOW * squares - (x * x + y * y + z * z)  # times the square of their number, exact
+        return rate + STEADINESS_WEIGHT * FORCE * sqrt(variance) / WINDOW
 
-    def _time_between(self, first: int, last: int) -> float:
-        """Return the time between two instants, s."""
-        return TICK * sum(interval[0] for interval in self.intervals[first + 1 : last + 1])  # whole numbers
+    def _around(self, i: int) -> list[Interval]:
+        """Return the intervals around an instant."""
+        return self.intervals[i - HALF_WINDOW : i + HALF_WINDOW + 1]
 
-    def _close(self, end: int) -> ClosedStride | None:
-        """Return the stride that ends at interval `end`; after it, none is under way."""
+    def _close(self, end: Instant) -> ClosedStride | None:
+        """Return the stride that ends at an instant; after it, none is under way."""
         start, self.start = self.start, None
-        if start is None or end <= start:
+        if start is None or end.i <= start:
             return None
-        around_start = self.intervals[start - HALF_WINDOW : start + HALF_WINDOW + 1]
-        around_end = self.intervals[end - HALF_WINDOW : end + HALF_WINDOW + 1]
-        return ClosedStride(
-            tuple(self.intervals[start + 1 : end + 1]),
-            _mean_acc(around_start),
-            _mean_acc(around_end),
-            self.best_motion,
-            self._time_between(start, end),
-        )
-
-    def _forget_before(self, i: int, *, opens_stride: bool = True) -> None:
-        """Discard what comes before the instant `i`, where a stride begins if `opens_stride`."""
-        dropped = i - HALF_WINDOW
-        del self.intervals[:dropped]
-        if opens_stride:
-            self.start = HALF_WINDOW
-        if self.best is not None:
-            self.best = max(HALF_WINDOW, self.best - dropped)
-        if self.latest is not None:
-            self.latest -= dropped
+        intervals = tuple(self.intervals[start + 1 : end.i + 1])
+        first, last = _mean_acc(self._around(start)), _mean_acc(self._around(end.i))
+        duration = TICK * sum([interval[0] for interval in intervals])  # whole numbers
+        return ClosedStride(intervals, first, last, end.motion, duration)
 
 
 def _mean_acc(intervals: list[Interval]) -> Vec3:

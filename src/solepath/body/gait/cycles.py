@@ -41,6 +41,10 @@ MAX_KEPT = 4
 """Largest number of contacts, of toe-offs and of waiting cycles of a foot that are kept."""
 
 
+COMPLETE, DEGRADED, UNSTEADY = range(3)
+"""What is missing in a cycle: nothing; samples, or an event, which is inferred; more than a steady cycle allows."""
+
+
 @define
 class PendingCycle:
     """A finished gait cycle that waits for the following foot-flat and the stride that ends there; times in s."""
@@ -50,10 +54,8 @@ class PendingCycle:
     end: float
     follows_cycle: bool
     """Flag: the cycle directly before was accepted too."""
-    degraded: bool
-    """Flag: samples are missing in the cycle, or an event is inferred."""
-    unsteady: bool
-    """Flag: more samples or events are missing than a steady cycle allows."""
+    lack: int
+    """What is missing in the cycle: `COMPLETE`, `DEGRADED` or `UNSTEADY`."""
     foot_was_flat: bool = False
     """Flag: a foot-flat followed the cycle; if no stride ended there, the wearer stepped on the spot."""
     stride: StrideTaken | None = None
@@ -64,16 +66,20 @@ class PendingCycle:
 class Footfalls:
     """The gait cycle of one foot that is under way, and the finished cycles that are not measured yet."""
 
+    t: float | None = None
+    """Time of the foot's newest sample, s; None before any."""
+    tracked: bool = False
+    """Flag: velocity and position of the foot are known."""
+    unsettled: float | None = None
+    """Time up to which the clock of the foot cannot be compared with that of the other one, s; None: it can."""
     contact: float | None = None
     """Contact at which the cycle under way started, s; None while there is none."""
     toe_off: float | None = None
     """Toe-off since the newest contact, s, also when no cycle is under way; None without one."""
     follows_cycle: bool = False
     """Flag: the cycle directly before the one under way was accepted."""
-    degraded: bool = False
-    """Flag: samples are missing in the cycle under way, or an event is inferred."""
-    unsteady: bool = False
-    """Flag: more is missing in the cycle under way than a steady cycle allows."""
+    lack: int = COMPLETE
+    """What is missing in the cycle under way: `COMPLETE`, `DEGRADED` or `UNSTEADY`."""
     ended_cycle: PendingCycle | None = None
     """Newest finished cycle, while events may still be added to it."""
     waiting_cycles: list[PendingCycle] = field(factory=list)
@@ -84,49 +90,42 @@ class Footfalls:
     """Times of the newest contacts, without inferred ones, s."""
     toe_offs: list[float] = field(factory=list)
     """Times of the newest toe-offs, without inferred ones, s."""
-    gap_start: float | None = None
-    """Start of the newest gap that is longer than `MAX_STEADY_GAP`, s."""
-    gap_end: float | None = None
-    """End of the same gap, s."""
+    gap: tuple[float, float] | None = None
+    """Start and end of the newest gap that is longer than `MAX_STEADY_GAP`, s; None before any."""
 
-    def add_contact(self, t: float, inferred: bool) -> None:
-        """Add a contact of the foot at `t`, s."""
-        inferred = inferred or self._is_in_gap(t)
-        start, toe_off = self.contact, self.toe_off
-        if start is not None and toe_off is None:
-            return  # the foot never left the ground
-        if start is not None and toe_off is not None:
-            is_cycle = (
-                toe_off - start <= MAX_PHASE_TIME and t - toe_off <= MAX_PHASE_TIME and t - start >= MIN_CYCLE_TIME
-            )
+    def add_contact(self, event: HeelStrike | FootFlat) -> None:
+        """Add a contact of the foot."""
+        t, start, toe_off = event.t, self.contact, self.toe_off
+        lack = self._lack_of(event)
+        if start is not None:
+            if toe_off is None:
+                return  # the foot never left the ground
+            is_cycle = max(toe_off - start, t - toe_off) <= MAX_PHASE_TIME and t - start >= MIN_CYCLE_TIME
             if is_cycle:
-                degraded, unsteady = self.degraded or inferred, self.unsteady or inferred
-                self.ended_cycle = PendingCycle(start, toe_off, t, self.follows_cycle, degraded, unsteady)
+                self.ended_cycle = PendingCycle(start, toe_off, t, self.follows_cycle, max(self.lack, lack))
             self.follows_cycle = is_cycle
-        self.contact, self.toe_off = t, None
-        self.degraded = self.unsteady = inferred
-        if not inferred:
+        self.contact, self.toe_off, self.lack = t, None, lack
+        if lack == COMPLETE:
             self.contacts = [*self.contacts[1 - MAX_KEPT :], t]
 
-    def add_toe_off(self, t: float, inferred: bool) -> None:
-        """Add a toe-off at `t`, s."""
-        inferred = inferred or self._is_in_gap(t)
-        self.toe_off = t
-        self.degraded, self.unsteady = self.degraded or inferred, self.unsteady or inferred
-        if not inferred:
-            self.toe_offs = [*self.toe_offs[1 - MAX_KEPT :], t]
+    def add_toe_off(self, event: ToeOff) -> None:
+        """Add a toe-off."""
+        lack = self._lack_of(event)
+        self.toe_off, self.lack = event.t, max(self.lack, lack)
+        if lack == COMPLETE:
+            self.toe_offs = [*self.toe_offs[1 - MAX_KEPT :], event.t]
 
-    def add_gap(self, t: float, duration: float) -> None:
-        """Add a gap that starts at `t`, s, and lasts `duration`, s."""
-        self.degraded, self.unsteady = True, self.unsteady or duration > MAX_STEADY_GAP
-        if duration > MAX_STEADY_GAP:
-            self.gap_start, self.gap_end = t, t + duration
+    def add_gap(self, gap: SampleGap) -> None:
+        """Add a gap between samples."""
+        is_long = gap.duration > MAX_STEADY_GAP
+        self.lack = UNSTEADY if is_long else max(self.lack, DEGRADED)
+        if is_long:
+            self.gap = gap.t, gap.t + gap.duration
 
-    def _is_in_gap(self, t: float) -> bool:
-        """Return whether an event at `t`, s, may have happened in a gap and been detected after it."""
-        return (
-            self.gap_start is not None and self.gap_end is not None and self.gap_start < t <= self.gap_end + GAP_MARGIN
-        )
+    def _lack_of(self, event: HeelStrike | FootFlat | ToeOff) -> int:
+        """Return what an event lacks: it may be inferred, or have happened in a gap and been detected after it."""
+        in_gap = self.gap is not None and self.gap[0] < event.t <= self.gap[1] + GAP_MARGIN
+        return UNSTEADY if event.inferred or in_gap else COMPLETE
 
     def add_stride(self, stride: StrideTaken) -> None:
         """Add a stride to the finished cycle that has the same heel-strike and toe-off."""
@@ -136,9 +135,9 @@ class Footfalls:
         if cycle is not None and cycle.end == contact and cycle.toe_off == stride.t_toe_off:
             if stride.t_start >= cycle.start:
                 cycle.stride = stride
-            if stride.degraded and not cycle.degraded and not self.degraded:
-                cycle.unsteady = True  # no sample is missing, so the reason is clipping
-            cycle.degraded = cycle.degraded or stride.degraded
+            if stride.degraded and cycle.lack == COMPLETE:
+                # if no sample is missing in the next cycle either, the reason is clipping
+                cycle.lack = UNSTEADY if self.lack == COMPLETE else DEGRADED
 
     def close_cycle(self) -> None:
         """Move the finished cycle to the waiting cycles, because all its events have been added."""
@@ -180,27 +179,25 @@ ipol_10m_uturn are such; in none of them the events agree with the hand labels."
 
 def measure_cycle(
     foot: Foot,
-    number: int,
     cycle: PendingCycle,
     previous: GaitCycleMeasured | None,
+    this: Footfalls,
     other: Footfalls,
-    tracked: bool,
     comparable: bool,
     known_at: float,
 ) -> GaitCycleMeasured:
-    """Return the measurement of one gait cycle of `foot`.
+    """Return the measurement of one gait cycle of `foot`, the newest of those that `this` counts.
 
-    `number` counts the foot's cycles from 1, `previous` is its previous cycle, and `other` has the other foot's events.
-    `tracked` says that the foot's position is known, `comparable` that the feet's clocks can be compared over the whole
-    cycle."""
+    `previous` is the foot's previous cycle, `other` has the other foot's events, and `comparable` says that the feet's
+    clocks can be compared over the whole cycle."""
     start, toe_off, end, stride = cycle.start, cycle.toe_off, cycle.end, cycle.stride
     time = end - start
-    contacts_between = [t for t in other.contacts if start < t < end]
-    other_contact = contacts_between[0] if len(contacts_between) == 1 else None
-    other_toe_off = None
-    if other_contact is not None:
-        earlier_toe_offs = [t for t in other.toe_offs if start - 0.5 * time < t < other_contact]
-        other_toe_off = earlier_toe_offs[-1] if earlier_toe_offs else None
+    contacts = [t for t in other.contacts if start < t < end]
+    contact = contacts[0] if comparable and len(contacts) == 1 else None
+    toe_offs = [] if contact is None else [t for t in other.toe_offs if start - 0.5 * time < t < contact]
+    other_toe_off = toe_offs[-1] if toe_offs else None
+    if is_contradictory(cycle, contact, other_toe_off):
+        contact = other_toe_off = None
     # a clearance is negative, and counts as 0, when the corrected foot-flat height is above all heights of the swing
     length, clearance, off_angle, strike_angle, turning, rise = (
         (None,) * 6
@@ -214,14 +211,11 @@ def measure_cycle(
             stride.height_change,
         )
     )
-    if not comparable or is_contradictory(cycle, other_contact, other_toe_off):
-        other_contact = other_toe_off = None
-    contact = other_contact
     return GaitCycleMeasured(
         t=end,
         known_at=max(known_at, end),
         foot=foot,
-        number=number,
+        number=this.count,
         t_start=start,
         t_toe_off=toe_off,
         stride_time=time,
@@ -242,8 +236,8 @@ def measure_cycle(
         heel_strike_angle=strike_angle,
         turning_angle=turning,
         rise=rise,
-        degraded=cycle.degraded,
-        steady=is_steady(cycle, time, previous, tracked),
+        degraded=cycle.lack != COMPLETE,
+        steady=is_steady(cycle, time, previous, this.tracked),
     )
 
 
@@ -263,7 +257,7 @@ def is_contradictory(cycle: PendingCycle, other_contact: float | None, other_toe
 
 def is_steady(cycle: PendingCycle, time: float, previous: GaitCycleMeasured | None, tracked: bool) -> bool:
     """Return whether the cycle, whose duration is `time`, s, is steady by the rule above."""
-    if cycle.unsteady or not cycle.follows_cycle or previous is None or previous.t != cycle.start:
+    if cycle.lack == UNSTEADY or not cycle.follows_cycle or previous is None or previous.t != cycle.start:
         return False
     if not _is_similar(time, previous.stride_time):
         return False
@@ -289,16 +283,6 @@ MAX_WAIT = 0.5
 
 
 @define
-class FootProgress:
-    """The progress of one foot's samples."""
-
-    t: float | None = None
-    """Time of the newest sample, s; None before any."""
-    tracked: bool = False
-    """Flag: velocity and position of the foot are known."""
-
-
-@define
 class GaitCycles(Part):
     """Measures gait cycles from the events of both feet and returns GaitCycleMeasured; `means` has running means."""
 
@@ -306,12 +290,9 @@ class GaitCycles(Part):
     notices: ClassVar[tuple[type[Notice], ...]] = (ClockUnsettled,)
 
     feet: PerFoot[Footfalls] = field(factory=lambda: per_foot(Footfalls), init=False)
-    progress: PerFoot[FootProgress] = field(factory=lambda: per_foot(FootProgress), init=False)
     means: GaitMeans = field(factory=GaitMeans, init=False)
     idle: bool = field(default=True, init=False)
     """Flag: no cycle waits for samples of the other foot."""
-    unsettled: PerFoot[float | None] = field(factory=lambda: dict.fromkeys(Foot), init=False)
-    """Time up to which the clock of each foot cannot be compared with that of the other one, s; None: it can."""
     clocks_apart: bool = field(default=False, init=False)
     """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 
@@ -328,35 +309,35 @@ class GaitCycles(Part):
                 self.clocks_apart = True
                 self.means.separate_feet()
             elif isinstance(event, ClockUnsettled) and event.site.foot is not None:
-                self.unsettled[event.site.foot] = event.until
+                self.feet[event.site.foot].unsettled = event.until
         return outputs
 
     def _add_sample(self, view: FootView, events: Sequence[PartInput]) -> Sequence[PartOutput]:
         if self.idle and view.after is None:
             return ()
-        this, progress = self.feet[view.foot], self.progress[view.foot]
-        if progress.t is None or view.t > progress.t:
-            progress.t = view.t
+        this = self.feet[view.foot]
+        if this.t is None or view.t > this.t:
+            this.t = view.t
         if view.after is not None:
-            self.progress[OTHER[view.foot]].t = view.after.other_t
-        progress.tracked = view.levelled
+            self.feet[OTHER[view.foot]].t = view.after.other_t
+        this.tracked = view.levelled
         for event in events:
             if isinstance(event, HeelStrike):
-                this.add_contact(event.t, event.inferred)
+                this.add_contact(event)
             elif isinstance(event, FootFlat):
                 if this.toe_off is not None:  # the heel-strike was not detected
-                    this.add_contact(event.t, event.inferred)
+                    this.add_contact(event)
                 if this.ended_cycle is not None:
                     this.ended_cycle.foot_was_flat = True
             elif isinstance(event, HeelOff):
                 this.close_cycle()
             elif isinstance(event, ToeOff):
                 this.close_cycle()
-                this.add_toe_off(event.t, event.inferred)
+                this.add_toe_off(event)
             elif isinstance(event, StrideTaken):
                 this.add_stride(event)
             elif isinstance(event, SampleGap) and event.site is SITE_OF_FOOT[view.foot]:
-                this.add_gap(event.t, event.duration)
+                this.add_gap(event)
         if this.ended_cycle is not None and this.ended_cycle.foot_was_flat:
             this.close_cycle()
         return self._release(view.known_at)
@@ -366,46 +347,38 @@ class GaitCycles(Part):
         for falls in self.feet.values():
             falls.close_cycle()
         self.idle = True
-        waiting = [(foot, len(falls.waiting_cycles)) for foot, falls in self.feet.items()]
-        return [output for foot, count in waiting for output in self._measure(foot, now, count)]
+        waiting = {foot: falls.waiting_cycles for foot, falls in self.feet.items()}
+        return [self._measure(foot, cycle, now) for foot, cycles in waiting.items() for cycle in cycles]
 
     def reset(self, site: Site) -> None:
         """Discard the cycles and the times of a foot whose clock restarts."""
         if site.foot is not None:
             self.clocks_apart = False
             self.means.reset(site.foot)
-            self.feet[site.foot] = Footfalls(count=self.feet[site.foot].count)
-            self.progress[site.foot].t = None
+            falls = self.feet[site.foot]
+            self.feet[site.foot] = Footfalls(count=falls.count, unsettled=falls.unsettled)
 
     def _release(self, known_at: float) -> Sequence[PartOutput]:
         """Return the cycles that end before the other foot's newest sample, or that have waited for `MAX_WAIT`."""
         outputs: list[PartOutput] = []
+        self.idle = True
         for foot, falls in self.feet.items():
-            own, other = self.progress[foot].t, self.progress[OTHER[foot]].t
-            ready_count = 0
+            own, other = falls.t, self.feet[OTHER[foot]].t
             for cycle in falls.waiting_cycles:
                 other_is_past = other is None or other >= cycle.end
                 has_waited = own is None or own - cycle.end >= MAX_WAIT
                 if not other_is_past and not has_waited:
+                    self.idle = False
                     break
-                ready_count += 1
-            if ready_count:
-                outputs += self._measure(foot, known_at, ready_count)
-        self.idle = not any([falls.waiting_cycles for falls in self.feet.values()])
+                outputs.append(self._measure(foot, cycle, known_at))
         return outputs
 
-    def _measure(self, foot: Foot, known_at: float, count: int) -> list[PartOutput]:
-        """Measure the first `count` of the waiting cycles and return their events."""
-        falls, other = self.feet[foot], self.feet[OTHER[foot]]
-        cycles, falls.waiting_cycles = falls.waiting_cycles[:count], falls.waiting_cycles[count:]
-        tracked = self.progress[foot].tracked
-        outputs: list[PartOutput] = []
-        for cycle in cycles:
-            falls.count += 1
-            is_unsettled = any([until is not None and until > cycle.start for until in self.unsettled.values()])
-            comparable = not (self.clocks_apart or is_unsettled)
-            previous = self.means.newest[foot]
-            measured = measure_cycle(foot, falls.count, cycle, previous, other, tracked, comparable, known_at)
-            self.means.add(measured)
-            outputs.append(measured)
-        return outputs
+    def _measure(self, foot: Foot, cycle: PendingCycle, known_at: float) -> GaitCycleMeasured:
+        """Measure the first of the waiting cycles and return its event."""
+        this, other = self.feet[foot], self.feet[OTHER[foot]]
+        this.count, this.waiting_cycles = this.count + 1, this.waiting_cycles[1:]
+        is_unsettled = any([falls.unsettled is not None and falls.unsettled > cycle.start for falls in (this, other)])
+        comparable = not (self.clocks_apart or is_unsettled)
+        measured = measure_cycle(foot, cycle, self.means.newest[foot], this, other, comparable, known_at)
+        self.means.add(measured)
+        return measured
