@@ -21,8 +21,9 @@ from typing import ClassVar
 from ...events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Phase, Site, per_foot
-from ...types.attrs import define, field, frozen
+from ...types.attrs import define, evolve, field, frozen
 from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
+from .stances import Finding
 
 # The offset between the clocks of the feet, from comparisons of the stances of each foot with the other's swings.
 
@@ -75,30 +76,26 @@ class Offset:
     cycle: float
     """Time of a cycle, s."""
 
-    @property
-    def is_significant(self) -> bool:
-        """True if feet on one clock do not show such an offset."""
-        return abs(self.value) > SIGNIFICANT * self.sigma
-
-    @property
-    def sentences(self) -> str:
-        """Sentences for the person who records, on the right foot."""
-        late, size = "late" if self.value < 0.0 else "early", 1000.0 * abs(self.value)
-        cycle = 1000.0 * self.cycle
-        return (
-            f"its times are about {size:.0f} ms {late}, give or take whole cycles of {cycle:.0f} ms; step time and "
-            "double support are left out. Use one clock: an offset wrong by a cycle gives numbers that look right"
-        )
-
     def differs_from(self, other: float) -> bool:
         """Return whether another offset, s, differs from this one by more than `CHANGED`, but for whole cycles."""
         difference = self.value - other
         difference -= self.cycle * round(difference / self.cycle)
         return abs(difference) > max(SIGNIFICANT * self.sigma, CHANGED * abs(other))
 
+    def event(self, known: HeelStrike) -> DefectFound:
+        """Return the event by which it is reported, with the contact that made it known."""
+        late, size = "late" if self.value < 0.0 else "early", 1000.0 * abs(self.value)
+        cycle = 1000.0 * self.cycle
+        text = (
+            f"its times are about {size:.0f} ms {late}, give or take whole cycles of {cycle:.0f} ms; step time and "
+            "double support are left out. Use one clock: an offset wrong by a cycle gives numbers that look right"
+        )
+        found = Finding(Defect.CLOCKS, text, spoils=False).event(Foot.RIGHT, known.t, known.known_at)
+        return evolve(found, offset=self.value, sigma=self.sigma)
+
 
 def find_offset(comparisons: Sequence[Comparison]) -> Offset | None:
-    """Return the offset of the right foot's times that these comparisons show, or None."""
+    """Return the offset of the right foot's times that these comparisons show; None if they do not show any."""
     if len(comparisons) < MIN_COMPARISONS:
         return None
     angles = [2.0 * pi * one.phase for one in comparisons]
@@ -116,7 +113,8 @@ def find_offset(comparisons: Sequence[Comparison]) -> Offset | None:
         return None
     uneven = UNEVEN_SHARE * max(0.0, abs(_median([one.uneven for one in comparisons])) - EVEN_SWINGS)
     error = EFFICIENCY_OF_MEDIAN * scatter / sqrt(len(comparisons))
-    return Offset(-delay, sqrt(GAIT_SIGMA * GAIT_SIGMA + uneven * uneven + error * error), cycle)
+    sigma = sqrt(GAIT_SIGMA * GAIT_SIGMA + uneven * uneven + error * error)
+    return Offset(-delay, sigma, cycle) if abs(delay) > SIGNIFICANT * sigma else None
 
 
 def _spread(delays: list[float]) -> tuple[float, float]:
@@ -156,8 +154,6 @@ MAX_LAG = 0.5
 class LoneFoot:
     """The strides of one foot since the other foot moved."""
 
-    newest: float | None = None
-    """Time of the newest sample of this foot, s; None before any."""
     stood_since: float | None = None
     """Time from which on this foot is on the ground, s: of its newest event, or before any of a sample; else None."""
     is_known: bool = False
@@ -169,6 +165,10 @@ class LoneFoot:
     y: float = 0.0
     """Displacement by these strides along the y axis of the world, m."""
 
+    def stand(self, since: float | None) -> None:
+        """Set that this foot is tracked, and the time from which on it is on the ground, s, or None if it is not."""
+        self.is_known, self.stood_since = True, since
+
     def restart(self) -> None:
         """Restart the count, because the other foot moved, or may have moved."""
         self.strides, self.x, self.y = 0, 0.0, 0.0
@@ -179,42 +179,32 @@ class LoneStrides:
     """Detects a foot that walked while the other foot stood; the sentences are those of the right foot."""
 
     feet: PerFoot[LoneFoot] = field(factory=lambda: per_foot(LoneFoot), init=False)
+    other_t: float | None = field(default=None, init=False)
+    """Time of the newest sample of the foot that did not have the newest event, s; None before any."""
     requested: Foot | None = field(default=None, init=False)
     """Foot of which a sample without events is needed, to know whether it is tracked; None mostly."""
 
     def see(self, view: FootView) -> None:
         """Take a sample with events, or one of the foot that was requested."""
-        foot = view.foot
-        this, other = self.feet[foot], self.feet[OTHER[foot]]
+        this, other = self.feet[view.foot], OTHER[view.foot]
         if not this.is_known and view.levelled and view.moved_at is not None:
-            self.set_standing(foot, view.t if view.phase in (Phase.STATIONARY, Phase.LOADING) else None)
-        if self.requested is foot:
+            this.stand(view.t if view.phase in (Phase.STATIONARY, Phase.LOADING) else None)
+        if self.requested is view.foot:
             self.requested = None
         if view.after is not None:
-            self.set_newest(foot, view.t, view.after.other_t)
-            if not other.is_known and other.newest is not None:
-                self.requested = OTHER[foot]
-
-    def set_newest(self, foot: Foot, t: float, other_t: float | None) -> None:
-        """Set the time of the newest sample of a foot and of the other foot, s."""
-        this, other = self.feet[foot], self.feet[OTHER[foot]]
-        this.newest, other.newest = t, other_t
-
-    def set_standing(self, foot: Foot, since: float | None) -> None:
-        """Set that a foot is tracked, and the time from which on it is on the ground, s, or None if it is not."""
-        this = self.feet[foot]
-        this.is_known, this.stood_since = True, since
+            self.other_t = view.after.other_t
+            if not self.feet[other].is_known and self.other_t is not None:
+                self.requested = other
 
     def add(self, event: GaitEvent) -> str | None:
         """Add an event of a foot; return sentences for the person if the foot has walked while the other one stood."""
         this, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
         other.restart()
         if not isinstance(event, StrideTaken):
-            self.set_standing(event.foot, event.t if isinstance(event, HeelStrike | FootFlat) else None)
+            this.stand(event.t if isinstance(event, HeelStrike | FootFlat) else None)
             return None
-        stood_since, newest = other.stood_since, other.newest
-        is_lone = stood_since is not None and stood_since <= event.t_start
-        if event.degraded or not is_lone or newest is None or newest < event.t_end - MAX_LAG:
+        is_lone = other.stood_since is not None and other.stood_since <= event.t_start
+        if event.degraded or not is_lone or self.other_t is None or self.other_t < event.t_end - MAX_LAG:
             this.restart()
             return None
         x, y, _ = event.displacement
@@ -333,32 +323,40 @@ class FootClocks(Part):
 
     def _receive(self, event: PartInput) -> Sequence[PartOutput]:
         if isinstance(event, GaitEvent):
-            if self.lone_reported or any([foot.spoiled for foot in self.feet.values()]):
-                return ()
-            self.lone_sentences = self.lone.add(event) or self.lone_sentences
-            self.idle = self.idle and self.lone_sentences is None
-            foot = self.feet[event.foot]
-            if isinstance(event, FootFlat):
-                if foot.toe_off is not None:  # the heel-strike was not detected
+            if not self.lone_reported and not any([foot.spoiled for foot in self.feet.values()]):
+                self.lone_sentences = self.lone.add(event) or self.lone_sentences
+                self.idle = self.idle and self.lone_sentences is None
+                return self._add_event(event, self.feet[event.foot])
+        elif isinstance(event, SampleGap | DefectFound | ClockUnsettled) and event.site.foot is not None:
+            foot = self.feet[event.site.foot]
+            if isinstance(event, ClockUnsettled):
+                foot.unsettled = event.until
+            elif isinstance(event, SampleGap):
+                self.lone.add_gap(event)
+                if event.duration > MAX_GAP:
                     foot.discard()
-            elif isinstance(event, ToeOff | HeelStrike):
-                if event.inferred:
-                    foot.discard()
-                elif isinstance(event, ToeOff):
-                    foot.toe_off = event.t
-                else:
-                    middle = foot.add_contact(event.t)
-                    if middle is not None and self._compare(event.foot, middle):
-                        return self._report_offset(event)
-        elif isinstance(event, SampleGap) and event.site.foot is not None:
-            self.lone.add_gap(event)
-            if event.duration > MAX_GAP:
-                self.feet[event.site.foot].discard()
-        elif isinstance(event, DefectFound) and event.site.foot is not None and is_spoiling(event):
-            self.feet[event.site.foot].spoiled = True
-            self._forget()
-        elif isinstance(event, ClockUnsettled) and event.site.foot is not None:
-            self.feet[event.site.foot].unsettled = event.until
+            elif is_spoiling(event):
+                foot.spoiled = True
+                self._forget()
+        return ()
+
+    def _add_event(self, event: GaitEvent, foot: FootClock) -> Sequence[PartOutput]:
+        """Add an event of a foot; return DefectFound if the offset that it shows is significant and new."""
+        if isinstance(event, FootFlat):
+            if foot.toe_off is not None:  # the heel-strike was not detected
+                foot.discard()
+        elif isinstance(event, ToeOff | HeelStrike):
+            if event.inferred:
+                foot.discard()
+            elif isinstance(event, ToeOff):
+                foot.toe_off = event.t
+            else:
+                middle = foot.add_contact(event.t)
+                if middle is not None and self._compare(event.foot, middle):
+                    offset = find_offset(self.comparisons)
+                    if offset is not None and (self.reported is None or offset.differs_from(self.reported)):
+                        self.reported = offset.value
+                        return [offset.event(event)]
         return ()
 
     def reset(self, site: Site) -> None:
@@ -392,38 +390,12 @@ class FootClocks(Part):
         self.comparisons = [*self.comparisons[1 - MEMORY :], comparison]
         return True
 
-    def _report_offset(self, event: HeelStrike) -> Sequence[PartOutput]:
-        """Return DefectFound if the offset is significant and new."""
-        offset = find_offset(self.comparisons)
-        if offset is None or not offset.is_significant:
-            return ()
-        if self.reported is not None and not offset.differs_from(self.reported):
-            return ()
-        self.reported = offset.value
-        return self._report(event.t, event.known_at, offset.sentences, offset)
-
     def _report_lone(self, t: float, known_at: float) -> Sequence[PartOutput]:
         """Return DefectFound at `t`, s, if one foot has walked while the other one stood."""
         if self.lone_sentences is None:
             return ()
         what, self.lone_sentences, self.lone_reported = self.lone_sentences, None, True
-        return self._report(t, max(t, known_at), what)
-
-    @staticmethod
-    def _report(t: float, known_at: float, what: str, offset: Offset | None = None) -> Sequence[PartOutput]:
-        """Return DefectFound with these sentences."""
-        return (
-            DefectFound(
-                t=t,
-                known_at=known_at,
-                site=Site.RIGHT_FOOT,
-                defect=Defect.CLOCKS,
-                what=what,
-                spoils=False,
-                offset=None if offset is None else offset.value,
-                sigma=None if offset is None else offset.sigma,
-            ),
-        )
+        return [Finding(Defect.CLOCKS, what, spoils=False).event(Foot.RIGHT, t, max(t, known_at))]
 
 
 def is_spoiling(defect: DefectFound) -> bool:

@@ -193,7 +193,7 @@ class StanceFinder:
         return stride
 
     def _motion(self) -> float:
-        """Return the mean rate over the newest intervals, plus the weighted standard deviation of the specific force."""
+        """Return the mean rate over the newest intervals, plus the weighted deviation of the specific force."""
         a, b, c, d, e = self.rates  # `WINDOW` of them
         rate = 0.2 * (a + b + c + d + e)
         if rate > SWING_MOTION:

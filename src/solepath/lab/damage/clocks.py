@@ -103,13 +103,13 @@ def find_outcome(walk: ClockWalk, offset: float = 0.0, rate: float = 0.0, durati
 
 
 def set_newest(part: FootClocks, event: GaitEvent, spans: dict[Foot, list[tuple[float, float]]]) -> None:
-    """Set the newest samples of the feet at an event, as the views of the feet do in a session."""
-    foot, other = event.foot, OTHER[event.foot]
+    """Set the newest sample of the other foot at an event, as the views of the feet do in a session."""
+    other = OTHER[event.foot]
     times = [min(event.known_at, last) for first, last in spans[other] if first <= event.known_at]
     newest = times[-1] if times else None
-    part.lone.set_newest(foot, event.t, newest)
+    part.lone.other_t = newest
     if newest is not None and not part.lone.feet[other].is_known:
-        part.lone.set_standing(other, newest)
+        part.lone.feet[other].stand(newest)
 
 
 def row(data: str, damage: str, outcomes: Sequence[ClockOutcome], limit: float) -> str:
