@@ -31,8 +31,9 @@ from solepath import (
     Sample,
     Session,
 )
-from solepath.body.checks.sensors import SensorChecks, SensorChecksSettings
 from solepath.calibration import ShoeGeometry
+from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.settings import ErrorStateSettings
 from solepath.link.driver import Measured, Reading, check_reading
 from solepath.recipes import DEFAULT
 from solepath.wire.error import WireError
@@ -159,14 +160,14 @@ def test_a_sample_without_known_at_was_known_at_once() -> None:
 
 
 def test_settings_and_calibrations_may_hold_numbers_of_numpy() -> None:
-    checks = SensorChecks(SensorChecksSettings(least_rate=np.float64(20.0)))
+    settings = ErrorStateSettings(acc_noise=np.float64(0.02))
     shoe = ShoeGeometry(heel_radius=np.float64(0.12))
-    session = Session(DEFAULT.replace_part(SensorChecks, checks), calibration=Calibration(shoe=shoe))
+    session = Session(evolve(DEFAULT, corrector=ErrorStateFilter(settings)), calibration=Calibration(shoe=shoe))
     session.feed(samples())
     session.pack()
     saved = json.loads(json.dumps(session.snapshot(), allow_nan=False))
     assert Session.restore(saved).snapshot() == session.snapshot()
-    assert [type(part.settings.least_rate) for part in of(SensorChecks, [*session.recipe.parts])] == [float]
+    assert [type(part.settings.acc_noise) for part in of(ErrorStateFilter, [session.recipe.corrector])] == [float]
 
 
 def test_a_reader_that_gives_numbers_of_numpy_is_rejected_in_words() -> None:

@@ -54,7 +54,7 @@ CriticalCues.reset:
 CriticalCues.restart:
 Decoder.restart_clock: firmware link* newest_stream_arrival* used link.restart_clock()
 DoubleFoot.reset: chosen error_balance paths* apart
-Flights.reset: level_stride_count rises stride_count t_end t_start trusted_rise
+Flights.reset: level_stride_count stride_count t_end t_start trusted_rise
 FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares resolution sink speed squares
   strike_height top tracked
 FootClocks._forget: feet* idle
@@ -65,7 +65,7 @@ Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
 GaitCues.reset: inertial* pressure sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
-GaitCycles.reset: feet* progress* unsettled apart means.reset()
+GaitCycles.reset: feet* apart means.reset()
 GaitMeans.reset: running walking_means apart
 InertialCues.reset: axis force impact landing_at lowest_rate moving_since not_turning_at peak_rate sagittal
   swing_start turn
@@ -75,7 +75,7 @@ InsoleLink.handle_reconnection: acc_scale cells gyro_scale info_digest layout pa
 InsoleLink.restart_clock: acc_scale cells gyro_scale info_digest layout packet_run* pressure_scale reassembly
 InsoleLoads.reset: forefoot* forefoot_cells heel* heel_cells layout load_risen sum tare tare_total total* was_airborne
 LimbSensors.reset: newest* times
-LoneFoot.restart: is_known newest stood_since
+LoneFoot.restart: is_known stood_since
 Looseness.reset: apart
 LowerLimbs.reset: aligned facing segments* turn
 MeanOfFeet.reset: apart
@@ -95,7 +95,7 @@ SessionState.reset: decoders feet* height now parts* sampled* unsettled apart le
 SessionState.restart_clock: decoders* feet* height now* parts* sampled* unsettled left.feet.reset() right.feet.reset()
 Sides.reset:
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
-StanceFinder._restart: best_motion duration force latest_motion since_best since_latest t turn
+StanceFinder._restart: duration force t turn
 StanceRhythm.reset: usual_stance usual_swing
 StraightWays.reset: straightness* straightness.reset()
 Straightness.reset: direction t_start

@@ -46,6 +46,17 @@ def height_of(pressure: float) -> float | None:
     return SCALE_HEIGHT * log(STANDARD_PRESSURE / pressure) if MIN_PRESSURE < pressure < MAX_PRESSURE else None
 
 
+MAX_TRACK_HEIGHT = 1e5
+"""Largest height of a track, and of a ride, that is used, m; also the largest variance of a stride's height, m^2."""
+
+
+def height_above_track(view: FootView) -> float | None:
+    """Return the height by a sample's air pressure minus that of the foot's track, m; None without plausible ones."""
+    pressure, z = view.sample.air_pressure, view.position[2]
+    height = None if pressure is None else height_of(pressure)
+    return None if height is None or not abs(z) < MAX_TRACK_HEIGHT else height - z
+
+
 # The height filter: its estimate of three values, and its recent inputs.
 #
 # An elevator ride is known only after it has ended; all inputs since its start are then processed again.
@@ -93,23 +104,19 @@ class HeightEstimate:
             # the offset is unknown: set it so that the reading fits the correction
             x[i] = height - x[0]
             for j in range(3):
-                if j != i:
-                    p[3 * i + j] = p[3 * j + i] = -p[j]
+                p[3 * i + j] = p[3 * j + i] = -p[j]
             p[4 * i] = p[0] + noise
             return
         p[4 * i] = min(p[4 * i] + wander * max(0.0, t - previous), UNKNOWN_VARIANCE)
         innovation = height - x[0] - x[i]
-        innovation_variance = p[0] + 2.0 * p[i] + p[4 * i] + noise
-        if innovation * innovation > JUMP_LIMIT * innovation_variance:
+        if innovation * innovation > JUMP_LIMIT * (p[0] + 2.0 * p[i] + p[4 * i] + noise):
             p[4 * i] = min(p[4 * i] + innovation * innovation, UNKNOWN_VARIANCE)
-            innovation_variance = p[0] + 2.0 * p[i] + p[4 * i] + noise
+        innovation_variance = p[0] + 2.0 * p[i] + p[4 * i] + noise
         covariances = [p[3 * j] + p[3 * j + i] for j in range(3)]
-        for j in range(3):
-            x[j] += covariances[j] / innovation_variance * innovation
-        for j in range(3):
-            for k in range(3):
-                p[3 * j + k] -= covariances[j] * covariances[k] / innovation_variance
-        for j in range(3):
+        for j, covariance in enumerate(covariances):
+            x[j] += covariance / innovation_variance * innovation
+            for k, other in enumerate(covariances):
+                p[3 * j + k] -= covariance * other / innovation_variance
             p[4 * j] = max(p[4 * j], 0.0)
 
     def copy(self) -> HeightEstimate:
@@ -139,10 +146,9 @@ NOISE_WEIGHT, MAX_NOISE_RATIO = 0.05, 3.0
 """Weight of one value in the low-pass filter of `Altitude.noise`, and largest ratio of a value to the filter's."""
 MIN_NOISE = 1e-4
 """Least variance of a reading, m^2."""
-MAX_TRACK_HEIGHT = 1e5
-"""Largest height of a track, and of a ride, that is used, m; also the largest variance of a stride's height, m^2."""
 LEFT, RIGHT, MOVE = 0, 1, 2
 """Sources of an input: left barometer, right barometer, or a change of the correction by a stride or ride."""
+SOURCES = {Foot.LEFT: LEFT, Foot.RIGHT: RIGHT}
 FORGET = 3
 """Added to `LEFT` or `RIGHT`: from this input on, the offset of that barometer is not known."""
 RIDE_MARGIN = 0.7
@@ -169,6 +175,8 @@ MIN_RIDE_HEIGHT, MIN_RIDE_SPEED, MAX_RIDE_SPEED = 1.8, 0.25, 4.0
 class PendingReadings:
     """The heights of one barometer that wait for the next reading, and the newest reading."""
 
+    faulty: bool = False
+    """Flag: the barometer was reported as wrong, and is not used."""
     read_at: float | None = None
     """Time of the newest reading, s; None before any."""
     total: float = 0.0
@@ -203,29 +211,22 @@ class Altitude(Part):
     """Variance of the height of all rides together, m^2."""
     strides: deque[tuple[float, float]] = field(factory=deque, init=False)
     """Start and end of each of the newest strides, in whole hundredths of a second."""
-    faulty: list[bool] = field(factory=lambda: [False, False], init=False)
-    """Flags of the left and the right barometer: it was reported as wrong, and is not used."""
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add the reading of a foot's barometer, if the sample has one, and strides and rides."""
-        outputs: list[PartOutput] = [] if view is None else [*self._add_reading(view)]
+        outputs: list[PartOutput] = []
+        if view is not None and (height := height_above_track(view)) is not None:
+            outputs += self._add_reading(view.t, SOURCES[view.foot], height)
         for event in events:
             outputs += self._receive(event)
         return outputs
 
-    def _add_reading(self, view: FootView) -> Sequence[PartOutput]:
-        pressure = view.sample.air_pressure
-        if pressure is None:
-            return ()
-        t, z = view.t, view.position[2]
-        reading = height_of(pressure)
-        if reading is None or not abs(z) < MAX_TRACK_HEIGHT:
-            return ()
-        source = LEFT if view.foot is Foot.LEFT else RIGHT
-        if self.faulty[source]:
-            return ()
+    def _add_reading(self, t: float, source: int, height: float) -> Sequence[PartOutput]:
+        """Add a height by a barometer above the track, m."""
         side = self.sides[source]
-        side.total += reading - z
+        if side.faulty:
+            return ()
+        side.total += height
         side.count += 1
         if side.read_at is not None and 0.0 <= t - side.read_at < READING_INTERVAL:
             return ()
@@ -243,17 +244,13 @@ class Altitude(Part):
         if isinstance(event, StrideTaken):
             return self._add_stride(event)
         if isinstance(event, LiftRidden):
-            corrected = self._corrected_ride(event)
-            return [Replacement(event, corrected), self._height_shift()]
-        if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE:
-            return self._leave_out(LEFT if event.site.foot is Foot.LEFT else RIGHT)
+            return [Replacement(event, self._corrected_ride(event)), self._height_shift()]
+        if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
+            source = SOURCES[event.site.foot]
+            self.sides[source].faulty = True
+            self._replace_inputs([entry for entry in map(_unpack, self.inputs) if entry[1] != source])
+            return [self._height_shift()]
         return ()
-
-    def _leave_out(self, source: int) -> Sequence[PartOutput]:
-        """Stop to use a barometer that is wrong, and undo its readings that are kept."""
-        self.faulty[source] = True
-        self._replace_inputs([entry for entry in map(_unpack, self.inputs) if entry[1] != source])
-        return [self._height_shift()]
 
     def _replace_inputs(self, inputs: list[HeightInput]) -> None:
         """Process other inputs than those that are kept, and keep them instead."""
@@ -270,8 +267,8 @@ class Altitude(Part):
         What the other foot has measured is kept: a ride under way still has its start."""
         if site.foot is None:
             return
-        source = LEFT if site.foot is Foot.LEFT else RIGHT
-        self.sides[source], self.faulty[source] = PendingReadings(), False
+        source = SOURCES[site.foot]
+        self.sides[source] = PendingReadings()
         newest = _unpack(self.inputs[-1]) if self.inputs else None
         if newest is not None and newest[1] != FORGET + 1 - source:
             self._add_input((newest[0], FORGET + source, 0.0, 0.0))
@@ -284,12 +281,11 @@ class Altitude(Part):
         self.base = self.now.copy()
 
     def _add_stride(self, stride: StrideTaken) -> Sequence[PartOutput]:
-        self.strides.append((float(round(100.0 * stride.t_start)), float(round(100.0 * stride.t_end))))
-        if stride.length < MIN_STRIDE_LENGTH:
-            self.strides.pop()
-        elif len(self.strides) > MAX_STRIDES:
-            self.strides.popleft()
-        if self.now.read_at[LEFT] is None and self.now.read_at[RIGHT] is None:
+        if stride.length >= MIN_STRIDE_LENGTH:
+            self.strides.append((float(round(100.0 * stride.t_start)), float(round(100.0 * stride.t_end))))
+            if len(self.strides) > MAX_STRIDES:
+                self.strides.popleft()
+        if self.now.read_at == [None, None]:
             return ()
         height, variance = abs(stride.height_change), stride.covariance[5]
         if not LEVEL_LIMIT < height < MAX_TRACK_HEIGHT or not variance < MAX_TRACK_HEIGHT:

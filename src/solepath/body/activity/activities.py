@@ -24,13 +24,13 @@ from ...types import Activity, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import TIME_EPSILON, ZERO
 from ..part import ActivityPart, PartInput, PartOutput
-from .early import ActivityCue, ActivityReport, BlockSigns, EarlyActivities, cue_of_stride
+from .early import ActivityCue, ActivityReport, BlockSigns, Early, cue_of_stride, follow, follow_block
 from .elevator_evidence import BlockForce, ElevatorEvidence
 from .flights import Flights
 from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, FootBlocks
-from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
+from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses, activity_at
 from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
-from .pressure_height import BLOCKS_BEFORE, NO_EVIDENCE, PressureHeight
+from .pressure_height import BLOCKS_BEFORE, PressureHeight
 
 SILENT_BLOCKS = 3
 """Number of blocks without samples after which a foot is no longer waited for."""
@@ -71,7 +71,7 @@ class Activities(ActivityPart):
     report: ActivityReport = field(factory=ActivityReport, init=False)
     newest_block: int = field(default=-1, init=False)
     """Number of the newest block that is complete in all feet that give samples."""
-    early: list[tuple[ActivitySegment, float]] = field(factory=lambda: [(NO_ACTIVITY, 1.0)], init=False)
+    early: list[Early] = field(factory=lambda: [(NO_ACTIVITY, 1.0)], init=False)
     """Newest activity of the likeliest sequence and those in the blocks since, each with its probability."""
     stride_cue: tuple[int, ActivityCue, float] | None = field(default=None, init=False)
     """Number of the block of the newest stride with a cue, its cue, and the probability of that; None before any."""
@@ -133,16 +133,13 @@ class Activities(ActivityPart):
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return the final activities, including the last second, because no more samples come."""
-        events: list[Event] = []
-        sides = [side for side in self.feet.values() if side.index is not None]
-        last = max([side.index for side in sides if side.index is not None], default=-1)
-        for side in sides:
+        for side in self.feet.values():
             side.close()
+        last = max([side.index for side in self.feet.values() if side.index is not None], default=-1)
         while self.next_block <= last and last - self.next_block < MAX_EMPTY_BLOCKS:
             self._judge_block(self.next_block)
             self.next_block += 1
-        events += self.report.add(self.hypotheses, (), 1e6 + now, now, True)
-        return events
+        return self.report.add(self.hypotheses, (), 1e6 + now, now, True)
 
     def _judge(self, t: float, known_at: float) -> list[Event]:
         """Judge the blocks that are complete in all feet that give samples."""
@@ -152,32 +149,25 @@ class Activities(ActivityPart):
         if complete <= self.newest_block:
             return []
         followed, self.newest_block = self.newest_block, complete
-        events: list[Event] = []
         empty_blocks = 0
         while self.next_block <= complete - WINDOW_REACH:
             empty_blocks = 0 if self._judge_block(self.next_block) else empty_blocks + 1
             self.next_block += 1
             if empty_blocks > MAX_EMPTY_BLOCKS:
                 self.next_block = max(self.next_block, complete - 2 * WINDOW_REACH)
-        events += self._report(followed, known_at)
-        self._count_flights(t, known_at, events)
-        return events
+        return self._report(followed, known_at) + self._count_flights(t, known_at)
 
     def _judge_block(self, index: int) -> bool:
         """Judge one block and return whether it has samples."""
-        model = self._model
-        pressure_height = self.pressure_height
-        features, forces = self._features(index), self._forces(index)
+        model, air, features = self._model, self.pressure_height, self._features(index)
         self.hypotheses.update(
             BlockEvidence(
                 t=self._time(index),
                 motion_scores=motion_votes(model, features),
-                forces=forces,
-                pressure_scores=(
-                    pressure_height.score_slope(index, BLOCK_DURATION) if pressure_height.blocks else NO_EVIDENCE
-                ),
-                before=pressure_height.height(index - BLOCKS_BEFORE, index - 1),
-                after=pressure_height.height(index, index + WINDOW_REACH),
+                forces=self._forces(index),
+                pressure_scores=air.score_slope(index, BLOCK_DURATION),
+                before=air.height(index - BLOCKS_BEFORE, index - 1),
+                after=air.height(index, index + WINDOW_REACH),
             ),
             model.chain,
         )
@@ -196,19 +186,19 @@ class Activities(ActivityPart):
 
         `followed` is the newest block of the report before. When that one, the newest block and the sequence all show
         the same activity, it goes on; otherwise every block that is not in the sequence yet is judged again."""
-        best, model = self.hypotheses.best, self._model
+        best, chain = self.hypotheses.best, self._model.chain
         newest = NO_ACTIVITY if best is None or not best.path else best.path[-1]
-        levels, chain = None if best is None else best.ride.levels, model.chain
+        levels = None if best is None else best.ride.levels
         t, shown = self._time(self.newest_block), self._show(self.newest_block)
-        early = EarlyActivities([(newest, 1.0)])
-        early.follow_block(t, shown, levels, chain)
-        is_same = early.activity is newest.activity and self.early[-1][0].activity is newest.activity
+        early = [(newest, 1.0)]
+        follow_block(early, t, shown, levels, chain)
+        is_same = early[-1][0].activity is newest.activity and self.early[-1][0].activity is newest.activity
         if shown is None or followed != self.newest_block - 1 or not is_same:
-            early = EarlyActivities([(newest, 1.0)])
+            early = [(newest, 1.0)]
             for index in range(max(self.next_block, self.newest_block + 1 - WINDOW_REACH), self.newest_block):
-                early.follow_block(self._time(index), self._show(index), levels, chain)
-            early.follow_block(t, shown, levels, chain)
-        self.early = early.found
+                follow_block(early, self._time(index), self._show(index), levels, chain)
+            follow_block(early, t, shown, levels, chain)
+        self.early = early
         return self._report_early(known_at)
 
     def _show(self, index: int) -> BlockSigns | None:
@@ -216,22 +206,21 @@ class Activities(ActivityPart):
         features = self._features(index)
         if all([one is None for one in features]):
             return None
-        model = self._model
-        return motion_votes(model, features), ElevatorEvidence(self._forces(index))
+        return motion_votes(self._model, features), ElevatorEvidence(self._forces(index))
 
     def _report_early(self, known_at: float) -> list[Event]:
         """Return the events by which what was reported changes with the newest stride."""
-        early = EarlyActivities(self.early)
+        early = [*self.early]
         if self.stride_cue is not None and self.stride_cue[0] > self.newest_block:
-            index, stride_cue, probability = self.stride_cue
-            model = self._model
-            early.follow(self._time(index), (stride_cue, probability), model.chain)
-        return self.report.add(self.hypotheses, early.found[1:], self._time(self.next_block), known_at)
+            follow(early, self._time(self.stride_cue[0]), self.stride_cue[1:], self._model.chain)
+        return self.report.add(self.hypotheses, early[1:], self._time(self.next_block), known_at)
 
     def _add_stride(self, stride: StrideTaken, block: int) -> list[Event]:
         """Keep a stride that ends in a block for `flights`, and return the events by which its slope is reported."""
         self.pressure_height.walked = True
-        self.strides.append(_reduce(stride, stride.known_at))
+        self.strides.append(
+            evolve(stride, displacement=ZERO, position=ZERO, covariance=NO_COVARIANCE, features=NO_FEATURES)
+        )
         if len(self.strides) > MAX_WAITING_STRIDES:
             self.strides.popleft()
         rise = stride.height_change if stride.features.rise is None else stride.features.rise
@@ -252,25 +241,17 @@ class Activities(ActivityPart):
         self.report, self.newest_block, self.stride_cue = ActivityReport(), -1, None
         self.early = [(NO_ACTIVITY, 1.0)]
 
-    def _count_flights(self, t: float, known_at: float, events: list[Event]) -> None:
+    def _count_flights(self, t: float, known_at: float) -> list[Event]:
         """Pass the strides up to the newest judged block to `flights`, with the activity at the middle of each."""
         t_judged = self._time(self.next_block)
         best = self.hypotheses.best
-        path: Sequence[ActivitySegment] = () if best is None else best.path
+        events: list[Event] = []
         while self.strides and 0.5 * (self.strides[0].t_start + self.strides[0].t_end) < t_judged:
             stride = self.strides.popleft()
             middle = 0.5 * (max(stride.t_start, stride.t_end - MAX_STRIDE_TIME) + stride.t_end)
-            activity = Activity.UNKNOWN
-            for segment in path:
-                if segment.t <= middle:
-                    activity = segment.activity
-            reduced = _reduce(stride, max(known_at, stride.known_at))
-            events += self.flights.add_stride(reduced, STAIR_DIRECTIONS.get(activity, 0))
-        events += self.flights.advance(t, known_at)
-
-
-def _reduce(stride: StrideTaken, known_at: float) -> StrideTaken:
-    """Return a copy of the stride with only the times and heights that flights need."""
-    return evolve(
-        stride, known_at=known_at, displacement=ZERO, position=ZERO, covariance=NO_COVARIANCE, features=NO_FEATURES
-    )
+            activity = None if best is None else activity_at(best.path, middle, None)
+            known_stride = evolve(stride, known_at=max(known_at, stride.known_at))
+            events += self.flights.add_stride(
+                known_stride, 0 if activity is None else STAIR_DIRECTIONS.get(activity, 0)
+            )
+        return events + self.flights.advance(t, known_at)

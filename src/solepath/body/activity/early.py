@@ -62,10 +62,7 @@ class ActivityReport:
             unchanged += 1
         withdrawn, changed = self.provisional[unchanged:], newest[unchanged:]
         revised = withdrawn[0][0].t if withdrawn else self.withdrawn_at
-        kept = [
-            (old, probability) for (old, _), (_, probability) in zip(self.provisional[:unchanged], newest, strict=False)
-        ]
-        self.provisional = kept
+        self.provisional = [(old, new[1]) for (old, _), new in zip(self.provisional[:unchanged], newest, strict=False)]
         if withdrawn and not changed:
             # no new activity takes the place of the withdrawn one: the activity before it continues
             events.append(self._withdraw(hypotheses, withdrawn[0][0].t, known_at, False))
@@ -74,16 +71,16 @@ class ActivityReport:
             revised = self.withdrawn_at = None
         if ending and self.withdrawn_at is not None:
             events.append(self._withdraw(hypotheses, self.withdrawn_at, known_at, True))
-        self.provisional = [*kept, *changed]
+        self.provisional += changed
         return events
 
     def _withdraw(self, hypotheses: Hypotheses, t: float, known_at: float, final: bool) -> ActivityChanged:
         """Return the event by which the activity of time `t`, s, is withdrawn and the one before it continues."""
         if self.provisional:
-            segment, probability = self.provisional[-1]
-            continued = ActivitySegment(t, segment.activity)
+            activity, probability = self.provisional[-1][0].activity, self.provisional[-1][1]
+            continued = ActivitySegment(t, activity)
         else:
-            continued = ActivitySegment(t, Activity.UNKNOWN if hypotheses.settled is None else hypotheses.settled)
+            continued = ActivitySegment(t, hypotheses.settled or Activity.UNKNOWN)
             probability = hypotheses.probability(continued)
         self.withdrawn_at = None if final else t
         return self._event(continued, known_at, final, t, probability)
@@ -185,33 +182,24 @@ BlockSigns = tuple[tuple[float, ...], ElevatorEvidence]
 """Signs of activity in a block: the log-likelihoods of `MOTIONS` and of an unknown one, and the forces on both feet."""
 
 
-class EarlyActivities:
-    """The newest activity of the likeliest sequence and those after it, for one report; not part of the state."""
+def follow(found: list[Early], t: float, cue: tuple[ActivityCue, float] | None, chain: Chain) -> None:
+    """Add the activity after the newest one of `found` that the cue of a block or stride at `t`, s, begins, if any.
 
-    __slots__ = ("found",)
-
-    def __init__(self, found: Sequence[tuple[ActivitySegment, float]]) -> None:
-        self.found = list(found)
-        """At least one activity; each has its probability."""
-
-    @property
-    def activity(self) -> Activity:
-        """The newest activity."""
-        return self.found[-1][0].activity
-
-    def follow(self, t: float, cue: tuple[ActivityCue, float] | None, chain: Chain) -> None:
-        """Follow the cue of a block or stride that starts at `t`, s, with its probability."""
-        newest = self.found[-1][0]
-        following = newest.activity if cue is None else NEXT_ACTIVITY[newest.activity][cue[0]]
-        if cue is None or following is newest.activity:
-            return
+    The cue has its probability; `found` has one activity at least."""
+    newest = found[-1][0]
+    following = newest.activity if cue is None else NEXT_ACTIVITY[newest.activity][cue[0]]
+    if cue is not None and following is not newest.activity:
         t += chain.shift[STATE_OF_ACTIVITY[newest.activity]][STATE_OF_ACTIVITY[following]]
-        self.found.append((ActivitySegment(max(t, newest.t + TIME_EPSILON), following), cue[1]))
+        found.append((ActivitySegment(max(t, newest.t + TIME_EPSILON), following), cue[1]))
 
-    def follow_block(self, t: float, shown: BlockSigns | None, levels: RestLevels | None, chain: Chain) -> None:
-        """Follow what a block that starts at `t`, s, shows; `levels` are the forces on the feet at rest."""
-        if shown is not None:
-            self.follow(t, cue_of_block(shown[0], self.activity, shown[1], levels), chain)
+
+def follow_block(
+    found: list[Early], t: float, shown: BlockSigns | None, levels: RestLevels | None, chain: Chain
+) -> None:
+    """Follow what a block that starts at `t`, s, shows; `levels` are the forces on the feet at rest."""
+    if shown is not None:
+        votes, elevator = shown
+        follow(found, t, cue_of_block(votes, found[-1][0].activity, elevator, levels), chain)
 
 
 def cue_of_block(

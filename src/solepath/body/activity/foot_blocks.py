@@ -323,9 +323,7 @@ class FootBlocks:
                 round(features.swing_pitch, 4),
                 round(self.top - self.flat_height, 4),
                 round(self.bottom - self.flat_height, 4),
-                round(
-                    (self.strike_height if self.strike_height is not None else self.flat_height) - self.flat_height, 4
-                ),
+                0.0 if self.strike_height is None else round(self.strike_height - self.flat_height, 4),
             )
         )
         if len(self.strides) > MAX_STRIDES:

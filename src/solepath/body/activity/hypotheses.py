@@ -130,14 +130,13 @@ class ElevatorRide:
 
         `height` is the height by air pressure now. With both sources the result is their mean, weighted by the
         inverse variances. The height by the pulses is corrected so that the final velocity is zero."""
-        start = self.start_height
-        by_pressure = None if height is None or start is None else height[0] - start[0]
-        if not self.has_first_pulse:
-            return by_pressure
-        by_pulses = self.height - 0.5 * self.velocity * self.duration
-        if by_pressure is None or height is None or start is None:
+        by_pulses = self.height - 0.5 * self.velocity * self.duration if self.has_first_pulse else None
+        if height is None or self.start_height is None:
             return by_pulses
-        air_variance = height[1] + start[1]
+        (start, start_variance), (end, end_variance) = self.start_height, height
+        by_pressure, air_variance = end - start, end_variance + start_variance
+        if by_pulses is None:
+            return by_pressure
         share = air_variance / (air_variance + (PULSE_HEIGHT_ERROR * by_pressure) ** 2)
         return by_pressure + share * (by_pulses - by_pressure)
 
@@ -179,6 +178,15 @@ class ActivitySegment:
     """Start of the first block after a ride, s."""
     height: float | None = None
     """Height of a ride, m, positive upwards; None when it is not known."""
+
+
+def activity_at(path: Sequence[ActivitySegment], t: float, before: Activity | None) -> Activity | None:
+    """Return the activity at `t`, s, on a path; `before` its first segment."""
+    activity = before
+    for segment in path:
+        if segment.t <= t:
+            activity = segment.activity
+    return activity
 
 
 @define
@@ -227,7 +235,7 @@ class Hypotheses:
         """Extend the paths by one block."""
         scores, end_scores, started_scores = ([value] * len(ACTIVITIES) for value in (-inf, 0.0, 0.0))
         token_of_state: list[Token | None] = [None] * len(ACTIVITIES)
-        for token in self.tokens:
+        for token in self.tokens or FIRST_TOKENS:
             state = token.state
             token_of_state[state], scores[state] = token, token.score
             if state in RIDE_STATES or state in STAIR_SIGNS:
@@ -239,16 +247,12 @@ class Hypotheses:
         top_score = -inf
         for state, predecessors in enumerate(chain.predecessors):
             # find the best path that continues in the state
-            best, highest = -1, -inf
-            if not self.tokens:
-                best, highest = state, FIRST_TOKENS[state].score
-            else:
-                left_scores = started_scores if state in RIDE_STATES else end_scores
-                for i, chance in predecessors:
-                    score = scores[i] + chance + (left_scores[i] if i != state else 0.0)
-                    if score > highest:
-                        best, highest = i, score
-            predecessor = (token_of_state[best] if self.tokens else FIRST_TOKENS[state]) if best >= 0 else None
+            predecessor, highest = None, -inf
+            left_scores = started_scores if state in RIDE_STATES else end_scores
+            for i, chance in predecessors if self.tokens else ((state, 0.0),):
+                score = scores[i] + chance + (left_scores[i] if i != state else 0.0)
+                if score > highest:
+                    predecessor, highest = token_of_state[i], score
             most = highest + block.motion_scores[STAND if state in RIDE_STATES else state]
             most += block.pressure_scores[state] + MOST_FORCE_EVIDENCE
             if predecessor is not None and most >= top_score - DROP_LIMIT:
@@ -293,11 +297,7 @@ class Hypotheses:
         for token in self.tokens:
             likelihood = exp(token.score)
             total += likelihood
-            activity = self.settled
-            for path_segment in token.path:
-                if path_segment.t <= segment.t:
-                    activity = path_segment.activity
-            if activity is segment.activity:
+            if activity_at(token.path, segment.t, self.settled) is segment.activity:
                 agreeing += likelihood
         return agreeing / total if total > 0.0 else 1.0
 
@@ -328,9 +328,8 @@ def _score_path(
     motion = state
     if state in RIDE_STATES:
         motion = STAND
-        if token.ride.standing_time < DWELL_TIME and (
-            not token.path or token.path[-1].activity is not ACTIVITIES[state]
-        ):
+        is_new = not token.path or token.path[-1].activity is not ACTIVITIES[state]
+        if is_new and token.ride.standing_time < DWELL_TIME:
             start_score = -SHORT_DWELL_COST
     if state in PULSES:
         levels, acceleration, log_likelihood = elevator.add_pulse(levels, *PULSES[state])
@@ -351,9 +350,8 @@ def _score_end(token: Token, block: BlockEvidence) -> float:
     """Return the log-likelihood that the ride or the stairs of `token` have ended when `block` starts."""
     state, start = token.state, token.ride.start_height
     if state in STAIR_SIGNS:
-        return (
-            stairs_evidence(start, block.after, STAIR_SIGNS[state], block.t - token.path[-1].t) if token.path else 0.0
-        )
+        duration = block.t - token.path[-1].t if token.path else 0.0
+        return stairs_evidence(start, block.after, STAIR_SIGNS[state], duration)
     stopped = token.ride.score_stop() if state in ACCELERATED_STATES else 0.0
     up = ACTIVITIES[state] is Activity.ELEVATOR_UP
     return stopped + ride_evidence(start, block.after, 1.0 if up else -1.0)
@@ -381,8 +379,7 @@ def _extend_path(
         if state in RIDE_STATES:
             has_first_pulse = state in PULSE_SIGNS and bool(path)
             started = ElevatorRide(levels, has_first_pulse=has_first_pulse, start_height=block.before)
-            segment = ActivitySegment(t, activity, block.t)
-            return (*path, segment), started.move(levels, acceleration)
+            return (*path, ActivitySegment(t, activity, block.t)), started.move(levels, acceleration)
         path = (*path, ActivitySegment(t, activity))
     if state != STAND:
         ride = ElevatorRide(levels, start_height=start_height, standing_time=ride.standing_time)

@@ -20,7 +20,7 @@ from ...types import Activity
 from ...types.attrs import frozen
 from .chain import Chain, Chances, Shifts, chain_of
 from .elevator_evidence import SWAY_DEVIATION, BlockForce
-from .foot_blocks import FEATURE_COUNT, FIRST_GYRO_FEATURE, MAX_RISE, ActivityBlock, stride_of
+from .foot_blocks import FIRST_GYRO_FEATURE, MAX_RISE, ActivityBlock, stride_of
 
 # Evidence of the slope of a stride for stairs: its rise over its length, with the errors that both have.
 #
@@ -143,37 +143,25 @@ def load_released_model() -> MotionModel:
     import json
     from pkgutil import get_data
 
-    return from_json(json.loads(get_data(__package__, "activities.json") or b""))
-
-
-def from_json(data: dict[str, Any]) -> MotionModel:
-    """Return the model from the content of activities.json.
-
-    Raises ValueError when the model does not fit the features of this release."""
-    model = MotionModel(
-        trained_on=str(data["trained_on"]),
-        whole=_network(data["whole"], FEATURE_COUNT),
-        alone=_network(data["alone"], FIRST_GYRO_FEATURE),
+    data: dict[str, Any] = json.loads(get_data(__package__, "activities.json") or b"")
+    return MotionModel(
+        trained_on=data["trained_on"],
+        whole=_network(data["whole"]),
+        alone=_network(data["alone"]),
         usual=_rows(data["usual"]),
         spread=_rows(data["spread"]),
         chances=_rows(data["chances"]),
-        shifts=tuple([(Activity(a), Activity(b), float(shift)) for a, b, shift in data["shifts"]]),
+        shifts=tuple([(Activity(a), Activity(b), shift) for a, b, shift in data["shifts"]]),
     )
-    if [len(row) for row in model.chances] != [len(MOTIONS)] * len(MOTIONS):
-        raise ValueError("chances of other motions do not fit")
-    return model
 
 
-def _network(data: dict[str, Any], count: int) -> Network:
-    network = Network(
+def _network(data: dict[str, Any]) -> Network:
+    return Network(
         hidden=_rows(data["hidden"]),
         hidden_bias=_row(data["hidden_bias"]),
         output=_rows(data["output"]),
         output_bias=_row(data["output_bias"]),
     )
-    if len(network.output) != len(MOTIONS) or any([len(row) != count for row in network.hidden]):
-        raise ValueError(f"a network of {len(network.output)} motions and {len(network.hidden[0])} features")
-    return network
 
 
 def _row(data: Sequence[Any]) -> Row:

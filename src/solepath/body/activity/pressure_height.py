@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import deque
 from math import exp, fsum, log, sqrt
 
-from ...types import Foot
+from ...types import OTHER, Foot
 from ...types.attrs import define, field
 from ..altitude import height_of
 from .chain import ELEVATOR_CREEPS_DOWN, ELEVATOR_CREEPS_UP, STAND
@@ -103,7 +103,7 @@ class PressureHeight:
         barometer = self.barometers.get(foot)
         if barometer is None:
             # a barometer that is read later starts at the height of the other one
-            self.barometers = {**self.barometers, foot: BarometerReadings(height - self.newest, index, height)}
+            self.barometers[foot] = BarometerReadings(height - self.newest, index, height)
         else:
             if barometer.previous is not None:
                 bend = height - 2.0 * barometer.newest + barometer.previous
@@ -117,23 +117,22 @@ class PressureHeight:
 
     def _compare(self, foot: Foot, barometer: BarometerReadings) -> None:
         """Move the offsets of both barometers so that their heights come closer; their mean stays."""
-        for other_foot, other in self.barometers.items():
-            if other_foot is not foot and 0 <= barometer.index - other.index <= MAX_AGE:
-                self.compared = min(self.compared + 1, round(1.0 / OFFSET_WEIGHT))
-                difference = barometer.newest - barometer.offset - other.newest + other.offset
-                barometer.offset += 0.5 * difference / self.compared
-                other.offset -= 0.5 * difference / self.compared
+        other = self.barometers.get(OTHER[foot])
+        if other is not None and 0 <= barometer.index - other.index <= MAX_AGE:
+            self.compared = min(self.compared + 1, round(1.0 / OFFSET_WEIGHT))
+            difference = barometer.newest - barometer.offset - other.newest + other.offset
+            barometer.offset += 0.5 * difference / self.compared
+            other.offset -= 0.5 * difference / self.compared
 
     def leave_out(self, foot: Foot) -> None:
         """Stop to use a foot's barometer, and forget the heights to which it has contributed."""
-        if foot not in self.faulty:
-            self.faulty.append(foot)
-        self.barometers = {one: readings for one, readings in self.barometers.items() if one is not foot}
+        self.restart(foot)
+        self.faulty.append(foot)
         self.blocks.clear()
 
     def restart(self, foot: Foot) -> None:
         """Forget what is known of a foot's barometer, in whose place another one may be."""
-        self.barometers = {one: readings for one, readings in self.barometers.items() if one is not foot}
+        self.barometers.pop(foot, None)
         if foot in self.faulty:
             self.faulty.remove(foot)
 

@@ -15,7 +15,7 @@ from ...events import Defect, StrideTaken
 from ...foot.view import FootView
 from ...types import PerFoot, Site, per_foot
 from ...types.attrs import define, field
-from ..altitude import DEGRADED_FACTOR, MAX_TRACK_HEIGHT, SCALE_HEIGHT, STANDARD_PRESSURE, height_of
+from ..altitude import DEGRADED_FACTOR, SCALE_HEIGHT, STANDARD_PRESSURE, height_above_track
 from ..part import Part, PartInput, PartOutput
 from .stances import Finding
 
@@ -90,18 +90,15 @@ class AirPressure(Part):
         return outputs
 
     def _add_reading(self, view: FootView) -> Sequence[PartOutput]:
-        pressure = view.sample.air_pressure
-        if pressure is None:
+        if view.sample.air_pressure is None:
             return ()
-        t, z = view.t, view.position[2]
-        barometer = self.feet[view.foot]
+        t, barometer = view.t, self.feet[view.foot]
         if self.stride_at is None or abs(t - self.stride_at) > STRIDE_PAUSE:
             barometer.count = 0
             return ()
-        height = height_of(pressure)
-        if height is None or not abs(z) < MAX_TRACK_HEIGHT:
-            return ()
-        if not barometer.add(t, height - z, LARGEST_CHANGE * (DEGRADED_FACTOR if self.degraded else 1.0)):
+        difference = height_above_track(view)
+        largest = LARGEST_CHANGE * (DEGRADED_FACTOR if self.degraded else 1.0)
+        if difference is None or not barometer.add(t, difference, largest):
             return ()
         barometer.reported = True
         return [_finding(barometer.change).event(view.foot, t, view.known_at)]

@@ -81,39 +81,42 @@ class PossibleMotion(Part):
     feet: PerFoot[FootRecord] = field(factory=lambda: per_foot(FootRecord), init=False)
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
-        return [output for event in events for output in self._receive(event)]
+        outputs: list[PartOutput] = []
+        for event in events:
+            if isinstance(event, StrideTaken):
+                outputs += self._add_stride(event, self.feet[event.foot])
+            elif isinstance(event, DefectFound | SampleGap) and event.site.foot is not None:
+                record = self.feet[event.site.foot]
+                if isinstance(event, SampleGap):
+                    record.gap_at = event.t
+                elif event.spoils:
+                    record.one_reported = record.all_reported = True  # the cause is known
+        return outputs
 
-    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
-        if isinstance(event, DefectFound) and event.spoils and event.site.foot is not None:
-            record = self.feet[event.site.foot]
-            record.one_reported = record.all_reported = True  # the cause is known
-        if isinstance(event, SampleGap) and event.site.foot is not None:
-            self.feet[event.site.foot].gap_at = event.t
-        if not isinstance(event, StrideTaken):
-            return ()
-        record = self.feet[event.foot]
+    def _add_stride(self, event: StrideTaken, record: FootRecord) -> Sequence[PartOutput]:
         motion = impossible_motion(event)
         reason = motion or impossible_angle(event)
         record.recent = (*record.recent[1 - MOST_RECENT :], reason is not None)
         if reason is None:
             return ()
-        output: list[PartOutput] = []
-        if motion is not None and not event.degraded:
-            output.append(Replacement(event, evolve(event, degraded=True)))
         has_gap = record.gap_at is not None and event.t_start <= record.gap_at <= event.t_end
         is_too_long = event.length > LONGEST_STRIDE and not has_gap
         record.too_long += is_too_long
         most = len(record.recent) >= LEAST_RECENT and 2 * record.recent.count(True) > len(record.recent)
-        if most or record.too_long >= LONG_STRIDES:
-            if not record.all_reported:
-                record.one_reported = record.all_reported = True
-                text = f"{'most' if most else 'several'} strides cannot be right: the last one has {reason}. "
-                finding = Finding(Defect.IMPOSSIBLE_MOTION, text + ADVICE)
-                output.append(finding.event(event.foot, event.t, event.known_at))
-        elif motion is not None and not record.one_reported and (is_too_long or not event.degraded):
+        several = most or record.too_long >= LONG_STRIDES
+        if several:
+            is_new, record.all_reported = not record.all_reported, True
+            text = f"{'most' if most else 'several'} strides cannot be right: the last one has {reason}. {ADVICE}"
+        else:
+            is_new = motion is not None and not record.one_reported and (is_too_long or not event.degraded)
+            text = f"a stride cannot be right, because it has {reason}; it is marked as degraded. If it happens again: "
+            text += ADVICE
+        output: list[PartOutput] = []
+        if motion is not None and not event.degraded:
+            output.append(Replacement(event, evolve(event, degraded=True)))
+        if is_new:
             record.one_reported = True
-            text = f"a stride cannot be right, because it has {reason}; it is marked as degraded. "
-            finding = Finding(Defect.IMPOSSIBLE_MOTION, f"{text}If it happens again: {ADVICE}", spoils=False)
+            finding = Finding(Defect.IMPOSSIBLE_MOTION, text, spoils=several)
             output.append(finding.event(event.foot, event.t, event.known_at))
         return output
 

@@ -96,12 +96,11 @@ class RangeCheck:
     def add(self, kind: RangeKind, values: Sequence[Vec3], extremes: Extremes) -> Finding | None:
         """Add a block of samples with its `find_extremes`; return an end of the range that cuts off peaks, if any."""
         found = None
-        if max(extremes) > kind.least:
-            for i, (end, extreme) in enumerate(zip(self.ends, extremes, strict=True)):
-                if extreme > kind.least and extreme >= end.largest * (1.0 - SAME):
-                    axis, sign = i // 2, -1.0 if i % 2 else 1.0
-                    if self._add_block(end, [sign * value[axis] for value in values]):
-                        found = end
+        for i, (end, extreme) in enumerate(zip(self.ends, extremes, strict=True)):
+            if extreme > kind.least and extreme >= end.largest * (1.0 - SAME):
+                axis, sign = i // 2, -1.0 if i % 2 else 1.0
+                if self._add_block(end, [sign * value[axis] for value in values]):
+                    found = end
         self.samples += len(values)
         if found is None:
             return None

@@ -11,7 +11,6 @@ et al.)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from math import fsum, sqrt
 from typing import Any
 
@@ -40,15 +39,13 @@ class RunningMean:
         sd = sqrt(self.variance * self.count / (self.count - 1)) if self.count > 1 else None
         return Figure(self.mean, sd, self.count)
 
-
-def add_values(means_and_values: Iterable[tuple[RunningMean, float]], memory: int) -> None:
-    """Add a value to each running mean; older values fade after `memory` values."""
-    for running_mean, value in means_and_values:
-        running_mean.count = min(running_mean.count + 1, memory)
-        weight = 1.0 / running_mean.count
-        deviation = value - running_mean.mean
-        running_mean.mean += weight * deviation
-        running_mean.variance = (1.0 - weight) * (running_mean.variance + weight * deviation * deviation)
+    def add(self, value: float, memory: int) -> None:
+        """Add a value; older values fade after `memory` values."""
+        self.count = min(self.count + 1, memory)
+        weight = 1.0 / self.count
+        deviation = value - self.mean
+        self.mean += weight * deviation
+        self.variance = (1.0 - weight) * (self.variance + weight * deviation * deviation)
 
 
 @frozen
@@ -179,14 +176,11 @@ class ParameterMeans:
     def add(self, stride: GaitCycleMeasured, memory: int) -> None:
         """Add a stride; older strides fade after `memory` strides."""
         means = self.feet[stride.foot]
-        means_and_values: list[tuple[RunningMean, float]] = []
-        for parameter in MEAN_PARAMETERS:
-            value = getattr(stride, parameter.value)
+        values = {parameter: getattr(stride, parameter.value) for parameter in MEAN_PARAMETERS}
+        values[Parameter.OFF_PHASE] = None if stride.phase is None else abs(stride.phase - 0.5)
+        for parameter, value in values.items():
             if value is not None:
-                means_and_values.append((means.setdefault(parameter, RunningMean()), value))
-        if stride.phase is not None:
-            means_and_values.append((means.setdefault(Parameter.OFF_PHASE, RunningMean()), abs(stride.phase - 0.5)))
-        add_values(means_and_values, memory)
+                means.setdefault(parameter, RunningMean()).add(value, memory)
 
     @property
     def coordination(self) -> float | None:
@@ -194,25 +188,13 @@ class ParameterMeans:
         known = [means for means in self.feet.values() if Parameter.PHASE in means]
         if len(known) < 2:
             return None
-        reference = max(known, key=_swing)
+        reference = max(known, key=lambda means: means[Parameter.SWING_TIME].mean)
         variation = reference[Parameter.PHASE].figure.cv
         return None if variation is None else variation + 2.0 * reference[Parameter.OFF_PHASE].mean
 
 
 def _figures(means: dict[Parameter, RunningMean]) -> StrideFigures:
-    known = {parameter.value: mean.figure for parameter, mean in means.items()}
-    known.pop(Parameter.OFF_PHASE.value, None)
-    return StrideFigures(**known)
-
-
-def _swing(means: dict[Parameter, RunningMean]) -> float:
-    return means[Parameter.SWING_TIME].mean
-
-
-def without_other_foot(stride: GaitCycleMeasured) -> GaitCycleMeasured:
-    """Return the stride without the values that compare the times of the feet."""
-    unknown: dict[str, Any] = dict.fromkeys([parameter.value for parameter in BETWEEN_FEET])
-    return evolve(stride, **unknown)
+    return StrideFigures(**{one.value: mean.figure for one, mean in means.items() if one is not Parameter.OFF_PHASE})
 
 
 @define
@@ -241,9 +223,8 @@ class GaitMeans:
         for means in (*self.walking_means.feet.values(), *self.running_means.feet.values()):
             for parameter in (*BETWEEN_FEET, Parameter.OFF_PHASE):
                 means.pop(parameter, None)
-        self.newest = {
-            foot: None if stride is None else without_other_foot(stride) for foot, stride in self.newest.items()
-        }
+        unknown: dict[str, Any] = dict.fromkeys([parameter.value for parameter in BETWEEN_FEET])
+        self.newest = {foot: stride and evolve(stride, **unknown) for foot, stride in self.newest.items()}
 
     def reset(self, foot: Foot) -> None:
         """Reset a foot, so that its next stride does not count as following the newest one."""

@@ -173,11 +173,12 @@ class TurnDetector:
         if self.t_start is None:
             return None
         if other.stride_end is None or event.t_end - other.stride_end > self.pause:
-            return self._end_turn() if foot.straight_strides > 1 else None
+            return self._end_turn(self.t_start) if foot.straight_strides > 1 else None
         both_straight = (
             other.straight_strides > 0 and foot.straight_strides + other.straight_strides >= STRAIGHT_STRIDES
         )
-        return self._end_turn() if both_straight or foot.straight_strides >= STRAIGHT_STRIDES else None
+        is_straight = both_straight or foot.straight_strides >= STRAIGHT_STRIDES
+        return self._end_turn(self.t_start) if is_straight else None
 
     def add_pivot(self, foot: Foot, t_start: float, t_end: float, angle: float) -> TurnProcess | None:
         """Add a pivot by `angle`, rad, between foot-flats at `t_start` and `t_end`, s; return the turn that it ends.
@@ -194,7 +195,7 @@ class TurnDetector:
     ) -> TurnProcess | None:
         ended_turn = None
         if self.t_start is not None and t_start - self.t_end > self.pause:
-            ended_turn = self._end_turn()
+            ended_turn = self._end_turn(self.t_start)
         if self.t_start is None:
             # leave out long standing before the first stride, and the time before the end of the previous turn
             start = max(t_start, t_end - MAX_PAUSE)
@@ -212,30 +213,26 @@ class TurnDetector:
         """Return the turn that has ended at `t`, s, because the feet have paused."""
         if self.t_start is None or t - self.t_end <= self.pause:
             return None
-        newest = max(-1e12 if foot.stride_end is None else foot.stride_end for foot in self.feet.values())
-        return self._end_turn() if t - newest > self.pause else None
+        is_past = all([foot.stride_end is None or t - foot.stride_end > self.pause for foot in self.feet.values()])
+        return self._end_turn(self.t_start) if is_past else None
 
     def finish(self) -> TurnProcess | None:
         """Return the turn under way, because no more strides come."""
-        return None if self.t_start is None else self._end_turn()
+        return None if self.t_start is None else self._end_turn(self.t_start)
 
     def reset(self, foot: Foot) -> None:
         """Reset a foot whose clock restarts, and discard the turn under way."""
         self.t_start = self.previous_end = None
         self.feet[foot].stride_end = None
 
-    def _end_turn(self) -> TurnProcess:
-        start = self.t_end if self.t_start is None else self.t_start
-        left, right = [self._angle_of(foot, start) for foot in self.feet.values()]
-        process = TurnProcess(start, self.t_end, *remove_whole_turns(left, right))
+    def _end_turn(self, start: float) -> TurnProcess:
+        """Return the turn under way, which began at `start`, s."""
+        feet = self.feet.values()
+        left, right = [None if foot.stride_end is None or foot.stride_end < start else foot.angle for foot in feet]
         self.t_start, self.previous_end = None, self.t_end
-        for foot in self.feet.values():
+        for foot in feet:
             foot.angle, foot.straight_strides = 0.0, 0
-        return process
-
-    @staticmethod
-    def _angle_of(foot: FootTurn, start: float) -> float | None:
-        return None if foot.stride_end is None or foot.stride_end < start else foot.angle
+        return TurnProcess(start, self.t_end, *remove_whole_turns(left, right))
 
 
 def remove_whole_turns(left: float | None, right: float | None) -> tuple[float | None, float | None]:
@@ -305,22 +302,15 @@ class Turns(Part):
         """Add a sample of a foot with its events and return the turns that have ended."""
         if view is None:
             return ()
-        ended_turns: list[TurnProcess] = []
-        known_at = view.known_at
+        outputs: list[PartOutput] = []
         for event in events:
-            process = None
             if isinstance(event, StrideTaken):
-                process = self.detector.add_stride(event)
+                outputs += turn_made(self.detector.add_stride(event), view.known_at)
             elif isinstance(event, FootFlat) and view.levelled and view.after is not None:
-                process = self._add_foot_flat(events, view.after, event)
-            if process is not None:
-                ended_turns.append(process)
-        if not ended_turns and self.detector.t_start is not None:
-            process = self.detector.advance(view.t)
-            if process is not None:
-                ended_turns.append(process)
+                outputs += turn_made(self._add_foot_flat(events, view.after, event), view.known_at)
+        outputs = outputs or turn_made(self.detector.advance(view.t), view.known_at)
         self.idle = self.detector.t_start is None
-        return [turn_event(process, known_at) for process in ended_turns if abs(process.angle) > MIN_REPORTED_TURN]
+        return outputs
 
     def _add_foot_flat(self, events: Sequence[PartInput], after: AfterEvents, event: FootFlat) -> TurnProcess | None:
         """Add a foot-flat, before which the foot may have pivoted without a stride."""
@@ -333,8 +323,7 @@ class Turns(Part):
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return the turn under way, if any, because no more samples come."""
-        process = self.detector.finish()
-        return [] if process is None or abs(process.angle) <= MIN_REPORTED_TURN else [turn_event(process, now)]
+        return turn_made(self.detector.finish(), now)
 
     def reset(self, site: Site) -> None:
         """Reset a foot whose clock restarts."""
@@ -344,12 +333,10 @@ class Turns(Part):
             self.last_flat.pop(site.foot, None)
 
 
-def turn_event(process: TurnProcess, known_at: float) -> TurnMade:
-    """Return the event of a finished turn."""
-    return TurnMade(
-        t=process.t_end,
-        known_at=max(known_at, process.t_end),
-        t_start=process.t_start,
-        angle=process.angle,
-        turn=classify(process.left, process.right),
-    )
+def turn_made(process: TurnProcess | None, known_at: float) -> list[PartOutput]:
+    """Return the event of a turn that has ended, if one has and it is large enough."""
+    if process is None or abs(process.angle) <= MIN_REPORTED_TURN:
+        return []
+    known_at = max(known_at, process.t_end)
+    turn = classify(process.left, process.right)
+    return [TurnMade(t=process.t_end, known_at=known_at, t_start=process.t_start, angle=process.angle, turn=turn)]

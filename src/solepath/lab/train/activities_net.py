@@ -139,7 +139,7 @@ def rounded_row(values: Floats) -> Row:
 
 
 def to_json(model: MotionModel) -> dict[str, Any]:
-    """Return the model in the form that `from_json` reads."""
+    """Return the model in the form that `load_released_model` reads."""
     return {
         "trained_on": model.trained_on,
         "whole": _network_json(model.whole),
