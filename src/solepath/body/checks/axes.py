@@ -79,16 +79,10 @@ def _ends(steps: list[Quat], shares: list[list[float]], ups: list[list[float]]) 
     for step in steps:
         attitude = multiply(attitude, step)
         turns.append(_turn(attitude))
-    columns = list(zip(*turns[:-1], strict=True))
     # products of vectors by their distance, because that loop runs in C: c s = (c c + s s - |c - s|^2) / 2
-    squares = [hypot(*share) ** 2 for share in shares]
-    sums = [
-        [
-            0.5 * (hypot(*column) ** 2 + square - dist(column, share) ** 2)
-            for share, square in zip(shares, squares, strict=True)
-        ]
-        for column in columns
-    ]
+    columns = [(column, hypot(*column) ** 2) for column in zip(*turns[:-1], strict=True)]
+    axes = [(share, hypot(*share) ** 2) for share in shares]
+    sums = [[0.5 * (cc + ss - dist(column, share) ** 2) for share, ss in axes] for column, cc in columns]
     return [
         [[x - r * u for x, u in zip(row, up, strict=True)] for row, r in zip(sums, turn, strict=True)]
         for turn, up in zip((NO_TURN, turns[-1]), ups, strict=True)
