@@ -50,6 +50,17 @@ MAX_TRACK_HEIGHT = 1e5
 """Largest height of a track, and of a ride, that is used, m; also the largest variance of a stride's height, m^2."""
 
 
+NOISE_WEIGHT = 0.05
+"""Weight of one reading in the measured noise, which follows twenty readings."""
+
+
+def measured_noise(noise: float, square: float, largest_ratio: float) -> float:
+    """Return the variance of a reading, m^2, after one that deviates by the root of `square`, m^2.
+
+    A square counts up to `largest_ratio` times the noise before."""
+    return noise + NOISE_WEIGHT * (min(square, largest_ratio * noise) - noise)
+
+
 def height_above_track(view: FootView) -> float | None:
     """Return the height by a sample's air pressure minus that of the foot's track, m; None without plausible ones."""
     pressure, z = view.sample.air_pressure, view.position[2]
@@ -88,15 +99,21 @@ class HeightEstimate:
     read_at: list[float | None] = field(factory=lambda: [None, None])
     """Time of the newest reading of each barometer, s; None: the next reading gives an offset that fits."""
 
-    def move(self, by: float, variance: float) -> None:
-        """Change the correction by `by`, m; `variance` is that of the change, m^2."""
-        self.values[0] += by
-        self.covariance[0] = min(self.covariance[0] + variance, UNKNOWN_VARIANCE)
+    def apply(self, entry: HeightInput) -> None:
+        """Process an input."""
+        t, source, value, variance = entry
+        if source == MOVE:
+            self.values[0] += value
+            self.covariance[0] = min(self.covariance[0] + variance, UNKNOWN_VARIANCE)
+        elif source >= FORGET:
+            self.read_at[source - FORGET] = None
+        else:
+            self._read(t, source, value, variance)
 
-    def read(self, source: int, t: float, height: float, noise: float, wander: float) -> None:
+    def _read(self, t: float, source: int, height: float, noise: float) -> None:
         """Correct the estimate with `height`, m: the height by the barometer minus the height of the track.
 
-        `noise` is the variance of the reading, m^2, and `wander` the growth of the offset's variance, m^2/s."""
+        `noise` is the variance of the reading, m^2."""
         x, p, i = self.values, self.covariance, 1 + source
         previous = self.read_at[source]
         self.read_at[source] = t
@@ -107,7 +124,7 @@ class HeightEstimate:
                 p[3 * i + j] = p[3 * j + i] = -p[j]
             p[4 * i] = p[0] + noise
             return
-        p[4 * i] = min(p[4 * i] + wander * max(0.0, t - previous), UNKNOWN_VARIANCE)
+        p[4 * i] = min(p[4 * i] + OFFSET_DRIFT * OFFSET_DRIFT * max(0.0, t - previous), UNKNOWN_VARIANCE)
         innovation = height - x[0] - x[i]
         if innovation * innovation > JUMP_LIMIT * (p[0] + 2.0 * p[i] + p[4 * i] + noise):
             p[4 * i] = min(p[4 * i] + innovation * innovation, UNKNOWN_VARIANCE)
@@ -142,8 +159,8 @@ KEPT_TIME = 90.0
 """Time for which inputs are kept, s."""
 MOST_INPUTS = 720
 """Largest number of inputs that are kept: 8 a second."""
-NOISE_WEIGHT, MAX_NOISE_RATIO = 0.05, 3.0
-"""Weight of one value in the low-pass filter of `Altitude.noise`, and largest ratio of a value to the filter's."""
+MAX_NOISE_RATIO = 3.0
+"""Largest ratio of a value to `Altitude.noise` that counts."""
 MIN_NOISE = 1e-4
 """Least variance of a reading, m^2."""
 LEFT, RIGHT, MOVE = 0, 1, 2
@@ -234,8 +251,7 @@ class Altitude(Part):
         if side.previous_height is not None:
             # the variance of consecutive differences is 2 noise + drift^2; a ride or a gust has a limited effect
             square = 0.5 * (height - side.previous_height) ** 2
-            self.noise += NOISE_WEIGHT * (min(square, MAX_NOISE_RATIO * self.noise) - self.noise)
-            self.noise = max(self.noise, MIN_NOISE)
+            self.noise = max(measured_noise(self.noise, square, MAX_NOISE_RATIO), MIN_NOISE)
         side.read_at, side.total, side.count, side.previous_height = t, 0.0, 0, height
         return self._add_input((t, source, height, self.noise))
 
@@ -244,12 +260,12 @@ class Altitude(Part):
         if isinstance(event, StrideTaken):
             return self._add_stride(event)
         if isinstance(event, LiftRidden):
-            return [Replacement(event, self._corrected_ride(event)), self._height_shift()]
+            return [Replacement(event, self._corrected_ride(event)), *self._height_shift()]
         if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
             source = SOURCES[event.site.foot]
             self.sides[source].faulty = True
             self._replace_inputs([entry for entry in map(_unpack, self.inputs) if entry[1] != source])
-            return [self._height_shift()]
+            return self._height_shift()
         return ()
 
     def _replace_inputs(self, inputs: list[HeightInput]) -> None:
@@ -258,8 +274,8 @@ class Altitude(Part):
         for entry in inputs:
             self._process(entry)
 
-    def _height_shift(self) -> HeightShift:
-        return HeightShift(self.now.values[0], self.ride_variance)
+    def _height_shift(self) -> list[PartOutput]:
+        return [HeightShift(self.now.values[0], self.ride_variance)]
 
     def reset(self, site: Site) -> None:
         """Forget the offset of a foot's barometer, because its clock restarts or the device has changed.
@@ -334,22 +350,11 @@ class Altitude(Part):
     def _add_input(self, entry: HeightInput) -> Sequence[PartOutput]:
         inputs = self.inputs
         while inputs and (entry[0] - inputs[0][0] / TICKS_PER_S > KEPT_TIME or len(inputs) >= MOST_INPUTS):
-            _apply(_unpack(inputs.popleft()), self.base)
+            self.base.apply(_unpack(inputs.popleft()))
         self._process(entry)
-        return [self._height_shift()]
+        return self._height_shift()
 
     def _process(self, entry: HeightInput) -> None:
         """Keep an input, and process it as it is kept."""
         self.inputs.append(_pack(entry))
-        _apply(_unpack(self.inputs[-1]), self.now)
-
-
-def _apply(entry: HeightInput, estimate: HeightEstimate) -> None:
-    """Process an input in an estimate."""
-    t, source, value, variance = entry
-    if source == MOVE:
-        estimate.move(value, variance)
-    elif source >= FORGET:
-        estimate.read_at[source - FORGET] = None
-    else:
-        estimate.read(source, t, value, variance, OFFSET_DRIFT * OFFSET_DRIFT)
+        self.now.apply(_unpack(self.inputs[-1]))

@@ -26,7 +26,7 @@ from ...types.vector import TIME_EPSILON, ZERO
 from ..part import ActivityPart, PartInput, PartOutput
 from .early import ActivityCue, ActivityReport, BlockSigns, Early, cue_of_stride, follow, follow_block
 from .elevator_evidence import BlockForce, ElevatorEvidence
-from .flights import Flights
+from .flights import Flights, integrated_rise
 from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, FootBlocks
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses, activity_at
 from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
@@ -223,7 +223,7 @@ class Activities(ActivityPart):
         )
         if len(self.strides) > MAX_WAITING_STRIDES:
             self.strides.popleft()
-        rise = stride.height_change if stride.features.rise is None else stride.features.rise
+        rise = integrated_rise(stride)
         cue = cue_of_stride(slope_evidence(min(stride.length, MAX_LENGTH), max(-MAX_RISE, min(MAX_RISE, rise))))
         if cue is None:
             return []

@@ -16,7 +16,7 @@ from ...types.vector import TIME_EPSILON
 from .chain import ACTIVITIES, STAND, UNKNOWN, Chain
 from .elevator_evidence import PULSE_ACCELERATION, PULSE_DEVIATION, ElevatorEvidence, RestLevels
 from .hypotheses import ActivitySegment, Hypotheses
-from .motion import MOTIONS, SlopeEvidence
+from .motion import SlopeEvidence
 
 # Activities that were reported and are not final yet, and the events by which they change.
 
@@ -136,14 +136,15 @@ class ActivityCue(StrEnum):
     STRANGE = "strange"
 
 
-CUE_OF_MOTION = {
-    "still": ActivityCue.STILL,
-    "walking": ActivityCue.WALKING,
-    "running": ActivityCue.RUNNING,
-    "stairs_up": ActivityCue.CLIMBING,
-    "stairs_down": ActivityCue.DESCENDING,
-}
-"""Cue of each motion that the network distinguishes."""
+CUE_OF_VOTE = (
+    ActivityCue.STILL,
+    ActivityCue.WALKING,
+    ActivityCue.RUNNING,
+    ActivityCue.CLIMBING,
+    ActivityCue.DESCENDING,
+    ActivityCue.STRANGE,
+)
+"""Cue of each of `MOTIONS`, and of an unknown activity."""
 
 _MOVING = {
     ActivityCue.WALKING: Activity.WALKING,
@@ -219,7 +220,7 @@ def cue_of_block(
     state = STATE_OF_ACTIVITY[before]
     if votes[best] - votes[state if state < len(votes) else STAND] <= LEAST_MARGIN and state != UNKNOWN:
         return None
-    return ActivityCue.STRANGE if best == UNKNOWN else CUE_OF_MOTION[MOTIONS[best]], probability
+    return CUE_OF_VOTE[best], probability
 
 
 def cue_of_stride(slope: SlopeEvidence) -> tuple[ActivityCue, float] | None:

@@ -194,4 +194,9 @@ class ElevatorEvidence:
 
 def _density(residual: float, variance: float) -> float:
     """Return the density of a normal distribution with mean 0."""
-    return exp(-0.5 * min(residual * residual / variance, 1400.0)) / sqrt(2.0 * pi * variance)
+    return bell(residual, variance) / sqrt(2.0 * pi * variance)
+
+
+def bell(residual: float, variance: float) -> float:
+    """Return the density of a normal distribution with mean 0, relative to that of the mean."""
+    return exp(-0.5 * min(residual * residual / variance, 1e3))

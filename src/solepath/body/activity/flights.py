@@ -44,6 +44,11 @@ def is_stair_rise(height: float, degraded: bool = False) -> bool:
     return abs(height) <= (HIGHEST_DEGRADED_RISE if degraded else HIGHEST_RISE)
 
 
+def integrated_rise(stride: StrideTaken) -> float:
+    """Return the height change of a stride as it was integrated, m, whether or not the way was found to be level."""
+    return stride.height_change if stride.features.rise is None else stride.features.rise
+
+
 MIN_FLIGHT_HEIGHT = 0.4
 """Least height of a flight, m: a little less than three risers."""
 END_PAUSE = 3.0

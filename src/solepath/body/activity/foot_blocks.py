@@ -10,6 +10,7 @@ from ...events import FootFlat, HeelStrike, StrideTaken
 from ...types import Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO
+from .flights import integrated_rise
 
 # Features of one foot's blocks (half seconds of samples), from which activities are recognised.
 #
@@ -310,7 +311,7 @@ class FootBlocks:
     def _add_stride(self, stride: StrideTaken) -> None:
         features = stride.features
         # use heights as integrated: the network was trained with them; clearance is above the higher end of the stride
-        rise = stride.height_change if features.rise is None else features.rise
+        rise = integrated_rise(stride)
         clearance = features.clearance + max(stride.height_change, 0.0) - max(rise, 0.0)
         self.strides.append(
             BlockStride(

@@ -8,21 +8,22 @@ wearer's vertical velocity."""
 from __future__ import annotations
 
 from collections import deque
-from math import exp, fsum, log, sqrt
+from math import fsum, log, sqrt
 
 from ...types import OTHER, Foot
 from ...types.attrs import define, field
-from ..altitude import height_of
+from ..altitude import height_of, measured_noise
 from .chain import ELEVATOR_CREEPS_DOWN, ELEVATOR_CREEPS_UP, STAND
+from .elevator_evidence import bell
 
 AIR_NOISE = 0.2
 """Standard deviation of the height over a block by doors and wind, m: 2.4 Pa (assumed)."""
 FIRST_READING_NOISE, LEAST_READING_NOISE = 0.3, 0.02
 """Standard deviation of the height of one reading before any is known, and the least one, m."""
-NOISE_WEIGHT, MAX_NOISE_RATIO = 0.05, 9.0
-"""Weight of a reading in the measured noise, and the largest square that one reading adds, as a ratio to the noise.
+MAX_NOISE_RATIO = 9.0
+"""Largest square that one reading adds to the measured noise, as a ratio to the noise.
 
-The noise follows twenty readings; a door that opens, or a ride that starts, has a limited effect."""
+A door that opens, or a ride that starts, has a limited effect."""
 OFFSET_WEIGHT = 0.05
 """Least weight of a difference of both barometers in their offsets: twenty readings, while they drift by 0.01 m/s."""
 MAX_AGE = 3
@@ -107,9 +108,8 @@ class PressureHeight:
         else:
             if barometer.previous is not None:
                 bend = height - 2.0 * barometer.newest + barometer.previous
-                square = min(bend * bend / 6.0, MAX_NOISE_RATIO * self.noise)
-                self.noise += NOISE_WEIGHT * (square - self.noise)
-                self.noise = max(self.noise, LEAST_READING_NOISE * LEAST_READING_NOISE)
+                noise = measured_noise(self.noise, bend * bend / 6.0, MAX_NOISE_RATIO)
+                self.noise = max(noise, LEAST_READING_NOISE * LEAST_READING_NOISE)
             barometer.index, barometer.newest, barometer.previous = index, height, barometer.newest
             self._compare(foot, barometer)
             self.newest = height - barometer.offset
@@ -193,7 +193,7 @@ def stairs_evidence(before: Height | None, after: Height | None, sign: float, du
         return 0.0
     gain, variance = after[0] - before[0], after[1] + before[1]
     residual, total = gain - sign * STAIR_SPEED * duration, variance + (STAIR_SPEED_DEVIATION * duration) ** 2
-    return _log_ratio(sqrt(variance / total) * _bell(residual, total), _bell(gain, variance))
+    return _log_ratio(sqrt(variance / total) * bell(residual, total), bell(gain, variance))
 
 
 def ride_evidence(before: Height | None, after: Height | None, sign: float) -> float:
@@ -203,11 +203,7 @@ def ride_evidence(before: Height | None, after: Height | None, sign: float) -> f
     if before is None or after is None:
         return 0.0
     gain, variance = after[0] - before[0], after[1] + before[1]
-    return _log_ratio(_bell(max(0.0, LEAST_RIDE_HEIGHT - sign * gain), variance), _bell(gain, variance))
-
-
-def _bell(residual: float, variance: float) -> float:
-    return exp(-0.5 * min(residual * residual / variance, 1e3))
+    return _log_ratio(bell(max(0.0, LEAST_RIDE_HEIGHT - sign * gain), variance), bell(gain, variance))
 
 
 def _log_ratio(likelihood: float, level: float) -> float:

@@ -14,7 +14,7 @@ from ...foot.view import FootView
 from ...types import PerFoot, Site, per_foot
 from ...types.attrs import define, evolve, field
 from ...types.vector import GRAVITY
-from ..activity.flights import HIGHEST_RISE
+from ..activity.flights import HIGHEST_RISE, integrated_rise
 from ..part import Part, PartInput, PartOutput, Replacement
 from .stances import Finding
 
@@ -138,8 +138,7 @@ def impossible_motion(stride: StrideTaken) -> str | None:
         stance = 1.0 - (t_heel_strike - t_toe_off) / duration
         if stance > LEAST_WALKING_STANCE:
             return f"a speed of {speed:.1f} m/s at a walk"
-    features = stride.features
-    rise = stride.height_change if features.rise is None else features.rise
+    rise = integrated_rise(stride)
     if abs(rise) > HIGHEST_RISE:
         return f"a height of {rise:.1f} m"
     return None
