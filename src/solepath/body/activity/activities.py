@@ -43,7 +43,7 @@ NO_COVARIANCE = (0.0,) * 6
 """Placeholders in `Activities.strides`: only the times and heights of these strides are used."""
 NO_ACTIVITY = ActivitySegment(-1e9, Activity.UNKNOWN)
 """Placeholder for the newest activity before any."""
-STAIR_DIRECTIONS = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
+STAIR_DIRECTIONS: dict[Activity | None, int] = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
 
 
 @frozen
@@ -231,7 +231,7 @@ class Activities(ActivityPart):
         return self._report_early(stride.known_at)
 
     def _time(self, index: int) -> float:
-        return (0.0 if self.origin is None else self.origin) + index * BLOCK_DURATION
+        return (self.origin or 0.0) + index * BLOCK_DURATION
 
     def _restart(self) -> None:
         self.origin = None
@@ -251,7 +251,5 @@ class Activities(ActivityPart):
             middle = 0.5 * (max(stride.t_start, stride.t_end - MAX_STRIDE_TIME) + stride.t_end)
             activity = None if best is None else activity_at(best.path, middle, None)
             known_stride = evolve(stride, known_at=max(known_at, stride.known_at))
-            events += self.flights.add_stride(
-                known_stride, 0 if activity is None else STAIR_DIRECTIONS.get(activity, 0)
-            )
+            events += self.flights.add_stride(known_stride, STAIR_DIRECTIONS.get(activity, 0))
         return events + self.flights.advance(t, known_at)

@@ -339,10 +339,7 @@ class FootBlocks:
 
     def block(self, index: int) -> ActivityBlock | None:
         """Return the block number `index`; None when it has no samples."""
-        for block in self.blocks:
-            if block.index == index:
-                return block
-        return None
+        return next((block for block in self.blocks if block.index == index), None)
 
     def features(self, index: int, t: float) -> list[float] | None:
         """Return the features of the block number `index`, whose middle is at `t`, s; None when it has no samples."""

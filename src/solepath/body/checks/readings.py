@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import log2
-from operator import and_, eq
+from operator import and_, eq, sub
 from typing import NamedTuple
 
 from ...events import Defect, StrideTaken
@@ -26,7 +26,7 @@ SPOILING_SHARE = 0.01
 RECENT_SAMPLES = 2000
 """Number of samples after which the share is computed from the later half alone: a wearer may walk slowly first."""
 
-Extremes = tuple[float, float, float, float, float, float]
+Extremes = list[float]
 """Largest value of x, of -x, of y, of -y, of z and of -z, m/s^2 or rad/s."""
 
 
@@ -49,21 +49,10 @@ GYROSCOPE = RangeKind("gyroscope", "rad/s", 2.0)
 
 def find_extremes(values: Sequence[Vec3]) -> Extremes:
     """Return the extremes of every other sample of a block, among which is one of any two neighbours at an end."""
-    most_x, most_y, most_z = least_x, least_y, least_z = values[0]
-    for x, y, z in values[::2]:
-        if x > most_x:
-            most_x = x
-        elif x < least_x:
-            least_x = x
-        if y > most_y:
-            most_y = y
-        elif y < least_y:
-            least_y = y
-        if z > most_z:
-            most_z = z
-        elif z < least_z:
-            least_z = z
-    return most_x, -least_x, most_y, -least_y, most_z, -least_z
+    extremes: Extremes = []
+    for axis in zip(*values[::2], strict=True):
+        extremes += max(axis), -min(axis)
+    return extremes
 
 
 @define
@@ -241,7 +230,7 @@ class RateCheck:
 
 def _usual_interval(times: Sequence[float]) -> float:
     """Return the median of the intervals between samples."""
-    steps = sorted([b - a for a, b in zip(times, times[1:], strict=False)])
+    steps: list[float] = sorted(map(sub, times[1:], times))
     return steps[len(steps) // 2]
 
 
