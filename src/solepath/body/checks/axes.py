@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise, permutations, product
-from math import dist, fsum, hypot, log, pi, sqrt
+from math import dist, fsum, hypot, log, pi, prod, sqrt
 from typing import Final
 
 from ...events import Defect
@@ -63,10 +63,12 @@ def closure_residuals(stride: ClosedStride) -> list[float] | None:
     proper = _ends(steps, shares, ups)
     improper = _ends([conjugate(step) for step in steps], shares, ups)
     return [
-        log(_residual(order, signs, proper if (order in ROTATIONS) == (a * b * c > 0.0) else improper) + LEAST_RESIDUAL)
+        log(
+            _residual(order, signs, proper if (order in ROTATIONS) == (prod(signs) > 0.0) else improper)
+            + LEAST_RESIDUAL
+        )
         for order in ORDERS
         for signs in SIGNS
-        for a, b, c in (signs,)
     ]
 
 
