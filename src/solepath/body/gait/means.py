@@ -16,7 +16,7 @@ from typing import Any
 
 from ...events import GaitCycleMeasured
 from ...types import Foot, PerFoot, ValueEnum, per_foot
-from ...types.attrs import define, evolve, field, fields, frozen
+from ...types.attrs import define, evolve, field, frozen
 
 MEMORY_STRIDES = 120
 """Number of strides of a foot after which older strides fade."""
@@ -99,9 +99,6 @@ class StrideFigures:
         return self.initial_double_support.mean + self.terminal_double_support.mean
 
 
-PARAMETER_NAMES = tuple(parameter.name for parameter in fields(StrideFigures))
-
-
 class Parameter(ValueEnum):
     """The parameters that have running means: the fields of StrideFigures and OFF_PHASE, which is |phase - 0.5|."""
 
@@ -121,7 +118,8 @@ class Parameter(ValueEnum):
     OFF_PHASE = "off_phase"
 
 
-MEAN_PARAMETERS = tuple([Parameter(name) for name in PARAMETER_NAMES])
+MEAN_PARAMETERS: tuple[Parameter, ...] = tuple([one for one in Parameter if one is not Parameter.OFF_PHASE])
+"""The fields of StrideFigures."""
 BETWEEN_FEET = (
     Parameter.STEP_TIME,
     Parameter.INITIAL_DOUBLE_SUPPORT,
@@ -242,8 +240,8 @@ class GaitMeans:
         if not feet:
             return None
         both = {
-            name: combine_feet([getattr(foot_figures, name) for foot_figures in feet.values()])
-            for name in PARAMETER_NAMES
+            one.value: combine_feet([getattr(figures, one.value) for figures in feet.values()])
+            for one in MEAN_PARAMETERS
         }
         return GaitParameters(running, feet, StrideFigures(**both), means.coordination)
 
