@@ -198,10 +198,8 @@ class TurnDetector:
             ended_turn = self._end_turn(self.t_start)
         if self.t_start is None:
             # leave out long standing before the first stride, and the time before the end of the previous turn
-            start = max(t_start, t_end - MAX_PAUSE)
-            self.t_start = self.t_end = (
-                start if self.previous_end is None else max(start, min(self.previous_end, t_end))
-            )
+            earliest = t_start if self.previous_end is None else min(self.previous_end, t_end)
+            self.t_start = self.t_end = max(t_start, t_end - MAX_PAUSE, earliest)
             foot.angle = other.angle = 0.0
         foot.angle += angle
         foot.straight_strides = other.straight_strides = 0
@@ -269,11 +267,11 @@ def features(left: float, right: float) -> tuple[float, float, float, float, flo
 
 def classify(left: float | None, right: float | None) -> Turn | None:
     """Return the class of a turn from the feet's angles, rad (None: no samples); None for a bend."""
-    known_left = right if left is None else left
-    known_right = left if right is None else right
-    if known_left is None or known_right is None or abs(known_left + known_right) < 2.0 * MIN_CLASSIFIED_TURN:
+    left = right if left is None else left
+    right = left if right is None else right
+    if left is None or right is None or abs(left + right) < 2.0 * MIN_CLASSIFIED_TURN:
         return None
-    values = features(known_left, known_right)
+    values = features(left, right)
     scores = {turn: fsum(w * x for w, x in zip(weights, values, strict=True)) for turn, weights in WEIGHTS.items()}
     return max(scores, key=lambda turn: scores[turn])
 
