@@ -60,6 +60,11 @@ def scaled(k: float, v: Vec2) -> Vec2:
     return (k * v[0], k * v[1])
 
 
+def pair(z: complex) -> Vec2:
+    """Return x and y of the vector x + iy."""
+    return (z.real, z.imag)
+
+
 def along(a: Vec2, b: Vec2) -> float:
     """Return the scalar product of a and b."""
     return a[0] * b[0] + a[1] * b[1]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import rect
 from collections.abc import Callable
 from functools import cache
 from math import cos, degrees, radians, sin
@@ -82,7 +83,7 @@ class Walked:
             turn = heading(s + 2.0 * STEP) - heading(s)
             self.off += 0.5 * (drift - self.error.turn_of(foot, 1.0, turn, STRIDE_TIME))
             direction = heading(s + STEP)
-            moved = (2.0 * STEP * cos(direction - self.off), 2.0 * STEP * sin(direction - self.off))
+            moved = rect(2.0 * STEP, direction - self.off)
             self.error.propagate(foot, 1.0, turn, STRIDE_TIME, moved, (1e-4, 0.0, 1e-4))
         self.degrees = abs(degrees(self.off))
 
@@ -146,7 +147,7 @@ def test_the_iron_of_each_shoe_is_learnt() -> None:
         walked = Walked(turning, 1500.0, 12.0, seed=seed)
         for foot, iron in zip(Foot, walked.iron, strict=True):
             learnt = walked.error.aid(walked.compass.first + H[foot])
-            assert np.hypot(*(np.array(learnt) - iron[:2])) < 3.0
+            assert abs(learnt - complex(*iron[:2])) < 3.0
 
 
 def test_on_a_straight_way_nothing_proves_a_compass_so_it_moves_nothing() -> None:

@@ -9,7 +9,7 @@ from solepath.body.fuse.common_error import FEET, NO_MOVE, CommonError
 from solepath.foot.navigate.bias import Bias
 from solepath.types import Foot
 
-ON = (1.3, 0.0)
+ON = 1.3 + 0.0j
 """A stride straight on, m."""
 SURE = (1e-4, 0.0, 1e-4)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin
+from cmath import rect
 
 import pytest
 
@@ -52,7 +52,7 @@ def test_a_calibration_is_dropped_although_the_strides_have_no_duration() -> Non
         foot = (Foot.LEFT, Foot.RIGHT)[k % 2]
         one = evolve(stride, foot=foot, t_start=4.0, t_end=5.0, heading_change=turn)
         direction = 0.003 * (k % 40)
-        _, sentence = ways.add_stride(one, 1.0, (1.3 * cos(direction), 1.3 * sin(direction)), common)
+        _, sentence = ways.add_stride(one, 1.0, rect(1.3, direction), common)
         found += [sentence] if sentence is not None else []
     assert len(found) == 1 and "does not fit this walk" in found[0]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import rect
 from collections.abc import Callable
 from math import cos, hypot, radians, sin
 
@@ -42,13 +43,12 @@ class Walked:
             step = np.array([2.0 * STEP, aside])
             foot = (Foot.LEFT, Foot.RIGHT)[k % 2]
             self.off += 0.5 * (drift - self.error.turn_of(foot, 1.0, turn, 2.0 * STEP_TIME))
-            c, q = cos(direction - self.off), sin(direction - self.off)
-            moved = (c * step[0] - q * step[1], q * step[0] + c * step[1])
+            moved = complex(*step) * rect(1.0, direction - self.off)
             self.error.propagate(foot, 1.0, turn, 2.0 * STEP_TIME, moved, (1e-4, 0.0, 1e-4))
             sigma = self.error.drift_variance(2.0 * STEP_TIME) ** 0.5
             stretch = self.straightness.add_stride(STEP_TIME * k, moved, 0.5, 1.0, turn)
             one = None if stretch is None else self.straightness.drift_of(stretch, sigma)
-            place = place + 0.5 * np.array(moved)
+            place = place + 0.5 * np.array([moved.real, moved.imag])
             true_place = true_place + 0.5 * np.array(
                 [
                     cos(direction) * step[0] - sin(direction) * step[1],

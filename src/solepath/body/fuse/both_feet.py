@@ -15,9 +15,10 @@ its signal and returns is treated as in `MeanOfFeet`."""
 
 from __future__ import annotations
 
+from cmath import phase, rect
 from collections.abc import Mapping, Sequence
 from functools import partial
-from math import atan2, hypot
+from math import hypot
 from typing import TYPE_CHECKING, ClassVar, Final, Protocol, cast
 
 from ...calibration import Calibration
@@ -26,12 +27,12 @@ from ...foot.stride import usual_strides
 from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Phase, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen
-from ...types.vector import ZERO, add, minus, rotated, sub, unit_at, wrap_angle
+from ...types.vector import ZERO, add, sub, wrap_angle
 from ..part import Notice, PartInput, PartOutput, Position, Shift, StartGiven
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import FEET, RATE, WIDTH, TrackErrorFilter, feet_apart, standing_foot
 from .moving_ground import MovingGround
-from .position import ABSENCE_TIME, MeanOfFeet, PlanStart, mean_place
+from .position import ABSENCE_TIME, MeanOfFeet, PlanStart
 from .straight_ways import StraightWays
 from .walked_path import WalkedPath
 
@@ -228,7 +229,7 @@ class BothFeet(MeanOfFeet):
 
         here = {foot: float(track.is_here) for foot, track in self.tracks.items()}
         shares = here if len({*here.values()}) > 1 else self.common.shares
-        in_world, place = in_world_frame(event, self.plan_start), partial(self.middle, shares)
+        in_world, place = in_world_frame(event, self.plan_start), partial(self._middle, shares)
         if in_world is None:
             return ()
         return ReportedPosition(in_world, place, self.common, self.path, self._move_both).use()
@@ -251,7 +252,7 @@ class BothFeet(MeanOfFeet):
         mean, common = MeanOfFeet.position(self, feet), self.common
         if mean is None or not common.started:
             return mean
-        xx, xy, yy = common.position_covariance(minus(mean.position[:2], self.path.known))
+        xx, xy, yy = common.position_covariance(complex(*mean.position[:2]) - complex(*self.path.known))
         # corrections make the covariance of height and horizontal position unknown: it is set to 0
         covariance = (xx + FOOTPRINT_VARIANCE, xy, 0.0, yy + FOOTPRINT_VARIANCE, 0.0, mean.covariance[5])
         north = None if self.compass is None else self.compass.north(common)
@@ -295,9 +296,11 @@ class BothFeet(MeanOfFeet):
         count, rate = usual_strides(length), self.errors.rates[foot]
         drift = common.turn_of(foot, count, turn, duration)
         mid_turn = rate * (stance + 0.5 * swing) + 0.5 * drift
-        dx, dy = rotated(event.displacement[:2], unit_at(this.turn))
-        this.correct(event.position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
-        moved = (dx - mid_turn * dy, dy + mid_turn * dx)
+        own = complex(*event.displacement[:2])
+        stretch = own * rect(1.0, this.turn)
+        aside = 1j * mid_turn * stretch
+        moved = stretch + aside
+        this.correct(event.position, rate * (stance + swing) + drift, aside)
 
         # the errors after the stride
         xx, xy, yy = this.turned_covariance(event.covariance)
@@ -306,22 +309,20 @@ class BothFeet(MeanOfFeet):
         excess = max(0.0, length - MAX_STRIDE_LENGTH)
         degraded = self.errors.judge_stride(foot, event.degraded, foot in self.straight_ways.spoiled) or excess > 0.0
         if self.started:
-            end = this.place(event.position)[:2]
-            self.errors.propagate(foot, (stance, swing), end, moved, variance, degraded)
+            self.errors.propagate(foot, (stance, swing), this.flat(event.position), moved, variance, degraded)
         self.errors.inflate(foot, excess)
         common.inflate(share * share * excess * excess)
 
         # the other foot
         self.distance = min(ALIGNMENT_DISTANCE, self.distance + share * length)
-        x, y, _ = event.displacement
-        has_direction = hypot(x, y) > MIN_LENGTH and abs(turn) < MAX_TURN and not degraded
-        self.strides[foot] = DirectedStride(event.t_end, event.position, atan2(y, x) if has_direction else None)
+        has_direction = hypot(own.real, own.imag) > MIN_LENGTH and abs(turn) < MAX_TURN and not degraded
+        self.strides[foot] = DirectedStride(event.t_end, event.position, phase(own) if has_direction else None)
         realigned = self.started and self.distance < ALIGNMENT_DISTANCE and self._realign(event)
         if self.started and not realigned:
             self._compare_feet(event, moved, (stance, swing), degraded)
 
         # what the way so far shows
-        self.path.add_stride(event.t_end, self.middle(common.shares), share * length)
+        self.path.add_stride(event.t_end, self._middle(common.shares), share * length)
         if self.settings.straightness and not realigned:
             move, misfit = self.straight_ways.add_stride(event, count, moved, common)
             self._move_both(move)
@@ -338,17 +339,21 @@ class BothFeet(MeanOfFeet):
         """Move and turn both tracks about the position of the wearer."""
         if move == NO_MOVE:
             return
-        ends = [track.place(self._end_of(foot)) for foot, track in self.tracks.items()]
         if self.compass is not None:
             self.compass.turned(move[2])
-        self._move_tracks(mean_place(self.common.shares, ends), dict.fromkeys(Foot, move))
+        left, right = [self.common.shares[foot] * track.flat(self._end_of(foot)) for foot, track in self.tracks.items()]
+        self._move_tracks(left + right, dict.fromkeys(Foot, move))
 
-    def _move_tracks(self, centre: Vec2, moves: Mapping[Foot, Sequence[float]]) -> None:
+    def _move_tracks(self, centre: complex, moves: Mapping[Foot, Sequence[float]]) -> None:
         """Move each track by its x and y, m, and turn it by its third number, rad, about `centre`, m."""
         for foot, (dx, dy, yaw) in moves.items():
             track, own = self.tracks[foot], self._end_of(foot)
-            x, y = minus(track.place(own)[:2], centre)
-            track.correct(own, yaw, dx - yaw * y, dy + yaw * x)
+            track.correct(own, yaw, complex(dx, dy) + 1j * yaw * (track.flat(own) - centre))
+
+    def _middle(self, shares: PerFoot[float]) -> complex:
+        """Return the newest place between both feet, m, common frame; each foot counts with its share."""
+        left, right = [shares[foot] * track.flat(track.newest_place) for foot, track in self.tracks.items()]
+        return left + right
 
     def _end_of(self, foot: Foot) -> Vec3:
         """Return where a foot stood last, on its own track, m."""
@@ -375,35 +380,33 @@ class BothFeet(MeanOfFeet):
         )
         if previous is None or abs(angle) < LEAST_DIVERGENCE or abs(wrap_angle(angle - previous)) > REPEAT_TOLERANCE:
             return False
-        this.correct(stride.end, -0.5 * side * angle, 0.0, 0.0)
-        other.correct(other_stride.end, 0.5 * side * angle, 0.0, 0.0)
-        half, across, (ux, uy) = 0.5 * event.length, side * WALKING_WIDTH, unit_at(this.turn + stride.direction)
-        (x, y, _), (ox, oy, _) = this.place(stride.end), other.place(other_stride.end)
-        dx = 0.5 * (x - half * ux + across * uy - ox)
-        dy = 0.5 * (y - half * uy - across * ux - oy)
-        this.correct(stride.end, 0.0, -dx, -dy)
-        other.correct(other_stride.end, 0.0, dx, dy)
+        this.correct(stride.end, -0.5 * side * angle, 0j)
+        other.correct(other_stride.end, 0.5 * side * angle, 0j)
+        along = rect(1.0, this.turn + stride.direction)
+        beside = this.flat(stride.end) - 0.5 * event.length * along - side * WALKING_WIDTH * (1j * along)
+        apart = 0.5 * (beside - other.flat(other_stride.end))
+        this.correct(stride.end, 0.0, -apart)
+        other.correct(other_stride.end, 0.0, apart)
         self.errors.start()
         self.straight_ways.reset()
         self.distance, self.divergence, self.directions = 0.0, None, per_foot(WalkingDirection)
         self._keep_placements()
         return True
 
-    def _compare_feet(self, event: StrideTaken, moved: Vec2, times: Vec2, degraded: bool) -> None:
+    def _compare_feet(self, event: StrideTaken, moved: complex, times: Vec2, degraded: bool) -> None:
         """Compare a stride by `moved`, m, with where the other foot stood; `times` of its stance and swing are in s."""
-        foot, (dx, dy), turn, length = event.foot, moved, event.heading_change, hypot(*moved)
+        foot, turn, length = event.foot, event.heading_change, hypot(moved.real, moved.imag)
         this, other, other_stride = self.tracks[foot], self.tracks[OTHER[foot]], self.strides[OTHER[foot]]
-        deviation = self.directions[foot].add_stride(atan2(dy, dx), turn) if length > MIN_LENGTH else 0.0
+        deviation = self.directions[foot].add_stride(phase(moved), turn) if length > MIN_LENGTH else 0.0
         if other_stride is None or not other.is_here:
             return
         walks_on = length > MIN_LENGTH and abs(turn) < MAX_TURN and abs(deviation) < MAX_DIRECTION_DEVIATION
         if walks_on and event.t_start < other_stride.t_end < event.t_end and not degraded:
-            ex, ey, _ = this.place(event.position)
-            middle = minus(other.place(other_stride.end)[:2], (ex - 0.5 * dx, ey - 0.5 * dy))
+            middle = other.flat(other_stride.end) - (this.flat(event.position) - 0.5 * moved)
             for measured in standing_foot(foot, moved, middle, turn, times, self.width):
                 self._correct(self.errors.correct(measured, GATE_LIMIT))
-        to_other = minus(other.newest[:2], this.place(event.position)[:2])
-        if hypot(*to_other) > REACH:
+        to_other = other.flat(other.newest_place) - this.flat(event.position)
+        if hypot(to_other.real, to_other.imag) > REACH:
             # a foot that moved far without a stride has a wrong track, which must not pull the other foot
             wx, wy, _ = sub(other.newest_place, other_stride.end)
             self.errors.inflate(OTHER[foot], max(0.0, hypot(wx, wy) - MAX_STRIDE_LENGTH))
@@ -415,7 +418,7 @@ class BothFeet(MeanOfFeet):
         """Remove the estimated errors (None: no change) from both tracks."""
         if errors is not None:
             self.width += errors[WIDTH]
-            self._move_tracks(self.errors.centre, {foot: errors[k : k + RATE] for foot, k in FEET.items()})
+            self._move_tracks(complex(*self.errors.centre), {foot: errors[k : k + RATE] for foot, k in FEET.items()})
 
     def _shift_foot(self, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
         """Return the correction that has accumulated for the foot since its last one, and reset its placement."""

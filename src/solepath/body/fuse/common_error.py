@@ -33,7 +33,7 @@ from math import exp, fsum, sqrt
 from ...calibration import HeadingCalibration
 from ...foot.gap import LONGEST_FILLED_GAP
 from ...foot.navigate.bias import BIAS_WANDER, FIRST_BIAS, Bias
-from ...types import Foot, PerFoot, Vec2
+from ...types import Foot, PerFoot
 from ...types.attrs import define, evolve, field, frozen
 
 DRIFT = 0.0014
@@ -148,9 +148,9 @@ class CommonError:
         self.shares = {one: share if one is foot else 1.0 - share for one in Foot}
         return share
 
-    def aid(self, first: int) -> Vec2:
+    def aid(self, first: int) -> complex:
         """Return the estimates of two rows."""
-        return (self.estimates[first], self.estimates[first + 1])
+        return complex(self.estimates[first], self.estimates[first + 1])
 
     def _drift(self, values: Sequence[float], stride_time: float) -> float:
         """Return the drift with the bias, rad a stride, as straight ways measure it, of values by row."""
@@ -178,7 +178,7 @@ class CommonError:
         """Standard deviation of the heading, rad."""
         return sqrt(max(0.0, self.covariance[HEADING][HEADING]))  # below 0 only by rounding
 
-    def position_covariance(self, displacement: Vec2, since: int | None = None) -> tuple[float, float, float]:
+    def position_covariance(self, displacement: complex, since: int | None = None) -> tuple[float, float, float]:
         """Return the covariance of the position: xx, xy, yy, m^2.
 
         `displacement` is that from the first position, m; or from a place whose errors have the rows from `since` on,
@@ -200,13 +200,13 @@ class CommonError:
             xx += across * bx * bx + along * by * by
             xy += (across - along) * bx * by
             yy += across * by * by + along * bx * bx
-        px, py = LENGTH_ERROR * displacement[0], LENGTH_ERROR * displacement[1]
+        px, py = LENGTH_ERROR * displacement.real, LENGTH_ERROR * displacement.imag
         xx, xy, yy = max(0.0, xx) + px * px, xy + px * py, max(0.0, yy) + py * py
         bound = (xx * yy) ** 0.5  # |xy| exceeds it only by rounding
         return (xx, min(max(xy, -bound), bound), yy)
 
     def propagate(
-        self, foot: Foot, strides: float, turn: float, duration: float, displacement: Vec2,
+        self, foot: Foot, strides: float, turn: float, duration: float, displacement: complex,
         variance: tuple[float, float, float],
     ) -> None:  # fmt: skip
         """Propagate the covariance over a stride of a foot with this `displacement`, m.
@@ -220,7 +220,7 @@ class CommonError:
         g = [heading + 0.5 * half for heading, half in zip(p[HEADING], a, strict=True)]
         aa, ah, hh = n * a[row] + k * a[row + TURN] + t * a[row + BIAS], a[HEADING], p[HEADING][HEADING]
         gg, gh = hh + ah + 0.25 * aa, hh + 1.5 * ah + 0.5 * aa
-        arms = (-w * displacement[1], w * displacement[0])
+        arms = (-w * displacement.imag, w * displacement.real)
         for i, arm in enumerate(arms):
             for j in range(i, HEADING):
                 p[i][j] += arms[j] * g[i] + arm * g[j] + arm * arms[j] * gg + w * w * variance[i + j]
@@ -308,9 +308,9 @@ class CommonError:
             self.covariance[row][j] = other[row] = 0.0
         self.covariance[row][row] = variance
 
-    def renew_aid(self, first: int, values: Vec2, variance: float) -> None:
+    def renew_aid(self, first: int, values: complex, variance: float) -> None:
         """Give two rows new estimates with this variance."""
-        for row, value in enumerate(values, first):
+        for row, value in enumerate((values.real, values.imag), first):
             self.renew(row, variance)
             self.estimates[row] = value
 

@@ -22,28 +22,14 @@ another one, which is learnt from then on."""
 
 from __future__ import annotations
 
-from math import atan2, cos, exp, hypot, log, pi, sqrt
+from cmath import phase, rect
+from math import cos, exp, hypot, log, pi, sqrt
 
 from ...events import StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Quat, Vec2, Vec3, per_foot
 from ...types.attrs import define, field
-from ...types.vector import (
-    ZERO,
-    across,
-    add,
-    along,
-    heading_turned,
-    minus,
-    plus,
-    rotate,
-    rotated,
-    rotated_back,
-    scaled,
-    turned,
-    unit_at,
-    wrap_angle,
-)
+from ...types.vector import ZERO, add, heading_turned, pair, rotate, turned, wrap_angle
 from .common_error import HEADING, NO_MOVE, CommonError, Move, Term
 
 MICRO = 1e6
@@ -164,7 +150,8 @@ class StanceField:
         if self.first is None:
             self.first = self.attitude
         self.count, self.sum = 0, ZERO
-        return (*scaled(k, rotated((x, y), self.north)), k * z), heading_turned(self.first, self.attitude)
+        flux = k * (complex(x, y) * complex(*self.north))
+        return (flux.real, flux.imag, k * z), heading_turned(self.first, self.attitude)
 
 
 @define
@@ -284,12 +271,12 @@ class Disturbance:
         left, right = [min(near, LARGEST * self.usual) for near in self.near.values()]
         return USUAL_SHARE * self.usual + (1.0 - USUAL_SHARE) * 0.5 * (left + right)
 
-    def add_stance(self, foot: Foot, residual: Vec2, vertical: float) -> float:
+    def add_stance(self, foot: Foot, residual: complex, vertical: float) -> float:
         """Add a stance of a foot and return its weight, up to 1.
 
         `residual` is how far the horizontal flux density is from the field, and `vertical` the vertical one, uT."""
         number, mean = self.vertical[foot]
-        (x, y), z = residual, vertical - mean if number else 0.0
+        x, y, z = residual.real, residual.imag, vertical - mean if number else 0.0
         number = min(number + 1, VERTICAL_MEMORY)
         self.vertical[foot] = (number, mean + (vertical - mean) / number)
         square = 0.25 * (x * x + y * y + z * z)  # of two parts of four in the horizontal axes, and two in the vertical
@@ -308,11 +295,11 @@ class Disturbance:
         self.changed[foot] = self.changed[foot] + 1 if shows else 0
         return self.changed[foot] >= 2
 
-    def judge(self, horizontal: Vec2) -> tuple[bool, bool]:
+    def judge(self, horizontal: complex) -> tuple[bool, bool]:
         """Return whether this place shows the heading, and whether it is strange; `horizontal` is the field, uT.
 
         It shows the heading if it is no more disturbed than usual."""
-        square, here = along(horizontal, horizontal), self.here
+        square, here = (horizontal * horizontal.conjugate()).real, self.here
         shows = here <= min(self.usual, MOST_OF_FIELD * MOST_OF_FIELD * square)
         return shows, here > min(STRANGE * self.usual, STRANGE_FIELD * STRANGE_FIELD * square)
 
@@ -367,35 +354,37 @@ class Compass:
         return move, self.trust.fault(foot, flux)
 
     def _add_stance(self, foot: Foot, angle: float, flux: Vec3, error: CommonError) -> None:
-        (x, y, z), yaw, disturbance = flux, unit_at(angle), self.disturbance
+        (x, y, z), yaw, disturbance = flux, rect(1.0, angle), self.disturbance
+        across = complex(x, y)
         if self.first < 0:
             variances = [FIELD * FIELD] * 2 + [SHARE * disturbance.usual] * 2 + [IRON * IRON] * 4
             self.first = error.add_aids((x, y, *[0.0] * 6), variances)
         iron, b = self.first + H[foot], error.aid(self.first)
-        without = _without_iron((x, y), yaw, iron, error)
-        kappa = 0.5 * along(b, b) / (disturbance.usual + error.covariance[iron][iron])
-        self.trust.add_direction(foot, atan2(without[1], without[0]), angle, kappa)
-        residual = off = minus(without, b)
+        without = _without_iron(across, yaw, iron, error)
+        kappa = 0.5 * (b * b.conjugate()).real / (disturbance.usual + error.covariance[iron][iron])
+        self.trust.add_direction(foot, phase(without), angle, kappa)
+        residual = off = without - b
         if error.covariance[HEADING][HEADING] > LOST_HEADING * LOST_HEADING:
-            residual = (hypot(*without) - hypot(*b), 0.0)
+            residual = complex(hypot(*pair(without)) - hypot(*pair(b)))
         weight = disturbance.add_stance(foot, residual, z)
         if disturbance.has_changed(foot):
             self.trust.note(foot, "changed")
             disturbance.near[foot], self.blocks[foot] = disturbance.near[OTHER[foot]], Block()
             disturbance.changed[foot] = 0
-            (hx, hy), (ux, uy), (c, s) = error.aid(iron), off, yaw
-            error.renew_aid(iron, (hx + c * ux + s * uy, hy + c * uy - s * ux), IRON * IRON)
+            (hx, hy), (ux, uy), (c, s) = pair(error.aid(iron)), pair(off), pair(yaw)
+            error.renew_aid(iron, complex(hx + c * ux + s * uy, hy + c * uy - s * ux), IRON * IRON)
             return
         block = self.blocks[foot]
         block.count, block.weight = block.count + 1, block.weight + weight
-        block.flux, block.yaw = plus(block.flux, scaled(weight, (x, y))), plus(block.yaw, scaled(weight, yaw))
+        block.flux = pair(complex(*block.flux) + weight * across)
+        block.yaw = pair(complex(*block.yaw) + weight * yaw)
 
     def _add_block(self, foot: Foot, error: CommonError) -> Move:
         """Compare the block of a foot with the estimates, and start the next one."""
         block, self.blocks[foot], here = self.blocks[foot], Block(), self.disturbance.here
         self._fade(error)
         k, first, distance = 1.0 / block.weight, self.first, max(block.distance, LEAST_STEP * block.count)
-        mean, yaw, iron = scaled(k, block.flux), scaled(k, block.yaw), first + H[foot]
+        mean, yaw, iron = k * complex(*block.flux), k * complex(*block.yaw), first + H[foot]
         shows_heading, is_strange = self.disturbance.judge(error.aid(first))
         self.strange = self.strange + 1 if is_strange else 0
         if self.strange == LONG_STRANGE:
@@ -403,28 +392,28 @@ class Compass:
         elif self.strange >= MOST_STRANGE:
             self.strange, self.is_another = 0, True
             error.renew_aid(first + B, _without_iron(mean, yaw, iron, error), FIELD * FIELD)
-            error.renew_aid(first + D, (0.0, 0.0), SHARE * self.disturbance.usual)
+            error.renew_aid(first + D, 0j, SHARE * self.disturbance.usual)
             return NO_MOVE
         rows = None if self.trust.is_proven and shows_heading else range(first, first + ROWS)
         noise = SHARE * here * max(1.0, SHORT * block.count / distance) * k
         # along the field
-        seen, ((x, y), size) = _without_iron(mean, yaw, iron, error), self._field(error)
-        terms = self._terms((x / size, y / size), yaw, iron)
-        move = error.correct_by(terms, hypot(*seen) - size, noise, rows)
+        seen, (field, size) = _without_iron(mean, yaw, iron, error), self._field(error)
+        terms = self._terms(field / size, yaw, iron)
+        move = error.correct_by(terms, hypot(*pair(seen)) - size, noise, rows)
         # across it, after the correction along it
-        seen, ((x, y), size) = _without_iron(mean, yaw, iron, error), self._field(error)
-        terms = [*self._terms((-y / size, x / size), yaw, iron), (HEADING, -size)]
-        angle = atan2(across((x, y), seen), along((x, y), seen)) + move[HEADING]
+        seen, (field, size) = _without_iron(mean, yaw, iron, error), self._field(error)
+        terms = [*self._terms(1j * field / size, yaw, iron), (HEADING, -size)]
+        angle = phase(field.conjugate() * seen) + move[HEADING]
         return add(move, error.correct_by(terms, size * angle, noise, rows))
 
-    def _field(self, error: CommonError) -> tuple[Vec2, float]:
+    def _field(self, error: CommonError) -> tuple[complex, float]:
         """Return the estimate of b + d, and its size, which has a least value, uT."""
-        field = plus(error.aid(self.first + B), error.aid(self.first + D))
-        return field, max(LEAST_SIZE, hypot(*field))
+        field = error.aid(self.first + B) + error.aid(self.first + D)
+        return field, max(LEAST_SIZE, hypot(*pair(field)))
 
-    def _terms(self, along: Vec2, yaw: Vec2, iron: int) -> list[Term]:
+    def _terms(self, along: complex, yaw: complex, iron: int) -> list[Term]:
         """Return how the errors of b, d and h, whose rows begin at `iron`, add to the flux density along a vector."""
-        (x, y), (hx, hy), b, d = along, rotated_back(along, yaw), self.first + B, self.first + D
+        (x, y), (hx, hy), b, d = pair(along), pair(along * yaw.conjugate()), self.first + B, self.first + D
         return [(b, x), (b + 1, y), (d, x), (d + 1, y), (iron, hx), (iron + 1, hy)]
 
     def _fade(self, error: CommonError) -> None:
@@ -440,9 +429,9 @@ class Compass:
 
     def turned(self, yaw: float) -> None:
         """Turn the blocks with both tracks by `yaw`, rad."""
-        by = unit_at(yaw)
+        by = rect(1.0, yaw)
         for block in self.blocks.values():
-            block.flux, block.yaw = rotated(block.flux, by), rotated(block.yaw, by)
+            block.flux, block.yaw = pair(complex(*block.flux) * by), pair(complex(*block.yaw) * by)
 
     def north(self, error: CommonError) -> Vec2 | None:
         """Return the direction of magnetic north, common frame, and its standard deviation, rad.
@@ -451,22 +440,22 @@ class Compass:
         both disturbances are 0 on average. The heading of the track is among its errors."""
         if self.first < 0 or self.is_another or not self.trust.is_proven:
             return None
-        x, y = error.aid(self.first)
-        square = x * x + y * y
+        field = error.aid(self.first)
+        x, y, square = field.real, field.imag, (field * field.conjugate()).real
         if square < LEAST_SIZE * LEAST_SIZE:
             return None
         terms = [(self.first + B, -y / square), (self.first + B + 1, x / square), (HEADING, -1.0)]
-        return (atan2(y, x), sqrt(error.variance_of(terms)))
+        return (phase(field), sqrt(error.variance_of(terms)))
 
     def reset(self, foot: Foot, error: CommonError) -> None:
         """Forget the iron of the shoe of a foot, and its stance: another device may be worn."""
         self.feet[foot], self.blocks[foot] = StanceField(), Block()
         self.trust.reset(foot)
         if self.first >= 0:
-            error.renew_aid(self.first + H[foot], (0.0, 0.0), IRON * IRON)
+            error.renew_aid(self.first + H[foot], 0j, IRON * IRON)
 
 
-def _without_iron(flux: Vec2, yaw: Vec2, iron: int, error: CommonError) -> Vec2:
+def _without_iron(flux: complex, yaw: complex, iron: int, error: CommonError) -> complex:
     """Return a flux density without the iron h whose rows begin at `iron`, uT."""
-    (x, y), (c, s), (hx, hy) = flux, yaw, error.aid(iron)
-    return (x - c * hx + s * hy, y - s * hx - c * hy)
+    (x, y), (c, s), (hx, hy) = pair(flux), pair(yaw), pair(error.aid(iron))
+    return complex(x - c * hx + s * hy, y - s * hx - c * hy)

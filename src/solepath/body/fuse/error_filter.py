@@ -24,7 +24,7 @@ from math import exp, hypot
 
 from ...types import OTHER, Foot, PerFoot, Vec2, per_foot
 from ...types.attrs import define, field
-from ...types.vector import across, along, minus
+from ...types.vector import pair
 from .common_error import Term, column
 
 FEET = {Foot.LEFT: 0, Foot.RIGHT: 4}
@@ -109,14 +109,14 @@ class TrackErrorFilter:
             p[moved][moved] += sigma * sigma
 
     def propagate(
-        self, foot: Foot, times: Vec2, end: Vec2, displacement: Vec2, variance: tuple[float, float, float],
+        self, foot: Foot, times: Vec2, end: complex, displacement: complex, variance: tuple[float, float, float],
         degraded: bool,
     ) -> None:  # fmt: skip
         """Propagate the covariance over a stride of a foot, with the `times` of its stance and swing, s.
 
         `displacement` of the stride and its `end` are in m, common frame; `variance` is xx, xy, yy, m^2."""
-        p, (stance, swing), (dx, dy), (cx, cy) = self.covariance, times, displacement, minus(end, self.centre)
-        self.centre = end
+        p, (stance, swing), moved = self.covariance, times, end - complex(*self.centre)
+        self.centre = pair(end)
         x = FEET[foot]
         y, heading, rate = x + Y, x + HEADING, x + RATE
         duration, time_to_mid_swing = stance + swing, stance + 0.5 * swing
@@ -124,8 +124,9 @@ class TrackErrorFilter:
         noise = DEGRADED_ERROR * DEGRADED_ERROR if degraded else 0.0
         p[heading][heading] += noise + HEADING_DRIFT * HEADING_DRIFT * duration
         # P <- F P F': first the rows, then the columns. F moves the centre for both feet, then adds the stride
-        steps = [(k + i, k + HEADING, arm) for k in FEET.values() for i, arm in ((X, -cy), (Y, cx))]
-        steps += [(x, rate, -time_to_mid_swing * dy), (y, rate, time_to_mid_swing * dx), (heading, rate, duration)]
+        steps = [(k + i, k + HEADING, arm) for k in FEET.values() for i, arm in ((X, -moved.imag), (Y, moved.real))]
+        arm = time_to_mid_swing * displacement
+        steps += [(x, rate, -arm.imag), (y, rate, arm.real), (heading, rate, duration)]
         for i, j, k in steps:
             p[i] = [to + k * of for to, of in zip(p[i], p[j], strict=True)]
         p[rate] = [decay * of for of in p[rate]]
@@ -185,7 +186,7 @@ class TrackErrorFilter:
 
 
 def standing_foot(
-    foot: Foot, displacement: Vec2, middle: Vec2, turn: float, times: Vec2, width: float
+    foot: Foot, displacement: complex, middle: complex, turn: float, times: Vec2, width: float
 ) -> tuple[Measurement, Measurement]:
     """Return the lateral and the longitudinal measurement of where the other foot stands during a stride of a foot.
 
@@ -195,16 +196,16 @@ def standing_foot(
     `displacement` is that of the stride, and `middle` leads from its middle to the other foot, both in m, common frame.
     The stride turns by `turn` rad and has these `times` of stance and swing, s; `width` is the walking width, m."""
     this, side = FEET[foot], -1.0 if foot is Foot.LEFT else 1.0
-    (dx, dy), (stance, swing), length = displacement, times, hypot(*displacement)
-    # u: direction of the stride; n: to its left
-    ux, uy = dx / length, dy / length
-    ahead, leftward = along((ux, uy), middle), across((ux, uy), middle)
+    (stance, swing), length = times, hypot(displacement.real, displacement.imag)
+    along = displacement / length
+    from_middle = along.conjugate() * middle
+    ahead, leftward = from_middle.real, from_middle.imag
     spread = TURN_ERROR * turn * length
-    # u and the middle depend on the heading in mid-swing, psi - r T_swing / 2; the error of the turn is r T
+    # the direction and the middle depend on the heading in mid-swing, psi - r T_swing / 2; the error of the turn is r T
     arm = 0.5 * length - ahead
     rate = length * (stance + swing) / 8.0 - 0.5 * swing * arm
-    lateral = [*_difference(foot, (-uy, ux), arm), (this + RATE, rate), (WIDTH, -side)]
-    longitudinal = [*_difference(foot, (ux, uy), leftward), (this + RATE, -0.5 * swing * leftward)]
+    lateral = [*_difference(foot, 1j * along, arm), (this + RATE, rate), (WIDTH, -side)]
+    longitudinal = [*_difference(foot, along, leftward), (this + RATE, -0.5 * swing * leftward)]
     expected = side * width - length * turn / 8.0
     return (
         (lateral, expected - leftward, LATERAL_ERROR**2 + spread * spread),
@@ -212,16 +213,15 @@ def standing_foot(
     )
 
 
-def feet_apart(foot: Foot, to_other: Vec2, reach: float) -> Measurement:
+def feet_apart(foot: Foot, to_other: complex, reach: float) -> Measurement:
     """Return the measurement that a foot is at most `reach` m from the other foot, to which `to_other`, m, leads."""
-    distance = hypot(*to_other)
-    direction = (to_other[0] / distance, to_other[1] / distance)
-    return _difference(foot, direction)[:4], reach - distance, LONGITUDINAL_ERROR**2
+    distance = hypot(to_other.real, to_other.imag)
+    return _difference(foot, to_other / distance)[:4], reach - distance, LONGITUDINAL_ERROR**2
 
 
-def _difference(foot: Foot, along: Vec2, arm: float = 0.0) -> list[Term]:
+def _difference(foot: Foot, along: complex, arm: float = 0.0) -> list[Term]:
     """Return the terms of the other foot's error minus that of a foot along a direction, with the `arm` of headings."""
-    this, other, (x, y) = FEET[foot], FEET[OTHER[foot]], along
+    this, other, x, y = FEET[foot], FEET[OTHER[foot]], along.real, along.imag
     return [
         (other + X, x), (other + Y, y), (this + X, -x), (this + Y, -y), (this + HEADING, arm), (other + HEADING, -arm)
     ]  # fmt: skip

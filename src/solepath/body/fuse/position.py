@@ -4,23 +4,23 @@ A foot without samples would hold the mean back by half of the distance walked, 
 then continues with the other foot, without a jump, although the two tracks may have drifted apart. The displacement and
 turn of an absent foot are not known when it returns. It stays out until each foot has taken `STRIDES_TO_ALIGN` strides,
 and its track is then rotated and moved beside the other one. A foot whose first sample comes while the other foot walks
-is aligned in the same way. Without absence, no track is rotated or moved."""
+is aligned in the same way. Without absence, no track is rotated or moved.
+
+Horizontal vectors are complex numbers x + iy, m, where they are not part of a state or an event."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from math import atan2, fsum, hypot
-from typing import TYPE_CHECKING, ClassVar
+from cmath import phase, rect
+from collections.abc import Mapping, Sequence
+from math import cos, fsum, hypot, sin
+from typing import ClassVar
 
 from ...foot.view import FootPose, FootView
 from ...foot.world import Covariance3
 from ...types import OTHER, Foot, PerFoot, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen
-from ...types.vector import ZERO, across, add, along, sub, turned, unit_at
+from ...types.vector import ZERO, add, sub, turned
 from ..part import PartInput, PartOutput, Position, TrackPart
-
-if TYPE_CHECKING:
-    pass
 
 ABSENCE_TIME = 1.0
 """Time without samples, s, after which a foot is absent while the other foot has samples."""
@@ -79,9 +79,15 @@ class PlacedTrack:
         """Flag: the foot has samples, and its track is aligned with the other foot's."""
         return not (self.absent or self.unplaced)
 
+    def flat(self, own: Vec3) -> complex:
+        """Return the horizontal position of the place `own` of the foot's own track in the common frame, m."""
+        (x, y, _), (off_x, off_y, _) = own, self.offset
+        return complex(x, y) * rect(1.0, self.turn) + complex(off_x, off_y)
+
     def place(self, own: Vec3) -> Vec3:
         """Return the position `own` of the foot's own track in the common frame, m."""
-        return add(turned(own, self.turn), self.offset)
+        flat = self.flat(own)
+        return (flat.real, flat.imag, own[2] + self.offset[2])
 
     @property
     def newest(self) -> Vec3:
@@ -90,23 +96,25 @@ class PlacedTrack:
 
     def to_own(self, place: Vec3) -> Vec3:
         """Return the position `place` of the common frame on the foot's own track, m."""
-        return turned(sub(place, self.offset), -self.turn)
+        x, y, z = sub(place, self.offset)
+        own = complex(x, y) * rect(1.0, -self.turn)
+        return (own.real, own.imag, z)
 
     def turned_covariance(self, own: Covariance3) -> tuple[float, float, float]:
         """Return the horizontal covariance `own` of the foot's own track in the common frame: xx, xy, yy, m^2."""
         xx, xy, _, yy, _, _ = own
-        c, s = unit_at(self.turn)
+        c, s = cos(self.turn), sin(self.turn)
         cc, ss, cs = c * c, s * s, c * s
         return (cc * xx - 2.0 * cs * xy + ss * yy, cs * (xx - yy) + (cc - ss) * xy, ss * xx + 2.0 * cs * xy + cc * yy)
 
-    def correct(self, pivot: Vec3, yaw: float, dx: float, dy: float) -> None:
-        """Rotate the track by `yaw`, rad, about the place `pivot` of the own track, m, and move it by (dx, dy), m.
+    def correct(self, pivot: Vec3, yaw: float, by: complex) -> None:
+        """Rotate the track by `yaw`, rad, about the place `pivot` of the own track, m, and move it by `by`, m.
 
         The move is in the common frame."""
-        (x, y, z), before = self.offset, self.place(pivot)
+        (x, y, z), before = self.offset, self.flat(pivot)
         self.turn += yaw
-        after = self.place(pivot)
-        self.offset = (x + before[0] + dx - after[0], y + before[1] + dy - after[1], z)
+        offset = complex(x, y) + before + by - self.flat(pivot)
+        self.offset = (offset.real, offset.imag, z)
 
 
 @define
@@ -130,10 +138,6 @@ class MeanOfFeet(TrackPart):
     def is_aligned(self) -> bool:
         """Flag: no foot has to be placed beside the other one."""
         return not any([track.unplaced for track in self.tracks.values()])
-
-    def middle(self, shares: PerFoot[float]) -> Vec2:
-        """Return the newest place between both feet, m, common frame; each foot counts with its share."""
-        return mean_place(shares, [track.newest for track in self.tracks.values()])
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add one sample of a foot and detect an absent or returned foot; returns no output."""
@@ -239,7 +243,7 @@ class MeanOfFeet(TrackPart):
         (x, y, _), (ox, oy, _) = [_mean([sub(side[-1][k], side[0][k]) for side in (lefts, rights)]) for k in (0, 1)]
         if min(hypot(x, y), hypot(ox, oy)) < MIN_ALIGNMENT_DISTANCE:
             return
-        this.turn = atan2(across((x, y), (ox, oy)), along((x, y), (ox, oy)))
+        this.turn = phase(complex(x, -y) * complex(ox, oy))
         places = [*lefts, *rights]
         this.offset = sub(_mean([one for _, one in places]), _mean([turned(own, this.turn) for own, _ in places]))
         _set_added_variance(this, other)
@@ -251,12 +255,6 @@ def _set_added_variance(this: PlacedTrack, other: PlacedTrack) -> None:
     own, others = this.variance or (0.0, 0.0), other.variance or (0.0, 0.0)
     across, up = [max(0.0, one + more - has) for one, more, has in zip(others, other.added_variance, own, strict=True)]
     this.added_variance = (across, up)
-
-
-def mean_place(shares: PerFoot[float], places: Iterable[Vec3]) -> Vec2:
-    """Return the mean of the places of the left and of the right foot, m, each with its share."""
-    (left, (lx, ly, _)), (right, (rx, ry, _)) = zip(shares.values(), places, strict=True)
-    return (left * lx + right * rx, left * ly + right * ry)
 
 
 def _mean(vectors: list[Vec3]) -> Vec3:

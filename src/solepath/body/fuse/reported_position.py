@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from cmath import rect
+from collections.abc import Callable, Sequence
 from itertools import accumulate, pairwise
 from math import exp, fsum, hypot, sqrt
 
 from ...events import PositionRejected, PositionReported, TrackNode, TrackRevised
 from ...types import Vec2
 from ...types.attrs import evolve, frozen
-from ...types.vector import along, minus, plus, rotated, rotated_back, scaled, unit_at
+from ...types.vector import pair
 from .common_error import HEADING, LEAST_WAY, LENGTH_ERROR, POSITION_GATE, CommonError, Move, X
 from .position import PlanStart
 from .walked_path import FIRST_SPACING, NotedPlace, WalkedPath
@@ -45,7 +46,7 @@ class ReportedPosition:
     the square of the distance, and both positions are used."""
 
     event: PositionReported
-    place: Callable[[], Vec2]
+    place: Callable[[], complex]
     """Function that returns where the wearer is according to the track, m, common frame."""
     error: CommonError
     path: WalkedPath
@@ -60,18 +61,18 @@ class ReportedPosition:
         if event.place and named is None:
             self._note_place(event.place, was, variance)
             return []
-        target = (event.position or (0.0, 0.0)) if named is None else error.aid(named)
-        off, turn = minus(target, was), 0.0
+        target = complex(*(event.position or (0.0, 0.0))) if named is None else error.aid(named)
+        off, turn = target - was, 0.0
         square = self._square(off, variance, named)
         if square > POSITION_GATE:
             rejected = None if named is not None else path.visit(REJECTED)
-            first = path.rejected
+            first = None if path.rejected is None else complex(*path.rejected)
             if rejected is None or first is None or not self._confirms(first, target, variance, rejected):
                 if named is None:
                     self._note_place(REJECTED, was, variance)
-                    path.rejected = target
-                return [self._rejection(hypot(*off), square)]
-            self._raise_variance(along(off, off))
+                    path.rejected = pair(target)
+                return [self._rejection(hypot(off.real, off.imag), square)]
+            self._raise_variance((off * off.conjugate()).real)
             # the variance of the first report is in the rows of its place already
             turn += self._correct(first, rejected, None, LEAST_SIGMA * LEAST_SIGMA)
         heading = error.covariance[HEADING][HEADING]
@@ -79,9 +80,9 @@ class ReportedPosition:
         turn += self._correct(target, X, named, variance)
         now = self.place()
         nodes = self._revise_path(was, now, (heading, variance), settles=named is None)
-        return [TrackRevised(t=event.t, known_at=event.known_at, by=minus(now, was), turn=turn, nodes=nodes)]
+        return [TrackRevised(t=event.t, known_at=event.known_at, by=pair(now - was), turn=turn, nodes=nodes)]
 
-    def _note_place(self, name: str, position: Vec2, variance: float) -> None:
+    def _note_place(self, name: str, position: complex, variance: float) -> None:
         """Note that the wearer is at the place `name`, whose estimate is `position`, m, common frame.
 
         `variance` is that of the report, m^2. The errors of the place are from now on those that the track has now."""
@@ -90,7 +91,7 @@ class ReportedPosition:
         names = [one for one in path.places if one]
         if old is None and name and len(names) >= MOST_PLACES:
             old = path.places.pop(names[0])
-        first = error.add_aids(position, (0.0, 0.0)) if old is None else old.first
+        first = error.add_aids((0.0, 0.0), (0.0, 0.0)) if old is None else old.first
         error.renew_aid(first, position, 0.0)
         for axis, row in enumerate((first, first + 1)):
             now = list(p[X + axis])
@@ -98,17 +99,17 @@ class ReportedPosition:
             for j, value in enumerate(now):
                 p[row][j] = p[j][row] = value
             p[row][row] += variance
-        path.add_node(TrackNode(self.event.t, *position))
+        path.add_node(TrackNode(self.event.t, position.real, position.imag))
         path.places[name] = NotedPlace(first, len(path.nodes) - 1)
 
     def _covariance(self, since: int | None) -> tuple[float, float, float]:
         """Return the covariance of the way from the known position, or from the place whose rows begin at `since`."""
-        start = self.path.known if since is None else self.error.aid(since)
-        return self.error.position_covariance(minus(self.place(), start), since)
+        start = complex(*self.path.known) if since is None else self.error.aid(since)
+        return self.error.position_covariance(self.place() - start, since)
 
-    def _square(self, off: Vec2, variance: float, since: int | None) -> float:
+    def _square(self, off: complex, variance: float, since: int | None) -> float:
         """Return the squared innovation `off`, m, divided by its variance."""
-        (zx, zy), (xx, xy, yy) = off, self._covariance(since)
+        zx, zy, (xx, xy, yy) = off.real, off.imag, self._covariance(since)
         sx, sy = xx + variance, yy + variance
         return (zx * zx * sy - 2.0 * zx * zy * xy + zy * zy * sx) / (sx * sy - xy * xy)
 
@@ -137,13 +138,13 @@ class ReportedPosition:
                 value += rows[i][1][since + j] + rows[j][1][since + i] + p[since + i][since + j]
             p[X + i][X + j] = p[X + j][X + i] = value
 
-    def _confirms(self, first: Vec2, target: Vec2, variance: float, rejected: int) -> bool:
+    def _confirms(self, first: complex, target: complex, variance: float, rejected: int) -> bool:
         """Return whether the way from the rejected position `first`, m, to this one is that of the track.
 
         `variance` is that of this report; that of the first is in the rows of its place, from `rejected` on."""
-        way = minus(self.place(), self.error.aid(rejected))
-        other = minus(minus(target, first), way)
-        return hypot(*way) > LEAST_WAY and self._square(other, variance, rejected) < AGREEMENT_GATE
+        way = self.place() - self.error.aid(rejected)
+        other = target - first - way
+        return hypot(way.real, way.imag) > LEAST_WAY and self._square(other, variance, rejected) < AGREEMENT_GATE
 
     def _raise_variance(self, variance: float) -> None:
         """Raise the variance of the wearer's position together with that of all places since the rejected position."""
@@ -155,7 +156,7 @@ class ReportedPosition:
                 for j in rows:
                     p[i + axis][j + axis] += variance
 
-    def _correct(self, target: Vec2, of: int, since: int | None, variance: float) -> float:
+    def _correct(self, target: complex, of: int, since: int | None, variance: float) -> float:
         """Correct all errors by a measured position and return the correction of the heading, rad.
 
         It is that of the wearer or of a place, whose rows begin at `of`, with this `variance`, m^2. With `since`, the
@@ -164,8 +165,8 @@ class ReportedPosition:
         for axis in (0, 1):
             terms = [(of + axis, 1.0), *([] if since is None else [(since + axis, -1.0)])]
             is_at = self.place() if of == X else error.aid(of)
-            z = (target if since is None else error.aid(since))[axis] - is_at[axis]
-            move = error.correct_by(terms, z, variance)
+            z = (target if since is None else error.aid(since)) - is_at
+            move = error.correct_by(terms, z.imag if axis else z.real, variance)
             self.move_both(move)
             turn += move[HEADING]
         return turn
@@ -181,7 +182,7 @@ class ReportedPosition:
             what += f". If it is right, report another place {LEAST_WAY:.0f} m on: two that agree are believed"
         return PositionRejected(t=event.t, known_at=event.known_at, distance=distance, sigma=off, what=what)
 
-    def _revise_path(self, was: Vec2, now: Vec2, variances: Vec2, settles: bool) -> tuple[TrackNode, ...]:
+    def _revise_path(self, was: complex, now: complex, variances: Vec2, settles: bool) -> tuple[TrackNode, ...]:
         """Revise the nodes since the newest known position, because the wearer is at `now`, m, instead of at `was`.
 
         The path is turned piece by piece, so that it leads there (`_turned`); what is left of the correction is
@@ -190,22 +191,22 @@ class ReportedPosition:
         last of which is the one at the time of the report. If the position `settles` the path, it stays as it is up to
         there."""
         path, t, (heading, variance) = self.path, self.event.t, variances
-        old = [*[(node.x, node.y) for node in path.nodes], was]
-        pieces = [minus(b, a) for a, b in pairwise(old)]
-        distances = [0.0, *accumulate([hypot(*piece) for piece in pieces])]
-        turned = _turned(pieces, distances, minus(now, old[0]), (path.heading_variance, heading), variance)
-        bent = [plus(old[0], one) for one in accumulate(turned, plus, initial=(0.0, 0.0))]
+        old = [*[complex(node.x, node.y) for node in path.nodes], was]
+        pieces = [b - a for a, b in pairwise(old)]
+        distances = [0.0, *accumulate([hypot(piece.real, piece.imag) for piece in pieces])]
+        turned = _turned(pieces, distances, now - old[0], (path.heading_variance, heading), variance)
+        bent = [old[0] + one for one in accumulate(turned, initial=0j)]
         ends = {0: bent[0], len(old) - 1: now}
         for place in path.places.values():
             if 0 < place.node < len(old) - 1:
                 ends[place.node] = self.error.aid(place.first)
         times = [*[node.t for node in path.nodes], t]
         revised = zip(times, _distributed(bent, distances, ends), strict=True)
-        nodes = [TrackNode(then, *position) for then, position in revised]
+        nodes = [TrackNode(then, position.real, position.imag) for then, position in revised]
         if settles:
             path.nodes, path.walked, path.spacing, path.rejected = [nodes[-1]], 0.0, FIRST_SPACING, None
             path.places = {name: evolve(one, node=0) for name, one in path.places.items()}
-            path.known, path.known_at = now, t
+            path.known, path.known_at = pair(now), t
             path.heading_variance = max(0.0, self.error.covariance[HEADING][HEADING])
         else:
             path.nodes = nodes[:-1]
@@ -213,7 +214,9 @@ class ReportedPosition:
         return tuple(nodes)
 
 
-def _turned(pieces: list[Vec2], distances: list[float], way: Vec2, headings: Vec2, variance: float) -> list[Vec2]:
+def _turned(
+    pieces: list[complex], distances: list[float], way: complex, headings: Vec2, variance: float
+) -> list[complex]:
     """Return the pieces of a path, each turned by its most probable error of the heading, if the path leads to `way`.
 
     All are in m. The error at the distance u, as a share of the whole, is a normal process: it has the first of the
@@ -229,45 +232,41 @@ def _turned(pieces: list[Vec2], distances: list[float], way: Vec2, headings: Vec
     angles, turned, square = [0.0] * len(pieces), pieces, LENGTH_ERROR**2
     for _ in range(ROUNDS):
         # spread is K G': the sums over min(u, v) are those up to u, and u times those beyond
-        across = [(-y, x) for x, y in turned]
-        total, moment = _weighted(across), _weighted(across, shares)
-        spread: list[Vec2] = []
-        before, before_moment = (0.0, 0.0), (0.0, 0.0)
-        for one, u in zip(across, shares, strict=True):
-            before, before_moment = plus(before, one), plus(before_moment, scaled(u, one))
-            cx, cy = [
-                first * all_of + growth * (u * of_moment + b_moment + u * (all_of - b))
-                for all_of, of_moment, b_moment, b in zip(total, moment, before_moment, before, strict=True)
-            ]
-            spread.append((cx, cy))
-        (gxx, gxy), (_, gyy) = [_weighted(spread, [one[axis] for one in across]) for axis in (0, 1)]
-        xx, yy = noise + square * way[0] ** 2 + gxx, noise + square * way[1] ** 2 + gyy
-        xy = square * way[0] * way[1] + gxy
-        zx, zy = plus(minus(way, _weighted(turned)), _weighted(across, angles))
+        across = [1j * piece for piece in turned]
+        moments = [u * one for u, one in zip(shares, across, strict=True)]
+        total, moment, before, before_moment = _sum(across), _sum(moments), 0j, 0j
+        spread: list[complex] = []
+        for one, its_moment, u in zip(across, moments, shares, strict=True):
+            before, before_moment = before + one, before_moment + its_moment
+            spread.append(first * total + growth * (u * moment + before_moment + u * (total - before)))
+        gx = _sum([one.real * moved for one, moved in zip(across, spread, strict=True)])
+        gy = _sum([one.imag * moved for one, moved in zip(across, spread, strict=True)])
+        xx, yy = noise + square * way.real**2 + gx.real, noise + square * way.imag**2 + gy.imag
+        xy = square * way.real * way.imag + gx.imag
+        z = way - _sum(turned) + _sum([angle * one for angle, one in zip(angles, across, strict=True)])
         determinant = xx * yy - xy * xy
-        gain = ((yy * zx - xy * zy) / determinant, (xx * zy - xy * zx) / determinant)
-        angles = [along(one, gain) for one in spread]
-        turned = [rotated(piece, unit_at(angle)) for piece, angle in zip(pieces, angles, strict=True)]
+        gain_x = (yy * z.real - xy * z.imag) / determinant
+        gain_y = (xx * z.imag - xy * z.real) / determinant
+        angles = [one.real * gain_x + one.imag * gain_y for one in spread]
+        turned = [piece * rect(1.0, angle) for piece, angle in zip(pieces, angles, strict=True)]
     return turned
 
 
-def _weighted(vectors: list[Vec2], weights: list[float] | None = None) -> Vec2:
-    """Return the weighted sum of vectors; without weights, their sum."""
-    pairs = list(zip(vectors, weights or [1.0] * len(vectors), strict=True))
-    return (fsum([w * x for (x, _), w in pairs]), fsum([w * y for (_, y), w in pairs]))
+def _sum(vectors: Sequence[complex]) -> complex:
+    return complex(fsum([one.real for one in vectors]), fsum([one.imag for one in vectors]))
 
 
-def _distributed(path: list[Vec2], distances: list[float], ends: dict[int, Vec2]) -> list[Vec2]:
+def _distributed(path: list[complex], distances: list[float], ends: dict[int, complex]) -> list[complex]:
     """Return the path through the positions in `ends` by the numbers of their nodes, moved linearly in between.
 
     `distances` are those from the first node along the path, m."""
     moved = [path[0]]
     for a, b in pairwise(sorted(ends)):
-        at_a, at_b = minus(ends[a], path[a]), minus(ends[b], path[b])
+        at_a, at_b = ends[a] - path[a], ends[b] - path[b]
         length = max(distances[b] - distances[a], 1e-9)
         for k in range(a + 1, b):
             share = (distances[k] - distances[a]) / length
-            moved.append(plus(plus(path[k], at_a), scaled(share, minus(at_b, at_a))))
+            moved.append(path[k] + at_a + share * (at_b - at_a))
         moved.append(ends[b])
     return moved
 
@@ -280,6 +279,6 @@ def in_world_frame(event: PositionReported, plan_start: PlanStart | None) -> Pos
         return event
     if plan_start is None:
         return None
-    off = minus(event.position, plan_start.place)
-    sigma = sqrt(event.sigma**2 + 0.5 * plan_start.spread**2 + START_HEADING**2 * along(off, off))
-    return evolve(event, position=rotated_back(off, unit_at(plan_start.heading)), sigma=sigma)
+    off = complex(*event.position) - complex(*plan_start.place)
+    sigma = sqrt(event.sigma**2 + 0.5 * plan_start.spread**2 + START_HEADING**2 * (off * off.conjugate()).real)
+    return evolve(event, position=pair(off * rect(1.0, -plan_start.heading)), sigma=sigma)

@@ -20,6 +20,7 @@ far, and makes most of its ways straight: those of a wearer who weaves bend alik
 
 from __future__ import annotations
 
+from cmath import phase, rect
 from collections.abc import Mapping
 from math import atan2, degrees, exp, fsum, hypot, log, sqrt
 
@@ -27,7 +28,7 @@ from ...calibration import HeadingCalibration
 from ...events import Defect, DefectFound, StrideTaken
 from ...types import Foot, Vec2
 from ...types.attrs import define, evolve, field, frozen
-from ...types.vector import add, rotated_back, unit_at, wrap_angle
+from ...types.vector import add, wrap_angle
 from .common_error import DRIFT, FEET, MAX_TURN_BACK, NO_MOVE, TURN, TURNING, CommonError, Move
 
 MAX_FOOT_TURN = 0.2
@@ -162,24 +163,23 @@ class Straightness:
     wander: Vec2 = (USUAL_WANDER * USUAL_WANDER, WANDER_WEIGHT)
     """Variance of the wandering, m^2, and the number of stretches as which it counts."""
 
-    def add_stride(self, t: float, displacement: Vec2, share: float, strides: float, turn: float) -> Stretch | None:
+    def add_stride(self, t: float, displacement: complex, share: float, strides: float, turn: float) -> Stretch | None:
         """Add a stride that ended at `t`, s; return the stretch that it has ended, if that is long enough.
 
         `displacement` is in m, world frame, `turn` that of the foot, rad. The mean of both feet moves and drifts by
         `share` of the stride, which counts as `strides` usual ones."""
-        dx, dy = displacement
         paused = self.t is not None and abs(t - self.t) > MAX_PAUSE  # the feet's clocks may be apart
         self.t = t
-        if paused or abs(turn) > MAX_FOOT_TURN or hypot(dx, dy) < MIN_ADVANCE:
+        if paused or abs(turn) > MAX_FOOT_TURN or hypot(displacement.real, displacement.imag) < MIN_ADVANCE:
             return self.break_off()
         if self.left_out:
             self.left_out -= 1
             return None
         if not self.recent:
-            self._start(atan2(dy, dx))
+            self._start(phase(displacement))
         newest, earlier = self.recent[-1], self.recent[0]
-        ahead, leftward = rotated_back(displacement, unit_at(self.direction))
-        x, y = newest.x + share * ahead, newest.y + share * leftward
+        moved = displacement * rect(1.0, -self.direction)
+        x, y = newest.x + share * moved.real, newest.y + share * moved.imag
         if len(self.recent) > DEVIATION_STRIDES:
             deviation = atan2(y - earlier.y, x - earlier.x) - atan2(y, x)
             if abs(wrap_angle(deviation)) > MAX_DEVIATION:  # the wearer has turned off, perhaps some strides ago
@@ -326,7 +326,7 @@ class StraightWays:
             self.spoiled = (*self.spoiled, foot)
 
     def add_stride(
-        self, event: StrideTaken, strides: float, displacement: Vec2, common: CommonError
+        self, event: StrideTaken, strides: float, displacement: complex, common: CommonError
     ) -> tuple[Move, str | None]:
         """Add a stride of a foot; correct the `common` errors by what a straight stretch shows.
 
@@ -338,7 +338,7 @@ class StraightWays:
         if devices != self.devices:  # a calibration of the old one neither fits nor misfits any longer
             self._forget_calibration()
             self.devices = devices
-        self._move({FEET[event.foot]: share * strides, FEET[event.foot] + TURN: share * turn}, share, displacement)
+        self._move({FEET[event.foot]: share * strides, FEET[event.foot] + TURN: share * turn}, share * displacement)
         if event.foot in self.spoiled:
             self.straightness.reset()
             return NO_MOVE, None
@@ -358,14 +358,13 @@ class StraightWays:
                 return self._drop(self.calibrated, fit.other, common), MISFIT.format(abs(degrees(60.0 * rate)))
         return common.correct_drift(found.drift, found.variance, found.weight, t), None
 
-    def _move(self, turns: Mapping[int, float], share: float, displacement: Vec2) -> None:
-        """Add a stride to the derivatives: its own turn by the errors of some rows, and its `displacement`, m."""
-        dx, dy = share * displacement[0], share * displacement[1]
+    def _move(self, turns: Mapping[int, float], moved: complex) -> None:
+        """Add a stride to the derivatives: its own turn by the errors of some rows, and its move, m."""
         for row, one in zip(CALIBRATED, self.moved, strict=False):
             more = turns.get(row, 0.0)
             middle = one[2] + 0.5 * more
-            one[0] -= dy * middle
-            one[1] += dx * middle
+            one[0] -= moved.imag * middle
+            one[1] += moved.real * middle
             one[2] += more
 
     def _forget_calibration(self) -> None:

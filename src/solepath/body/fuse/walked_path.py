@@ -48,11 +48,11 @@ class WalkedPath:
     rejected: Vec2 | None = None
     """Newest rejected position as it was reported, m; None if none was rejected since the newest one that was used."""
 
-    def add_stride(self, t: float, position: Vec2, length: float) -> None:
+    def add_stride(self, t: float, position: complex, length: float) -> None:
         """Add the wearer's position after a stride that moved the wearer by `length`, m."""
         self.walked += length
         if not self.nodes or self.walked >= self.spacing:
-            self.add_node(TrackNode(t, *position))
+            self.add_node(TrackNode(t, position.real, position.imag))
 
     def visit(self, name: str) -> int | None:
         """Return the first row of a noted place, which is the newest visited now; None if this name is new."""
