@@ -45,51 +45,9 @@ def add(a: Vec3, b: Vec3, k: float = 1.0) -> Vec3:
     return (a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2])
 
 
-def plus(a: Vec2, b: Vec2) -> Vec2:
-    """Return a + b."""
-    return (a[0] + b[0], a[1] + b[1])
-
-
-def minus(a: Vec2, b: Vec2) -> Vec2:
-    """Return a - b."""
-    return (a[0] - b[0], a[1] - b[1])
-
-
-def scaled(k: float, v: Vec2) -> Vec2:
-    """Return k v."""
-    return (k * v[0], k * v[1])
-
-
 def pair(z: complex) -> Vec2:
     """Return x and y of the vector x + iy."""
     return (z.real, z.imag)
-
-
-def along(a: Vec2, b: Vec2) -> float:
-    """Return the scalar product of a and b."""
-    return a[0] * b[0] + a[1] * b[1]
-
-
-def across(a: Vec2, b: Vec2) -> float:
-    """Return the component of b to the left of a, times the length of a."""
-    return a[0] * b[1] - a[1] * b[0]
-
-
-def rotated(v: Vec2, by: Vec2) -> Vec2:
-    """Return v rotated by the angle with the cosine and the sine `by`, counter-clockwise positive."""
-    c, s = by
-    return (c * v[0] - s * v[1], s * v[0] + c * v[1])
-
-
-def rotated_back(v: Vec2, by: Vec2) -> Vec2:
-    """Return v rotated by the opposite of the angle with the cosine and the sine `by`."""
-    c, s = by
-    return (c * v[0] + s * v[1], c * v[1] - s * v[0])
-
-
-def unit_at(angle: float) -> Vec2:
-    """Return the cosine and the sine of an angle, rad."""
-    return (cos(angle), sin(angle))
 
 
 def dot(a: Vec3, b: Vec3) -> float:

@@ -11,7 +11,6 @@ from math import hypot
 from ...events import StrideTaken
 from ...types import OTHER, PerFoot, Vec2, Vec3, per_foot
 from ...types.attrs import define, field
-from ...types.vector import across, along, minus, plus, scaled
 
 LEAST_SPEED = 0.35
 """Least error of the velocity of both feet that shows moving ground, m/s; walkways run at 0.5 to 0.75 (EN 115-1)."""
@@ -76,27 +75,27 @@ class MovingGround:
         """Add a stride; return a sentence if it shows that the ground starts or stops to move.
 
         `velocity_error` is the integrated velocity of the foot when it came to stand, m/s."""
-        this, other, moved = self.feet[event.foot], self.feet[OTHER[event.foot]], event.displacement[:2]
-        length = hypot(*moved)
+        this, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
+        (dx, dy, _), (ex, ey, _) = event.displacement, velocity_error
+        length = hypot(dx, dy)
         if length <= 0.0:
             return None
-        error = velocity_error[:2]
-        this.add(event.t_end, (along(moved, error) / length, across(moved, error) / length))
+        this.add(event.t_end, ((dx * ex + dy * ey) / length, (dx * ey - dy * ex) / length))
         if self.since is not None and not 0.0 <= event.t_end - self.since < LONGEST_RIDE:
             self.velocity, self.since = STILL, None
-        a, b = this.error, other.error
-        if STILL in (a, b) or not 0.0 <= this.t - other.t < LONGEST_STEP or hypot(*minus(a, b)) > LARGEST_DIFFERENCE:
+        (ax, ay), (bx, by), is_step = this.error, other.error, 0.0 <= this.t - other.t < LONGEST_STEP
+        if STILL in (this.error, other.error) or not is_step or hypot(ax - bx, ay - by) > LARGEST_DIFFERENCE:
             return None
         this.error = other.error = STILL
-        seen, speed, started = scaled(0.5, plus(a, b)), hypot(*self.velocity), self.since
-        self.t = this.t
-        if started is not None and hypot(*plus(self.velocity, seen)) < speed:
+        (vx, vy), x, y, started = self.velocity, 0.5 * (ax + bx), 0.5 * (ay + by), self.since
+        self.t, speed = this.t, hypot(vx, vy)
+        if started is not None and hypot(vx + x, vy + y) < speed:
             self.velocity, self.since = STILL, None
             distance = speed * (this.t - started)
             return f"the ground stands still again; the track lacks about {distance:.0f} m that it has moved"
-        self.velocity, self.since = seen, this.t
+        self.velocity, self.since = (x, y), this.t
         text = "as a moving walkway does; the track lacks the way by which it carries the wearer"
-        return f"the ground moves by {hypot(*seen):.1f} m/s, {text}"
+        return f"the ground moves by {hypot(x, y):.1f} m/s, {text}"
 
     def variance(self, t: float) -> float:
         """Return what to add to the variance of the position, m^2, for the ground's motion since the last call."""
