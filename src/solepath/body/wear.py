@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from itertools import accumulate
 from math import fsum, hypot, sqrt
 from struct import Struct
 from typing import ClassVar
@@ -13,17 +12,13 @@ from ..events import FeetSwapped, FootResumed, FootSilent, StrideTaken, ToeOff
 from ..foot.view import FootView
 from ..types import OTHER, Foot, Layout, PerFoot, Vec3, per_foot
 from ..types.attrs import ROW_SIZE, define, field, frozen
-from ..types.vector import ZERO, rotate_back
+from ..types.vector import ZERO, add, cross, dot, rotate_back, sub
 from .part import LayoutReported, Notice, Part, PartInput, PartOutput
 
 # Integral of a foot's angular rate over the last second or two, which `Sides` uses.
 
-INSTANT = Struct("<i3q")
-"""Time since the previous instant, ticks, and the components of the integral, in units of 1 / `UNITS_PER_RAD` rad."""
-TICKS_PER_S = 2.0**19
-"""Number of ticks in a second; a tick is 2 us."""
-UNITS_PER_RAD = 2.0**13
-"""Number of units in a radian; a unit is 0.12 mrad."""
+INSTANT = Struct("<d3f")
+"""Time of an instant, s, and the components of the integral, rad."""
 
 
 @define
@@ -39,20 +34,20 @@ class RateIntegral:
 
     def restart(self, t: float) -> None:
         """Start a new integral at `t`, s, because the turn before is not known."""
-        self.t, self.turn, self.instants = t, ZERO, INSTANT.pack(0, 0, 0, 0)
+        self.t, self.turn, self.instants = t, ZERO, INSTANT.pack(t, *ZERO)
 
     def add(self, t: float, dt: float, gyro: Vec3, max_instants: int) -> None:
-        """Add an angular rate, rad/s, at `t`, s; `dt`, s, is the time since the newest instant, at most 0.12 s.
+        """Add an angular rate, rad/s, at `t`, s; `dt`, s, is the time since the newest instant.
 
         When there are `max_instants` instants, the oldest eighth is discarded."""
         x, y, z = self.turn
         gx, gy, gz = gyro
         x, y, z = self.turn = (x + dt * gx, y + dt * gy, z + dt * gz)
         self.t = t
-        kept, k = self.instants, UNITS_PER_RAD
+        kept = self.instants
         if len(kept) >= max_instants * INSTANT.size:
             kept = kept[max_instants // 8 * INSTANT.size :]
-        self.instants = kept + INSTANT.pack(int(dt * TICKS_PER_S + 0.5), int(x * k), int(y * k), int(z * k))
+        self.instants = kept + INSTANT.pack(t, x, y, z)
 
     def keep_newest(self) -> None:
         """Discard all instants but the newest."""
@@ -63,19 +58,14 @@ class RateIntegral:
         self.t, self.turn, self.instants = None, ZERO, b""
 
     def times(self) -> list[float]:
-        """Return the times of the instants, s, oldest first, accurate to 0.1 ms; an empty list before any."""
-        if self.t is None:
-            return []
-        back = [-row[0] / TICKS_PER_S for row in INSTANT.iter_unpack(self.instants)]
-        return [*accumulate([self.t, *back[:0:-1]])][::-1]
+        """Return the times of the instants, s, oldest first."""
+        return [t for t, *_ in INSTANT.iter_unpack(self.instants)]
 
     def turns_between(self, i: int, j: int) -> list[Vec3]:
         """Return the turn since instant `i` at each instant from `i` to before `j`, rad."""
         rows = list(INSTANT.iter_unpack(self.instants))
         _, ax, ay, az = rows[i]
-        return [
-            ((x - ax) / UNITS_PER_RAD, (y - ay) / UNITS_PER_RAD, (z - az) / UNITS_PER_RAD) for _, x, y, z in rows[i:j]
-        ]
+        return [(x - ax, y - ay, z - az) for _, x, y, z in rows[i:j]]
 
 
 # Detection of exchanged feet: the sensors of the left and the right foot are swapped.
@@ -192,10 +182,8 @@ class Sides:
     feet: PerFoot[SwapEvidence] = field(factory=lambda: per_foot(SwapEvidence), init=False)
 
     def update(self, view: FootView, events: Sequence[object]) -> bool:
-        """Add one sample of a foot with its events and return whether both feet now look exchanged."""
-        side = self.feet[view.foot]
-        self.add_sample(view)
-        evidence_changed = False
+        """Add the events of a sample, after the sample, and return whether both feet now look exchanged."""
+        side, evidence_changed = self.feet[view.foot], False
         for event in events:
             if isinstance(event, StrideTaken):
                 evidence_changed = True
@@ -275,30 +263,19 @@ def _add_landing(side: SwapEvidence, stride: StrideTaken, up: Vec3) -> None:
     turn_angle = hypot(*push_off_turn)
     if turn_angle < MIN_PUSH_OFF_TURN or hypot(*landing_turn) > turn_angle:  # the second condition: walking backwards
         return
-    k = 1.0 / turn_angle
-    x, y, z = push_off_turn
-    axis = (k * x, k * y, k * z)
+    axis = add(ZERO, push_off_turn, 1.0 / turn_angle)
     if side.left_axis is not None:
-        u, v, w = side.left_axis
-        axis = (u + AXIS_WEIGHT * (axis[0] - u), v + AXIS_WEIGHT * (axis[1] - v), w + AXIS_WEIGHT * (axis[2] - w))
+        axis = add(side.left_axis, sub(axis, side.left_axis), AXIS_WEIGHT)
     side.left_axis = axis
-    forward = _forward_axis(axis, up)
-    if forward is None:
+    forward = cross(axis, up)
+    length = hypot(*forward)
+    if length <= 0.5:  # the axis is nearly vertical
         return
-    a, b, c = forward
+    forward = add(ZERO, forward, 1.0 / length)
     turns = rate_integral.turns_between(toe_off_index, heel_strike_index)
-    angles = [a * x + b * y + c * z for x, y, z in turns]  # positive: the left edge rises
+    angles = [dot(forward, turn) for turn in turns]  # positive: the left edge rises
     leftward = fsum(angles) / len(angles) - angles[-1]
     side.roll.add(-leftward if stride.foot is Foot.LEFT else leftward)
-
-
-def _forward_axis(left: Vec3, up: Vec3) -> Vec3 | None:
-    """Return the unit vector to the toe; None when the left axis is nearly vertical."""
-    lx, ly, lz = left
-    ux, uy, uz = up
-    x, y, z = ly * uz - lz * uy, lz * ux - lx * uz, lx * uy - ly * ux
-    length = hypot(x, y, z)
-    return (x / length, y / length, z / length) if length > 0.5 else None
 
 
 def _add_centre(side: SwapEvidence, t: float, centre: tuple[float, float] | None) -> None:
@@ -373,18 +350,12 @@ class Wear(Part):
         if view is None:
             return ()
         t, this, other = view.t, self.feet[view.foot], self.feet[OTHER[view.foot]]
-        if not (events or this.silent or other.strides_since):
-            this.t, this.strides_since = t, 0
-            if not self.swapped:
-                self.sides.add_sample(view)
-            return ()
         outputs: list[PartOutput] = []
         if this.silent:
             this.silent = False
             silence = 0.0 if this.t is None else max(0.0, t - this.t)
             outputs.append(FootResumed(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
-        this.t = t
-        this.strides_since = 0
+        this.t, this.strides_since = t, 0
         if view.after is not None and view.after.covariance is not None:  # a stride has ended
             other.strides_since += 1
         if other.strides_since and other.t is not None and not other.silent:
@@ -392,10 +363,11 @@ class Wear(Part):
                 other.strides_since = 0  # this foot's samples are late, or its clock has restarted
             elif other.strides_since >= self.settings.strides and t - other.t >= self.settings.seconds:
                 other.silent = True
-                silence = t - other.t
-                outputs.append(FootSilent(t=t, known_at=view.known_at, foot=OTHER[view.foot], silent_for=silence))
-        if not self.swapped and self.sides.update(view, events):
-            self.swapped = True
-            self.sides.reset()
-            outputs.append(FeetSwapped(t=t, known_at=view.known_at))
+                outputs.append(FootSilent(t=t, known_at=view.known_at, foot=OTHER[view.foot], silent_for=t - other.t))
+        if not self.swapped:
+            self.sides.add_sample(view)
+            if events and self.sides.update(view, events):
+                self.swapped = True
+                self.sides.reset()
+                outputs.append(FeetSwapped(t=t, known_at=view.known_at))
         return outputs

@@ -84,8 +84,8 @@ class SessionState:
     finished: bool = field(default=False, init=False)
     parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
     """Parts in the order in which they receive events."""
-    sampled: tuple[Part, ...] = field(default=(), init=False, metadata=NOT_SAVED)
-    """Parts that currently need every sample, also samples without events."""
+    sampled: tuple[tuple[int, Part], ...] = field(default=(), init=False, metadata=NOT_SAVED)
+    """Parts that need samples without events too, each after the number of the part that follows it."""
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
     height: tuple[float, float] = field(default=(0.0, 0.0), init=False)
     """Height correction added to the tracks' z, m, positive upwards, and its variance, m^2."""
@@ -107,7 +107,7 @@ class SessionState:
             part.ready()
             if hasattr(part, "plan"):
                 part.plan = plan
-        self._choose_sampled()
+        self.sampled = tuple([(number, part) for number, part in enumerate(self.parts, 1) if part.needs_samples])
 
     def feed_packet(self, packet: Packet, kinds: DeviceKinds) -> list[Event]:
         """Add a packet of one of these kinds of devices; raise TypeError for one of wrong types."""
@@ -276,11 +276,10 @@ class SessionState:
             tracker.viewed_at = t
         if not events and sample.air_pressure is None:  # nearly always
             view = tracker.view(sample, known_at, False, False, None)
-            for part in self.sampled:
-                if not part.idle and (output := part.feed((), view)):  # it may be idle since the sample before
+            for following, part in self.sampled:
+                if not part.idle and (output := part.feed((), view)):
                     self._apply(output, events)
-                    number = next(number for number, one in enumerate(self.parts) if one is part)
-                    self._run_parts(events, view, known_at, number + 1)
+                    self._run_parts(events, view, known_at, following)
                     break
         else:
             stride = any([isinstance(event, StrideTaken) for event in events])
@@ -332,7 +331,6 @@ class SessionState:
                 self._apply(output, events)
             if finishing:
                 self._apply(part.finish(known_at), events)
-        self._choose_sampled()
         if moved is None and self.settings.poses and any([isinstance(event, StrideTaken) for event in events]):
             moved = self._make_moved(known_at)
         return moved
@@ -351,9 +349,6 @@ class SessionState:
                     self.feet[item.site.foot].mark_degraded()
                 events.append(item)
 
-    def _choose_sampled(self) -> None:
-        self.sampled = tuple([part for part in self.parts if part.needs_samples and not part.idle])
-
     def _make_moved(self, known_at: float) -> WearerMoved | None:
         position = self.position
         if position is None:
@@ -368,7 +363,6 @@ class SessionState:
     def _reset_parts(self, site: Site) -> None:
         for part in self.parts:
             part.reset(site)
-        self._choose_sampled()
 
     def _tracker(self, foot: Foot) -> FootTracker:
         """Return the foot's tracker, or a new one, which is not yet added to `feet`."""
