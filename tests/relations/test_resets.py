@@ -98,7 +98,7 @@ Sole.reset: count_checked guess had_cells health* highest insole* layout_estimat
 StanceFinder._restart: duration force t turn
 StanceRhythm.reset: usual_stance usual_swing
 StraightWays.reset: straightness* straightness.reset()
-Straightness.reset: direction t_start
+Straightness.reset: direction
 StreamLink.handle_reconnection: last_t newest_arrival off_rate_interval off_rate_packets packet_run* periodic
 StreamLink.restart_clock: off_rate_interval off_rate_packets packet_run* periodic*
 StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped degraded* first_pitch flat_pitch

@@ -36,17 +36,17 @@ class RateIntegral:
         """Start a new integral at `t`, s, because the turn before is not known."""
         self.t, self.turn, self.instants = t, ZERO, INSTANT.pack(t, *ZERO)
 
-    def add(self, t: float, dt: float, gyro: Vec3, max_instants: int) -> None:
+    def add(self, t: float, dt: float, gyro: Vec3) -> None:
         """Add an angular rate, rad/s, at `t`, s; `dt`, s, is the time since the newest instant.
 
-        When there are `max_instants` instants, the oldest eighth is discarded."""
+        When there are `MAX_INSTANTS` instants, the oldest eighth is discarded."""
         x, y, z = self.turn
         gx, gy, gz = gyro
         x, y, z = self.turn = (x + dt * gx, y + dt * gy, z + dt * gz)
         self.t = t
         kept = self.instants
-        if len(kept) >= max_instants * INSTANT.size:
-            kept = kept[max_instants // 8 * INSTANT.size :]
+        if len(kept) >= MAX_INSTANTS * INSTANT.size:
+            kept = kept[MAX_INSTANTS // 8 * INSTANT.size :]
         self.instants = kept + INSTANT.pack(t, x, y, z)
 
     def keep_newest(self) -> None:
@@ -144,9 +144,9 @@ class RunningAverage:
         self.mean += k * deviation
         self.variance = (1.0 - k) * (self.variance + k * deviation * deviation)
 
-    def exceeds(self, limit: float, min_count: int) -> bool:
-        """Return whether there are `min_count` values and the mean exceeds the limit by two standard errors."""
-        if self.count < min_count:
+    def exceeds(self, limit: float) -> bool:
+        """Return whether there are `MIN_STRIDES` values and the mean exceeds the limit by two standard errors."""
+        if self.count < MIN_STRIDES:
             return False
         return self.mean - 2.0 * sqrt(self.variance / min(float(self.count), MEAN_SPAN)) > limit
 
@@ -213,7 +213,7 @@ class Sides:
         if 0.0 <= dt < SAMPLE_INTERVAL:
             return
         if 0.0 < dt < MAX_GAP:
-            rate_integral.add(t, dt, gyro, MAX_INSTANTS)
+            rate_integral.add(t, dt, gyro)
         else:
             rate_integral.restart(t)
 
@@ -237,8 +237,8 @@ class Sides:
         if left.declared or right.declared:
             return False
         if left.roll.count or right.roll.count:
-            return left.roll.exceeds(ROLL_LIMIT, MIN_STRIDES) and right.roll.exceeds(ROLL_LIMIT, MIN_STRIDES)
-        return left.centre.exceeds(CENTRE_LIMIT, MIN_STRIDES) and right.centre.exceeds(CENTRE_LIMIT, MIN_STRIDES)
+            return left.roll.exceeds(ROLL_LIMIT) and right.roll.exceeds(ROLL_LIMIT)
+        return left.centre.exceeds(CENTRE_LIMIT) and right.centre.exceeds(CENTRE_LIMIT)
 
 
 def _add_landing(side: SwapEvidence, stride: StrideTaken, up: Vec3) -> None:

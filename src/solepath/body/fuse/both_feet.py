@@ -149,7 +149,7 @@ class BothFeet(MeanOfFeet):
     """Flag: both feet have had samples."""
     distance: float = field(default=0.0, init=False)
     """Distance walked, m; it is counted up to `ALIGNMENT_DISTANCE`."""
-    width: float = field(default=0.0, init=False)
+    width: float = field(default=WALKING_WIDTH, init=False)
     """Walking width, m."""
     strides: PerFoot[DirectedStride | None] = field(factory=lambda: dict.fromkeys(Foot), init=False)
     """Newest stride of each foot."""
@@ -166,12 +166,10 @@ class BothFeet(MeanOfFeet):
 
     def calibrated(self, calibration: Calibration) -> BothFeet:
         """Return the part for a wearer whose feet remove a drift that a calibration walk has shown."""
-        if not calibration.headings:
-            return self
-        part = BothFeet(self.settings)
-        part.common.use_calibration(calibration.headings)
-        part.straight_ways.use_calibration(calibration.headings)
-        return part
+        if calibration.headings:
+            self.common.use_calibration(calibration.headings)
+            self.straight_ways.use_calibration(calibration.headings)
+        return self
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
@@ -259,7 +257,7 @@ class BothFeet(MeanOfFeet):
         return Position(mean.t, mean.position, covariance, common.heading_sigma, north)
 
     def _start(self) -> None:
-        self.started, self.width = True, WALKING_WIDTH
+        self.started = True
         self.errors.start()
         if self.is_aligned:
             for foot, track in self.tracks.items():

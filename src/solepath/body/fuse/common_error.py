@@ -169,9 +169,7 @@ class CommonError:
 
     def bias_variance(self) -> float:
         """Return the variance of the rate at which the biases of the feet turn the heading, (rad/s)^2."""
-        (left, right), (a, b) = self.shares.values(), [self.covariance[row + BIAS] for row in FEET.values()]
-        i, j = [row + BIAS for row in FEET.values()]
-        return max(0.0, left * left * a[i] + 2.0 * left * right * a[j] + right * right * b[j])
+        return self.variance_of([(row + BIAS, self.shares[foot]) for foot, row in FEET.items()])
 
     @property
     def heading_sigma(self) -> float:

@@ -187,7 +187,7 @@ class CompassTrust:
 
     def add_strength(self, foot: Foot, flux: Vec3) -> bool:
         """Add the flux density of a stance of a foot, uT; return whether its strength is possible."""
-        one, possible = self.feet[foot], LEAST_FLUX < _size(flux) < MOST_FLUX
+        one, possible = self.feet[foot], LEAST_FLUX < hypot(*flux) < MOST_FLUX
         one.outside = 0 if possible else one.outside + 1
         return possible
 
@@ -223,7 +223,7 @@ class CompassTrust:
         outside = self.feet[foot].outside >= TOO_STRONG
         if not outside and self.evidence > DISPROOF and self.pending is None:
             return None
-        size = _size(flux)
+        size = hypot(*flux)
         if outside:
             self.note(foot, "unit" if size >= 0.5 * ABSURD_FLUX or size < WEAKEST else "strength")
         elif self.evidence <= DISPROOF:
@@ -240,11 +240,6 @@ class CompassTrust:
 
 def _log_likelihood(angle: float, kappa: float) -> float:
     return log(OUTLIERS + exp(min(kappa, MOST_KAPPA) * (cos(angle) - 1.0)))
-
-
-def _size(flux: Vec3) -> float:
-    x, y, z = flux
-    return sqrt(x * x + y * y + z * z)
 
 
 @define

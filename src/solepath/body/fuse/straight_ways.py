@@ -105,8 +105,10 @@ class StretchDrift:
 
 @frozen
 class Places:
-    """The sums over the places of a stretch from which a parabola through them is found."""
+    """The places of a stretch, strides in nearly one direction, as the sums from which a parabola is found."""
 
+    t_start: float
+    """End of the first stride, s."""
     t: float
     """Time of the newest place, s."""
     x: float
@@ -124,7 +126,7 @@ class Places:
         square = x * x
         more = (x, square, square * x, square * square, y, x * y, square * y, y * y)
         sums = tuple([old + new for old, new in zip(self.sums, more, strict=True)])
-        return Places(t, x, y, self.strides + strides, self.count + 1, sums)
+        return Places(self.t_start, t, x, y, self.strides + strides, self.count + 1, sums)
 
     def parabola(self) -> Vec2 | None:
         """Return the curvature, 1/m, of the parabola of least squares and the mean square distance from it, m^2."""
@@ -140,10 +142,6 @@ class Places:
         return 2.0 * c, max(0.0, square - a * t0 - b * t1 - c * t2) / n
 
 
-Stretch = tuple[float, Places]
-"""Strides in nearly one direction that have ended: the end of the first one, s, and the places up to the last one."""
-
-
 @define
 class Straightness:
     """Collects the strides of a stretch, and keeps what was learnt from earlier stretches."""
@@ -152,8 +150,6 @@ class Straightness:
     """Direction of the first stride of the stretch, rad, world frame."""
     t: float | None = None
     """End of the newest stride, s; None before any stretch."""
-    t_start: float = 0.0
-    """End of the first stride of the stretch, s."""
     recent: list[Places] = field(factory=list)
     """The places after each of the last strides, the newest last; empty without a stretch."""
     left_out: int = 0
@@ -163,7 +159,7 @@ class Straightness:
     wander: Vec2 = (USUAL_WANDER * USUAL_WANDER, WANDER_WEIGHT)
     """Variance of the wandering, m^2, and the number of stretches as which it counts."""
 
-    def add_stride(self, t: float, displacement: complex, share: float, strides: float, turn: float) -> Stretch | None:
+    def add_stride(self, t: float, displacement: complex, share: float, strides: float, turn: float) -> Places | None:
         """Add a stride that ended at `t`, s; return the stretch that it has ended, if that is long enough.
 
         `displacement` is in m, world frame, `turn` that of the foot, rad. The mean of both feet moves and drifts by
@@ -193,7 +189,7 @@ class Straightness:
         self._start(self.direction)
         return found
 
-    def break_off(self) -> Stretch | None:
+    def break_off(self) -> Places | None:
         """End the stretch at a stride that cannot belong to one; return it, if it is long enough."""
         found = self._end(self.recent[-1]) if self.recent else None
         self.recent, self.left_out = [], 0
@@ -203,12 +199,11 @@ class Straightness:
         """Discard the stretch, because the clock restarts."""
         self.recent, self.left_out, self.t = [], 0, None
 
-    def drift_of(self, stretch: Stretch, drift_sigma: float) -> StretchDrift | None:
+    def drift_of(self, places: Places, drift_sigma: float) -> StretchDrift | None:
         """Return the drift that a stretch shows, and learn from it how this wearer walks; None without a parabola.
 
         `drift_sigma` is the standard deviation of the estimated drift, rad a stride, which is already removed from the
         strides."""
-        t_start, places = stretch
         length, fit = places.x, places.parabola()
         if fit is None:
             return None
@@ -232,15 +227,15 @@ class Straightness:
         if shares[0] > 0.5 and length > 2.0 * MIN_LENGTH:
             seen = max(0.0, mean_square - footfall) / (share * share)
             self.wander = (variance + (seen - variance) / (weight + 1.0), min(weight + 1.0, MAX_WANDER_WEIGHT))
-        return StretchDrift(z, noise, shares[0], max(0.0, (places.t - t_start) / places.strides))
+        return StretchDrift(z, noise, shares[0], max(0.0, (places.t - places.t_start) / places.strides))
 
-    def _end(self, places: Places) -> Stretch | None:
+    def _end(self, places: Places) -> Places | None:
         is_long = places.count >= MIN_STRIDES and places.x >= MIN_LENGTH and places.strides > 0.0
-        return (self.t_start, places) if is_long else None
+        return places if is_long else None
 
     def _start(self, direction: float) -> None:
-        self.direction, self.t_start = direction, self.t or 0.0
-        self.recent = [Places(self.t_start, 0.0, 0.0).add(self.t_start, 0.0, 0.0, 0.0)]
+        self.direction, t = direction, self.t or 0.0
+        self.recent = [Places(t, t, 0.0, 0.0).add(t, 0.0, 0.0, 0.0)]
 
 
 @define
