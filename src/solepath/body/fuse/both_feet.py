@@ -345,8 +345,7 @@ class BothFeet(MeanOfFeet):
     def _move_tracks(self, centre: complex, moves: Mapping[Foot, Sequence[float]]) -> None:
         """Move each track by its x and y, m, and turn it by its third number, rad, about `centre`, m."""
         for foot, (dx, dy, yaw) in moves.items():
-            track, own = self.tracks[foot], self._end_of(foot)
-            track.correct(own, yaw, complex(dx, dy) + 1j * yaw * (track.flat(own) - centre))
+            self.tracks[foot].correct(self._end_of(foot), yaw, complex(dx, dy), centre)
 
     def _middle(self, shares: PerFoot[float]) -> complex:
         """Return the newest place between both feet, m, common frame; each foot counts with its share."""

@@ -107,11 +107,14 @@ class PlacedTrack:
         cc, ss, cs = c * c, s * s, c * s
         return (cc * xx - 2.0 * cs * xy + ss * yy, cs * (xx - yy) + (cc - ss) * xy, ss * xx + 2.0 * cs * xy + cc * yy)
 
-    def correct(self, pivot: Vec3, yaw: float, by: complex) -> None:
+    def correct(self, pivot: Vec3, yaw: float, by: complex, centre: complex | None = None) -> None:
         """Rotate the track by `yaw`, rad, about the place `pivot` of the own track, m, and move it by `by`, m.
 
-        The move is in the common frame."""
+        The move is in the common frame. With a `centre`, m, of that frame, `pivot` moves as if it turned about it by a
+        small angle."""
         (x, y, z), before = self.offset, self.flat(pivot)
+        if centre is not None:
+            by += 1j * yaw * (before - centre)
         self.turn += yaw
         offset = complex(x, y) + before + by - self.flat(pivot)
         self.offset = (offset.real, offset.imag, z)
