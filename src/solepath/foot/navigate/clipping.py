@@ -34,7 +34,7 @@ from ...types.vector import (
     rotate,
     sub,
 )
-from .covariance import Covariance
+from .covariance import Covariance, add_error
 
 SAME_READING_SHARE = 0.025
 """Largest relative difference between readings that are all at the end of a range.
@@ -367,21 +367,6 @@ def difference(a: IntegratedMotion, b: IntegratedMotion) -> tuple[Vec3, Vec3, Ve
     return sub(b.position, a.position), sub(b.velocity, a.velocity), (k * x, k * y, k * z)
 
 
-def add_error(covariance: Covariance, p: Vec3, v: Vec3, turn: Vec3, sigma: float) -> Covariance:
-    """Return P + sigma^2 b b' with b = (p, v, turn), for an error of standard deviation sigma in the direction b."""
-    k = sigma * sigma
-    enlarged: list[float] = []
-    i = 0
-    for a, b, symmetric in (
-        (p, p, True), (p, v, False), (p, turn, False), (v, v, True), (v, turn, False), (turn, turn, True),
-    ):  # fmt: skip
-        for row in (0, 1, 2):
-            for column in range(row if symmetric else 0, 3):
-                enlarged.append(covariance[i] + k * a[row] * b[column])
-                i += 1
-    return tuple(enlarged)
-
-
 State = tuple[Quat, Vec3, Vec3, Covariance]
 """Attitude (sensor to navigation frame), velocity (m/s), position (m) and their covariance."""
 
@@ -447,7 +432,7 @@ class Recovery:
             p, v, turn = difference(measured, corrected)
             position, velocity = add(position, p), add(velocity, v)
             attitude = normalise(multiply(from_rotation_vector(turn), attitude))
-            covariance = add_error(covariance, *difference(corrected, perturbed), peak.sigma / INTEGRAL_STEP)
+            covariance = add_error(covariance, difference(corrected, perturbed), peak.sigma / INTEGRAL_STEP)
         return attitude, velocity, position, covariance
 
     @staticmethod
@@ -459,5 +444,5 @@ class Recovery:
             axis = rotate(attitude, (i, j, k))
             v, elapsed = peak.integral, peak.age + 0.5 * peak.duration  # elapsed since the middle of the peak
             position, velocity = add(position, axis, v * elapsed), add(velocity, axis, v)
-            covariance = add_error(covariance, add(ZERO, axis, elapsed), axis, ZERO, peak.sigma)
+            covariance = add_error(covariance, (add(ZERO, axis, elapsed), axis, ZERO), peak.sigma)
         return attitude, velocity, position, covariance

@@ -17,15 +17,25 @@ from __future__ import annotations
 
 from math import sqrt
 
+from ...types import Vec3
+
 Covariance = tuple[float, ...]
 """Upper triangle of the covariance, 45 numbers: blocks pp, pv, pt, vv, vt, tt."""
 
 Correction = tuple[float, ...]
 """Values to add to the nine states: position (m), velocity (m/s) and attitude (rad), each x, y, z."""
 
-VARIANCES = (0, 3, 5, 24, 27, 29, 39, 42, 44)
-"""Indices of the variances of the nine states in a Covariance."""
-HEIGHT = 5
+P, V, T = (0, 1, 2), (3, 4, 5), (6, 7, 8)
+"""Indices of the states: position, velocity, attitude."""
+PAIRS = [
+    (i, j)
+    for rows, columns in ((P, P), (P, V), (P, T), (V, V), (V, T), (T, T))
+    for i in rows
+    for j in columns
+    if rows is not columns or i <= j
+]
+"""Pair of states of each number of a Covariance."""
+HEIGHT = PAIRS.index((2, 2))
 """Index of the variance of the height in a Covariance."""
 
 
@@ -239,14 +249,32 @@ def scale(covariance: Covariance, factor: float) -> Covariance:
     return tuple([factor * p for p in covariance])
 
 
+def inflate(covariance: Covariance, variances: tuple[float, ...]) -> Covariance:
+    """Return the covariance with `variances` of the nine states added."""
+    pairs = zip(covariance, PAIRS, strict=True)
+    return tuple([p + variances[i] if i == j else p for p, (i, j) in pairs])
+
+
+def add_error(covariance: Covariance, error: tuple[Vec3, Vec3, Vec3], sigma: float) -> Covariance:
+    """Return P + sigma^2 b b' for an error of standard deviation `sigma` in the direction b = `error`.
+
+    `error` is that of position, velocity and attitude."""
+    position, velocity, turn = error
+    direction, k = (*position, *velocity, *turn), sigma * sigma
+    return tuple([p + k * direction[i] * direction[j] for p, (i, j) in zip(covariance, PAIRS, strict=True)])
+
+
+def forget_position_and_yaw(covariance: Covariance) -> Covariance:
+    """Return the covariance of a foot whose position and yaw are known."""
+    known = (*P, 8)
+    return tuple([0.0 if i in known or j in known else p for p, (i, j) in zip(covariance, PAIRS, strict=True)])
+
+
 def constrain_height(covariance: Covariance, remaining_share: float) -> Covariance:
     """Return the covariance after the height was corrected, with `remaining_share` (0 to 1) of its variance.
 
     P <- D P D, D = diag(1, 1, d, 1, ...) with d^2 = `remaining_share`. Other variances stay; the covariances with the
     height shrink."""
     d = sqrt(remaining_share)
-    p = list(covariance)
-    p[HEIGHT] *= remaining_share
-    for i in (2, 4, 12, 13, 14, 21, 22, 23):  # ppxz, ppyz, pvz, ptz
-        p[i] *= d
-    return tuple(p)
+    factors = [remaining_share if i == j == 2 else d if 2 in (i, j) else 1.0 for i, j in PAIRS]
+    return tuple([k * p for k, p in zip(factors, covariance, strict=True)])

@@ -24,10 +24,11 @@ from .clipping import ClippedPeak, Recovery
 from .corrector import LONGEST_BRIDGE
 from .covariance import (
     HEIGHT,
-    VARIANCES,
     Correction,
     Covariance,
     constrain_height,
+    forget_position_and_yaw,
+    inflate,
     propagate,
     scale,
     squared_innovation,
@@ -382,11 +383,7 @@ class ErrorStateFilter(Strapdown):
         self._propagate()
         stretch = self.covariance()
         self.time_since_anchor = 0.0
-        covariance = list(self.uncertainty)
-        # a stretch starts at a known position and yaw, so their covariance is 0: pp, pv, pt and all of yaw
-        for i in (*range(24), 32, 35, 38, 41, 43, 44):
-            covariance[i] = 0.0
-        self.uncertainty = tuple(covariance)
+        self.uncertainty = forget_position_and_yaw(self.uncertainty)
         return stretch
 
     def covariance(self) -> tuple[float, ...]:
@@ -421,10 +418,7 @@ class ErrorStateFilter(Strapdown):
     ) -> None:
         """Add to the variances of each axis of velocity, (m/s)^2, and position, m^2, and of the angles, rad^2."""
         added = (position, position, height, velocity, velocity, velocity, tilt, tilt, yaw)
-        covariance = list(self.uncertainty)
-        for i, variance in zip(VARIANCES, added, strict=True):
-            covariance[i] += variance
-        self.uncertainty = tuple(covariance)
+        self.uncertainty = inflate(self.uncertainty, added)
 
     def _inject(self, error: Correction) -> None:
         """Correct the state by `error`."""
