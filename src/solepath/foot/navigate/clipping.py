@@ -259,6 +259,10 @@ def _slope(change: float, dt: float, largest_slope: float) -> float:
     return min(max(change / dt, 1.0), largest_slope) if dt > 0.0 else 1.0
 
 
+AXES: tuple[Vec3, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+"""Unit vectors of the axes."""
+STANDARD_GRAVITY = (0.0, 0.0, GRAVITY)
+"""Specific force at rest, navigation frame, m/s^2."""
 MOST_ROWS = 64
 """Largest number of stored samples; when there are more, pairs are joined."""
 INTEGRAL_STEP = 0.05
@@ -303,8 +307,7 @@ class SwingSamples:
             self.start_attitude = attitude
         elif len(self.rows) >= MOST_ROWS:
             self.rows = [_join(a, b) for a, b in zip(self.rows[::2], self.rows[1::2], strict=True)]
-        (x, y, z), (u, v, w) = gyro, previous_rate
-        self.rows.append((dt, (0.5 * (x + u), 0.5 * (y + v), 0.5 * (z + w)), acc))
+        self.rows.append((dt, add(ZERO, add(gyro, previous_rate), 0.5), acc))
 
     def reintegrate(self, peak: ClippedPeak, angle: float) -> IntegratedMotion:
         """Return the end state of the stored samples with `angle` rad more about the clipped axis."""
@@ -327,34 +330,23 @@ class SwingSamples:
             total = fsum([row[0] for row in self.rows])
         k = angle / total if total > 0.0 else 0.0
         q = self.start_attitude
-        vx = vy = vz = x = y = z = 0.0
-        for (dt, (gx, gy, gz), acc), extra_rate in zip(self.rows, extra_rates, strict=True):
-            if peak.axis == 0:
-                gx += k * extra_rate
-            elif peak.axis == 1:
-                gy += k * extra_rate
-            else:
-                gz += k * extra_rate
-            half_turn = from_rotation_vector((0.5 * dt * gx, 0.5 * dt * gy, 0.5 * dt * gz))
+        velocity = position = ZERO
+        for (dt, rate, acc), extra_rate in zip(self.rows, extra_rates, strict=True):
+            rate = add(rate, AXES[peak.axis], k * extra_rate)
+            half_turn = from_rotation_vector(add(ZERO, rate, 0.5 * dt))
             q = multiply(q, half_turn)
-            ax, ay, az = rotate(q, acc)
+            acceleration = sub(rotate(q, acc), STANDARD_GRAVITY)
             q = multiply(q, half_turn)
-            az -= GRAVITY
-            x, y, z = x + (vx + 0.5 * ax * dt) * dt, y + (vy + 0.5 * ay * dt) * dt, z + (vz + 0.5 * az * dt) * dt
-            vx, vy, vz = vx + ax * dt, vy + ay * dt, vz + az * dt
-        return IntegratedMotion(q, (vx, vy, vz), (x, y, z))
+            position = add(position, add(velocity, acceleration, 0.5 * dt), dt)
+            velocity = add(velocity, acceleration, dt)
+        return IntegratedMotion(q, velocity, position)
 
 
 def _join(a: Row, b: Row) -> Row:
-    (t, (gx, gy, gz), (ax, ay, az)), (u, (hx, hy, hz), (bx, by, bz)) = a, b
+    (t, rate, acc), (u, next_rate, next_acc) = a, b
     duration = t + u
     k = t / duration if duration > 0.0 else 0.5
-    m = 1.0 - k
-    return (
-        duration,
-        (k * gx + m * hx, k * gy + m * hy, k * gz + m * hz),
-        (k * ax + m * bx, k * ay + m * by, k * az + m * bz),
-    )
+    return duration, add(add(ZERO, rate, k), next_rate, 1.0 - k), add(add(ZERO, acc, k), next_acc, 1.0 - k)
 
 
 def difference(a: IntegratedMotion, b: IntegratedMotion) -> tuple[Vec3, Vec3, Vec3]:
@@ -440,8 +432,7 @@ class Recovery:
         """Return the state corrected for clipped peaks of the accelerometer, with their uncertainty."""
         attitude, velocity, position, covariance = state
         for peak in acc_peaks:
-            i, j, k = (1.0 if index == peak.axis else 0.0 for index in (0, 1, 2))
-            axis = rotate(attitude, (i, j, k))
+            axis = rotate(attitude, AXES[peak.axis])
             v, elapsed = peak.integral, peak.age + 0.5 * peak.duration  # elapsed since the middle of the peak
             position, velocity = add(position, axis, v * elapsed), add(velocity, axis, v)
             covariance = add_error(covariance, (add(ZERO, axis, elapsed), axis, ZERO), peak.sigma)
