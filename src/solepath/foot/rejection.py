@@ -93,17 +93,13 @@ def _wrong_order(t: float, newest: float) -> RejectionReason:
 
 
 def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> RejectionReason | None:
+    """Return the reason for a value of `acc` or `gyro` that no foot sensor measures, with the unit that it may have."""
     invalid = next((value for value in vector or () if not -limit < value < limit), None)
     if invalid is None:
         return None
     if invalid != invalid or abs(invalid) == inf:
         return RejectionReason(Rejection.NOT_FINITE, f"{name} is not a number")
-    return _absurd_value(name, invalid)
-
-
-def _absurd_value(name: str, value: float) -> RejectionReason:
-    """Return the reason for a value of `acc` or `gyro` that no foot sensor measures, with the unit that it may have."""
-    size, detail = abs(value), f"{name} of {_format_number(value)}"
+    size, detail = abs(invalid), f"{name} of {_format_number(invalid)}"
     if name == "acc" and size <= LARGEST_COUNT:
         text = f"{detail} m/s^2 cannot be: it looks like milli-g or raw counts; give it in m/s^2"
         return RejectionReason(Rejection.ABSURD, text, Defect.ACC_UNIT)

@@ -108,7 +108,7 @@ class ClippedAxis:
     rise: float = 0.0
     """Slope at which the axis left the range, rad/s^2 or m/s^3."""
     first_inside: float | None = None
-    """First reading within the range after clipping, rad/s or m/s^2; None before it."""
+    """First reading within the range after clipping, rad/s or m/s^2; None before it. It has no meaning at side 0."""
     first_inside_dt: float = 0.0
     """Time from the last sample beyond the range to that of `first_inside`, s."""
 
@@ -235,7 +235,7 @@ def _follow_clipping(axis: ClippedAxis, i: int, dt: float, reading: float, large
     )
     if not axis.known[side]:
         if axis.duration * sqrt(axis.rise * fall) < 4.0 * LEAST_BULGE_RATIO * SAME_READING_SHARE * end:
-            axis.side, axis.first_inside, axis.first_inside_dt = 0, None, 0.0
+            axis.side = 0
             return None
         axis.known[side] = True
     tail = min((end - axis.first_inside) / fall, axis.first_inside_dt)
@@ -243,16 +243,9 @@ def _follow_clipping(axis: ClippedAxis, i: int, dt: float, reading: float, large
     integral = min(
         duration * duration * sqrt(axis.rise * fall) / (6.0 * (1.0 + duration / FLATTENING_TIME)), LARGEST_PEAK
     )
-    axis.side, axis.first_inside, axis.first_inside_dt = 0, None, 0.0
-    return ClippedPeak(
-        i,
-        sign * integral,
-        PEAK_SIGMA_SHARE * integral + MEASURED_SIGMA_SHARE * end * duration,
-        duration,
-        dt + tail,
-        axis.rise,
-        fall,
-    )
+    axis.side = 0
+    sigma = PEAK_SIGMA_SHARE * integral + MEASURED_SIGMA_SHARE * end * duration
+    return ClippedPeak(i, sign * integral, sigma, duration, dt + tail, axis.rise, fall)
 
 
 def _slope(change: float, dt: float, largest_slope: float) -> float:

@@ -165,8 +165,7 @@ class CellWindow:
     def find_faults(self, layout: Layout | None, lively_windows: list[int]) -> dict[CellFault, list[int]]:
         """Return the faults of the working cells, each with the indices of its cells.
 
-        `lively_windows` is, for each cell, the number of earlier windows in a row in which it was lively; [] if there
-        are none."""
+        `lively_windows` is, for each cell, the number of earlier windows in a row in which it was lively."""
         lows, ranges, largest_range = self.lows, self.ranges, self.largest_range
         air_value = sorted([lows[i] for i in self.working])[len(self.working) // 2]
         full_scale_value = None if layout is None else layout.full_scale
@@ -180,7 +179,7 @@ class CellWindow:
                 if ranges[i] > CONSTANT_RANGE * largest_range:
                     continue
                 fault = CellFault.STUCK
-            elif self._should_load(i, layout, lively_windows[i] if lively_windows else 0):
+            elif self._should_load(i, layout, lively_windows[i]):
                 fault = CellFault.DEAD
             else:
                 continue
@@ -338,7 +337,7 @@ class CellHealth:
     def _set_count(self, count: int) -> None:
         """Restart for another insole of `count` cells."""
         self.count, self.wrong_count_reported = count, False
-        self.failed, self.suspected, self.excluded, self.lively_windows = {}, {}, [], []
+        self.failed, self.suspected, self.excluded, self.lively_windows = {}, {}, [], [0] * count
         self.reset()
 
     def _watch_numbers(self, t: float, known_at: float, cells: tuple[float, ...], events: list[Event]) -> None:
@@ -381,23 +380,25 @@ class CellHealth:
         for fault, cells in faults.items():
             new_cells = tuple([i for i in cells if i in self.suspected.get(fault, [])])
             if new_cells:
-                self.failed[fault] = sorted([*self.failed.get(fault, []), *new_cells])
-                self._report(t, known_at, fault, new_cells, events)
+                self._fail(t, known_at, fault, new_cells, events)
         self.suspected = faults
         self._update_lively(window)
 
     def _count_constant(
         self, t: float, known_at: float, window_start: float, window: CellWindow, events: list[Event]
     ) -> None:
-        working = window.working
         if window.highest > 0.0:
             self._count_loaded(t, known_at, window_start, events)
             return
         self.constant_windows += 1
-        if self.constant_windows == 2 and working:
-            self.failed[CellFault.DEAD] = sorted([*self.failed.get(CellFault.DEAD, []), *working])
-            self._report(t, known_at, CellFault.DEAD, tuple(working), events)
-            self.excluded = self._all_failed()
+        if self.constant_windows == 2 and window.working:
+            self._fail(t, known_at, CellFault.DEAD, tuple(window.working), events)
+
+    def _fail(self, t: float, known_at: float, fault: CellFault, cells: tuple[int, ...], events: list[Event]) -> None:
+        """Report a fault of cells that worked, and use them no more."""
+        self.failed[fault] = sorted([*self.failed.get(fault, []), *cells])
+        self.excluded = self._all_failed()
+        self._report(t, known_at, fault, cells, events)
 
     def _count_loaded(self, t: float, known_at: float, window_start: float, events: list[Event]) -> None:
         self.loaded_windows += 1
@@ -409,8 +410,6 @@ class CellHealth:
 
     def _update_lively(self, window: CellWindow) -> None:
         """Count the lively windows of each cell; use failed cells again after two in a row."""
-        if len(self.lively_windows) != self.count:
-            self.lively_windows = [0] * self.count
         suspected_cells = {i for cells in self.suspected.values() for i in cells}
         for i, lively in enumerate(window.find_lively()):
             if i not in suspected_cells:  # a suspected cell keeps its count, because the count is why it is suspected
