@@ -95,23 +95,21 @@ def find_infill(
 
     The state of the corrector is that at `t_before`; `acc` (m/s^2) and `gyro` (rad/s) are those at `t_after`, without
     bias. The function changes nothing: `StrideTemplate.add_infill` and `Corrector.infill` apply the result."""
-    force = hypot(*acc)
+    force, duration, stood = hypot(*acc), t_after - t_before, template.t_heel_off is None
     still = dot(gyro, gyro) / 0.25 + (force - GRAVITY) ** 2 / 2.0
     stride = template.last_stride
-    if stride is None or t_after - t_before > LONGEST_FILLED_GAP:
-        return NoInfill.STOOD if template.t_heel_off is None and still < 8.0 else NoInfill.UNKNOWN
+    if stride is None or duration > LONGEST_FILLED_GAP:
+        return NoInfill.STOOD if stood and still < 8.0 else NoInfill.UNKNOWN
     template_moments = unpack_moments(stride.moments)
     template_end = template_moments[-1].since
     if template.t_heel_off is None:
         mismatch = 0.0
-        start, expected_sigma, latest = 0.0, 2.0 * LARGEST_TIME_SHIFT / 3.0, t_after - t_before
+        start, expected_sigma, latest = 0.0, 2.0 * LARGEST_TIME_SHIFT / 3.0, duration
         # time since the heel-off that the last stance lets expect
-        expected = (
-            t_after - t_before if template.t_flat is None else t_after - template.t_flat - template.stance_duration
-        )
-        if template.t_flat is not None and expected - (t_after - t_before) > 3.0 * expected_sigma:
+        expected = duration if template.t_flat is None else t_after - template.t_flat - template.stance_duration
+        if expected - duration > 3.0 * expected_sigma:
             # after a longer stance the wearer has halted, and may go on at any time
-            expected, expected_sigma = 0.0, t_after - t_before
+            expected, expected_sigma = 0.0, duration
         least_mismatch = still + min(12.0, max(0.0, expected / expected_sigma) ** 2)
     else:
         start, mismatch = _match_moment(template_moments, corrector, t_before - template.t_heel_off)
@@ -121,7 +119,7 @@ def find_infill(
     for moment in template_moments:
         if moment.since > latest:
             break
-        if template.t_heel_off is not None and moment.since < expected - LARGEST_TIME_SHIFT:
+        if not stood and moment.since < expected - LARGEST_TIME_SHIFT:
             continue
         rate = sub(gyro, moment.rate)
         moment_mismatch = dot(rate, rate) / RATE_SIGMA**2 + ((force - moment.force) / FORCE_SIGMA) ** 2
@@ -131,15 +129,15 @@ def find_infill(
     if latest >= template_end:
         early = max(0.0, template_end - expected)
         if still + (early / expected_sigma) ** 2 < least_mismatch or (
-            template.t_heel_off is not None and expected > template_end + LARGEST_TIME_SHIFT
+            not stood and expected > template_end + LARGEST_TIME_SHIFT
         ):
             end = template_moments[-1]
     if end is not None and end is not template_moments[-1]:
         mismatch = max(mismatch, least_mismatch)
-    if template.t_heel_off is not None and mismatch > LARGEST_MISMATCH and t_after - t_before <= LONGEST_BRIDGE:
+    if not stood and mismatch > LARGEST_MISMATCH and duration <= LONGEST_BRIDGE:
         return NoInfill.UNKNOWN  # another kind of stride, such as a turn on the spot
     if end is None:
-        return NoInfill.STOOD if template.t_heel_off is None and least_mismatch < 20.0 else NoInfill.UNKNOWN
+        return NoInfill.STOOD if stood and least_mismatch < 20.0 else NoInfill.UNKNOWN
     return _build_infill(template, stride, template_moments, corrector, start, end, t_before, t_after, gyro)
 
 

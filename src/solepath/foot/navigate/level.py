@@ -121,7 +121,8 @@ class LevelGround:
         informative = length > LEAST_WALKED_LENGTH and abs(turn) < LARGEST_WALKED_TURN
         pitch = 0.0
         if informative and self.upright_weight > 0.5:
-            pitch = self._pitch(x / length, y / length, attitude, up)
+            # relative to the mean, toe up positive: the change of up along the direction of the stride
+            pitch = dot(sub(up, self.upright), rotate_back(attitude, (x / length, y / length, 0.0)))
             mean_pitch_sigma = PITCH_SIGMA / self.upright_weight
             pitch_variance = max(self.pitch_variance, LEAST_PITCH_VARIANCE) + mean_pitch_sigma * mean_pitch_sigma
             pitch_density = self._pitch_likelihood(pitch, pitch_variance)
@@ -150,13 +151,8 @@ class LevelGround:
         stair = (1.0 - self.stair) * to_stair + self.stair * STAY_PROBABILITIES[1]
         return 1.0 - slope - stair, slope, stair
 
-    def _pitch(self, x: float, y: float, attitude: Quat, up: Vec3) -> float:
-        """Return the pitch relative to the mean, toe up positive, in the direction (x, y) of the stride, rad.
-
-        It is the change of up along this direction."""
-        return dot(sub(up, self.upright), rotate_back(attitude, (x, y, 0.0)))
-
-    def _pitch_likelihood(self, difference: float, variance: float) -> float:
+    @staticmethod
+    def _pitch_likelihood(difference: float, variance: float) -> float:
         """Return the likelihood of a pitch that differs by `difference` rad; outliers are uniform within a radian."""
         return (1.0 - PITCH_OUTLIER_SHARE) * _normal_density(difference, variance) + PITCH_OUTLIER_SHARE
 

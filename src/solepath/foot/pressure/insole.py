@@ -123,12 +123,9 @@ class InsoleLoads:
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> InsoleLoads:
         """Return a copy with the calibration of this foot's insole."""
-        insole_calibration = calibration.insole(foot)
-        newtons, noise = (
-            insole_calibration.newtons or self.settings.newtons,
-            insole_calibration.noise or self.settings.noise,
-        )
-        return evolve(self, settings=evolve(self.settings, newtons=newtons, noise=noise))
+        insole, settings = calibration.insole(foot), self.settings
+        newtons, noise = insole.newtons or settings.newtons, insole.noise or settings.noise
+        return evolve(self, settings=evolve(settings, newtons=newtons, noise=noise))
 
     def set_layout(self, layout: Layout) -> None:
         """Set the layout of the cells."""
@@ -152,8 +149,7 @@ class InsoleLoads:
         if settings.newtons is not None and not self.in_newtons:
             cells = in_newtons(settings.newtons, cells)
         if len(settings.noise) == len(cells):
-            pairs = zip(cells, settings.noise, strict=True)
-            cells = tuple([value - unloaded if value > unloaded else 0.0 for value, unloaded in pairs])
+            cells = above(settings.noise, cells)
         self.cells = cells
         total = self.sum = add_up(cells)
         self.total.update(t, total)
@@ -193,11 +189,7 @@ class InsoleLoads:
 
     def above_tare(self, cells: tuple[float, ...]) -> tuple[float, ...]:
         """Return the cells minus their tare, at least 0, unit of `cells`; without a tare the cells as they are."""
-        if len(cells) != len(self.tare):
-            return cells
-        return tuple(
-            [value - unloaded if value > unloaded else 0.0 for value, unloaded in zip(cells, self.tare, strict=True)]
-        )
+        return above(self.tare, cells) if len(cells) == len(self.tare) else cells
 
     def centre_of_pressure(self, cells: tuple[float, ...]) -> tuple[float, float] | None:
         """Return the centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout.
@@ -211,6 +203,12 @@ class InsoleLoads:
         if load <= LEAST_LOAD * (self.total.high - self.total.low):
             return None
         return x_sum / load, y_sum / load
+
+
+def above(unloaded: Iterable[float], cells: tuple[float, ...]) -> tuple[float, ...]:
+    """Return the cells minus their values without load, at least 0."""
+    pairs = zip(cells, unloaded, strict=True)
+    return tuple([value - least if value > least else 0.0 for value, least in pairs])
 
 
 def weighted_sums(
