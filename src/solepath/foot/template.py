@@ -8,7 +8,6 @@ The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from itertools import pairwise
 from math import exp, hypot, pi
 from struct import Struct
 from typing import NamedTuple
@@ -94,11 +93,15 @@ def correction_distance(packed: bytes) -> float:
     """Return the distance by which zero-velocity updates have moved the foot in a stride of these moments, m.
 
     It is the length of the difference between displacement and integral of the velocity."""
-    moments = unpack_moments(packed)
-    difference = sub(moments[-1].position, moments[0].position)
-    for before, after in pairwise(moments):
-        difference = add(difference, add(before.velocity, after.velocity), 0.5 * (before.since - after.since))
-    return hypot(*difference)
+    rows = list(MOMENT.iter_unpack(packed))
+    first, last = rows[0], rows[-1]
+    before, ax, ay, az = first[0], *first[5:8]
+    x, y, z = sub(last[8:11], first[8:11])
+    for t, _, _, _, _, bx, by, bz, *_ in rows:
+        k = 0.5 * (t - before)
+        x, y, z = x - k * (ax + bx), y - k * (ay + by), z - k * (az + bz)
+        before, ax, ay, az = t, bx, by, bz
+    return hypot(x, y, z)
 
 
 def limit_length(v: Vec3, longest: float) -> Vec3:
