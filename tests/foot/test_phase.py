@@ -68,7 +68,7 @@ def test_each_sign_of_the_inertial_sensor_has_a_cue_that_changes_its_phase() -> 
     assert all(set(table) == set(Phase) for table in tables)
     assert all(PHASES[now][cue] is not now for table in tables for now, signs in table.items() for _, cue in signs)
     rows = [line.split() for line in inertial.describe().splitlines()[1:]]
-    assert ["SWING", "still", "landed", "contact"] in rows and ["SWING", "moving", "slowed", "contact"] in rows
+    assert ["SWING", "still", "stopped", "contact"] in rows and ["SWING", "moving", "landed", "contact"] in rows
     assert len(rows) == sum(len(signs) for table in tables for signs in table.values())
 
 

@@ -38,9 +38,9 @@ AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t w
 BiasFilter.forget: before bias* noise rate
 BiasFilter.reset: before bias* noise rate
 BothFeet._restart: aid common directions distance divergence errors* ground measured_at path placements started
-  straight_ways* tracks* width straight_ways.reset()
-BothFeet.reset: aid* common* directions distance divergence errors measured_at path placements started straight_ways*
-  tracks* width aid.reset() apart straight_ways.reset()
+  tracks* width straight_ways.reset()
+BothFeet.reset: aid* common* directions distance divergence errors measured_at path placements started tracks* width
+  aid.reset() apart straight_ways.reset()
 Cc2541Link.handle_reconnection: acc_clock calibration firmware gyro_clock
 Cc2541Link.restart_clock: assembler* calibration firmware
 CellHealth.reset: count lively_windows
@@ -97,7 +97,7 @@ Sides.reset:
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
 StanceFinder._restart: duration force t turn
 StanceRhythm.reset: usual_stance usual_swing
-StraightWays.reset: straightness* straightness.reset()
+StraightWays.reset: straightness.reset()
 Straightness.reset: direction
 StreamLink.handle_reconnection: last_t newest_arrival off_rate_interval off_rate_packets packet_run* periodic
 StreamLink.restart_clock: off_rate_interval off_rate_packets packet_run* periodic*

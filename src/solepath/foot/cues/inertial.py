@@ -241,29 +241,23 @@ class InertialCues:
         since = self.fast_since
         return since if since is not None and t - since >= SHUFFLE_TIME - TIME_EPSILON else None
 
-    def _landed(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
-        """Return the middle of the impact of a landing, once it is final."""
-        landing_at = self.landing_at
-        if landing_at is None:
-            return None
-        mean_time = max(landing_at, self.impact.mean_time)
-        is_final = (
-            t - mean_time >= IMPACT_SETTLING_TIME - TIME_EPSILON or t - landing_at >= LONGEST_IMPACT_TIME - TIME_EPSILON
-        )
-        return mean_time if is_final or self.still_since is not None else None
-
     def _stopped(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
-        """Return the time of the largest impact of a foot that stands still."""
+        """Return the middle of the impact of a foot that stands still: of the landing, or the largest of the swing."""
+        if self.landing_at is not None:
+            return max(self.landing_at, self.impact.mean_time)
         t_stood = self._stood(t, dt, speed, previous_rate)
         return self.impact.peak_shock_time if t_stood is not None and self.impact.peak_shock > 0.0 else t_stood
 
-    def _slowed(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
-        """Start a landing, or return the time of the impact of a foot that has become slow without one."""
-        if self.landing_at is not None:
-            return None
+    def _landed(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
+        """Return the middle of the impact of a landing, or of a foot that has become slow, once it is final."""
+        landing_at, rate, impact = self.landing_at, self.sagittal, self.impact
+        if landing_at is not None:
+            mean_time = max(landing_at, impact.mean_time)
+            if t - mean_time >= IMPACT_SETTLING_TIME - TIME_EPSILON:
+                return mean_time
+            return mean_time if t - landing_at >= LONGEST_IMPACT_TIME - TIME_EPSILON else None
         if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING_TIME - TIME_EPSILON:
             return None
-        rate, impact = self.sagittal, self.impact
         if previous_rate < LANDING_RATE <= rate and self.lowest_rate < 0.0 and self.axis is not None:
             self.landing_at = t - dt * (rate - LANDING_RATE) / (rate - previous_rate)
         elif (
@@ -336,14 +330,14 @@ STILL_SIGNS: Signs = {
     LOADING: ((InertialCues._stood, Cue.FLAT),),
     STATIONARY: (),
     PUSH_OFF: ((InertialCues._stood, Cue.FLAT),),
-    SWING: ((InertialCues._landed, Cue.CONTACT), (InertialCues._stopped, Cue.CONTACT)),
+    SWING: ((InertialCues._stopped, Cue.CONTACT),),
 }
 """Signs of a still foot that end each phase, in the order in which they are tried, with their cues."""
 MOVING_SIGNS: Signs = {
     LOADING: ((InertialCues._shuffled, Cue.CLEAR),),
     STATIONARY: ((InertialCues._moved, Cue.LIFT),),
     PUSH_OFF: ((InertialCues._pushed_off, Cue.CLEAR), (InertialCues._shuffled, Cue.CLEAR)),
-    SWING: ((InertialCues._landed, Cue.CONTACT), (InertialCues._slowed, Cue.CONTACT)),
+    SWING: ((InertialCues._landed, Cue.CONTACT),),
 }
 """The same of a foot that moves."""
 

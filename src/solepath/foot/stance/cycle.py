@@ -167,6 +167,8 @@ class Cycle(Detector):
     """Lowest statistic of the last three spans together."""
     past_high: float = field(default=0.0, init=False)
     """Highest statistic of the last three spans together."""
+    threshold: float | None = field(default=None, init=False)
+    """Threshold by these extremes; None until it is asked for after one of them has changed."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -178,15 +180,17 @@ class Cycle(Detector):
             self._start_span(t, statistic)
         elif statistic < self.lowest:
             self.lowest = statistic
+            self.threshold = None
         elif statistic > self.highest:
             self.highest = statistic
+            self.threshold = None
         if load is not None and load.airborne:
             self.sensor_height.end_stance()
             return make_stance(Stance, (ZERO, inf, statistic, SWING, None))
         settings = self.settings
         if statistic < settings.least_threshold:
             hint = STATIONARY if statistic < settings.standing_statistic else None
-        elif statistic > self._threshold():
+        elif statistic > (self._find_threshold() if self.threshold is None else self.threshold):
             if self.sensor_height.sums[0]:
                 self.sensor_height.end_stance()
             return make_stance(Stance, (ZERO, inf, statistic, None, None))
@@ -206,7 +210,8 @@ class Cycle(Detector):
         vx, vy = self.sensor_height.roll(dt, acc, gyro, attitude)
         return make_stance(Stance, ((vx, vy, 0.0), sqrt(variance), statistic, hint, None))
 
-    def _threshold(self) -> float:
+    def _find_threshold(self) -> float:
+        """Return the threshold between the extremes, and keep it until one of them changes."""
         lowest, highest, least_statistic = self.lowest, self.highest, self.settings.least_statistic
         if self.past_low < lowest:
             lowest = self.past_low
@@ -217,7 +222,8 @@ class Cycle(Detector):
         if highest < least_statistic:
             highest = least_statistic
         threshold_position = self.settings.threshold_position
-        return exp((1.0 - threshold_position) * log(lowest) + threshold_position * log(highest))
+        self.threshold = exp((1.0 - threshold_position) * log(lowest) + threshold_position * log(highest))
+        return self.threshold
 
     def _start_span(self, t: float, statistic: float) -> None:
         """Start the next span at `t`, s, with its first statistic."""
@@ -228,3 +234,4 @@ class Cycle(Detector):
             self.past_high = max(self.highs)
         self.span_end = t + self.settings.span_duration
         self.lowest = self.highest = statistic
+        self.threshold = None
