@@ -180,6 +180,8 @@ class Sides:
     Cost: an integral at 50 Hz, or a centre of pressure at 20 Hz for an insole without inertial sensor."""
 
     feet: PerFoot[SwapEvidence] = field(factory=lambda: per_foot(SwapEvidence), init=False)
+    declared: bool = field(default=False, init=False)
+    """Flag: a device has reported a layout that is made for its foot."""
 
     def update(self, view: FootView, events: Sequence[object]) -> bool:
         """Add the events of a sample, after the sample, and return whether both feet now look exchanged."""
@@ -200,8 +202,7 @@ class Sides:
 
     def add_sample(self, view: FootView) -> None:
         """Add one sample of a foot to its evidence."""
-        left, right = self.feet.values()
-        if left.declared or right.declared:
+        if self.declared:
             return
         side, gyro = self.feet[view.foot], view.sample.gyro
         if gyro is None:
@@ -221,6 +222,7 @@ class Sides:
         """Set the layout that the device on `foot` has reported."""
         side = self.feet[foot]
         side.declared = layout.foot is foot
+        self.declared = any([one.declared for one in self.feet.values()])
         if side.declared:
             self.reset()
 
@@ -234,7 +236,7 @@ class Sides:
         left, right = self.feet.values()
         if left.mirrored and right.mirrored:
             return True
-        if left.declared or right.declared:
+        if self.declared:
             return False
         if left.roll.count or right.roll.count:
             return left.roll.exceeds(ROLL_LIMIT) and right.roll.exceeds(ROLL_LIMIT)

@@ -25,7 +25,7 @@ from .pressure.sole import Sole
 from .rejection import ABSURD_TIME, rejected, rejection_reason
 from .rhythm import Rhythm
 from .settings import FootSettings
-from .stance.stance import Detector, Load
+from .stance.stance import Detector, Load, Stance
 from .view import AfterEvents, FootPose, FootView, PressedCells
 from .world import Covariance3
 
@@ -182,18 +182,8 @@ class FootTracker:
             self.t = t
         if sample.saturated:
             self.gait.stride.mark_degraded(t)
-        sole, load = self.sole, None
-        if sample.pressure or sole.had_cells:
-            with_centre = self.cues.uses_centre or self.detector.uses_centre
-            load = sole.add_sample(sample, known_at, self.gait.phase, with_centre, self.limitations, events)
-            if sole.layout_changed and sole.insole.layout is not None:
-                self._set_layouts(sole.insole.layout)
-        if load is not None:
-            stride = self.gait.stride
-            if self.gait.phase is not SWING and stride.t_toe_off is None and stride.add_load(sole.insole.sum):
-                is_known = load.airborne or with_centre
-                stride.add_cop(load.centre if is_known else sole.insole.centre_of_pressure(load.cells))
-        elif self.settings.needs_pressure and not sole.had_cells:
+        load = self._add_cells(sample, known_at, events) if sample.pressure or self.sole.had_cells else None
+        if load is None and self.settings.needs_pressure and not self.sole.had_cells:
             text = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
             self.limitations.report_lacking(text, t, known_at, events)
             return events
@@ -205,22 +195,73 @@ class FootTracker:
         dt = 0.0 if t_last is None else t - t_last
         if t_last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
             dt = self._cross_gap(t_last, t, known_at, sample, events)
-        if acc is not None and gyro is not None:
-            self.moved_at = t
-            self.limitations.lacking_since = None
-            if load is None and self.load is not None:
-                load, self.load = self.load, None
-            if sample.quat is not None:
-                self.corrector.use_attitude(sample.quat)
-            self._add_inertial(t, dt, known_at, acc, gyro, sample.saturated, load, events)
+        if acc is None or gyro is None:
+            text = f"no {'accelerometer' if acc is None else 'gyroscope'} on the {self.foot.value} foot"
+            text = f"{text}: no steps and no track from it"
+            self.limitations.report_lacking(text, t, known_at, events)
+            if load is not None:
+                for timed_cue in self.cues.alone(t, dt, load, self.phase):
+                    self._apply_cue(timed_cue, known_at, events)
             return events
-        text = f"no {'accelerometer' if acc is None else 'gyroscope'} on the {self.foot.value} foot"
-        text = f"{text}: no steps and no track from it"
-        self.limitations.report_lacking(text, t, known_at, events)
-        if load is not None:
-            for timed_cue in self.cues.alone(t, dt, load, self.phase):
+        self.moved_at = t
+        self.limitations.lacking_since = None
+        if load is None and self.load is not None:
+            load, self.load = self.load, None
+        rest, corrector, gait = self.rest, self.corrector, self.gait
+        if sample.quat is not None:
+            corrector.use_attitude(sample.quat)
+        if rest.update(t, acc, gyro):
+            self.detector.scaled(rest.scale)
+            corrector.scaled(rest.scale)
+        if not rest.count:
+            self.walk_scale.add_sample(t, acc, gyro)
+        k, (bx, by, bz) = rest.scale, rest.bias
+        (x, y, z), (u, v, w) = acc, gyro
+        acc, gyro = (x * k, y * k, z * k), (u - bx, v - by, w - bz)
+        if self.levelled or self.levelling.found:
+            corrector.predict(dt, acc, gyro, sample.saturated)
+        stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
+        if not self.levelled:
+            self._level(t, acc, gyro, stance)
+            if self.settings.poses:
+                self._report_motion(t, known_at, events)
+            return events
+        drift = corrector.velocity[2]
+        accepted = corrector.correct(t, stance)
+        vx, vy, vz = corrector.velocity
+        if accepted and not rest.count:
+            rest.scale = self.walk_scale.add_evidence(t, drift - vz, k)
+        speed = sqrt(vx * vx + vy * vy + vz * vz)
+        cues, still = self.cues, accepted and speed < FLAT_SPEED
+        timed_cues = cues.update(t, dt, acc, gyro, still, speed, gait.phase, load, stance)
+        if cues.mark is not None:
+            corrector.mark(t, cues.mark)
+        template, position = gait.template, corrector.position
+        if template.t_heel_off is not None and t >= template.t_next_moment:
+            template.add_moment(t, corrector.attitude, corrector.velocity, position, acc, gyro)
+        gait.stride.add_motion(t, dt, position[2], speed, cues.sagittal, still)
+        if timed_cues:
+            for timed_cue in timed_cues:
                 self._apply_cue(timed_cue, known_at, events)
+        elif not gait.heading_settled:
+            gait.world.find_heading(position)
+        if self.settings.poses:
+            self._report_motion(t, known_at, events)
         return events
+
+    def _add_cells(self, sample: Sample, known_at: float, events: list[Event]) -> Load | None:
+        """Add the pressure cells of a sample; return the load, or None while it is not known."""
+        sole, gait = self.sole, self.gait
+        with_centre = self.cues.uses_centre or self.detector.uses_centre
+        load = sole.add_sample(sample, known_at, gait.phase, with_centre, self.limitations, events)
+        if sole.layout_changed and sole.insole.layout is not None:
+            self._set_layouts(sole.insole.layout)
+        if load is None or gait.phase is SWING or gait.stride.t_toe_off is not None:
+            return load
+        if gait.stride.add_load(sole.insole.sum):
+            is_known = load.airborne or with_centre
+            gait.stride.add_cop(load.centre if is_known else sole.insole.centre_of_pressure(load.cells))
+        return load
 
     def _cross_gap(self, t_last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Report a gap between two samples; return the time to integrate over, s.
@@ -258,54 +299,15 @@ class FootTracker:
             infill = find_infill(template, corrector, t_last, t, acc, gyro)
         return 0.0
 
-    def _add_inertial(
-        self, t: float, dt: float, known_at: float, acc: Vec3, gyro: Vec3, saturated: bool,
-        load: Load | None, events: list[Event],
-    ) -> None:  # fmt: skip
-        rest, corrector, gait = self.rest, self.corrector, self.gait
-        if rest.update(t, acc, gyro):
-            self.detector.scaled(rest.scale)
-            corrector.scaled(rest.scale)
-        if not rest.count:
-            self.walk_scale.add_sample(t, acc, gyro)
-        k, (bx, by, bz) = rest.scale, rest.bias
-        (x, y, z), (u, v, w) = acc, gyro
-        acc, gyro = (x * k, y * k, z * k), (u - bx, v - by, w - bz)
-        if self.levelled or self.levelling.found:
-            corrector.predict(dt, acc, gyro, saturated)
-        stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
-        if not self.levelled:
-            if (first_attitude := self.levelling.update(t, acc, gyro)) is not None:
-                corrector.start(*first_attitude)
-                gait.stride.start_stride(t, ZERO, corrector.attitude)
-            if self.levelling.final:
-                self.levelled = True
-                if self.levelling.walks:
-                    gait.start_walking(corrector.correct(t, stance))
-            if self.settings.poses:
-                self._report_motion(t, known_at, events)
-            return
-        drift = corrector.velocity[2]
-        accepted = corrector.correct(t, stance)
-        vx, vy, vz = corrector.velocity
-        if accepted and not rest.count:
-            rest.scale = self.walk_scale.add_evidence(t, drift - vz, k)
-        speed = sqrt(vx * vx + vy * vy + vz * vz)
-        cues, still = self.cues, accepted and speed < FLAT_SPEED
-        timed_cues = cues.update(t, dt, acc, gyro, still, speed, gait.phase, load, stance)
-        if cues.mark is not None:
-            corrector.mark(t, cues.mark)
-        template, position = gait.template, corrector.position
-        if template.t_heel_off is not None and t >= template.t_next_moment:
-            template.add_moment(t, corrector.attitude, corrector.velocity, position, acc, gyro)
-        gait.stride.add_motion(t, dt, position[2], speed, cues.sagittal, still)
-        if timed_cues:
-            for timed_cue in timed_cues:
-                self._apply_cue(timed_cue, known_at, events)
-        elif not gait.heading_settled:
-            gait.world.find_heading(position)
-        if self.settings.poses:
-            self._report_motion(t, known_at, events)
+    def _level(self, t: float, acc: Vec3, gyro: Vec3, stance: Stance) -> None:
+        """Look for the first attitude, and start navigation with each better one."""
+        if (first_attitude := self.levelling.update(t, acc, gyro)) is not None:
+            self.corrector.start(*first_attitude)
+            self.gait.stride.start_stride(t, ZERO, self.corrector.attitude)
+        if self.levelling.final:
+            self.levelled = True
+            if self.levelling.walks:
+                self.gait.start_walking(self.corrector.correct(t, stance))
 
     def _report_motion(self, t: float, known_at: float, events: list[Event]) -> None:
         p, v = self.position, self.velocity

@@ -179,10 +179,12 @@ class BothFeet(MeanOfFeet):
             mag = view.sample.mag if view.phase is STATIONARY else None
             if mag is not None and not 0.0 <= view.t - self.measured_at < SPACING:
                 self._add_magnetic_field(view, mag)
-            if not self.started:
-                left, right = self.tracks.values()
-                if left.t is not None and right.t is not None:
-                    self._start()
+            if (
+                not self.started
+                and self.tracks[OTHER[view.foot]].t is not None
+                and self.tracks[view.foot].t is not None
+            ):
+                self._start()
             if returning and not self.return_strides and self.is_aligned and self.placed_last is not None:
                 self.errors.align(self.placed_last)
                 self._keep_placements()
