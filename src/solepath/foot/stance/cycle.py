@@ -168,7 +168,7 @@ class Cycle(Detector):
     past_high: float = field(default=0.0, init=False)
     """Highest statistic of the last three spans together."""
     threshold: float | None = field(default=None, init=False)
-    """Threshold by these extremes; None until it is asked for after one of them has changed."""
+    """Threshold by the extremes of all four spans; None until it is asked for after one of them has changed."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -180,10 +180,12 @@ class Cycle(Detector):
             self._start_span(t, statistic)
         elif statistic < self.lowest:
             self.lowest = statistic
-            self.threshold = None
+            if statistic < self.past_low:
+                self.threshold = None
         elif statistic > self.highest:
             self.highest = statistic
-            self.threshold = None
+            if statistic > self.past_high:
+                self.threshold = None
         if load is not None and load.airborne:
             self.sensor_height.end_stance()
             return make_stance(Stance, (ZERO, inf, statistic, SWING, None))
