@@ -77,7 +77,7 @@ class PlacedTrack:
     @property
     def is_here(self) -> bool:
         """Flag: the foot has samples, and its track is aligned with the other foot's."""
-        return not (self.absent or self.unplaced)
+        return not self.unplaced and self.absent_for < ABSENCE_TIME
 
     def flat(self, own: Vec3) -> complex:
         """Return the horizontal position of the place `own` of the foot's own track in the common frame, m."""

@@ -84,14 +84,16 @@ class FootPlaces:
 
     def add_view(self, view: FootView) -> None:
         """Add the position of a foot by its own track."""
-        before = {foot: (track.offset, track.unplaced) for foot, track in self.mean.tracks.items()}
+        left, right = self.mean.tracks.values()
+        offsets, were_unplaced = (left.offset, right.offset), (left.unplaced, right.unplaced)
         self.mean.add_view(view)
-        for foot, track in self.mean.tracks.items():
-            offset, was_unplaced = before[foot]
-            if track.offset is not offset:
-                self._move_track(foot, track, offset, was_unplaced)
+        if left.offset is not offsets[0]:
+            self._move_track(Foot.LEFT, left, offsets[0], were_unplaced[0])
+        if right.offset is not offsets[1]:
+            self._move_track(Foot.RIGHT, right, offsets[1], were_unplaced[1])
         if view.levelled:
-            self.sides[view.foot].track = self.mean.tracks[view.foot].newest
+            track = left if view.foot is Foot.LEFT else right
+            self.sides[view.foot].track = track.place(track.newest_place)
 
     def _move_track(self, foot: Foot, placed_track: PlacedTrack, offset: Vec3, was_unplaced: bool) -> None:
         """Adapt the place of a foot to the offset of `placed_track`, which was `offset` before, world frame, m."""
