@@ -8,7 +8,16 @@ from __future__ import annotations
 
 from .activity import ActivityChanged, FlightClimbed, LiftRidden, TurnMade
 from .body import PositionRejected, StrideFused, TouchedDown, TrackNode, TrackRevised, WalkingModeChanged
-from .defect import Defect, DefectFound
+from .defect import (
+    CellFault,
+    CellsFailed,
+    Defect,
+    DefectFound,
+    FeetSwapped,
+    FootResumed,
+    FootSilent,
+    InsoleNeverUnloads,
+)
 from .foot import FootFlat, HeelOff, HeelStrike, StrideFeatures, StrideTaken, ToeOff
 from .gait_cycle import GaitCycleMeasured
 from .link import (
@@ -33,7 +42,6 @@ from .link import (
 )
 from .live import FootMoved, FootPressed, WearerMoved
 from .place import Candidate, Placed, PlaceLost, PlanContradicted
-from .wear import CellFault, CellsFailed, FeetSwapped, FootResumed, FootSilent, InsoleNeverUnloads
 
 __all__ = [
     "ActivityChanged", "ActivityEvent", "BatteryLevel", "BodyEvent", "Candidate", "CellFault", "CellsFailed",
