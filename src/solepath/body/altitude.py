@@ -278,7 +278,7 @@ class Altitude(Part):
         return [HeightShift(self.now.values[0], self.ride_variance)]
 
     def reset(self, site: Site) -> None:
-        """Forget the offset of a foot's barometer, because its clock restarts or the device has changed.
+        """Forget the offset of a foot's barometer, because its clock restarts or another device is worn.
 
         What the other foot has measured is kept: a ride under way still has its start."""
         if site.foot is None:

@@ -1,6 +1,7 @@
 """Calibration records: data on a wearer, a pair of shoes and a pair of insoles that the devices do not send.
 
-All of it is optional: a session without a calibration uses defaults and what it learns."""
+All of it is optional: a session without a calibration uses defaults and what it learns. A record is not checked when it
+is made, but when it is read from a file or given to a session (`contradiction` and the limits, types/checking.py)."""
 
 from __future__ import annotations
 

@@ -70,7 +70,9 @@ def unpack_moments(packed: bytes) -> list[StrideMoment]:
 
 
 def interpolate_stride(moments: list[StrideMoment], since: float) -> StrideMoment:
-    """Return the interpolated moment at `since` s after heel-off; outside the stride the first or the last moment."""
+    """Return the interpolated moment at `since` s after heel-off; outside the stride the first or the last moment.
+
+    An infill asks for it once, for the moment before the gap."""
     before = moments[0]
     for moment in moments:
         if moment.since >= since:
@@ -113,6 +115,7 @@ def limit_length(v: Vec3, longest: float) -> Vec3:
 
 
 def _mix_attitudes(p: Quat, q: Quat, k: float) -> Quat:
+    """Return the linear mean of two attitudes, with the weight k of `q`; the caller makes its length 1."""
     (a, b, c, d), (w, x, y, z) = p, q
     if a * w + b * x + c * y + d * z < 0.0:
         w, x, y, z = -w, -x, -y, -z

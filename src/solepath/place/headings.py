@@ -102,7 +102,7 @@ class KnownHeading:
         is_new, self.source = self.source is HeadingSource.NONE, HeadingSource.COMPASS
         return stored(_weigh(particles, self.heading, is_new))
 
-    def contradiction(self, particles: list[Particle], t: float, known_at: float) -> PlanContradicted | None:
+    def find_contradiction(self, particles: list[Particle], t: float, known_at: float) -> PlanContradicted | None:
         """Use the heading no longer if at `t`, s, all particles have other ones, and return the event that says so."""
         if self.heading is None:
             return None

@@ -360,7 +360,7 @@ class Particles(Part):
                 case _:
                     self.particles = stored(self._staying())
         if (strides or arrived) and self.particles:
-            wrong_heading = self.known.contradiction(self.particles, here.t, known_at)
+            wrong_heading = self.known.find_contradiction(self.particles, here.t, known_at)
             outputs += [] if wrong_heading is None else [wrong_heading]
             outputs.append(self._report_place(plan, here, known_at))
         return outputs

@@ -24,7 +24,9 @@ def no_class(name: str) -> None:
 
 
 def save(record: object) -> Json:
-    """Return a copy of `record` that can be written as JSON.
+    """Return a copy of `record` that can be written as JSON, equal for equal records.
+
+    Recipes are compared by it, and fingerprints of plans and checksums of snapshots are made of it.
 
     Raises TypeError for a field whose type cannot be saved and SnapshotError for a value that cannot be saved; both
     name the class and the field."""

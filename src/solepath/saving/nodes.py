@@ -158,7 +158,7 @@ class RowNode:
         max_length = None
         if self.kind is deque and isinstance(value, dict):
             max_length, value = _exact(int, value["maxlen"]), value["is"]
-        return self._make([self.of.load(item, classes) for item in _exact(list, value)], max_length)
+        return self._row([self.of.load(item, classes) for item in _exact(list, value)], max_length)
 
     def write(self, value: Any, lists: Lists) -> None:
         if self.kind is deque:
@@ -177,13 +177,13 @@ class RowNode:
             raise SnapshotError(f"packed with {count} parts, and this recipe has {len(made)}")
         if not isinstance(self.of, NumberNode):
             parts = made if self.made else repeat(None, count)
-            return self._make([self.of.read(part, streams) for part in parts], max_length)
+            return self._row([self.of.read(part, streams) for part in parts], max_length)
         numbers = list(islice(streams[self.of.stream], count))
         if len(numbers) != count:
             raise SnapshotError("it was cut short")
-        return self._make(numbers, max_length)
+        return self._row(numbers, max_length)
 
-    def _make(self, items: list[Any], max_length: int | None) -> Any:
+    def _row(self, items: list[Any], max_length: int | None) -> Any:
         if max_length is not None and max_length < len(items):
             raise SnapshotError("a deque does not have the length that it may have")
         return self.kind(items) if max_length is None else deque(items, max_length)

@@ -94,7 +94,7 @@ class Activities(ActivityPart):
             load_released_model()
 
     def reset(self, site: Site) -> None:
-        """Discard the blocks of a foot whose clock restarts, the waiting strides and the flight under way."""
+        """Discard the waiting strides, the flight under way, and the blocks of a foot with a new clock or device."""
         if site.foot is None:
             return
         self.feet[site.foot].restart()

@@ -105,7 +105,7 @@ class Flights:
     feet: PerFoot[FootClimb] = field(factory=lambda: per_foot(FootClimb), init=False)
 
     def reset(self) -> None:
-        """Discard the flight under way, because the clock restarts."""
+        """Discard the flight under way, because the clock restarts or another device is worn."""
         self.direction, self.feet = 0, per_foot(FootClimb)
 
     def add_stride(self, stride: StrideTaken, direction: int | None) -> list[FlightClimbed]:

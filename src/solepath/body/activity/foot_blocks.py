@@ -331,7 +331,7 @@ class FootBlocks:
             self.strides.popleft()
 
     def restart(self) -> None:
-        """Discard all blocks and strides, because the clock restarts."""
+        """Discard all blocks and strides, because the clock restarts or another device is worn."""
         self.index = None
         self.acc_bins = [0] * BIN_COUNT
         self.blocks.clear()

@@ -199,7 +199,8 @@ def stairs_evidence(before: Height | None, after: Height | None, sign: float, du
 def ride_evidence(before: Height | None, after: Height | None, sign: float) -> float:
     """Return the logarithm of the likelihood ratio of a ride of any height to none, from the heights around it.
 
-    `sign` is 1 for a ride up and -1 for one down."""
+    While a ride is possible, each block asks for it as if the ride ended there. `sign` is 1 for a ride up and -1 for
+    one down."""
     if before is None or after is None:
         return 0.0
     gain, variance = after[0] - before[0], after[1] + before[1]

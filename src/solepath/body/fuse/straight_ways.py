@@ -196,7 +196,7 @@ class Straightness:
         return found
 
     def reset(self) -> None:
-        """Discard the stretch, because the clock restarts."""
+        """Discard the stretch, because the clock restarts or another device is worn."""
         self.recent, self.left_out, self.t = [], 0, None
 
     def drift_of(self, places: Places, drift_sigma: float) -> StretchDrift | None:

@@ -351,7 +351,7 @@ class GaitCycles(Part):
         return [self._measure(foot, cycle, now) for foot, cycles in waiting.items() for cycle in cycles]
 
     def reset(self, site: Site) -> None:
-        """Discard the cycles and the times of a foot whose clock restarts."""
+        """Discard the cycles and the times of a foot whose clock restarts or that wears another device."""
         if site.foot is not None:
             self.clocks_apart = False
             self.means.reset(site.foot)

@@ -219,7 +219,7 @@ class TurnDetector:
         return None if self.t_start is None else self._end_turn(self.t_start)
 
     def reset(self, foot: Foot) -> None:
-        """Reset a foot whose clock restarts, and discard the turn under way."""
+        """Reset a foot whose clock restarts or that wears another device, and discard the turn under way."""
         self.t_start = self.previous_end = None
         self.feet[foot].stride_end = None
 
@@ -324,7 +324,7 @@ class Turns(Part):
         return turn_made(self.detector.finish(), now)
 
     def reset(self, site: Site) -> None:
-        """Reset a foot whose clock restarts."""
+        """Reset a foot whose clock restarts or that wears another device."""
         if site.foot is not None:
             self.detector.reset(site.foot)
             self.idle = True

@@ -70,7 +70,7 @@ class Cues(Protocol):
         return
 
     def set_layout(self, layout: Layout) -> None:
-        """Set the layout of the pressure cells; called once it is known, and when it changes."""
+        """Set the layout of the pressure cells; called once it is known, when it changes, and after a reset."""
         return
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> Self:

@@ -88,12 +88,12 @@ class GaitCues(Cues):
     inertial: InertialCues = field(factory=InertialCues, init=False)
     pressure: PressureCues = field(factory=PressureCues, init=False)
     touch: Touch = field(factory=Touch)
-    """Detector of ground contact for insoles of few cells."""
+    """Detector of ground contact for insoles of few cells, a part; each foot has its own copy."""
     sagittal: float = field(default=0.0, init=False)
     """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s; 0 if unknown."""
 
     def set_layout(self, layout: Layout) -> None:
-        """Set the layout of the pressure cells."""
+        """Set the layout of the pressure cells, which only `touch` uses."""
         self.touch.set_layout(layout)
 
     def update(
