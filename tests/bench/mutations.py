@@ -436,7 +436,7 @@ def judge(bug: Bug, tests: list[str], folder: Path) -> tuple[str, str]:
     if not tests:
         return "survived", "no test runs it"
     path = folder / "src" / "solepath" / bug.file
-    whole = path.read_bytes()
+    whole, times = path.read_bytes(), path.stat()
     listed = folder / "chosen-tests.txt"
     listed.write_text("\n".join(tests))
     try:
@@ -445,6 +445,8 @@ def judge(bug: Bug, tests: list[str], folder: Path) -> tuple[str, str]:
         status, output = run_tests(folder, *command, timeout=PATIENCE, MUTATIONS_ORDER=str(listed))
     finally:
         path.write_bytes(whole)
+        # bytecode is known by size and second of its source: one of the bug's must not pass for that of the whole file
+        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
     if status == 0:
         return "survived", f"{len(tests)} tests"
     if status < 0:

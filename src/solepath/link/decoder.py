@@ -129,7 +129,7 @@ class Decoder:
 
     def is_bound_to(self, device: str) -> bool:
         """Return whether the site is bound to this address, in upper or lower case; for "", whether it is not bound."""
-        return device == self.device or device.upper() == self.device.upper()
+        return device.upper() == self.device.upper()
 
     def _use_packet(self, packet: Packet, kinds: DeviceKinds) -> Output:
         """Return the samples and events of a packet; one that cannot be used raises WireError and changes nothing."""

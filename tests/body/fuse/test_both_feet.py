@@ -18,7 +18,7 @@ from solepath.emulate.walk import sampled
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, StrideTaken
 from solepath.session import Session
-from solepath.types import Foot, Sample, Vec3
+from solepath.types import Foot, Sample, Site, Vec3
 
 LONG = Route().stand(2.0).walk(40.0, 1.3).stop(1.0)
 CHEAP = evolve(LSM6DSOX, gyro=evolve(LSM6DSOX.gyro, scale=0.03, cross=0.02))
@@ -91,3 +91,18 @@ def test_a_foot_that_returns_pulls_nothing_before_it_is_aligned() -> None:
             steps.append(0.0 if before is None else dist(here, before))
             before = here
     assert max(steps) < 0.5
+
+
+def test_a_foot_that_was_silent_in_mid_walk_is_beside_the_other_foot_again_after_some_strides() -> None:
+    walker = Walker(Route().stand(2).walk(24.0, 1.2).stop(1), seed=6)
+    feet = [walker.samples(foot, 100.0, LSM6DSOX) for foot in Foot]
+    worn = sorted((one for samples in feet for one in samples), key=lambda one: one.t)
+    session = Session()
+    for sample in worn:
+        if sample.site is Site.LEFT_FOOT or not 6.0 < sample.t < 10.0:
+            session.feed(sample)
+    (both,) = [part for part in session._state.parts if isinstance(part, BothFeet)]
+    left, right = (both.tracks[foot] for foot in Foot)
+    assert (
+        both.is_aligned and abs(left.newest[0] - right.newest[0]) < 1.0 and abs(left.newest[1] - right.newest[1]) < 0.6
+    )

@@ -7,8 +7,10 @@ import pytest
 from lake import back_time, error, fed, loop, middle, session_back
 from walks import samples
 
-from solepath import Packet, Session, Site
+from solepath import Foot, Packet, Session, Site
 from solepath.body.fuse.walked_path import MOST_NODES
+from solepath.emulate import Route, Walker
+from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.events import PositionRejected, PositionReported, StrideTaken, TrackRevised
 from solepath.wire.receiver import PositionFrame, build_position
 
@@ -95,3 +97,16 @@ def test_before_the_first_stride_a_place_has_no_effect_and_impossible_ones_are_e
     for position, sigma in (((float("nan"), 0.0), 1.0), ((0.0, 2e6), 1.0), (None, 0.0), (None, -1.0)):
         with pytest.raises((ValueError, TypeError), match="position"):
             session.here(position, sigma)
+
+
+def test_one_metre_after_a_report_far_from_the_start_another_one_that_is_off_by_more_is_rejected() -> None:
+    walker = Walker(Route().stand(2).walk(26.0, 1.3).stop(1), seed=8)
+    worn = sorted((one for foot in Foot for one in walker.samples(foot, 100.0, LSM6DSOX)), key=lambda one: one.t)
+    session = Session()
+    session.feed([one for one in worn if one.t < 18.0])
+    assert session.position is not None and session.position.position[0] > 15.0
+    x, y, _ = session.position.position
+    assert isinstance(session.here((x, y + 0.2), sigma=0.2)[1], TrackRevised)
+    session.feed([one for one in worn if 18.0 <= one.t < 19.0])
+    x, y, _ = session.position.position
+    assert isinstance(session.here((x, y + 1.5), sigma=0.2)[1], PositionRejected)

@@ -128,3 +128,11 @@ def numbers_in(value: Any) -> list[float]:
     if isinstance(value, list):
         return [number for item in value for number in numbers_in(item)]
     return [float(value)] if isinstance(value, int | float) else []
+
+
+def test_a_path_goes_where_its_strides_go_by_their_calibrated_lengths() -> None:
+    ways = [(LEFT, 1.0, 1.3), (RIGHT, 1.6, 1.2), (LEFT, 2.2, 1.25), (RIGHT, 2.8, 1.3)]
+    body, fused = walked(*(stride_of(foot, end, length, direction=(0.6, 0.8)) for foot, end, length in ways))
+    for foot in Foot:
+        walked_length = sum(one.stride_length for one in fused if one.foot is foot)
+        assert body.paths[foot].end == pytest.approx((0.6 * walked_length, 0.8 * walked_length, 0.0))
