@@ -9,6 +9,8 @@ from solepath import Foot, Session, recipes
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
 from solepath.body.part import TrackPart
 from solepath.emulate.sensors.insoles import layout
+from solepath.foot.settings import CycleSettings
+from solepath.foot.stance.cycle import Cycle
 from solepath.recipes import shared_copy
 from solepath.saving import codec as machine
 
@@ -52,3 +54,15 @@ def test_every_part_that_a_recipe_has_is_among_those_that_the_contracts_try() ->
         }
 
     assert parts(recipes.NAMES) == parts(("default", *RECIPES))
+
+
+def test_the_settings_with_which_a_session_is_unpacked_count_from_its_first_sample() -> None:
+    tuned = evolve(recipes.DEFAULT, detector=Cycle(CycleSettings(threshold_position=0.9)))
+    session = Session()
+    for sample in samples(cells=0):
+        session.feed(sample)
+        for tracker in Session.unpack(session.pack(), tuned).feet.values():
+            detector = tracker.detector
+            assert isinstance(detector, Cycle) and detector.settings.threshold_position == 0.9
+            kept = detector.threshold
+            assert kept is None or kept == detector._find_threshold()

@@ -102,7 +102,9 @@ class StrideTaken(BaseEvent):
     height_change: float
     """Vertical component of `displacement`, m, positive upwards."""
     covariance: tuple[float, float, float, float, float, float]
-    """Covariance of `displacement`, m^2: the upper triangle of the matrix, row by row: xx, xy, xz, yy, yz, zz."""
+    """Covariance of `displacement`, m^2: the upper triangle of the matrix, row by row: xx, xy, xz, yy, yz, zz.
+
+    It counts from the heel-off of the stride, because a foot that stands does not move."""
     t_toe_off: float | None = None
     """Time of this foot's toe-off within the stride, s; None when none was detected."""
     t_heel_strike: float | None = None

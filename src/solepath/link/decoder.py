@@ -40,9 +40,10 @@ def is_address(device: str) -> bool:
 
 @define
 class Decoder:
-    """The link of one site.
+    """The link of one site: it finds out which device sends, and gives its packets to the link of that device.
 
-    `feed` never raises an exception, whatever the packet. A rejected packet changes nothing except `backward_packets`.
+    `feed` never raises an exception, whatever the packet. A rejected packet changes nothing except `backward_packets`;
+    a rejected fragment also ends the frame that it is part of.
     Sample times strictly increase from one ClockReset to the next. A sample's `known_at` is the arrival of the packet
     that completed it, or `t` if that is later."""
 

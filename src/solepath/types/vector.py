@@ -22,7 +22,7 @@ ZERO: Vec3 = (0.0, 0.0, 0.0)
 
 
 SPLIT = 2.0**29 + 1.0
-"""Factor with which `single` removes the lower 29 of a float's 53 bits."""
+"""Factor with which `to_float32` removes the lower 29 of a float's 53 bits."""
 
 
 def to_float32(x: float) -> float:

@@ -76,7 +76,7 @@ class FootRecord:
 class PossibleMotion(Part):
     """Marks impossible strides as degraded, and reports them once, and once more when most strides are impossible.
 
-    Latency: none; a stride is replaced before another part receives it."""
+    Latency: none; a stride is replaced before the parts after this one receive it."""
 
     feet: PerFoot[FootRecord] = field(factory=lambda: per_foot(FootRecord), init=False)
 

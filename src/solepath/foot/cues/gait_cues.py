@@ -30,7 +30,9 @@ LONGEST_DATING_BACK = 0.3
 
 @define
 class PressureCues:
-    """Detects CONTACT and CLEAR from the total load, FLAT and LIFT from heel and forefoot. Latency: one sample."""
+    """Detects CONTACT and CLEAR from the total load. Latency: one sample.
+
+    Of a foot without inertial sensor, FLAT and LIFT follow from the loads of heel and forefoot (`update_areas`)."""
 
     previous_load: float = 0.0
     """Total load of the last sample, as a share of the full load."""

@@ -45,7 +45,7 @@ They are right if the foot moves during this time, and wrong if it stands still.
 
 @frozen
 class TouchSettings:
-    """The settings of `Touch`, for insoles of many cells.
+    """The settings of `Touch`, which stands in for the total load on insoles of few cells (gait_cues.py).
 
     A recorded insole of 35 cells shows up to 5 % of the load throughout the swing."""
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 from math import exp, inf, log, sqrt
 
 from ...types import Quat, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import NOT_SAVED, define, field
 from ...types.vector import IDENTITY, TIME_EPSILON, ZERO
 from ..phase import STATIONARY, SWING
 from ..settings import CycleSettings
@@ -167,7 +167,7 @@ class Cycle(Detector):
     """Lowest statistic of the last three spans together."""
     past_high: float = field(default=0.0, init=False)
     """Highest statistic of the last three spans together."""
-    threshold: float | None = field(default=None, init=False)
+    threshold: float | None = field(default=None, init=False, metadata=NOT_SAVED)
     """Threshold by the extremes of all four spans; None until it is asked for after one of them has changed."""
 
     def update(

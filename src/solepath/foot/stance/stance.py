@@ -44,9 +44,7 @@ class Stance(NamedTuple):
     sigma: float
     """Standard deviation of each axis of `v_ref` for one update every 5 ms, m/s; inf without evidence."""
     statistic: float
-    """Statistic of the detector, in the unit of that detector.
-
-    If `hint` is None, ErrorStateFilter takes a sample with a smaller statistic for more still."""
+    """Statistic of the detector, in the unit of that detector, for plots and comparisons; no corrector uses it."""
     hint: Phase | None
     """Phase that the detector is sure of, or None.
 
