@@ -168,7 +168,9 @@ class Part(Protocol):
         return ()
 
     def reset(self, site: Site) -> None:
-        """Reset what depends on the clock or the device of a site, because one of them has changed."""
+        """Reset what depends on the clock or the device of a site, because one of them has changed.
+
+        After a change of the clock, `feed` gets a ClockReset; after one of the device nothing follows."""
         return
 
 

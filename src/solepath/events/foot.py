@@ -85,7 +85,7 @@ class StrideTaken(BaseEvent):
     foot: Foot
     """Foot that took the stride."""
     number: int
-    """Number of the stride; 1 for the first stride of this foot."""
+    """Number of the stride; 1 for the first stride of this foot. It goes on after a change of clock or device."""
     t_start: float
     """Foot-flat at which the stride started, s."""
     t_end: float
