@@ -45,8 +45,8 @@ class Session:
     ItemError, with the events before it), and ValueError after `finish`.
 
     Latency: zero velocity and live position are known with the sample; heel-strike and toe-off with the next one
-    (before a first push-off, swing after 0.15 s); foot-flat and the stride that it ends after 40 ms; heel-off after 40 to
-    140 ms, in slow walking up to 320 ms."""
+    (before a first push-off, swing after 0.15 s); foot-flat and the stride that it ends after 40 ms; heel-off after 40
+    to 140 ms, in slow walking up to 320 ms."""
 
     __slots__ = ("_kinds", "_plan", "_state")
 
