@@ -89,7 +89,7 @@ RELATIONS = {
         within={"": 1e-4, "cadence": 1e-3},
         exceptions={
             "default": (
-                "nothing turns a standing foot back to gravity, so its tilt keeps 1e-5 rad",
+                "nothing turns a standing foot back to gravity, so a tilt by rounding stays",
                 {"velocity": 2e-4},
             ),
             "footstep-tracker": (

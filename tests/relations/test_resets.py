@@ -93,7 +93,7 @@ Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset
 SensorChecks.reset: apart
 SessionState.reset: decoders feet* height now parts* sampled* unsettled apart left.feet.reset() right.feet.reset()
 SessionState.restart_clock: decoders* feet* height now* parts* sampled* unsettled left.feet.reset() right.feet.reset()
-Sides.reset: declared feet*
+Sides.reset: declared
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
 StanceFinder._restart: duration force t turn
 StanceRhythm.reset: usual_stance usual_swing

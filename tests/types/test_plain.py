@@ -47,3 +47,10 @@ def test_layouts_that_are_equal_to_the_bit_are_one_object_and_cells_are_a_spacin
         assert shared(evolve(made[0], **other)) is not shared(made[0])
     assert made[0].xs == (0.1, 0.1, 0.2, 0.25) and made[0].ys == (0.0, 0.02, 0.0, 0.0)
     assert made[0].spacing == pytest.approx(0.05) and evolve(made[0], cells=()).spacing == 0.0
+
+
+@pytest.mark.parametrize("form", [iter, list, tuple])
+def test_a_vector_that_can_be_read_only_once_is_read_once(form: Any) -> None:
+    plain = Sample(1.0, Site.LEFT_FOOT, (0.1, 0.2, 9.8), (0.0, 0.3, 0.0))
+    given = Sample(1.0, Site.LEFT_FOOT, form((0.1, 0.2, 9.8)), form((0.0, 0.3, 0.0)))
+    assert (given if has_floats(given) else with_floats(given)) == plain

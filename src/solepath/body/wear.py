@@ -161,8 +161,6 @@ class SwapEvidence:
     """Outward movement of the centre of pressure before toe-off, m."""
     mirrored: bool = False
     """Flag: the layout is made for the other foot."""
-    declared: bool = False
-    """Flag: the device has reported a layout that is made for this foot."""
     left_axis: Vec3 | None = None
     """Unit vector to the left, the axis of the foot's turn over its toes, sensor frame; None before any stride."""
     turn_integral: RateIntegral = field(factory=RateIntegral)
@@ -180,8 +178,8 @@ class Sides:
     Cost: an integral at 50 Hz, or a centre of pressure at 20 Hz for an insole without inertial sensor."""
 
     feet: PerFoot[SwapEvidence] = field(factory=lambda: per_foot(SwapEvidence), init=False)
-    declared: bool = field(default=False, init=False)
-    """Flag: a device has reported a layout that is made for its foot."""
+    declared: list[Foot] = field(factory=list, init=False)
+    """Feet whose devices have reported a layout that is made for them."""
 
     def update(self, view: FootView, events: Sequence[object]) -> bool:
         """Add the events of a sample, after the sample, and return whether both feet now look exchanged."""
@@ -220,10 +218,9 @@ class Sides:
 
     def set_layout(self, foot: Foot, layout: Layout) -> None:
         """Set the layout that the device on `foot` has reported."""
-        side = self.feet[foot]
-        side.declared = layout.foot is foot
-        self.declared = any([one.declared for one in self.feet.values()])
-        if side.declared:
+        self.declared = [one for one in self.declared if one is not foot]
+        if layout.foot is foot:
+            self.declared.append(foot)
             self.reset()
 
     def reset(self) -> None:

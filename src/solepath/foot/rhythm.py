@@ -51,13 +51,7 @@ class Rhythm:
             if usual_interval is None or (self.intervals <= FIRST_INTERVALS and dt * LEAST_GAP_RATIO < usual_interval):
                 self.usual_interval = dt
                 return False
-        if LEAST_RATIO * usual_interval <= dt <= LARGEST_RATIO * usual_interval:  # nearly always: it counts as it is
-            self.usual_interval = usual_interval + USUAL_GAIN * (dt - usual_interval)
-            if dt <= LEAST_GAP_RATIO * usual_interval:
-                self.gaps_in_a_row = 0
-                return False
-        else:
-            self.usual_interval = follow(usual_interval, dt, USUAL_GAIN)
+        self.usual_interval = follow(usual_interval, dt, USUAL_GAIN)
         if dt <= LEAST_GAP_RATIO * usual_interval or dt - usual_interval <= LEAST_GAP_DIFFERENCE:
             self.gaps_in_a_row = 0
             return False

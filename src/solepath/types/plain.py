@@ -34,14 +34,13 @@ def as_float(value: float) -> float:
 def has_floats(sample: Sample) -> bool:
     """Return whether no number of the sample must be converted; it is called for every sample, and so is fast."""
     vector: Any
-    try:
-        for vector in (sample.acc, sample.gyro, sample.mag):
-            if vector is not None:
-                x, y, z = vector
-                if not (type(vector) is tuple and type(x) is type(y) is type(z) is float):
-                    return False
-    except (TypeError, ValueError):  # it is not three values
-        return False
+    for vector in (sample.acc, sample.gyro, sample.mag):
+        if vector is not None:
+            if type(vector) is not tuple or len(vector) != 3:
+                return False
+            x, y, z = vector
+            if not (type(x) is type(y) is type(z) is float):
+                return False
     pressure = sample.pressure
     if pressure is not None:
         if type(pressure) is not tuple:

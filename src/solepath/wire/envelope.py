@@ -1,6 +1,6 @@
 """The envelope of every record of the insole protocol: magic, version and type at the start, CRC-16 at the end.
 
-The parsers of frames, fragments and INFO use it, setups of devices, and what finds records in a capture of a radio."""
+It is used by the parsers of frames, fragments and INFO, by device setup, and by the search for records in a capture."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ LONGEST_DATING_BACK = 0.3
 class PressureCues:
     """Detects CONTACT and CLEAR from the total load. Latency: one sample.
 
-    Of a foot without inertial sensor, FLAT and LIFT follow from the loads of heel and forefoot (`update_areas`)."""
+    On a foot without an inertial sensor, FLAT and LIFT follow from the loads of heel and forefoot (`update_areas`)."""
 
     previous_load: float = 0.0
     """Total load of the last sample, as a share of the full load."""

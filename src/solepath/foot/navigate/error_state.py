@@ -181,7 +181,7 @@ class ErrorStateFilter(Strapdown):
     accepted_at: float | None = field(default=None, init=False)
     """Time at which evidence was last accepted, s; None before any."""
     gated: bool = field(default=False, init=False)
-    """True while the gate rejects evidence: since `accepted_at` it has."""
+    """True if the gate has rejected evidence since `accepted_at`."""
     evidence_since: float | None = field(default=None, init=False)
     """Start of the current unbroken evidence, s; None without evidence."""
     landing_error: Vec3 = field(default=ZERO, init=False)

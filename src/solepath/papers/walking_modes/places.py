@@ -84,16 +84,14 @@ class FootPlaces:
 
     def add_view(self, view: FootView) -> None:
         """Add the position of a foot by its own track."""
-        left, right = self.mean.tracks.values()
-        offsets, were_unplaced = (left.offset, right.offset), (left.unplaced, right.unplaced)
+        tracks = self.mean.tracks
+        before = [(track.offset, track.unplaced) for track in tracks.values()]
         self.mean.add_view(view)
-        if left.offset is not offsets[0]:
-            self._move_track(Foot.LEFT, left, offsets[0], were_unplaced[0])
-        if right.offset is not offsets[1]:
-            self._move_track(Foot.RIGHT, right, offsets[1], were_unplaced[1])
+        for (foot, track), (offset, was_unplaced) in zip(tracks.items(), before, strict=True):
+            if track.offset is not offset:
+                self._move_track(foot, track, offset, was_unplaced)
         if view.levelled:
-            track = left if view.foot is Foot.LEFT else right
-            self.sides[view.foot].track = track.place(track.newest_place)
+            self.sides[view.foot].track = tracks[view.foot].newest
 
     def _move_track(self, foot: Foot, placed_track: PlacedTrack, offset: Vec3, was_unplaced: bool) -> None:
         """Adapt the place of a foot to the offset of `placed_track`, which was `offset` before, world frame, m."""
