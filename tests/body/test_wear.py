@@ -161,7 +161,7 @@ def test_devices_that_report_the_right_feet_are_trusted() -> None:
     assert of(FeetSwapped, events) == []
     sides = session._state.find_attribute("sides")
     left, right = sides.feet.values()
-    assert left.declared and right.declared
+    assert sides.declared == list(Foot)
     assert not left.turn_integral.instants and not right.turn_integral.instants, (
         "what their feet do need not be remembered"
     )
