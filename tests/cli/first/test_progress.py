@@ -11,8 +11,11 @@ from programs import TAKES, drawn, in_terminal
 
 from solepath.show.tables.progress import ERASE
 
-AT_ONCE = "import solepath.show.tables.progress as p; p.FIRST_UPDATE = p.UPDATE_INTERVAL = 0.001; "
-"""Code that shows progress from the start, so that a short recording has some."""
+AT_ONCE = (
+    "import sys, solepath.show.tables.progress as p; p.FIRST_UPDATE = p.UPDATE_INTERVAL = 0.001; "
+    "sys.setswitchinterval(1e-4); "
+)
+"""Code that shows progress from the start, and lets its thread run every 0.1 ms, so that a short recording has some."""
 
 
 @pytest.mark.soak
