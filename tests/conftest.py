@@ -20,7 +20,7 @@ from solepath import recipes
 if TYPE_CHECKING:
     from browsers import Browser, Browsing
 
-    from solepath.lab.evaluate.report import Result
+    from solepath_lab.evaluate.report import Result
 
 
 TESTS = Path(__file__).resolve().parent
@@ -56,7 +56,7 @@ def data_dir() -> Path:
 @pytest.fixture(scope="session")
 def evaluated(data_dir: Path) -> Callable[[str, str], Result]:
     """Return a function from a data set's name and a recipe's name to the result; each is computed once a process."""
-    from solepath.lab.evaluate.jobs import evaluate
+    from solepath_lab.evaluate.jobs import evaluate
 
     @cache
     def of(data_set: str, recipe: str) -> Result:

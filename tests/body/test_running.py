@@ -7,9 +7,9 @@ from math import radians, sin
 import numpy as np
 import pytest
 
-from solepath.lab.emulated.runs import errors_of, run_of, score_run
 from solepath.show.report.running import vertical_oscillation
 from solepath.types.vector import GRAVITY
+from solepath_lab.emulated.runs import errors_of, run_of, score_run
 
 
 @pytest.mark.parametrize(("contact", "flight"), [(0.25, 0.12)])

@@ -21,7 +21,7 @@ def test_help_names_every_command_and_loads_nothing_heavy():
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     *text, last = result.stdout.splitlines()
     assert last == "0 []"
-    assert all(any(line.split()[:1] == [command] for line in text) for command in ("demo", "track", "evaluate"))
+    assert all(any(line.split()[:1] == [command] for line in text) for command in ("demo", "track", "check"))
 
 
 def test_no_command_prints_the_help_and_version_prints_the_version():

@@ -51,21 +51,13 @@ def test_track_writes_over_nothing_that_it_reads(recording: Path, tmp_path: Path
 def test_other_commands_write_over_nothing_that_they_read(recording: Path, tmp_path: Path) -> None:
     walk, gauge = Path(shutil.copy(recording, tmp_path / "walk.mcap")), tmp_path / "gauge.csv"
     gauge.write_text(GAUGE)
-    scores = tmp_path / "old.json"
-    scores.write_text("{}\n")
     known = tmp_path / "me.json"
     write_calibration(known, Calibration())
-    (tmp_path / "openshoe_loops").mkdir()
-    truth = tmp_path / "openshoe_loops" / "dataset.json"
-    truth.write_text('{"recordings": {}}')
     before = written(tmp_path)
     for arguments in (
         ("convert", walk, walk, "--force"),
         ("calibrate", "newton", gauge, "--out", gauge),
         ("calibrate", "modes", walk, gauge, "--out", gauge),
-        ("evaluate", tmp_path, "--compare", scores, "--json", scores, "--force"),
-        ("evaluate", tmp_path, "--calibration", known, "--json", known, "--force"),
-        ("evaluate", tmp_path, "--json", truth, "--force"),
         ("live", "--via", "tcp:127.0.0.1:1", "--calibration", known, "--record", known, "--force"),
     ):
         assert run_failing(*arguments).endswith(f": {READ}\n"), arguments
@@ -77,7 +69,6 @@ def test_other_commands_write_over_nothing_that_they_read(recording: Path, tmp_p
     [
         ("notes.html", ["track", "WALK", "--report", "FILE"]),
         ("events.jsonl", ["track", "WALK", "--out", "FOLDER"]),
-        ("notes.json", ["evaluate", "FOLDER", "--json", "FILE"]),
         ("strides.csv", ["live", "--via", "tcp:127.0.0.1:1", "--out", "FOLDER"]),
     ],
 )

@@ -17,9 +17,9 @@ from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleG
 from solepath.emulate import CC2541, CC2650, EmulatedWalk, Insole, Route, emulate
 from solepath.emulate.radio import CLEAN, Radio
 from solepath.emulate.sensors.device import Device
-from solepath.lab.emulated.compare import FootComparison, compare
-from solepath.lab.evaluate.gathered import EventCollection
 from solepath.link.decoder import Decoder
+from solepath.validate.comparison import FootComparison, compare
+from solepath.validate.gathered import EventCollection
 
 BAD = Radio(loss=0.05, jitter=0.05)
 """A radio that loses 5 % of the notifications and delays the others by up to 50 ms."""

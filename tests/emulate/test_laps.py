@@ -20,8 +20,8 @@ from solepath.emulate.routes.laps import (
     square,
 )
 from solepath.emulate.wearers.walker import Walker
-from solepath.lab.emulated.heading_walks import KINDS, heading_route, wearer_of
 from solepath.types import Foot, WalkingMode
+from solepath_lab.emulated.heading_walks import KINDS, heading_route, wearer_of
 
 
 @pytest.fixture(scope="module")

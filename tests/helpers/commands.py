@@ -7,25 +7,28 @@ import io
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 from solepath.cli import main
 
+Program = Callable[[list[str]], int]
 
-def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """Return the exit status and the output of a command."""
+
+def run(*arguments: object, program: Program = main) -> subprocess.CompletedProcess[str]:
+    """Return the exit status and the output of a command of solepath, or of another program."""
     with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
         try:
-            status = main([str(argument) for argument in arguments])
+            status = program([str(argument) for argument in arguments])
         except SystemExit as stop:  # of argparse
             status = int(stop.code or 0)
     return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
 
 
-def run_failing(*arguments: object) -> str:
+def run_failing(*arguments: object, program: Program = main) -> str:
     """Return the one line with which the command fails."""
-    process = run(*arguments)
+    process = run(*arguments, program=program)
     assert process.stdout == ""
     one_line(process)
     return process.stderr

@@ -26,6 +26,7 @@ from solepath.foot.pressure.insole import InsoleLoads
 from solepath.show.output import STRIDE_COLUMNS, TRACK_COLUMNS
 from solepath.types import Foot
 from solepath.types.registry import TABLE, load
+from solepath_lab.command import parser as laboratory
 
 MARKDOWN = {**PAGES, **{f"protocol/{path.name}": path.read_text() for path in (PROTOCOL).glob("*.md")}}
 WALK = insoles(Route().stand(2).walk(6, speed=1.3).stop(2))
@@ -112,9 +113,12 @@ def test_three_commands_make_a_report_of_a_phones_log(tmp_path, monkeypatch):
     assert f"left foot took {steps} strides" in (tmp_path / "report.html").read_text()
 
 
+PARSERS = {"solepath": parser, "solepath-lab": laboratory}
+
+
 @cache
-def commands() -> dict[str, ArgumentParser]:
-    (subparsers,) = (action for action in parser()._actions if isinstance(action.choices, dict))
+def commands(program: str = "solepath") -> dict[str, ArgumentParser]:
+    (subparsers,) = (action for action in PARSERS[program]()._actions if isinstance(action.choices, dict))
     return dict(subparsers.choices)
 
 
@@ -123,16 +127,16 @@ def test_commands_of_all_pages_can_be_typed():
     for line in lines:
         for part in line.split(" && "):
             program, *arguments = shlex.split(part, comments=True)
-            if program.removeprefix(".venv/bin/") == "solepath":
-                parser().parse_args(arguments)  # exits where they are wrong
+            if make := PARSERS.get(program.removeprefix(".venv/bin/")):
+                make().parse_args(arguments)  # exits where they are wrong
 
 
 def test_options_of_all_pages_are_those_of_the_command_line():
     """All commands quoted within a line are checked, also those with words to be filled in."""
-    for quoted in re.findall(r"`solepath ([^`]+)`", "".join(PAGES.values())):
+    for program, quoted in re.findall(r"`(solepath(?:-lab)?) ([^`]+)`", "".join(PAGES.values())):
         name, *words = quoted.split()
-        assert name in commands(), quoted
-        known = "".join(_options(commands()[name]))
+        assert name in commands(program), quoted
+        known = "".join(_options(commands(program)[name]))
         assert all(word.split("=")[0] in known for word in words if word.startswith("--")), quoted
 
 
@@ -142,15 +146,17 @@ def _options(command: ArgumentParser) -> list[str]:
     return [f"{option} " for option in command._option_string_actions] + [o for one in inner for o in _options(one)]
 
 
-def test_all_options_of_the_table_of_commands_exist():
-    table = PAGES["docs/commands.md"].split("| command | what it does |\n", 1)[1].split("\n\n", 1)[0]
-    emitted = {re.split(r"[ `]", line)[3]: set(re.findall(r"--[a-z-]+", line)) for line in table.splitlines()[1:]}
-    assert emitted.keys() == commands().keys()
-    for name, options in emitted.items():
-        known = commands()[name]._option_string_actions.keys()
-        assert options <= known, name
+@pytest.mark.parametrize("program", PARSERS)
+def test_all_options_of_the_table_of_commands_exist(program):
+    lines = re.findall(rf"^\| `{program} ([\w-]+)(.*)", PAGES["docs/commands.md"], re.MULTILINE)
+    named = {name: set(re.findall(r"--[a-z-]+", line)) for name, line in lines}
+    assert named.keys() == commands(program).keys()
+    for name, options in named.items():
+        known = {option.strip() for option in _options(commands(program)[name])}
+        assert options <= known | {"--help"}, name
         missing = {option for option in known if option.startswith("--")} - options - {"--help"}
-        assert name == "calibrate" or not missing, f"{name} has {missing} as well"
+        has_kinds = any(isinstance(action.choices, dict) for action in commands(program)[name]._actions)
+        assert has_kinds or not missing, f"{name} has {missing} as well"
 
 
 def anchors(text: str) -> set[str]:

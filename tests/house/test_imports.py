@@ -107,6 +107,10 @@ def test_the_live_path_names_neither_numpy_nor_bleak_nor_asyncio() -> None:
     assert [name for name in MODULES if room(name) in LIVE and read(name)[1] & FORBIDDEN] == []
 
 
+def test_solepath_never_imports_the_laboratory() -> None:
+    assert [name for name in MODULES if "solepath_lab" in read(name)[1]] == []
+
+
 def test_no_name_holds_a_private_word() -> None:
     families = [line for line in (DOCS / "words.txt").read_text("utf-8").splitlines() if line and line[0] != "#"]
     private = {word for line in families for word in line.partition(":")[0].split()}
@@ -122,7 +126,7 @@ MAY_NAME_MODULES = {"types.registry", "__init__", "show.web.rehearsal"}
 
 
 def test_every_row_loads_and_a_class_is_called_as_its_row() -> None:
-    assert len(TABLE) == 6
+    assert len(TABLE) == 5
     for kind, rows in TABLE.items():
         for name in rows:
             assert load(kind, name).__name__ == name if kind in ("part", "aid", "link") else load(kind, name), name

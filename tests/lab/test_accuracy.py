@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 from quoted import below, nearly_the_same
 
-from solepath.lab.evaluate.jobs import find_data_sets
-from solepath.lab.evaluate.report import Result
-from solepath.lab.tables.markdown import accuracy_table
+from solepath_lab.evaluate.jobs import find_data_sets
+from solepath_lab.evaluate.report import Result
+from solepath_lab.tables.markdown import accuracy_table
 
 Evaluated = Callable[[str, str], Result]
 SOAK, LONG = pytest.mark.soak, pytest.mark.long
@@ -76,6 +76,6 @@ def test_a_known_velocity_is_no_worse_than_a_zero_velocity_on_recorded_insoles(e
 
 @pytest.mark.long
 def test_the_accuracy_that_is_quoted_is_what_evaluate_prints(evaluated: Evaluated, data_dir: Path) -> None:
-    """solepath evaluate DIR --recipe default --markdown prints it, before the data that need training in folds."""
+    """solepath-lab evaluate DIR --recipe default --markdown prints it, before the data that need training in folds."""
     results = [evaluated(found.name, "default") for found in find_data_sets(data_dir) if not found.folds]
     nearly_the_same(below("accuracy"), accuracy_table(results).splitlines())

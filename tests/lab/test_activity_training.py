@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import isclose
 
 from solepath.body.activity.chain import STAIRS_UP, WALK
-from solepath.lab.train.activities_course import DEFAULT_CHANCES, LabelledCourse, chances, changes
-from solepath.lab.train.hugadb import spans
 from solepath.types import Activity
+from solepath_lab.train.activities_course import DEFAULT_CHANCES, LabelledCourse, chances, changes
+from solepath_lab.train.hugadb import spans
 
 STANDING, WALKING, STAIRS = Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP
 

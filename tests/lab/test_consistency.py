@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from solepath.lab.measures.consistency import SURVEY_ERROR, consistency, consistency_at_end
+from solepath_lab.measures.consistency import SURVEY_ERROR, consistency, consistency_at_end
 
 
 def test_errors_as_large_as_their_covariance_have_a_mean_of_1_and_a_median_of_069() -> None:

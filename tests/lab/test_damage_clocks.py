@@ -11,11 +11,11 @@ from walks import columns_of
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Defect, DefectFound, HeelStrike
-from solepath.lab.damage.clock_walks import ClockJob, ClockWalk, error_between, read_walk
-from solepath.lab.damage.clocks import ClockOutcome, find_outcome, row
 from solepath.recording import open_source, shift_clock
 from solepath.session import Session
 from solepath.types import Foot
+from solepath_lab.damage.clock_walks import ClockJob, ClockWalk, error_between, read_walk
+from solepath_lab.damage.clocks import ClockOutcome, find_outcome, row
 
 
 @pytest.fixture(scope="module")

@@ -12,8 +12,8 @@ from walks import columns_of
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Defect
-from solepath.lab.damage.sensors import DefectOutcome, examine, pieces
 from solepath.types import Foot
+from solepath_lab.damage.sensors import DefectOutcome, examine, pieces
 
 ROUTE = Route().stand(2.0).walk(26.0, 1.3).turn(radians(180), radius=1.0).walk(10.0, 1.3).stop(1.0)
 MIRRORED = [f"{sensor} {axis} mirrored" for sensor in ("gyroscope", "accelerometer") for axis in "xyz"]

@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose
 
-from solepath.lab.measures.alignment import track_error
-from solepath.lab.measures.legs import leg_errors, leg_lengths
-from solepath.lab.measures.matching import Errors, Matching, interval_errors, match
-from solepath.lab.measures.score import Scored, summarise
-from solepath.lab.measures.strides import StrideScore, counted_score, position_errors, stride_score
+from solepath.validate.alignment import position_errors, track_error
+from solepath.validate.matching import Errors, Matching, interval_errors, match
+from solepath_lab.measures.legs import leg_errors, leg_lengths
+from solepath_lab.measures.score import Scored, summarise
+from solepath_lab.measures.strides import StrideScore, counted_score, stride_score
 
 SQUARE = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
 

@@ -1,7 +1,7 @@
 """The table of the figures without each part of the default recipe."""
 
-from solepath.lab.evaluate.ablation import ABLATED_RECIPES, recipes
 from solepath.recipes import DEFAULT
+from solepath_lab.evaluate.ablation import ABLATED_RECIPES, recipes
 
 
 def test_every_row_differs_from_the_default_and_from_every_other():

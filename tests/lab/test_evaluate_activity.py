@@ -4,14 +4,14 @@ import pytest
 
 from solepath import recipes
 from solepath.events import ActivityChanged, LiftRidden
-from solepath.lab.evaluate import learning
-from solepath.lab.evaluate.activity import score_rides, score_samples, score_windows, stairs_figures
-from solepath.lab.evaluate.jobs import evaluate
-from solepath.lab.evaluate.learning import Learner, TrainingSource, train_parts
-from solepath.lab.measures.confusion import ActivityScore
-from solepath.lab.train.hugadb import FOLDS, fold_of
 from solepath.show.timeline import Timeline
 from solepath.types import Activity
+from solepath_lab.evaluate import learning
+from solepath_lab.evaluate.activity import score_rides, score_samples, score_windows, stairs_figures
+from solepath_lab.evaluate.jobs import evaluate
+from solepath_lab.evaluate.learning import Learner, TrainingSource, train_parts
+from solepath_lab.measures.confusion import ActivityScore
+from solepath_lab.train.hugadb import FOLDS, fold_of
 
 STANDING, WALKING, RUNNING = Activity.STANDING, Activity.WALKING, Activity.RUNNING
 STAIRS_UP, UP, DOWN = Activity.STAIRS_UP, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN

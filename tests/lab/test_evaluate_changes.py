@@ -5,11 +5,11 @@ import json
 
 import pytest
 
-from solepath.lab.emulated.heading import CHECKED_TIMES
-from solepath.lab.evaluate.changes import BETTER, Verdict, compare_scores, names_missing, read_scores, verdict
-from solepath.lab.evaluate.datasets import DATASETS, EMULATED
-from solepath.lab.tables.scores import comparison_tables
 from solepath.recording import RecordingError
+from solepath_lab.emulated.heading import CHECKED_TIMES
+from solepath_lab.evaluate.changes import BETTER, Verdict, compare_scores, names_missing, read_scores, verdict
+from solepath_lab.evaluate.datasets import DATASETS, EMULATED
+from solepath_lab.tables.scores import comparison_tables
 
 NEITHER = {
     "nees_return", "held_return",

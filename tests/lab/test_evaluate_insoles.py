@@ -12,10 +12,10 @@ from walks import columns_of
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
-from solepath.lab.evaluate.jobs import evaluate
-from solepath.lab.measures.score import Scored
 from solepath.recipes import DEFAULT
 from solepath.types import Foot
+from solepath_lab.evaluate.jobs import evaluate
+from solepath_lab.measures.score import Scored
 
 ROUTE = Route().stand(2.0).walk(4.0, speed=0.8).walk(6.0, speed=1.6).stop(1.5)
 """A walk whose later strides are much longer, so that no stride has the length of the next one."""

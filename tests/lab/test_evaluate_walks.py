@@ -6,10 +6,10 @@ from numpy.testing import assert_allclose
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
-from solepath.lab.emulated.heading import HeadingTrack, heading_figures
-from solepath.lab.emulated.walks import place_figures
-from solepath.lab.measures.drift import drift_figures, drift_of_strides, drift_that_opens
 from solepath.types import Foot
+from solepath_lab.emulated.heading import HeadingTrack, heading_figures
+from solepath_lab.emulated.walks import place_figures
+from solepath_lab.measures.drift import drift_figures, drift_of_strides, drift_that_opens
 
 
 def straight(bend=0.0, climb=0.0):

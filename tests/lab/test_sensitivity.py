@@ -9,10 +9,10 @@ from quoted import below
 
 from solepath.calibration import Calibration
 from solepath.foot.cues import inertial
-from solepath.lab.evaluate.jobs import EvaluationJob
-from solepath.lab.evaluate.run import Meta, RunSettings
-from solepath.lab.evaluate.sensitivity import TABLE_COLUMNS, SensitivityJob, numbers
-from solepath.lab.measures.score import Scored
+from solepath_lab.evaluate.jobs import EvaluationJob
+from solepath_lab.evaluate.run import Meta, RunSettings
+from solepath_lab.evaluate.sensitivity import TABLE_COLUMNS, SensitivityJob, numbers
+from solepath_lab.measures.score import Scored
 
 NUMBERS = {number.name: number for number in numbers()}
 

@@ -12,11 +12,11 @@ from solepath.calibration import Calibration, CalibrationError, HeadingCalibrati
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import sampled
 from solepath.events import StrideTaken
-from solepath.lab.emulated.heading_walks import calibration_samples, insoles_of, wearer_of
 from solepath.session import Session
 from solepath.session.heading_walk import HeadingFit, heading_calibration, heading_walk
 from solepath.types import Foot, Sample, Site
 from solepath.types.attrs import evolve
+from solepath_lab.emulated.heading_walks import calibration_samples, insoles_of, wearer_of
 
 SEED = 101
 """A wearer whose heading drifts by some degrees a minute."""

@@ -14,9 +14,9 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.shoe import IN_SOLE
-from solepath.lab.emulated import place as emulated_place
-from solepath.lab.emulated.place import PlaceScore
 from solepath.types import SITE_OF_FOOT
+from solepath.validate import place as emulated_place
+from solepath.validate.place import PlaceScore
 
 HEADING_ERROR = 0.1
 """Standard deviation of a first heading that is given, rad: 6 degrees, as a phone's compass may have."""

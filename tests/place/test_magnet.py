@@ -18,8 +18,8 @@ from solepath.emulate.walk import SampledWalk
 from solepath.events import Defect
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor
-from solepath.lab.emulated.place import is_near, is_on_floor
 from solepath.types import SITE_OF_FOOT, Foot, Site, Vec3
+from solepath.validate.place import is_near, is_on_floor
 
 WAY = case_study()
 CAME = 60.0

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from walks import run_session
 
-from solepath.lab.evaluate.run import truth_of
 from solepath.recording.samples import load_samples
 from solepath.show.report import Report
 from solepath.show.report.sections.facts import facts_of
 from solepath.show.report.walk_summary import SWING_TIME
+from solepath_lab.evaluate.run import truth_of
 
 DATA_SETS = ("ipol_10m_uturn", "tripod_treadmill")
 """Data sets with labels of the swings of both feet."""

@@ -17,9 +17,9 @@ from web_pages import PATIENCE, WORDS, open_site, ready
 
 from solepath.emulate.routes.ways import BuildingWalk, case_study
 from solepath.emulate.walk import EmulatedWalk
-from solepath.lab.reproduce.footstep.wearers import WearerJob
 from solepath.link.devices.cc2541 import PROFILE_20HZ
 from solepath.show.web.serve import serving
+from solepath_lab.reproduce.footstep.wearers import WearerJob
 
 RECIPE = "footstep-tracker"
 CHANNELS = [channel.name for channel in PROFILE_20HZ.channels if channel.name.count("-") == 0][:-1]

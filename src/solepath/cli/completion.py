@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
     require("completion needs", "completion", "argcomplete")
     from argcomplete.shell_integration import shellcode
 
-    print(shellcode(["solepath"], shell=options.shell))
+    print(shellcode(["solepath", "solepath-lab"], shell=options.shell))
     return 0
 
 

@@ -15,7 +15,7 @@ from .common.files import RECORDING, OutputFile, add_force, check_outputs
 from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
-    from ..lab.emulated.demo import Demo
+    from .demo_walk import Demo
 
 REPORT_INTERVAL = 10.0
 """Time of the walk between two lines of progress without a terminal, s."""
@@ -66,10 +66,9 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run the demo; return the exit status."""
     from ..emulate.demo import ROUTE, radio, straight
-    from ..lab.emulated.demo import make_demo, make_indoors
-    from ..lab.tables.comparison import comparison_table, place_table
     from ..show.tables.gait import gait_lines
     from ..show.tables.summary import latency
+    from .demo_walk import comparison_table, make_demo, make_indoors, place_table
 
     if options.record is not None:
         check_outputs([OutputFile(options.record, RECORDING)], [], force=options.force)

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.machinery import ExtensionFileLoader
 from importlib.util import find_spec
 
 from ..calibration import CalibrationError
 from ..recording import RecordingError
 from ..types.extras import install_hint
-from . import check, completion, demo, evaluate, fleet_demo, reproduce, track, web
+from . import check, completion, demo, fleet_demo, track, web
 from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
 from .common.failure import Failure, note
@@ -34,8 +34,6 @@ COMMANDS = (
     emulate,
     convert,
     calibrate,
-    evaluate,
-    reproduce,
     fleet_demo,
     web,
     completion,
@@ -45,7 +43,6 @@ GROUPS = (
     ("with your sensors", ("scan", "live", "record", "calibrate")),
     ("with recordings", ("track", "check", "convert")),
     ("without sensors", ("demo", "emulate", "web", "fleet-demo")),
-    ("how good it is", ("evaluate", "reproduce")),
     ("this shell", ("completion",)),
 )
 """Commands by their purpose, in the order of the help."""
@@ -109,6 +106,11 @@ def form() -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return the exit status; errors become a line on stderr."""
+    return guarded(run, arguments)
+
+
+def guarded(run: Callable[[Sequence[str] | None], int], arguments: Sequence[str] | None) -> int:
+    """Run a program and return its exit status; errors become a line on stderr."""
     _replace_closed_streams()
     try:
         status = run(arguments)

@@ -91,14 +91,6 @@ TABLE: dict[str, dict[str, str]] = {
         "dot-orientation": "solepath.link.devices.dot:ORIENTATION_DRIVER",
         "thingy": "solepath.link.devices.thingy:DRIVER",
     },
-    # experiments of papers that `solepath reproduce` repeats
-    "experiment": {
-        "kupt-dfpc": "solepath.lab.reproduce.kupt_dfpc:reproduce",
-        "pressure-contour": "solepath.lab.reproduce.pressure_contour:reproduce",
-        "walking-modes": "solepath.lab.reproduce.walking_modes:reproduce",
-        "footstep-tracker": "solepath.lab.reproduce.footstep_tracker:reproduce",
-        "shoe-sensing": "solepath.lab.reproduce.shoe_sensing:reproduce",
-    },
 }
 """Module and, after the colon, attribute of each entry, by its kind and its name."""
 

@@ -14,10 +14,10 @@ from solepath.body.fuse.straight_ways import CalibrationFit, DriftHypothesis, St
 from solepath.calibration import Calibration
 from solepath.emulate.walk import SampledWalk, sampled
 from solepath.events import Defect, DefectFound, Event
-from solepath.lab.emulated.heading import follow, heading_figures
-from solepath.lab.emulated.heading_walks import calibration_samples, heading_route, insoles_of, wearer_of
 from solepath.session.heading_walk import heading_calibration, heading_walk
 from solepath.types.attrs import evolve
+from solepath_lab.emulated.heading import follow, heading_figures
+from solepath_lab.emulated.heading_walks import calibration_samples, heading_route, insoles_of, wearer_of
 
 WEARER, ANOTHER = 120, 121
 """Wearers whose drift differs by 3 mrad a stride, 9 degrees a minute."""

@@ -14,9 +14,9 @@ from solepath.calibration import HeadingCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import SampledWalk, sampled
 from solepath.events import Event, StrideTaken
-from solepath.lab.emulated.heading_walks import heading_route, insoles_of, wearer_of
 from solepath.types import Foot
 from solepath.types.attrs import evolve
+from solepath_lab.emulated.heading_walks import heading_route, insoles_of, wearer_of
 
 STRONG_LANDING = 10
 """Seed of a wearer whose sensors are cut off in nearly every stride."""

@@ -18,7 +18,8 @@ from solepath.emulate.radio import Radio
 from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import MPU9250
-from solepath.lab.calibrate.table import main, specimen, true_corrections
+from solepath_lab.command import main as lab
+from solepath_lab.emulated.by_hand import specimen, true_corrections
 
 IMU = specimen(MPU9250, 81)
 
@@ -47,7 +48,7 @@ def test_a_recording_of_packets_becomes_a_calibration_that_track_takes(tmp_path:
 
 @pytest.mark.soak
 def test_the_example_of_the_page_is_what_the_command_prints(tmp_path: Path) -> None:
-    main(["--record", str(tmp_path / "turns.jsonl"), "--seed", "7"])
+    lab(["emulated", "by-hand", "--record", str(tmp_path / "turns.jsonl"), "--seed", "7"])
     printed = run("calibrate", "sensor", tmp_path / "turns.jsonl", "--out", tmp_path / "me.json").stdout
     shown = printed.replace(str(tmp_path / "me.json"), "me.json")
     nearly_the_same(below("calibrate-sensor"), shown.splitlines())

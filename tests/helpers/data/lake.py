@@ -11,8 +11,8 @@ from solepath import Session
 from solepath.emulate import Route, sampled
 from solepath.emulate.walk import SampledWalk
 from solepath.emulate.wearers.curves import Array
-from solepath.lab.emulated.heading_walks import insoles_of
 from solepath.types import Foot
+from solepath_lab.emulated.heading_walks import insoles_of
 
 
 @cache

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from solepath.lab.evaluate.datasets import DATASETS
+from solepath_lab.evaluate.datasets import DATASETS
 
 Row = tuple[str, str]
 
@@ -159,7 +159,7 @@ def headlines(short: list[Row], bench: str) -> list[str]:
         found = re.search(pattern, row)
         if found is None:
             raise ValueError(f"{data}: {row!r} has no {pattern!r}")
-        command = f"`solepath evaluate DIR --only {data} --recipe default`"
+        command = f"`solepath-lab evaluate DIR --only {data} --recipe default`"
         table.append(f"| {title} | {sentence.format(*found.groups())} | {command} |")
     found = re.search(r"^real-time factor.*: (.+)$", bench, re.MULTILINE)
     if found is None:

@@ -6,8 +6,8 @@ from attrs import evolve
 
 from solepath import Packet, Sample, Site
 from solepath.events import Candidate
-from solepath.lab.emulated.evidence import NO_AIR_PRESSURE, NO_GYROSCOPE, ONE_FOOT
-from solepath.lab.emulated.reliability import BINS, WeightBin, count, join
+from solepath_lab.emulated.evidence import NO_AIR_PRESSURE, NO_GYROSCOPE, ONE_FOOT
+from solepath_lab.emulated.reliability import BINS, WeightBin, count, join
 
 SAMPLE = Sample(1.0, Site.RIGHT_FOOT, (0.0, 0.0, 9.8), (0.1, 0.0, 0.0), air_pressure=101325.0)
 

@@ -8,7 +8,7 @@ from solepath import Turn
 from solepath.emulate.routes.ways import corridor
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Candidate, Event, Placed, TurnMade
-from solepath.lab.emulated.place import score
+from solepath.validate.place import score
 
 FAR, NEAR = 30.0, 0.5
 """Distances of the heavier and the lighter candidate from the wearer, m."""

@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 from solepath.events import ActivityChanged
-from solepath.lab.measures.confusion import ActivityScore
-from solepath.lab.reproduce.footstep.activities import fitted_climb, stair_stretches
-from solepath.lab.reproduce.footstep.corridor import WatchedZones
-from solepath.lab.reproduce.footstep.figures import class_shares, share_right
 from solepath.show.timeline import Timeline
 from solepath.types import Activity, Site
 from solepath.types.vector import GRAVITY, ZERO
+from solepath_lab.measures.confusion import ActivityScore
+from solepath_lab.reproduce.footstep.activities import fitted_climb, stair_stretches
+from solepath_lab.reproduce.footstep.corridor import WatchedZones
+from solepath_lab.reproduce.footstep.figures import class_shares, share_right
 
 UP, DOWN, WALK = Activity.STAIRS_UP, Activity.STAIRS_DOWN, Activity.WALKING
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from solepath import StrideFused
-from solepath.lab.reproduce.kupt.figures import KnownSample, coverage, panels, without_drift
 from solepath.types import Foot
+from solepath_lab.reproduce.kupt.figures import KnownSample, coverage, panels, without_drift
 
 CYCLE = ("stands", "stands", "rolls", "air", "air", "air", "air", "air", "rolls", "air")
 """Samples of one stride from the start of the stance; 0.1 s each."""

@@ -1,4 +1,4 @@
-"""`solepath reproduce`: the statistics by hand, the papers' own figures, and a short run from end to end."""
+"""`solepath-lab reproduce`: the statistics by hand, the papers' own figures, and a short run from end to end."""
 
 import json
 import re
@@ -7,13 +7,14 @@ from pathlib import Path
 import pytest
 from commands import run, run_failing
 
-from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes.laps import straight
-from solepath.lab.reproduce import kupt_dfpc, shoe_sensing
-from solepath.lab.reproduce.kupt import walks as kupt_walks
-from solepath.lab.reproduce.published import KUPT_DFPC, LOOPS, PRESSURE_CONTOUR
-from solepath.lab.reproduce.shoe import walks as shoe_walks
-from solepath.lab.reproduce.tables import Statistics, statistics
+from solepath_lab.command import main as lab
+from solepath_lab.reproduce import kupt_dfpc, shoe_sensing
+from solepath_lab.reproduce.command import NAMES
+from solepath_lab.reproduce.kupt import walks as kupt_walks
+from solepath_lab.reproduce.published import KUPT_DFPC, LOOPS, PRESSURE_CONTOUR
+from solepath_lab.reproduce.shoe import walks as shoe_walks
+from solepath_lab.reproduce.tables import Statistics, statistics
 
 FIVE = ["mean", "std", "q1", "median", "q3"]
 
@@ -46,7 +47,8 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure_and_are_not_walked_agai
     monkeypatch.setattr(shoe_walks, "MANY_ROUNDS", 3)
     monkeypatch.chdir(tmp_path)
     options = ("reproduce", name, "--walks", 1, "--seed", 3, "--processes", 1, "--resume", "walks.jsonl")
-    done = run(*options, "--json", "table.json", "--figure")  # named after the experiment when nothing is said
+    # the figure is named after the experiment when nothing is said
+    done = run(*options, "--json", "table.json", "--figure", program=lab)
     assert done.returncode == 0 and re.fullmatch(r"(\d+) of \1: .+", done.stderr.splitlines()[-1])
     assert f"{name}: ours is emulated" in done.stdout
     assert done.stdout.endswith(f"figure drawn in {name}.png\n")
@@ -57,15 +59,16 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure_and_are_not_walked_agai
     assert list(table["table"]) == list(table["paper"])
     assert all(list(of) == FIVE for part in ("table", "paper") for of in table[part].values())
     assert all(of["mean"] is not None for of in table["table"].values())
-    again = run(*options)
+    again = run(*options, program=lab)
     assert re.fullmatch(r"(\d+) of \1 were already done\n", again.stderr)
     assert done.stdout.startswith(again.stdout) and len(again.stdout) > 500
 
 
 def test_what_is_wrong_is_rejected_in_one_line_before_the_walks_start(tmp_path):
     names = ", ".join(NAMES)
-    assert run_failing("reproduce", "xyzzy") == f"solepath: there is no experiment 'xyzzy'; there are: {names}\n"
-    assert run_failing("reproduce", "kupt") == "solepath: there is no experiment 'kupt': did you mean kupt-dfpc?\n"
+    far, near = (run_failing("reproduce", name, program=lab) for name in ("xyzzy", "kupt"))
+    assert far == f"solepath: there is no experiment 'xyzzy'; there are: {names}\n"
+    assert near == "solepath: there is no experiment 'kupt': did you mean kupt-dfpc?\n"
     nowhere = tmp_path / "none" / "table.json"
-    assert f"{nowhere}: there is no folder" in run_failing("reproduce", "kupt-dfpc", "--json", nowhere)
+    assert f"{nowhere}: there is no folder" in run_failing("reproduce", "kupt-dfpc", "--json", nowhere, program=lab)
     assert list(tmp_path.iterdir()) == []

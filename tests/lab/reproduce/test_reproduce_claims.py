@@ -12,9 +12,9 @@ import re
 import numpy as np
 import pytest
 
-from solepath.lab.reproduce import footstep_tracker, kupt_dfpc, pressure_contour, walking_modes
-from solepath.lab.reproduce.runner import Runner
-from solepath.lab.reproduce.tables import Reproduction
+from solepath_lab.reproduce import footstep_tracker, kupt_dfpc, pressure_contour, walking_modes
+from solepath_lab.reproduce.runner import Runner
+from solepath_lab.reproduce.tables import Reproduction
 
 pytestmark = pytest.mark.long
 

@@ -1,14 +1,15 @@
-"""`solepath reproduce --resume` and `--seeds`: walks that are done are not walked again, and seeds are pooled."""
+"""`solepath-lab reproduce --resume` and `--seeds`: walks that are done are not walked again, and seeds are pooled."""
 
 import attrs
 import pytest
 from commands import run_failing
 
-from solepath.lab.reproduce.done_jobs import DoneJobs, DoneJobsError
-from solepath.lab.reproduce.runner import Runner
-from solepath.lab.reproduce.seeds import reproduce_seeds
-from solepath.lab.reproduce.tables import FigureRow, Reproduction, Statistics, as_json
-from solepath.lab.tables.comparison import comparison_with_paper
+from solepath_lab.command import main as lab
+from solepath_lab.reproduce.done_jobs import DoneJobs, DoneJobsError
+from solepath_lab.reproduce.runner import Runner
+from solepath_lab.reproduce.seeds import reproduce_seeds
+from solepath_lab.reproduce.tables import FigureRow, Reproduction, Statistics, as_json
+from solepath_lab.tables.comparison import comparison_with_paper
 
 
 @attrs.frozen
@@ -71,7 +72,7 @@ def test_a_file_of_something_else_stays_as_it_is(tmp_path, content, words):
     with pytest.raises(DoneJobsError, match=words):
         runner_of(file)
     assert file.read_bytes() == content
-    line = run_failing("reproduce", "kupt-dfpc", "--walks", 1, "--resume", file)
+    line = run_failing("reproduce", "kupt-dfpc", "--walks", 1, "--resume", file, program=lab)
     assert line.startswith(f"solepath: {file}: ") and words in line and line.count("\n") == 1
 
 

@@ -18,11 +18,11 @@ from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.events import StrideTaken
-from solepath.lab.train.turns import read, train_weights
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection
 from solepath.papers.footstep_tracker.toe_out import ToeOut, printed_angle, toe_out, toe_out_calibration
 from solepath.types import Foot, Turn
+from solepath_lab.train.turns import read, train_weights
 
 
 def stride_of(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.0, 0.0)) -> StrideTaken:

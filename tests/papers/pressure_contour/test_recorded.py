@@ -9,10 +9,10 @@ from walks import of, run_session
 
 from solepath import StrideTaken
 from solepath.calibration import Calibration
-from solepath.lab.evaluate.insoles import smart_insole
 from solepath.papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
 from solepath.recipes import DEFAULT, Recipe
 from solepath.recording.samples import load_samples
+from solepath_lab.evaluate.insoles import smart_insole
 
 LONGEST_STRIDE = 2.0
 """Length, m, that no stride of these walks has, but two strides taken for one would have."""

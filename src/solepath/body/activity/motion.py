@@ -3,7 +3,7 @@
 `motion_votes` turns the features of both feet into the likelihood of each motion with them.
 
 Each network has one hidden layer of tanh units and softmax outputs. One network uses all features; the other one serves
-feet without a gyroscope. `solepath.lab.train.activities` trains them and lists the training data. The result is
+feet without a gyroscope. `solepath-lab train activities` trains them and lists the training data. The result is
 activities.json in this directory. The file also has the transition chances and label delays that chain.py uses.
 """
 

@@ -39,7 +39,7 @@ from ...types.attrs import define, evolve, field, frozen
 DRIFT = 0.0014
 """Standard deviation of the drift of one foot, rad a stride (4.4 degrees a minute), unless it was calibrated.
 
-On recordings a foot drifts by 1 to 7 degrees a minute (3.5 rms) with its bias (drift of `solepath evaluate`);
+On recordings a foot drifts by 1 to 7 degrees a minute (3.5 rms) with its bias (drift of `solepath-lab evaluate`);
 calibration walks of 60 emulated wearers show 0.0016."""
 TURNING = 0.007
 """Standard deviation of the relative error of a turn of one foot, no unit, unless it was calibrated.

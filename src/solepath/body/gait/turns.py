@@ -4,7 +4,7 @@ Liu et al. 2015, IEEE MASS, section V.E: "we use the degree of both foot as feat
 linear classifier on the two angles cannot recognise about-turns, because they have larger angles than the turns to
 either side. It can when the sizes of the angles are features too. The features of a turn are left, right, |left|,
 |right| (in rad / pi) and 1. The class is the one whose linear function of the features is largest. The weights come
-from `python -m solepath.lab.train.turns`, which lists the training data. For a foot without samples, the other foot's
+from `solepath-lab train turns`, which lists the training data. For a foot without samples, the other foot's
 angle is used."""
 
 from __future__ import annotations

@@ -34,8 +34,8 @@ def add_sensor(kinds: Any) -> None:
 
 
 def _sensor(options: argparse.Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
-    from ...lab.calibrate.sensor import fit_sensors, sensor_calibration
     from ...recording.decoded import decode_recording
+    from .by_hand.sensor import fit_sensors, sensor_calibration
 
     source = source_of(options.files, feet_of(options), mapping_of(options), own=drivers_of(options))
     fits = fit_sensors(decode_recording(source).samples, source.foot)

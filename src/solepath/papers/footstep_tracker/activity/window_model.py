@@ -1,6 +1,6 @@
 """Model of `TwoSecondWindows`: thresholds of the decision tree, and mixtures for windows of walking and of stairs.
 
-`solepath.lab.train.footstep_activity` learns the model. `shipped` reads it from footstep_activity.json, which names its
+`solepath-lab train footstep-activity` learns the model. `shipped` reads it from footstep_activity.json, which names its
 training data. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations

@@ -1,0 +1,110 @@
+"""Worth of a compass in the feet on a plan that knows its north, in the building whose halves are alike.
+
+    solepath-lab emulated north [--walks N] [--seed S] [--disturbance DEGREES] [--recipe NAME]
+
+prints a table of docs/compass.md as Markdown: walks without a start in `HALF_TURN`, with insoles that have a
+magnetometer, on a plan without a north, on one with the right north, and on one whose north is wrong. Magnetic north is
+off true north by `DECLINATION`."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Sequence
+from math import cos, fsum, hypot, pi, radians, sin
+from typing import Any
+
+import numpy as np
+from attrs import evolve
+
+from solepath import recipes
+from solepath.cli.common.inputs import add_recipe_name
+from solepath.emulate.routes.building import HALF_TURN
+from solepath.emulate.routes.ways import BuildingWalk, wandering
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.magnetic_field import EARTH, MagneticField
+from solepath.emulate.sensors.parts import AK8963
+from solepath.emulate.walk import SampledWalk, sampled
+from solepath.events import PlanContradicted
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Anchor
+from solepath.session import Session
+from solepath.types import SITE_OF_FOOT, Foot
+from solepath.validate.place import NEAR_DISTANCE, PlaceScore, score
+
+from ..options import add_command, add_seeds
+
+FIRST_SEED, WALKS = 7001, 24
+"""First seed and number of walks."""
+DECLINATION = radians(4.0)
+"""Angle from true to magnetic north, clockwise, rad: that of Central Europe (WMM2025)."""
+DISTURBANCE = 20.0
+"""Disturbance of the field by the building, degrees (magnetic_field.py)."""
+BEARINGS: dict[str, float | None] = {
+    "no north": None,
+    "right north": 0.0,
+    "north a quarter-turn off": 0.5 * pi,
+    "north half a turn off": pi,
+}
+"""Bearing of the plan, rad, by the name of a row; the true one is 0."""
+
+
+def walk_with_compass(way: BuildingWalk, disturbance: float, seed: int) -> SampledWalk:
+    """Return the samples of a way, with magnetometers in the insoles and magnetic north as `DECLINATION` says.
+
+    `disturbance` is that of the field, rad. The field of the emulator has the frame of the wearer's first heading."""
+    horizontal, direction = hypot(EARTH[0], EARTH[1]), 0.5 * pi - DECLINATION - (way.start.heading or 0.0)
+    earth = (horizontal * cos(direction), horizontal * sin(direction), EARTH[2])
+    insoles = {SITE_OF_FOOT[foot]: Insole(cells=8, mag=AK8963) for foot in Foot}
+    return sampled(way.route, insoles=insoles, field=MagneticField(disturbance, seed, earth), seed=seed)
+
+
+def plan_with(bearing: float | None, way: BuildingWalk) -> IndexedPlan:
+    """Return the plan of the way's building with this bearing, rad; None for a plan without a north."""
+    anchor = None if bearing is None else Anchor(48.0, 11.0, bearing)
+    return IndexedPlan(evolve(way.building.plan, anchor=anchor))
+
+
+def score_north(way: BuildingWalk, walk: SampledWalk, bearing: float | None, recipe: str) -> tuple[PlaceScore, bool]:
+    """Return the score of a walk on a plan with this bearing, and whether the walls contradicted the compass."""
+    session = Session(recipes.by_name(recipe), floorplan=plan_with(bearing, way))
+    events = session.feed(walk.samples) + session.finish()
+    contradicted = any(isinstance(event, PlanContradicted) for event in events)
+    return score(way, walk.walker, walk.truth, events), contradicted
+
+
+def row(name: str, scores: Sequence[tuple[PlaceScore, bool]]) -> str:
+    """Return a row of the table."""
+    walks = len(scores)
+    off = [distance for one, _ in scores for distance in one.off]
+    kept = sum([one.strides > 0 and not one.dropped for one, _ in scores])
+    right = sum([bool(one.off) and one.off[-1] < NEAR_DISTANCE for one, _ in scores])
+    near = sum([distance < NEAR_DISTANCE for distance in off]) / max(len(off), 1)
+    contradicted = sum([contradicted for _, contradicted in scores])
+    quantile = float(np.quantile(off, 0.95)) if off else 0.0
+    cells = (f"{kept} of {walks}", f"{right} of {walks}", f"{100.0 * near:.0f} %",
+             f"{fsum(off) / max(len(off), 1):.2f} m", f"{quantile:.2f} m", str(contradicted))  # fmt: skip
+    return f"| {name} | {' | '.join(cells)} |"
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
+    command = add_command(commands, "north", "worth of a compass on a plan that knows its north", __doc__ or "")
+    add_seeds(command, WALKS, FIRST_SEED)
+    command.add_argument("--disturbance", metavar="DEGREES", type=float, default=DISTURBANCE, help="of the field")
+    add_recipe_name(command, default="default", help="recipe of the sessions")
+    command.set_defaults(run=run)
+
+
+def run(options: Namespace) -> int:
+    """Print the table; return the exit status."""
+    scores: dict[str, list[tuple[PlaceScore, bool]]] = {name: [] for name in BEARINGS}
+    for seed in range(options.seed, options.seed + options.walks):
+        way = wandering(seed, HALF_TURN)
+        walk = walk_with_compass(way, radians(options.disturbance), seed)
+        for name, bearing in BEARINGS.items():
+            scores[name].append(score_north(way, walk, bearing, options.recipe))
+    print("| plan | true place kept | right at the end | strides within 3 m | mean error | 95 % | contradicted |")
+    print("|---|---:|---:|---:|---:|---:|---:|")
+    for name, found in scores.items():
+        print(row(name, found))
+    return 0

@@ -1,0 +1,167 @@
+"""Contact and flight time, strike angle and vertical oscillation of emulated runners, against the truth.
+
+    solepath-lab emulated runs [--runs N] [--seed S]
+
+prints the table of docs/gait.md as Markdown. The emulated force under a foot is half a sine wave, as in the model from
+which the oscillation is estimated: the table shows how errors of contact and flight time act on it, not how well the
+model fits people. Its true value is twice the integral of that force."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Sequence
+from math import degrees, fsum, sqrt
+from operator import attrgetter
+from typing import Any
+
+import numpy as np
+from attrs import evolve, frozen
+
+from solepath.emulate.routes.route import Route
+from solepath.emulate.routes.styles import StrideKind
+from solepath.emulate.sensors.device import device_rng
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import GaitCycleMeasured
+from solepath.session import Session
+from solepath.show.report.running import Running, running_cycle
+from solepath.types import OTHER, Foot
+from solepath.types.vector import GRAVITY
+
+from ..options import add_command, add_seeds
+from .heading_walks import insoles_of, wearer_of
+
+FIRST_SEED, RUNS = 1, 12
+"""First seed and number of runs."""
+SLOWEST, FASTEST = 2.2, 3.8
+"""Least and largest speed of a run, m/s."""
+DISTANCE = 60.0
+"""Distance that is run, m."""
+MATCH_TIME = 0.15
+"""Largest difference of the time of a contact from the true one, s."""
+STEP = 0.001
+"""Interval by which the force is integrated, s."""
+
+
+@frozen
+class RunScore:
+    """The gait cycles of one run, measured and true."""
+
+    measured: tuple[Running, ...]
+    """Measures of the steady cycles of running."""
+    true: tuple[Running, ...]
+    """True values of the same cycles."""
+
+
+def run_of(seed: int, speed: float) -> Walker:
+    """Return a run on the level by the wearer of a seed, with a few walked metres before and after it."""
+    return Walker(
+        Route().stand(3.0).walk(5.0, 1.3).jog(DISTANCE, speed).walk(5.0, 1.3).stop(2.0), wearer_of(seed), seed
+    )
+
+
+def oscillation_of(walker: Walker, contact: float, next_contact: float) -> float:
+    """Return the rise of the centre of mass from its lowest to its highest point from one contact, s, to the next, m.
+
+    In a steady run it is as high at the second contact as at the first."""
+    t = np.arange(contact, next_contact, STEP)
+    acceleration = GRAVITY * (walker.loads.body(t) / walker.loads.weight - 1.0)
+    height = STEP * np.cumsum(STEP * np.cumsum(acceleration))
+    height -= (height[-1] - height[0]) * (t - t[0]) / (t[-1] - t[0])
+    return float(height.max() - height.min())
+
+
+def true_cycles(walker: Walker) -> dict[tuple[Foot, float], Running]:
+    """Return the true measures of cycles of running, by foot and time of the contact that starts the cycle, s."""
+    found: dict[tuple[Foot, float], Running] = {}
+    for foot in Foot:
+        strides, others = walker.plan.strides[foot], walker.plan.strides[OTHER[foot]]
+        for before, after in zip(strides, strides[1:], strict=False):
+            between = [one for one in others if before.heel_strike < one.heel_strike < after.heel_strike]
+            if len(between) != 1 or {before.kind, between[0].kind, after.kind} != {StrideKind.RUN}:
+                continue
+            found[foot, before.heel_strike] = Running(
+                contact_time=after.toe_off - before.heel_strike,
+                flight_time=between[0].heel_strike - after.toe_off,
+                strike_angle=after.strike_pitch,
+                vertical_oscillation=oscillation_of(walker, before.heel_strike, between[0].heel_strike),
+            )
+    return found
+
+
+def score_run(walker: Walker, with_cells: bool) -> RunScore:
+    """Return the steady cycles of running by the default recipe, with the true ones.
+
+    The pressure cells of the insoles are used or, without `with_cells`, their inertial sensors only."""
+    samples = [
+        sample
+        for site, insole in insoles_of(walker.seed).items()
+        for sample in insole.samples(walker, site, device_rng(walker.seed, site))
+    ]
+    if not with_cells:
+        samples = [evolve(sample, pressure=None) for sample in samples]
+    session, truth = Session(), true_cycles(walker)
+    measured: list[Running] = []
+    true: list[Running] = []
+    for event in session.feed(sorted(samples, key=attrgetter("t"))) + session.finish():
+        if not isinstance(event, GaitCycleMeasured) or not event.steady:
+            continue
+        run = running_cycle(event)
+        times = [t for foot, t in truth if foot is event.foot and abs(t - event.t_start) < MATCH_TIME]
+        if run is not None and times:
+            measured.append(run)
+            true.append(truth[event.foot, times[0]])
+    return RunScore(tuple(measured), tuple(true))
+
+
+ROWS: tuple[tuple[str, str, str, float, int], ...] = (
+    ("contact time", "contact_time", "ms", 1000.0, 0),
+    ("flight time", "flight_time", "ms", 1000.0, 0),
+    ("strike angle", "strike_angle", "degrees", degrees(1.0), 1),
+    ("vertical oscillation", "vertical_oscillation", "mm", 1000.0, 0),
+)
+"""Label, field, unit, factor from the SI unit, and digits of each row."""
+
+
+def errors_of(scores: Sequence[RunScore], name: str) -> tuple[list[float], list[float]]:
+    """Return the errors of a measure in all cycles that have it, and its true values there, in SI units."""
+    errors: list[float] = []
+    values: list[float] = []
+    for score in scores:
+        for measured, true in zip(score.measured, score.true, strict=True):
+            value, true_value = getattr(measured, name), getattr(true, name)
+            if value is not None:
+                errors.append(value - true_value)
+                values.append(true_value)
+    return errors, values
+
+
+def row(sensors: str, scores: Sequence[RunScore], label: str, name: str, unit: str, factor: float, digits: int) -> str:
+    """Return a row of the table."""
+    errors, values = errors_of(scores, name)
+    cycles = sum([len(score.measured) for score in scores])  # whole numbers
+    if not errors:
+        return f"| {sensors} | {label}, {unit} | 0 of {cycles} | - | - | - |"
+    bias = fsum(errors) / len(errors)
+    spread = sqrt(fsum([(error - bias) ** 2 for error in errors]) / len(errors))
+    figures = [f"{factor * one:.{digits}f}" for one in (fsum(values) / len(values), bias, spread)]
+    return f"| {sensors} | {label}, {unit} | {len(errors)} of {cycles} | {' | '.join(figures)} |"
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
+    command = add_command(commands, "runs", "measures of runners against the truth", __doc__ or "")
+    add_seeds(command, RUNS, FIRST_SEED, "runs")
+    command.set_defaults(run=run)
+
+
+def run(options: Namespace) -> int:
+    """Print the table; return the exit status."""
+    speeds = np.linspace(SLOWEST, FASTEST, options.runs).tolist()
+    walkers = [run_of(options.seed + number, speed) for number, speed in enumerate(speeds)]
+    print("| sensors | measure | cycles | true mean | mean error | SD of the errors |")
+    print("|---|---|---:|---:|---:|---:|")
+    for sensors, with_cells in (("insoles", True), ("inertial only", False)):
+        scores = [score_run(walker, with_cells) for walker in walkers]
+        for one in ROWS:
+            print(row(sensors, scores, *one))
+    return 0

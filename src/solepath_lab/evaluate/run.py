@@ -1,0 +1,131 @@
+"""Runs one recording through one session and collects the events that are scored.
+
+The session receives only t, acc, gyro and pressure from the file, never the truth that is in the same file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import attrs
+import numpy as np
+from attrs import frozen
+
+from solepath.body.part import ActivityPart, Position
+from solepath.calibration import Calibration
+from solepath.calibration.records import merged
+from solepath.events import Event
+from solepath.recipes import Recipe
+from solepath.recording.samples import load_samples
+from solepath.recording.samples.npz import read_arrays
+from solepath.session import Session
+from solepath.types import Foot, Sample
+from solepath.validate.alignment import Floats
+from solepath.validate.gathered import EventCollection, FootRun
+
+from ..measures.score import Scored
+
+
+@frozen
+class RunSettings:
+    """The recipe of a run, and the calibration that is known beforehand."""
+
+    recipe: Recipe
+    calibration: Calibration = Calibration()
+    activity: ActivityPart | None = None
+    """Activity part that replaces the recipe's own: a part of the same class, trained on other wearers."""
+
+
+@frozen(eq=False)
+class ScoredTrack:
+    """The wearer's positions at successive times."""
+
+    t: Floats
+    """Times, (n,), s."""
+    positions: Floats
+    """Positions in the world frame, (n,3), m."""
+    covariances: Floats
+    """Covariances of the horizontal positions, (n,3): xx, xy, yy, m^2."""
+
+
+@frozen(eq=False)
+class RecordingRun:
+    """The events of the session that processed a recording, and the time that it took."""
+
+    feet: dict[Foot, FootRun]
+    collection: EventCollection
+    samples: int
+    """Number of samples."""
+    seconds: float
+    """Wall time that the session took, s."""
+    body: ScoredTrack | None = None
+    """The wearer's position after every sample; None when it was not requested."""
+
+
+def run(
+    path: Path,
+    settings: RunSettings,
+    *,
+    without_pressure: bool = False,
+    calibration: Calibration | None = None,
+    poses: bool = True,
+    body: bool = False,
+) -> RecordingRun:
+    """Run the recording at `path` through a session, sample by sample.
+
+    `without_pressure` hides from the session the pressure from which the truth was made. `calibration` has the
+    positions of the cells. `poses` requests each foot's live position at every sample, `body` the wearer's position."""
+    known = settings.calibration if calibration is None else merged(settings.calibration, calibration)
+    recipe = (
+        settings.recipe if settings.activity is None else settings.recipe.replace_part(ActivityPart, settings.activity)
+    )
+    session = Session(recipe, calibration=known, poses=poses)
+    recording = load_samples(path)
+    samples = list(recording)
+    if without_pressure:
+        samples = [attrs.evolve(sample, pressure=None) for sample in samples]
+    collection, wearer, seconds = run_timed(session, samples, 0.0 if body else None)
+    feet = {table.foot: collection.foot(table.foot) for table in recording.tables}
+    return RecordingRun(feet, collection, len(samples), seconds, wearer)
+
+
+def run_timed(
+    session: Session, samples: Iterable[Sample], interval: float | None
+) -> tuple[EventCollection, ScoredTrack | None, float]:
+    """Return the session's events for the samples, the wearer's track and the wall time, s.
+
+    The track has a position every `interval` s, or after every sample when that is 0. With None there is no track."""
+    outputs: list[list[Event]] = []
+    positions: list[Position] = []
+    started_at = perf_counter()
+    for sample in samples:
+        outputs.append(session.feed(sample))
+        due = interval is not None and (interval == 0.0 or sample.t >= len(positions) * interval)
+        if due and (position := session.position) is not None:
+            positions.append(position)
+    outputs.append(session.finish())
+    seconds = perf_counter() - started_at
+    covariances = [(one.covariance[0], one.covariance[1], one.covariance[3]) for one in positions]
+    track = ScoredTrack(
+        np.array([one.t for one in positions]), np.array([one.position for one in positions]).reshape(-1, 3),
+        np.array(covariances).reshape(-1, 3),
+    )  # fmt: skip
+    return EventCollection.of(event for events in outputs for event in events), track if positions else None, seconds
+
+
+Meta = dict[str, Any]
+"""A recording's entry in dataset.json."""
+Arrays = dict[str, Any]
+"""Arrays of a recording's file by name."""
+
+
+def truth_of(path: Path) -> Arrays:
+    """Return the arrays of the truth (names with gt_), the times and the pressure in a recording's file."""
+    return read_arrays(path, lambda key: key == "t" or key.startswith(("t_", "gt_", "pressure")))
+
+
+def scored(path: Path, result: RecordingRun, **scores: Any) -> Scored:
+    """Return the scores of a run with its name, number of samples and wall time."""
+    return Scored(path.stem, samples=result.samples, seconds=result.seconds, **scores)

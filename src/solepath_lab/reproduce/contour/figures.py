@@ -1,0 +1,72 @@
+"""Curves of figures 7 and 9 of Bebek et al. 2010: velocities in one stance, and the filter's bias over a walk."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import numpy as np
+
+from solepath.emulate.walk import SampledWalk
+from solepath.papers.pressure_contour.contour import Contours
+from solepath.papers.pressure_contour.printed import printed_contours
+from solepath.types import Foot, Layout
+from solepath.types.vector import GRAVITY
+
+from ..tables import DrawStyle, PictureTrack
+from ..walks import thin_out
+from .runs import ContourRun
+
+STANCE_SHOWN = 20
+"""Number of the stance after the halt that figure 7 shows."""
+
+
+def stance_curves(walked: SampledWalk, layout: Layout, foot: Foot, after: float) -> tuple[PictureTrack, ...]:
+    """Return the curves of figure 7 over one stance: time, ms, since foot-flat, and velocities.
+
+    They are the forward velocity v_x of the heel, mm/s, by the emulator in place of the optical tracker, the pitch rate
+    of the sensor, mrad/s, and the speeds of the contours, mm/s: those of shares, which are ours, and those of 20 to 70
+    kPa, which are the paper's v_cntr, if the cells have a known scale."""
+    strides = [one for one in walked.truth.strides(foot) if one.t_start > after]
+    if len(strides) < 2:
+        return ()
+    k = min(STANCE_SHOWN, len(strides) - 2)
+    landing, leaving = strides[k], strides[k + 1]
+    shares, printed = Contours(), printed_contours()
+    if shares.set_layout(layout) is not None:
+        return ()
+    printed.set_layout(layout)
+    contours = {"ours": shares, "20 to 70 kPa": printed} if printed.levels_in_pascals else {"ours": shares}
+    samples = [one for one in walked.samples if landing.t_heel_strike <= one.t <= leaving.t_toe_off]
+    t = np.array([one.t for one in samples])
+    kinematics = walked.truth.pose(foot, t)
+    w, x, y, z = kinematics.attitude.T
+    heading = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    forward = kinematics.velocity[:, 0] * np.cos(heading) + kinematics.velocity[:, 1] * np.sin(heading)
+    since = (1e3 * (t - landing.t_end)).tolist()
+    speeds: dict[str, list[tuple[float, float]]] = {name: [] for name in contours}
+    for moment, sample in zip(since, samples, strict=True):
+        if sample.pressure is None:
+            continue
+        for name, one in contours.items():
+            velocity = one.velocity(sample.t, [sample.pressure[i] for i in one.cells])
+            if velocity is not None:
+                speeds[name].append((moment, 1e3 * hypot(*velocity)))
+    rates = [(moment, 1e3 * one.gyro[1]) for moment, one in zip(since, samples, strict=True) if one.gyro is not None]
+    return (
+        PictureTrack(
+            "v_x of the heel, true, mm/s", tuple(zip(since, (1e3 * forward).tolist(), strict=True)), DrawStyle.TRUTH
+        ),
+        PictureTrack("pitch rate by the gyroscope, mrad/s", tuple(rates)),
+        *(PictureTrack(f"speed of the contours, {name}, mm/s", tuple(points)) for name, points in speeds.items()),
+    )
+
+
+def bias_curves(run: ContourRun) -> tuple[PictureTrack, ...]:
+    """Return the curves of figure 9: time, min, and the bias of each axis of the accelerometer, mg."""
+    minutes = (run.t - run.t[0]) / 60.0
+    return tuple(
+        [
+            PictureTrack(f"bias of {axis}", thin_out(np.stack([minutes, run.bias[:, k] / GRAVITY * 1e3], axis=1), 600))
+            for k, axis in enumerate("xyz")
+        ]
+    )

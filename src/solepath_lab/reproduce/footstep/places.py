@@ -1,0 +1,101 @@
+"""Place on the floor plan (figs. 13 f to h, 14 and 15): by one foot, by two, with walls that drop and with weights.
+
+The way of the paper's case study is walked in FOUR_LOOPS, which has no symmetry; ways of the wearer's own are walked
+there and in HALF_TURN, whose halves differ in nothing but where they lie."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import hypot
+
+import numpy as np
+from attrs import evolve, field, frozen
+
+from solepath.emulate.routes.building import FOUR_LOOPS, HALF_TURN
+from solepath.emulate.routes.ways import BuildingWalk, case_study, wandering
+from solepath.emulate.walk import EmulatedWalk
+from solepath.events import Event, Placed, TurnMade
+from solepath.floorplan.plan import Start
+from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
+from solepath.recipes import Recipe
+from solepath.session import Session
+from solepath.types import Packet, Site
+from solepath.validate import place as emulated_place
+from solepath.validate.place import PlaceScore, is_on_floor
+
+from ...emulated.evidence import HEADING_ERROR
+from .wearers import DROPS_AT_WALLS, WearerJob
+
+BUILDINGS = {"asymmetric": FOUR_LOOPS, "half turn": HALF_TURN}
+"""Buildings of the wearers' own ways."""
+
+
+@frozen
+class PlaceResults:
+    """The places of one wearer."""
+
+    scores: dict[str, PlaceScore]
+    """Score by the way and the variant, such as "case study, two feet"."""
+    by_stride: dict[str, tuple[float, ...]] = field(factory=dict, repr=False)
+    """Error after each placed stride of the case study, m, by variant."""
+    by_turn: dict[str, tuple[float, ...]] = field(factory=dict, repr=False)
+    """Mean error between each turn of the case study and the next one, m, by variant."""
+
+
+def score_places(job: WearerJob) -> PlaceResults:
+    """Return the places of one wearer."""
+    way = case_study()
+    walk = job.walk(way.route)
+    one_foot = [packet for packet in walk.packets if packet.site is Site.RIGHT_FOOT]
+    runs: dict[str, list[Event]] = {
+        "two feet": _run(FOOTSTEP_TRACKER, walk.packets, way),
+        "one foot": _run(FOOTSTEP_TRACKER, one_foot, way),
+        "dropped at walls": _run(DROPS_AT_WALLS, walk.packets, way),
+        "printed": _run(FOOTSTEP_TRACKER_PRINTED, walk.packets, way),
+    }
+    scores = {f"case study, {name}": _scored(way, walk, events, name == "two feet") for name, events in runs.items()}
+    by_stride, by_turn = {}, {}
+    for name in ("two feet", "one foot"):
+        by_stride[name], by_turn[name] = _errors(way, walk, runs[name])
+    for title, building in BUILDINGS.items():
+        way = wandering(job.seed, building)
+        walk = job.walk(way.route, more=800)
+        error = float(np.random.default_rng([job.seed, 19]).normal(0.0, HEADING_ERROR))
+        start = Start(heading=(way.start.heading or 0.0) + error)
+        runs = {
+            "weights": _run(FOOTSTEP_TRACKER, walk.packets, way),
+            "dropped at walls": _run(DROPS_AT_WALLS, walk.packets, way),
+            "first heading": _run(FOOTSTEP_TRACKER, walk.packets, way, start),
+        }
+        scores |= {f"{title}, {name}": _scored(way, walk, events, False) for name, events in runs.items()}
+    return PlaceResults(scores, by_stride, by_turn)
+
+
+def _run(recipe: Recipe, packets: Sequence[Packet], way: BuildingWalk, start: Start | None = None) -> list[Event]:
+    session = Session(recipe, floorplan=way.building.plan, start=start)
+    return session.feed(packets) + session.finish()
+
+
+def _scored(way: BuildingWalk, walk: EmulatedWalk, events: list[Event], drawn: bool) -> PlaceScore:
+    found = emulated_place.score(way, walk.walker, walk.truth, events)
+    return found if drawn else evolve(found, path=(), track=(), before=())
+
+
+def _errors(way: BuildingWalk, walk: EmulatedWalk, events: list[Event]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return the error after each placed stride on the floor, m, and its mean between each turn and the next."""
+    placed = [event for event in events if isinstance(event, Placed) and is_on_floor(walk.truth, event.t)]
+    if not placed:
+        return (), ()
+    places = way.places(walk.walker, np.array([one.t for one in placed]))
+    heights = {level.id: level.elevation for level in way.building.plan.levels}
+    off = [
+        hypot(one.position[0] - x, one.position[1] - y, heights[one.level] - heights[level])
+        for one, (level, x, y) in zip(placed, places, strict=True)
+    ]
+    turns = [event.t for event in events if isinstance(event, TurnMade) and event.turn is not None]
+    ends = [t for t in turns if t > placed[0].t] + [float("inf")]
+    means = []
+    for start, end in zip(ends, ends[1:], strict=False):
+        between = [error for one, error in zip(placed, off, strict=True) if start <= one.t < end]
+        means.append(sum(between) / len(between) if between else 0.0)
+    return tuple(off), tuple(means)

@@ -1,0 +1,92 @@
+"""Turns: the angle by 30 degrees (fig. 13 d), and the class as left, right or about-turn (fig. 13 e)."""
+
+from __future__ import annotations
+
+from math import degrees, fsum, pi, radians, remainder
+
+import numpy as np
+from attrs import frozen
+
+from solepath.emulate.routes.route import Route
+from solepath.events import TurnMade
+from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
+from solepath.recipes import Recipe
+from solepath.types import Packet, Turn
+
+from ..walks import final_strides, run_session
+from .wearers import PRINTED_FILTER, PRINTED_TURN, WearerJob
+
+TURN_ANGLES = tuple(radians(angle) for angle in range(-180, 181, 30) if angle)
+"""Turn angles of fig. 13 (d), rad, positive to the left."""
+CLASS_ANGLES = {Turn.LEFT: (0.5 * pi,), Turn.RIGHT: (-0.5 * pi,), Turn.ABOUT: (pi, -pi)}
+"""Turn angles of each class, rad."""
+TURNS_PER_CLASS = 5
+"""Number of turns of each class for each wearer; the paper has 30 for training and five other wearers for the test."""
+TURN_SPREAD = radians(15.0)
+"""Standard deviation of the turn angle, rad, because nobody turns by exactly 90 degrees.
+
+The classifier was trained with the same value (lab/train/turns.py)."""
+CURVE_RADIUS = 6.0
+"""Radius of a curve that no corridor of the building has, m: a stride turns by some 12 degrees."""
+
+
+@frozen
+class TurnResults:
+    """The turns of one wearer."""
+
+    errors: dict[float, float]
+    """Error of the turn angle, degrees, by true angle, degrees."""
+    printed_errors: dict[float, float]
+    """The same with (7) as printed."""
+    classes: dict[Turn, tuple[int, int]]
+    """Number of turns classified right and number of all, by class."""
+    curve: float
+    """Error of the sum of the strides' turns on a full circle, degrees; mean of both feet."""
+    printed_curve: float
+    """The same with the low-pass filter of turns alone."""
+
+
+def score_turns(job: WearerJob) -> TurnResults:
+    """Return the turns of one wearer."""
+    rng = np.random.default_rng([job.seed, 18])
+    errors, printed_errors = {}, {}
+    for k, angle in enumerate(TURN_ANGLES):
+        packets = _packets(job, angle, rng, 600 + k)
+        name = float(round(degrees(angle)))
+        errors[name] = _error(_turns(packets), angle)
+        printed_errors[name] = _error(_turns(packets, printed=True), angle)
+    classes = {}
+    for turn, angles in CLASS_ANGLES.items():
+        n_right = 0
+        for k in range(TURNS_PER_CLASS):
+            angle = angles[k % len(angles)] + float(rng.normal(0.0, TURN_SPREAD))
+            packets = _packets(job, angle, rng, 700 + k)
+            n_right += [one.turn for one in _turns(packets) if one.turn is not None] == [turn]
+        classes[turn] = (n_right, TURNS_PER_CLASS)
+    circle = Route(speed=1.2).stand(2.5).walk(6.0).turn(2.0 * pi, CURVE_RADIUS).walk(6.0).stop(3.0)
+    packets = job.walk(circle, 800).packets
+    curve, printed_curve = (_curve_error(recipe, packets) for recipe in (FOOTSTEP_TRACKER, PRINTED_FILTER))
+    return TurnResults(errors, printed_errors, classes, curve, printed_curve)
+
+
+def _packets(job: WearerJob, angle: float, rng: np.random.Generator, more: int) -> tuple[Packet, ...]:
+    """Return the packets of a wearer who walks 6 m, turns by `angle` rad and walks 6 m."""
+    radius = float(rng.uniform(0.0, 1.2))
+    route = Route(speed=float(rng.uniform(0.9, 1.3))).stand(2.5).walk(6.0).turn(angle, radius if radius > 0.4 else 0.0)
+    return job.walk(route.walk(6.0).stop(3.0), more).packets
+
+
+def _turns(packets: tuple[Packet, ...], printed: bool = False) -> list[TurnMade]:
+    events = run_session(PRINTED_TURN if printed else FOOTSTEP_TRACKER, packets)
+    return [event for event in events if isinstance(event, TurnMade)]
+
+
+def _error(turns: list[TurnMade], angle: float) -> float:
+    """Return the error of the sum of the turns, degrees; a turn by 180 degrees to the left is one to the right."""
+    return abs(degrees(remainder(sum([one.angle for one in turns]) - angle, 2.0 * pi)))
+
+
+def _curve_error(recipe: Recipe, packets: tuple[Packet, ...]) -> float:
+    """Return the error of the mean of both feet's sums of turns on a full circle to the left, degrees."""
+    strides = final_strides(run_session(recipe, packets))
+    return abs(degrees(0.5 * fsum([one.heading_change for one in strides]) - 2.0 * pi))

@@ -1,0 +1,72 @@
+"""Panels of Gong et al. 2023: corners and deviations by method (figs. 15 and 16) and the rods of the legs (fig. 8)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from solepath.emulate.routes.laps import ACROSS, ALONG, straight
+from solepath.emulate.wearers.walker import Walker
+from solepath.papers.walking_modes.limbs.limbs import LowerLimbs
+from solepath.papers.walking_modes.settings import ModesSettings
+from solepath.types import Foot
+
+from ..published import corner_row
+from ..tables import BoxPlots, DrawStyle, FloorPanel, Panel, PictureTrack
+from .walks import USUAL, Corners
+
+CORNER_POSITIONS = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
+"""Positions (x, y) of the corners, m; x along the first side, y to the left. The walk starts and ends at A."""
+ROD_COUNT, ROD_DISTANCE = 9, 0.35
+"""Number of pictures of the rods over one stride, and distance between two in the panel, m."""
+
+
+def panels(results: Sequence[Mapping[str, Corners]], methods: tuple[str, ...], seed: int) -> tuple[Panel, ...]:
+    """Return the panels of an experiment."""
+    closed_path = tuple(CORNER_POSITIONS[point] for point in "ABCDA")
+    tracks = [PictureTrack("rectangle", closed_path, DrawStyle.TRUTH)]
+    deviation_tracks = []
+    for method in methods:
+        deviations = [(point, one[method][point]) for one in results for point in CORNER_POSITIONS]
+        estimated_positions = tuple(
+            (CORNER_POSITIONS[point][0] + dx, CORNER_POSITIONS[point][1] + dy) for point, (dx, dy) in deviations
+        )
+        tracks.append(PictureTrack(method, estimated_positions, DrawStyle.DOTS))
+        deviation_tracks.append(PictureTrack(method, tuple(deviation for _, deviation in deviations), DrawStyle.DOTS))
+    marks = tuple((point, x, y) for point, (x, y) in CORNER_POSITIONS.items())
+    boxes = [
+        BoxPlots(f"deviation in {axis} at C (fig. 16)", tuple(corner_row("C", m, axis) for m in methods), "m", 0.0)
+        for axis in "xy"
+    ]
+    return (
+        FloorPanel("corners as estimated by the four methods (fig. 15a)", tuple(tracks), marks),
+        FloorPanel("deviations at all corners (fig. 15b)", tuple(deviation_tracks), (("", 0.0, 0.0),)),
+        *boxes,
+        rods(seed),
+    )
+
+
+def rods(seed: int) -> FloorPanel:
+    """Return the rods of both legs over one stride, from the left, by equation (7) from the sensors' attitudes.
+
+    x is ahead and y is up. The pictures are `ROD_DISTANCE` apart, whatever the wearer walked between them."""
+    calibration = USUAL.calibration(0)
+    walker = Walker(straight(6.0, 1.1), USUAL.wearer(0), seed)
+    limbs = calibration.limbs
+    assert limbs is not None
+    chain = LowerLimbs(ModesSettings(limbs=limbs, heading=0.0))
+    stride = walker.plan.strides[Foot.LEFT][1]
+    times = np.linspace(stride.foot_flat - 1.1, stride.foot_flat, ROD_COUNT).tolist()
+    sides: dict[Foot, list[tuple[float, float]]] = {foot: [] for foot in Foot}
+    for sample in USUAL.samples(walker, calibration, seed):
+        while times and sample.t > times[0]:
+            t = times.pop(0)
+            ahead = ROD_DISTANCE * (ROD_COUNT - len(times) - 1)
+            for foot, points in sides.items():
+                rod = [(ahead + x, z) for x, _, z in chain.rods(foot, t)]
+                points += [*rod, *rod[::-1], (float("nan"), float("nan"))]
+        if sample.quat is not None:
+            chain.set_attitude(sample.site, sample.t, sample.quat)
+    tracks = tuple(PictureTrack(f"{foot.value} leg", tuple(points[:-1])) for foot, points in sides.items())
+    return FloorPanel("rods of the legs over one stride, from the left, y up (fig. 8)", tracks)

@@ -1,0 +1,210 @@
+"""Bebek et al. 2010: half-hour walks that end where they start, and what the heel does while it is taken to be at rest.
+
+The lengths of the walks are those of table I. The paper says that the fourth walk was laps of the square and that the
+fifth was random. Here walks that fit into half an hour at PACE are laps of the square, and longer ones are random. The
+wearer walks at PACE, or faster where the half hour requires it, and stands for the rest of the half hour. The paper
+does not give the sampling rate.
+
+The paper compares detectors by loops, and its six pairs do not differ significantly. A loop is a poor test of a
+detector: it hides what the laps calibrate away and what turns with the wearer. So the true velocity of the heel in each
+stance is compared as well: the "zero-velocity sensing bias per step" of table II.
+
+Short walks show what each of our additions gains, and how the results depend on what is emulated (contour/variants.py).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from operator import attrgetter
+
+import numpy as np
+
+from solepath.papers.pressure_contour.recipe import PRESSURE_CONTOUR
+from solepath.validate.alignment import Floats
+
+from . import published
+from .contour.runs import sign_test
+from .contour.variants import (
+    GYROSCOPE_PRINTED_ROW,
+    GYROSCOPE_ROW,
+    LESS,
+    MAIN,
+    PRESSURE_PRINTED_ROW,
+    PRESSURE_ROW,
+    RATE,
+    SETUPS,
+    TABLE,
+    VARIANTS,
+    WITHOUT_BIAS_ROW,
+)
+from .contour.walks import HALF_HOUR, NOT_FOUND, ContourJob, ContourResults, walk
+from .runner import Runner
+from .tables import Curves, FigureRow, FloorPanel, Panel, Reproduction, row_of
+
+NAME = PRESSURE_CONTOUR.name
+WALKS = 6
+WALK_DURATION = HALF_HOUR
+"""Duration of each emulated walk, s. Tests shorten it; the lengths of LOOPS are scaled with it."""
+SHORT_DURATION = 300.0
+"""Duration of the short walks, s."""
+CALIBRATION_LAPS = 5
+"""Number of laps of the calibration square; the paper has "four to six"."""
+FIGURE_TITLES = {3: "square (fig. 14)", 4: "random walk (figs. 15 and 16)"}
+"""Titles of the walks that the paper draws, by their index in LOOPS. These are walked first."""
+LOOP_ORDER = (*FIGURE_TITLES, 0, 1, 2, 5)
+"""Indices of LOOPS in the order in which they are walked."""
+SHORT_LOOP = 4
+"""Index in LOOPS of the walk whose speed the short walks have: the random one."""
+COMPARED = (GYROSCOPE_ROW, PRESSURE_ROW, PRESSURE_PRINTED_ROW)
+"""Recipes that walk every setup."""
+
+
+def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
+    """Return the results of `walks` half-hour walks, of as many short ones, and of a short one for every setup."""
+    count = WALKS if walks is None else walks
+    jobs = loop_jobs(count, seed) + short_jobs(count, seed) + setup_jobs(seed)
+    results = runner.run(walk, jobs, _describe)
+    loops, shorts, setups = results[:count], results[count : 2 * count], results[2 * count :]
+    return Reproduction(
+        name=NAME,
+        paper_title=published.PRESSURE_CONTOUR_TITLE,
+        emulation=f"{count} walks of {WALK_DURATION / 60.0:g} min at {RATE:g} Hz, another device each time",
+        unit="as named",
+        rows=(*_loop_rows(loops), *_short_rows(shorts)),
+        panels=_panels(loops, shorts),
+        notes=(*_loop_notes(loops), *_velocity_notes(loops), *_setup_notes(setups)),
+    )
+
+
+def _describe(one: ContourResults) -> str:
+    names = [name for name in MAIN if name in one.biases]
+    errors = ", ".join(
+        f"{name.lower()} {one.closing_errors[name]:.2f} m and {_mean_bias(one, name):.2f} mm/s" for name in names
+    )
+    return f"{one.distance:.0f} m, closing error and velocity of the heel: {errors}"
+
+
+def loop_jobs(count: int, seed: int) -> list[ContourJob]:
+    """Return the walks of table I; `count` other than 6 leaves some out or repeats them."""
+    numbers = [LOOP_ORDER[k % len(LOOP_ORDER)] for k in range(count)]
+    return [
+        ContourJob(
+            1000 * seed + k, number, WALK_DURATION, CALIBRATION_LAPS, TABLE, tuple(MAIN), number in FIGURE_TITLES
+        )
+        for k, number in enumerate(numbers)
+    ]
+
+
+def short_jobs(count: int, seed: int) -> list[ContourJob]:
+    """Return `count` short random walks for ours, the printed recipes, and ours without one addition each."""
+    return [
+        ContourJob(1000 * seed + 100 + k, SHORT_LOOP, SHORT_DURATION, CALIBRATION_LAPS, TABLE, tuple(VARIANTS))
+        for k in range(count)
+    ]
+
+
+def setup_jobs(seed: int) -> list[ContourJob]:
+    """Return a short random walk for every setup; all have the same seed, so that they differ by the setup only."""
+    return [
+        ContourJob(1000 * seed + 200, SHORT_LOOP, SHORT_DURATION, CALIBRATION_LAPS, setup, COMPARED) for setup in SETUPS
+    ]
+
+
+def _loop_rows(loops: Sequence[ContourResults]) -> list[FigureRow]:
+    paper = {**published.PRESSURE_CONTOUR, **published.PRESSURE_VELOCITY}
+    rows = [row_of(paper, f"{name} m", [one.closing_errors[name] for one in loops]) for name in MAIN]
+    for name in (GYROSCOPE_ROW, PRESSURE_ROW):
+        shares = [100.0 * one.closing_errors[name] / one.distance for one in loops]
+        rows.append(row_of(paper, f"{name} %", shares, 3))
+    rows += [row_of(paper, f"{name} mm/s", [_mean_bias(one, name) for one in loops]) for name in MAIN]
+    rows += [
+        row_of(paper, f"{name}, stances found %", [100.0 * one.found[name] for one in loops], 1)
+        for name in (PRESSURE_ROW, PRESSURE_PRINTED_ROW)
+    ]
+    return rows
+
+
+def _short_rows(shorts: Sequence[ContourResults]) -> list[FigureRow]:
+    names = (PRESSURE_ROW, *LESS, PRESSURE_PRINTED_ROW, GYROSCOPE_ROW, GYROSCOPE_PRINTED_ROW)
+    rows = [row_of({}, f"short: {name} m", [one.closing_errors[name] for one in shorts]) for name in names]
+    return rows + [row_of({}, f"short: {name} mm/s", [_mean_bias(one, name) for one in shorts]) for name in names]
+
+
+def _mean_bias(result: ContourResults, name: str) -> float:
+    """Return the mean velocity of the heel over the stances that were found, mm/s; 0 when none was."""
+    found = [bias for bias in result.biases[name] if bias != NOT_FOUND]
+    return 1e3 * float(np.mean(found)) if found else 0.0
+
+
+def _panels(loops: Sequence[ContourResults], shorts: Sequence[ContourResults]) -> tuple[Panel, ...]:
+    panels: list[Panel] = [
+        FloorPanel(FIGURE_TITLES[one.number], one.tracks, (("start", 0, 0),)) for one in loops[: len(FIGURE_TITLES)]
+    ]
+    first = loops[0]
+    if first.stance:
+        panels.append(Curves("a stance (fig. 7)", first.stance, "ms since foot-flat", "mm/s or mrad/s", (-50.0, 50.0)))
+    if first.bias_filter:
+        panels.append(Curves("bias filter (fig. 9)", first.bias_filter, "min", "mg"))
+    compared = ("true path", PRESSURE_PRINTED_ROW.lower(), WITHOUT_BIAS_ROW.lower())
+    tracks = tuple([track for track in shorts[0].tracks if track.name in compared])
+    panels.append(FloorPanel("with and without the bias filter (fig. 10)", tracks, (("start", 0, 0),)))
+    return tuple(panels)
+
+
+def _loop_notes(loops: Sequence[ContourResults]) -> list[str]:
+    lines = []
+    for one in sorted(loops, key=attrgetter("number")):
+        paper = published.LOOPS[one.number]
+        ours = ", ".join(f"{name.lower()} {error:.2f} m" for name, error in one.closing_errors.items())
+        lines.append(
+            f"Like experiment {one.number + 1}, {one.distance:.0f} m: {ours}; paper, {paper.distance:.0f} m: "
+            f"gyroscope {paper.gyroscope:.2f} m, pressure {paper.pressure:.2f} m."
+        )
+    lines.append(
+        "The paper's mean percentages, 0.40 and 0.35, are its mean errors over its mean distance; the table above has "
+        "the means of its six percentages."
+    )
+    return lines
+
+
+def _velocity_notes(loops: Sequence[ContourResults]) -> list[str]:
+    """Return the comparisons of detectors by the velocity of the heel, stance by stance, and by loops."""
+    pairs = ((PRESSURE_ROW, GYROSCOPE_ROW), (PRESSURE_PRINTED_ROW, GYROSCOPE_PRINTED_ROW))
+    lines = []
+    for first, second in pairs:
+        steps = sign_test(_all_biases(loops, first), _all_biases(loops, second))
+        walks = sum([_mean_bias(one, first) < _mean_bias(one, second) for one in loops])
+        ends = sign_test(
+            np.array([one.closing_errors[first] for one in loops]),
+            np.array([one.closing_errors[second] for one in loops]),
+        )
+        lines.append(
+            f"{first} against {second.lower()}: the heel is slower while taken to be at rest in {steps.smaller} of "
+            f"{steps.pairs} stances (sign test, p {_probability(steps.probability)}) and on average in {walks} of "
+            f"{len(loops)} walks; the loop ends nearer in {ends.smaller} of {ends.pairs} (p "
+            f"{_probability(ends.probability)})."
+        )
+    return lines
+
+
+def _all_biases(loops: Sequence[ContourResults], name: str) -> Floats:
+    """Return the velocity of the heel in all stances of a recipe, m/s; nan for one that was not found."""
+    biases = np.array([bias for one in loops for bias in one.biases[name]])
+    return np.where(biases == NOT_FOUND, np.nan, biases)
+
+
+def _probability(p: float) -> str:
+    return f"= {p:.2g}" if p >= 1e-12 else "< 1e-12"
+
+
+def _setup_notes(results: Sequence[ContourResults]) -> list[str]:
+    lines = [
+        f"Walks of {SHORT_DURATION / 60.0:g} min, of which all but the first change one thing: velocity of the heel, "
+        f"stances found and loop-closing error of {', '.join(name.lower() for name in COMPARED)}."
+    ]
+    for setup, one in zip(SETUPS, results, strict=True):
+        velocities = ", ".join(f"{_mean_bias(one, name):.2f}" for name in COMPARED)
+        found = ", ".join(f"{100.0 * one.found[name]:.0f}" for name in COMPARED)
+        ends = ", ".join(f"{one.closing_errors[name]:.2f}" for name in COMPARED)
+        lines.append(f"With {setup.name}: {velocities} mm/s; {found} %; {ends} m.")
+    return lines

@@ -1,0 +1,294 @@
+"""The walks of Li et al. 2016, one emulated walk a job: there and back, stairs, a rectangle, ramps, five minutes.
+
+One MPU-6050 sits on the laces of the right shoe and samples at 100 Hz, without radio losses. Every walk has other
+sensor errors and other strides."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import hypot, radians
+
+import numpy as np
+from attrs import frozen
+
+from solepath.emulate.routes.route import Route
+from solepath.emulate.wearers.gait import Wearer
+from solepath.emulate.wearers.shoe import Shoe
+from solepath.emulate.wearers.truth import Truth
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import Event, FlightClimbed, StrideTaken
+from solepath.types import Sample
+from solepath.validate.alignment import Floats
+
+from ..done_jobs import named_values
+from ..tables import Curves, DrawStyle, SpaceTrack
+from ..walks import align_track, final_strides, run_session
+from .figures import extraction_curves, posture_curves, window_curves
+from .scores import LegErrors, StrideErrors, score_legs, score_strides
+from .variants import BY_ANGLE, DEFAULT_ROW, FOOT, MAIN, OURS, PRINTED, RECIPES, SHORT, TABLE, ShoeSetup
+
+WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
+"""Walking and jogging speed, m/s: assumed, so that strides are about as long as the paper's 1.20 m and 1.60 m."""
+LEG = 19.2
+"""Length of the straight line, m (section 4.2.1)."""
+ROUNDS, MANY_ROUNDS = 2, 20
+"""Number of rounds "back and forth", and on the stairs up and down, of each wearer, and of the longest walk."""
+SIDES = (6.0, 7.0)
+"""Sides of the rectangle, m (section 4.2.4, fig. 25b)."""
+RISERS = 11
+"""Number of stairs in a flight (assumed). Each is 0.16 m high and 0.30 m deep, as in the paper."""
+LAPS = 2
+"""Number of laps of the corridors of each storey, so that the walk takes five minutes."""
+SLOPES = (0.02, 0.05)
+"""Slopes of the ramps, m/m: of a floor that is not quite level, and of a ramp for wheelchairs."""
+RAMP, KERB = 20.0, 0.10
+"""Length of a ramp and height of a single step, m."""
+HALF_TURN, QUARTER_TURN = radians(180), radians(90)
+LAST_STRIDES = 9
+"""Number of strides at the end of a walk whose directions give the heading error."""
+MAX_POINTS = 400
+"""Largest number of points of a track in the figure."""
+
+
+def _standing(setup: ShoeSetup) -> Route:
+    return Route().stand(setup.standing)
+
+
+def walking_route(setup: ShoeSetup = TABLE, rounds: int | None = None) -> Route:
+    """Return the line there and back, with a turn on the spot at either end."""
+    route = _standing(setup)
+    for _ in range(2 * (ROUNDS if rounds is None else rounds)):
+        route = route.walk(LEG, WALKING_SPEED).turn(HALF_TURN).stand(1.0)
+    return route
+
+
+def jogging_route(setup: ShoeSetup = TABLE, rounds: int | None = None) -> Route:
+    """Return the same at a jog."""
+    route = _standing(setup)
+    for _ in range(2 * (ROUNDS if rounds is None else rounds)):
+        route = route.jog(LEG, JOGGING_SPEED).turn(HALF_TURN).stand(1.0)
+    return route
+
+
+def stairs_route(setup: ShoeSetup = TABLE, rounds: int | None = None) -> Route:
+    """Return a flight up and down, with a few metres and a turn on the spot at either end."""
+    route = _standing(setup)
+    for _ in range(ROUNDS if rounds is None else rounds):
+        for up in (True, False):
+            route = route.walk(2.5, 1.2).stairs(RISERS, up=up).walk(2.5).turn(HALF_TURN).stand(1.0)
+    return route
+
+
+def long_route(setup: ShoeSetup = TABLE) -> Route:
+    """Return the line there and back twenty times."""
+    return walking_route(setup, MANY_ROUNDS)
+
+
+def short_route(setup: ShoeSetup = TABLE) -> Route:
+    """Return one round of each: walking, jogging, stairs."""
+    parts = (walking_route(setup, 1), jogging_route(setup, 1), stairs_route(setup, 1))
+    actions = [action for k, part in enumerate(parts) for action in part.actions[1 if k else 0 :]]
+    return Route(tuple(actions))
+
+
+def rectangle_route(setup: ShoeSetup = TABLE) -> Route:
+    """Return the rectangle of fig. 25b, with a turn on the spot at each corner."""
+    route = _standing(setup)
+    for side in SIDES * 2:
+        route = route.walk(side, WALKING_SPEED).turn(QUARTER_TURN).stand(1.0)
+    return route
+
+
+def ramps_route(setup: ShoeSetup = TABLE) -> Route:
+    """Return 20 m on the level, ramps up and down of either slope, and a kerb up and down, all straight on."""
+    route = _standing(setup).walk(20.0, WALKING_SPEED)
+    for slope in SLOPES:
+        for signed in (slope, -slope):
+            route = route.walk(RAMP, slope=signed).walk(5.0)
+    for up in (True, False):
+        route = route.stairs(1, up=up, rise=KERB).walk(5.0)
+    return route.stop(2.0)
+
+
+def tour_route(setup: ShoeSetup = TABLE) -> Route:
+    """Return the route of fig. 35: corridors of two storeys and the stairs between them, for five minutes."""
+    route = _standing(setup)
+    for up in (True, False):
+        for _ in range(LAPS):
+            for _ in range(2):
+                route = route.walk(LEG, 1.2).turn(QUARTER_TURN, 1.0).walk(9.0).turn(QUARTER_TURN, 1.0)
+        route = route.walk(4.0)
+        route = route.stairs(RISERS, up=up).turn(HALF_TURN, 0.7).stairs(RISERS, up=up).walk(4.0)
+    return route.stop(3.0)
+
+
+ROUTES = {
+    "walking": walking_route,
+    "jogging": jogging_route,
+    "stairs": stairs_route,
+    "twenty rounds": long_route,
+    "short": short_route,
+    "rectangle": rectangle_route,
+    "ramps": ramps_route,
+    "five minutes": tour_route,
+}
+"""Functions that return the route of each walk for a setup."""
+WALK_RECIPES: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("walking", "jogging", "stairs"), tuple(MAIN)),
+    "short": tuple(SHORT),
+    **dict.fromkeys(("rectangle", "twenty rounds"), (OURS, PRINTED)),
+    "ramps": (*MAIN, BY_ANGLE, DEFAULT_ROW),
+    "five minutes": (OURS, PRINTED, DEFAULT_ROW),
+}
+"""Names of the recipes that walk each walk."""
+
+
+@frozen
+class ShoeJob:
+    """One walk to emulate."""
+
+    seed: int
+    walk: str
+    """Name of the walk in ROUTES."""
+    setup: ShoeSetup = TABLE
+    drawn: bool = False
+    """True for the walks of which curves are drawn."""
+
+    key = property(named_values)
+
+
+@frozen
+class TrackErrors:
+    """The comparison of the whole track of one session with the truth."""
+
+    end_error: float
+    """Horizontal distance between the estimated and the true end, m."""
+    height_error: float
+    """Estimated minus true height of the end, m."""
+    heading_error: float
+    """Median error of the direction of the last strides, degrees, positive to the left."""
+    flights: tuple[bool, ...]
+    """Direction of each flight that was reported: True for up."""
+
+
+@frozen
+class SessionScores:
+    """The scores of one session on one walk."""
+
+    states: dict[str, StrideErrors]
+    """Scores of the strides by state."""
+    legs: tuple[LegErrors, ...]
+    """Scores of the legs between turns on the spot; empty for a walk without such turns."""
+    rises: tuple[tuple[float, float], ...]
+    """Error and true value of the height gained on each ramp and kerb of the walk over ramps, m."""
+    track: TrackErrors
+
+
+@frozen
+class ShoeResults:
+    """The results of one walk, by name of the recipe."""
+
+    scores: dict[str, SessionScores]
+    path_length: float
+    """Horizontal length of the true path of the foot, m."""
+    true_flights: tuple[bool, ...]
+    """Direction of each flight that was climbed: True for up."""
+    tracks: tuple[SpaceTrack, ...] = ()
+    """True track, and those of ours and the printed recipe; only of a walk that is drawn."""
+    curves: tuple[Curves, ...] = ()
+    """Curves of figs. 3, 7 and 20; only of the short walk that is drawn."""
+
+
+def walk(job: ShoeJob) -> ShoeResults:
+    """Emulate one walk and run its recipes on it."""
+    samples, truth = sample_walk(ROUTES[job.walk](job.setup), job.seed, job.setup)
+    names = WALK_RECIPES[job.walk] if job.setup == TABLE else (OURS, PRINTED)
+    sessions = {name: run_session(RECIPES[name], samples) for name in names}
+    curves: tuple[Curves, ...] = ()
+    if job.drawn and job.walk == "short":
+        curves = (window_curves(samples, truth), posture_curves(samples), *extraction_curves(samples, truth))
+    true_path = truth.pose(FOOT, np.arange(0.0, truth.duration, 0.1)).position
+    return ShoeResults(
+        scores={name: _score(job, events, truth) for name, events in sessions.items()},
+        path_length=float(np.sum(np.linalg.norm(np.diff(true_path[:, :2], axis=0), axis=1))),
+        true_flights=tuple([flight.up for flight in truth.flights]),
+        tracks=_tracks(sessions, truth) if job.drawn else (),
+        curves=curves,
+    )
+
+
+def sample_walk(route: Route, seed: int, setup: ShoeSetup = TABLE) -> tuple[list[Sample], Truth]:
+    """Return the samples of the sensor on a walk along `route`, and the truth."""
+    walker = Walker(route, Wearer(shoe=Shoe(contact=setup.contact)), seed=seed)
+    samples = walker.samples(FOOT, setup.rate, setup.chip, mounting=setup.mounting)
+    return samples, walker.truth({FOOT: setup.mounting})
+
+
+def _score(job: ShoeJob, events: Sequence[Event], truth: Truth) -> SessionScores:
+    strides = final_strides(events, FOOT)
+    turns = job.walk in ("walking", "jogging", "rectangle", "twenty rounds")
+    return SessionScores(
+        states=score_strides(strides, truth, FOOT),
+        legs=score_legs(strides, truth, FOOT) if turns else (),
+        rises=_rises(strides, truth) if job.walk == "ramps" else (),
+        track=_score_track(strides, events, truth),
+    )
+
+
+def _score_track(strides: Sequence[StrideTaken], events: Sequence[Event], truth: Truth) -> TrackErrors:
+    flights = tuple([event.up for event in events if isinstance(event, FlightClimbed)])
+    if len(strides) < 2:
+        x, y, z = truth.pose(FOOT, truth.duration).position[0]
+        return TrackErrors(float(hypot(x, y)), float(-z), 0.0, flights)
+    ours, true = _positions(strides, truth)
+    directions = [np.arctan2(d[:, 1], d[:, 0]) for d in (np.diff(ours, axis=0), np.diff(true, axis=0))]
+    turned = directions[0] - directions[1]
+    heading = np.degrees(np.arctan2(np.sin(turned), np.cos(turned)))
+    return TrackErrors(
+        end_error=float(hypot(*(ours[-1, :2] - true[-1, :2]))),
+        height_error=float(ours[-1, 2] - true[-1, 2]),
+        heading_error=float(np.median(heading[-LAST_STRIDES:])),
+        flights=flights,
+    )
+
+
+def _positions(strides: Sequence[StrideTaken], truth: Truth) -> tuple[Floats, Floats]:
+    """Return the estimated and the true position at the start and at the end of each stride, (n, 3), m.
+
+    The estimated ones are laid on the true ones over the first two metres."""
+    ours = np.array([(0.0, 0.0, 0.0), *(stride.position for stride in strides)])
+    true = truth.pose(FOOT, np.array([0.0, *(stride.t_end for stride in strides)])).position
+    true = true - true[0]
+    ours[:, :2] = align_track(ours[:, :2], true[:, :2])
+    return ours, true
+
+
+def _rises(strides: Sequence[StrideTaken], truth: Truth) -> tuple[tuple[float, float], ...]:
+    """Return error and true value of the height between the levels before and after each ramp and kerb, m."""
+    rise = [slope * RAMP * sign for slope in SLOPES for sign in (1.0, -1.0)] + [KERB, -KERB]
+    ramp_lengths = [RAMP] * 2 * len(SLOPES) + [0.3] * 2
+    true_strides, x, result = truth.strides(FOOT), 20.0, []
+    places = np.cumsum([0.0, *(stride.displacement[0] for stride in true_strides)])
+    times = [0.0, *(stride.t_end for stride in true_strides)]
+    for true_rise, length in zip(rise, ramp_lengths, strict=True):
+        # the middle of the level metres before and after; a foot that stands astride an edge is in neither
+        before, after = (float(np.interp(place, places, times)) for place in (x - 2.0, x + length + 2.5))
+        z = [next((one.position[2] for one in reversed(strides) if one.t_end <= t), 0.0) for t in (before, after)]
+        result.append((z[1] - z[0] - true_rise, true_rise))
+        x += length + 5.0
+    return tuple(result)
+
+
+def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> tuple[SpaceTrack, ...]:
+    t = np.array([0.0, *(stride.t_end for stride in truth.strides(FOOT)[-MAX_POINTS:])])
+    position = truth.pose(FOOT, t).position
+    tracks = [SpaceTrack("true path", _points(position - position[0]), DrawStyle.TRUTH)]
+    for name in (OURS, PRINTED):
+        strides = final_strides(sessions[name], FOOT)
+        if len(strides) > 1:
+            tracks.append(SpaceTrack(name, _points(_positions(strides, truth)[0][-MAX_POINTS:])))
+    return tuple(tracks)
+
+
+def _points(positions: Floats) -> tuple[tuple[float, float, float], ...]:
+    return tuple([(float(x), float(y), float(z)) for x, y, z in positions])

@@ -1,0 +1,100 @@
+"""Emulated wearers who stand, walk, climb stairs and take elevators, with sensors in the soles at 20 Hz.
+
+Each seed is another wearer. As in Liu et al. 2015, section V.C, they "ascend/descend the stairs, walk and take
+elevator". Seeds from `FIRST_TRAINING_SEED` to 999 are for training. Scored walks have other seeds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import pi
+
+import numpy as np
+from attrs import evolve
+
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import MPU6050
+from solepath.emulate.sensors.sensortags import CC2650
+from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.emulate.wearers.gait import Wearer, random_wearer
+from solepath.emulate.wearers.shoe import IN_SOLE
+from solepath.emulate.wearers.walker import Walker
+from solepath.types import SITE_OF_FOOT, Foot
+
+RATE = 20.0
+"""Sampling rate, Hz (section IV: "we sample the accelerometer and gyroscope with 20 Hz")."""
+FIRST_TRAINING_SEED = 101
+
+REPEATS = 2
+"""Number of times that each of stairs up, stairs down, elevator up and elevator down is in a route."""
+
+RouteAddition = Callable[[Route, np.random.Generator], Route]
+
+
+def draw_route(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
+    """Return a route of four or five minutes through a house, and its wearer. With `jogging` some of it is run."""
+    rng = np.random.default_rng([seed, 5])
+    wearer, _ = random_wearer(rng)
+    route = Route(speed=float(rng.uniform(0.9, 1.5))).stand(_uniform(rng, 3.0, 8.0))
+    levels = [_make_stairs(True), _make_stairs(False), _make_elevator(True), _make_elevator(False)]
+    additions = [*levels * REPEATS, _add_corridor, _add_corridor, _add_corridor, *[_add_jog] * jogging]
+    for k in rng.permutation(len(additions)):
+        route = additions[k](route, rng)
+        if rng.uniform() < 0.6:
+            route = route.stand(_uniform(rng, 3.0, 10.0))
+    return route.stand(4.0), wearer
+
+
+def walker(seed: int, *, jogging: bool = False) -> Walker:
+    """Return the walker of the route of `draw_route`, from which samples of any sensor can be made."""
+    route, wearer = draw_route(seed, jogging=jogging)
+    return Walker(route, wearer, seed)
+
+
+def walk(seed: int, *, jogging: bool = False) -> EmulatedWalk:
+    """Return the walk with a CC2650 in each sole whose inertial sensor is as noisy as an MPU-6050."""
+    route, wearer = draw_route(seed, jogging=jogging)
+    tag = CC2650(rate=RATE, chip=MPU6050, mounting=IN_SOLE)
+    return emulate(route, wearer=wearer, devices={SITE_OF_FOOT[foot]: evolve(tag) for foot in Foot}, seed=seed)
+
+
+def _uniform(rng: np.random.Generator, low: float, high: float) -> float:
+    return float(rng.uniform(low, high))
+
+
+def _add_corridor(route: Route, rng: np.random.Generator) -> Route:
+    corner = pi / 2.0 if rng.uniform() < 0.5 else -pi / 2.0
+    return route.walk(_uniform(rng, 8.0, 20.0)).turn(corner, _uniform(rng, 0.0, 1.5)).walk(_uniform(rng, 6.0, 15.0))
+
+
+def _add_jog(route: Route, rng: np.random.Generator) -> Route:
+    return route.stand(2.0).jog(_uniform(rng, 25.0, 40.0), _uniform(rng, 2.3, 3.2)).stand(2.0)
+
+
+def _make_stairs(up: bool) -> RouteAddition:
+    def add_stairs(route: Route, rng: np.random.Generator) -> Route:
+        """Add two flights and the landing between them, from corridor to corridor."""
+        rise, going = _uniform(rng, 0.14, 0.18), _uniform(rng, 0.27, 0.32)
+        for flight in range(2):
+            route = route.walk(_uniform(rng, 2.0, 4.0) if flight == 0 else 1.2)
+            route = route.stairs(int(rng.integers(9, 14)), up, rise, going).walk(1.2)
+            if flight == 0:
+                route = route.turn(pi, 0.6)
+        return route.walk(_uniform(rng, 3.0, 6.0))
+
+    return add_stairs
+
+
+def _make_elevator(up: bool) -> RouteAddition:
+    def add_elevator(route: Route, rng: np.random.Generator) -> Route:
+        """Add an elevator ride: in, turn round, up or down one to four storeys, and out."""
+        height = 3.4 * float(rng.integers(1, 5))
+        entered = route.walk(_uniform(rng, 3.0, 6.0)).turn(pi)
+        ridden = entered.lift(
+            height if up else -height,
+            speed=_uniform(rng, 0.9, 1.8),
+            acceleration=_uniform(rng, 0.6, 1.1),
+            doors=_uniform(rng, 2.0, 4.0),
+        )
+        return ridden.walk(_uniform(rng, 3.0, 6.0))
+
+    return add_elevator
