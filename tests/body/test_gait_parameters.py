@@ -17,9 +17,9 @@ from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.truth import Truth
 from solepath.emulate.wearers.walker import Walker
-from solepath.show.observer import Observer
 from solepath.show.output import CYCLE_COLUMNS, TrackFiles
 from solepath.show.tables.gait import gait_lines
+from solepath.walk.walk import Walk
 
 LEVEL = Route().stand(1.5).walk(14.0, 1.3).stop(1.0)
 BENT = Route().stand(1.5).walk(7.0, 1.2).turn(pi / 2, radius=1.0).walk(7.0).stop(1.0)
@@ -219,14 +219,14 @@ def test_gait_csv_has_a_line_for_each_stride_and_empty_fields_where_nothing_is_k
 
 
 def test_the_table_is_of_walking_and_of_running_each_if_there_was_any() -> None:
-    observer = Observer()
-    assert gait_lines(observer.gait) == []
+    walk = Walk()
+    assert gait_lines(walk.gait) == []
     for stride in walked(LEVEL)[1]:
-        observer.add(stride)
-    text = "\n".join(gait_lines(observer.gait))
+        walk.add(stride)
+    text = "\n".join(gait_lines(walk.gait))
     assert "walking, steady strides" in text and "running" not in text
     for word in ("cadence", "stride length", "stance %", "heel-strike angle", "coordination"):
         assert word in text
     for stride in walked(JOGGED)[1]:
-        observer.add(stride)
-    assert "running, steady strides" in "\n".join(gait_lines(observer.gait))
+        walk.add(stride)
+    assert "running, steady strides" in "\n".join(gait_lines(walk.gait))

@@ -19,7 +19,8 @@ from solepath.emulate.radio import CLEAN, Radio
 from solepath.emulate.sensors.device import Device
 from solepath.link.decoder import Decoder
 from solepath.validate.comparison import FootComparison, compare
-from solepath.validate.gathered import EventCollection
+from solepath.validate.foot_run import FootRun
+from solepath.walk import Walk
 
 BAD = Radio(loss=0.05, jitter=0.05)
 """A radio that loses 5 % of the notifications and delays the others by up to 50 ms."""
@@ -43,11 +44,11 @@ SEEDS = pytest.mark.parametrize("seed", [1, *soaked(2)])
 
 def compared(walk: EmulatedWalk) -> Compared:
     """Return the events of a session for a walk, and their comparison with the truth, foot by foot."""
-    session, collection = Session(poses=True), EventCollection()
+    session, found = Session(poses=True), Walk(limit=None, keeps_all=True)
     events = session.feed(walk.packets) + session.finish()
     for event in events:
-        collection.add(event)
-    return events, {one.foot: one for one in compare(walk.truth, {foot: collection.foot(foot) for foot in Foot})}
+        found.add(event)
+    return events, {one.foot: one for one in compare(walk.truth, {foot: FootRun.of(found, foot) for foot in Foot})}
 
 
 @cache

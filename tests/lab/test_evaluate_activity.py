@@ -4,8 +4,8 @@ import pytest
 
 from solepath import recipes
 from solepath.events import ActivityChanged, LiftRidden
-from solepath.show.timeline import Timeline
 from solepath.types import Activity
+from solepath.walk.timeline import Timeline
 from solepath_lab.evaluate import learning
 from solepath_lab.evaluate.activity import score_rides, score_samples, score_windows, stairs_figures
 from solepath_lab.evaluate.jobs import evaluate

@@ -32,7 +32,7 @@ async def test_a_walk_is_drawn_while_it_goes_on_and_its_figures_are_those_of_the
         await show(scene, packets_between(6.0, 12.0), speed=4.0)
         expected = frame(scene)
         await view.until("t => solepath.state.t === t", expected["t"])
-        strides = max(counts.strides for counts in scene.observer.feet.values())
+        strides = max(counts.strides for counts in scene.walk.feet.values())
         await view.until(f"document.getElementById('strides').textContent === '{strides}'")
         assert all(now != old for now, old in zip(await view.tab.evaluate(PICTURES, CANVASES), before, strict=True))
         assert await view.text("activity") == "Walking"

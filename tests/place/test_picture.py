@@ -16,25 +16,26 @@ from recordings import recorded
 from views import told
 from walks import insoles
 
+from solepath import Placed, PlaceLost
 from solepath.body.part import StartGiven
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
 from solepath.emulate import Route
 from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall, with_rooms
 from solepath.place.placing import Particles
-from solepath.show.places import PlaceCounts
 from solepath.show.tables.plan import PlanPicture
 from solepath.show.tables.summary import place_lines
+from solepath.walk.places import PlaceCounts
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
 def pictured(plan: FloorPlan, one: Pedestrian, start: Start | None = None) -> ElementTree.Element:
-    part, picture = Particles(), PlanPicture(plan)
+    part = Particles()
     if start is not None:
         told(part, StartGiven(start))
-    for event in follow(part, one.received):
-        picture.add(event)
+    events = [event for event in follow(part, one.received) if isinstance(event, Placed | PlaceLost)]
+    picture = PlanPicture(plan, events)
     return ElementTree.fromstring(ElementTree.tostring(picture.drawn("a tour <of two> floors & a lift")))
 
 

@@ -8,11 +8,11 @@ from reported_walks import events_of
 from walks import of
 
 from solepath import FootPressed, GaitCycleMeasured
-from solepath.show.report.soles import STATIONS, ReportSole
 from solepath.types import Cell, Foot, Layout
+from solepath.walk.soles import STATIONS, SoleLoads
 
 
-def add_second(sole: ReportSole, start: float, heel: float) -> None:
+def add_second(sole: SoleLoads, start: float, heel: float) -> None:
     """Add 1 s of samples at 100 Hz; the load goes from heel to toe within the first 0.6 s."""
     for k in range(100):
         share = min(k / 60.0, 1.0)
@@ -23,8 +23,8 @@ def add_second(sole: ReportSole, start: float, heel: float) -> None:
         sole.add_sample(FootPressed(t=t, known_at=t, foot=Foot.LEFT, values=values, force=load, centre=centre))
 
 
-def walked_sole() -> ReportSole:
-    sole = ReportSole(Layout(1, Foot.LEFT, (Cell(0.05, 0.0), Cell(0.2, 0.0)), 0.25, 1.0))
+def walked_sole() -> SoleLoads:
+    sole = SoleLoads(Layout(1, Foot.LEFT, (Cell(0.05, 0.0), Cell(0.2, 0.0)), 0.25, 1.0))
     walked = next(iter(of(GaitCycleMeasured, events_of("walk"))))
     for k in range(4):
         add_second(sole, 1.0 * k, 100.0)

@@ -1,4 +1,4 @@
-"""Tests the ledger of a link and the observer of a session: each figure by its own definition."""
+"""Tests the ledger of a link and the walk of a session: each figure by its own definition."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from solepath import Packet, Sample, Session, Site
 from solepath.emulate.radio import CLEAN, Radio
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate
-from solepath.show.observer import Observer
 from solepath.show.tables.summary import status
+from solepath.walk.walk import Walk
 
 LEFT = Site.LEFT_FOOT
 
 
-def observed(items: Iterable[Packet | Sample]) -> Observer:
-    """Return an observer of a session that was fed with the items."""
-    session, observer = Session(poses=True, pressures=True), Observer()
+def observed(items: Iterable[Packet | Sample]) -> Walk:
+    """Return an walk of a session that was fed with the items."""
+    session, walk = Session(poses=True, pressures=True), Walk()
     for item in items:
-        observer.take(item, session.feed(item))
-    observer.take(None, session.finish())
-    return observer
+        walk.take(item, session.feed(item))
+    walk.take(None, session.finish())
+    return walk
 
 
 def frames(radio: Radio, **device: int) -> tuple[Packet, ...]:
@@ -51,10 +51,10 @@ def test_received_and_lost_frames_are_all_that_were_sent_whatever_came_damaged_o
 
 def test_a_clock_that_was_set_back_goes_on_from_there() -> None:
     shifted = [evolve(p, t=p.t + (5000.0 if p.t < 3.0 else 1000.0)) for p in insoles().packets]
-    session, observer = Session(poses=True), Observer()
+    session, walk = Session(poses=True), Walk()
     for packet in shifted:
-        observer.take(packet, session.feed(packet))
-    assert observer.now == pytest.approx(shifted[-1].t, abs=0.1)
-    assert observer.covered_time.total == pytest.approx(shifted[-1].t - 1000.0, abs=1.0)
-    for line in status(observer):
+        walk.take(packet, session.feed(packet))
+    assert walk.now == pytest.approx(shifted[-1].t, abs=0.1)
+    assert walk.covered_time.total == pytest.approx(shifted[-1].t - 1000.0, abs=1.0)
+    for line in status(walk):
         assert " 50 Hz" in line or " 49 Hz" in line, line

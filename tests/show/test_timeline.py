@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from solepath import Activity, ActivityChanged
-from solepath.show.timeline import Timeline
+from solepath.walk.timeline import Timeline
 
 
 def changed(t: float, activity: Activity, revises: float | None = None, final: bool = True) -> ActivityChanged:

@@ -14,9 +14,9 @@ from solepath.events import (
     SampleGap,
 )
 from solepath.session import Session
-from solepath.show.observer import Observer
 from solepath.show.tables.summary import link_health, status, summary
 from solepath.types import Foot, Packet, Sample, Site
+from solepath.walk.walk import Walk
 
 STRIDE = stride(
     Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.0, 0.0), degraded=True,
@@ -25,16 +25,16 @@ STRIDE = stride(
 
 
 def test_a_summary_counts_the_events_of_each_foot():
-    observer = Observer()
+    walk = Walk()
     for n in range(11):
-        observer.take(Sample(n * 0.25 + (1.5 if n > 5 else 0.0), Site.LEFT_FOOT), [])
+        walk.take(Sample(n * 0.25 + (1.5 if n > 5 else 0.0), Site.LEFT_FOOT), [])
     strike = HeelStrike(t=1.9375, known_at=2.0, foot=Foot.LEFT)
     gap = SampleGap(t=1.25, known_at=3.0, site=Site.LEFT_FOOT, duration=1.75)
-    observer.take(None, [gap, strike, evolve(strike, final=False), STRIDE])
-    left, link = observer.feet[Foot.LEFT], observer.links[Site.LEFT_FOOT]
+    walk.take(None, [gap, strike, evolve(strike, final=False), STRIDE])
+    left, link = walk.feet[Foot.LEFT], walk.links[Site.LEFT_FOOT]
     assert (link.samples, link.gaps, link.gap_time, link.rate) == (11, 1, 1.75, 4.0)
     assert (left.events["heel-strike"], left.strides, left.degraded, left.distance) == (1, 1, 1, 1.25)
-    text = summary(observer, title="walk.npz", seconds=2.0)
+    text = summary(walk, title="walk.npz", seconds=2.0)
     assert text.splitlines()[0] == "walk.npz: 4.0 s"
     assert "left: 1 of 1 strides degraded" in text and "2 times as fast as walked" in text
     # 62.5 ms, and only of what is final; a half is rounded to the even millisecond
@@ -42,29 +42,29 @@ def test_a_summary_counts_the_events_of_each_foot():
 
 
 def test_a_healthy_link_is_not_mentioned_and_a_bad_one_line_by_line():
-    observer = Observer()
-    assert link_health(observer) == []
+    walk = Walk()
+    assert link_health(walk) == []
     frame = Packet(1.0, Site.LEFT_FOOT, "insole/frame", b"")
     for _ in range(97):
-        observer.take(frame, [])
-    observer.add(PacketsLost(t=0.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", count=3))
+        walk.take(frame, [])
+    walk.add(PacketsLost(t=0.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", count=3))
     for reason in (Rejection.CHECKSUM, Rejection.DUPLICATE, Rejection.CHECKSUM):
         rejected = PacketRejected(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", reason=reason)
-        observer.take(frame, [rejected])
-    assert link_health(observer) == ["3 of 100 packets lost", "3 packets rejected (checksum 2, duplicate 1)"]
+        walk.take(frame, [rejected])
+    assert link_health(walk) == ["3 of 100 packets lost", "3 packets rejected (checksum 2, duplicate 1)"]
 
 
 def test_defects_are_the_first_lines_of_a_summary_and_limitations_are_reported():
-    observer = Observer()
-    observer.add(Limitation(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, what="no gyroscope"))
-    observer.add(DefectFound(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, defect=Defect.WRONG_SCALE, what="reads 4.9"))
-    text = summary(observer, title="walk", seconds=0.0)
+    walk = Walk()
+    walk.add(Limitation(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, what="no gyroscope"))
+    walk.add(DefectFound(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, defect=Defect.WRONG_SCALE, what="reads 4.9"))
+    text = summary(walk, title="walk", seconds=0.0)
     assert "limitation, left foot: no gyroscope" in text
     assert text.splitlines()[1] == "DEFECT, left foot: reads 4.9"
 
 
 def test_control_codes_of_devices_do_not_reach_the_terminal():
-    observer, packet = Observer(), Packet(1.0, Site.LEFT_FOOT, "receiver/trouble", b"\x1b[31mA\x07 is none")
-    observer.take(packet, Session().feed(packet))
-    for text in (*status(observer), *link_health(observer)):
+    walk, packet = Walk(), Packet(1.0, Site.LEFT_FOOT, "receiver/trouble", b"\x1b[31mA\x07 is none")
+    walk.take(packet, Session().feed(packet))
+    for text in (*status(walk), *link_health(walk)):
         assert text.isprintable() and "A" in text

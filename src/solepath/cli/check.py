@@ -113,9 +113,9 @@ def run(options: argparse.Namespace) -> int:
     from ..body.checks.axes import SETTLED_STRIDES
     from ..link.kinds import make_kinds
     from ..session import Session
-    from ..show.observer import Observer
     from ..show.tables.progress import progress_bar
     from ..show.tables.summary import link_health, wear_lines
+    from ..walk.walk import Walk
 
     recipe, calibration, drivers = recipe_named(options.recipe), calibration_of(options), drivers_of(options)
     name, flaws = printable(label_files(options.files)), list[str]()
@@ -131,13 +131,13 @@ def run(options: argparse.Namespace) -> int:
         print("nothing else was checked: mend this first")
         return 1
     session = Session(recipe, calibration=calibration, poses=True, profiles=drivers)
-    observer, unused = Observer(), UnusedPackets(make_kinds(drivers))
+    walk, unused = Walk(), UnusedPackets(make_kinds(drivers))
     must, found = list[str](), list[DefectFound]()
     may = [*filter(None, [assumed_foot(source)])]
     degraded = {foot: DegradedStrides() for foot in Foot}
 
     def take(item: Packet | Sample | None, events: list[Event]) -> None:
-        observer.take(item, events)
+        walk.take(item, events)
         unused.take(item, events)
         for event in events:
             if isinstance(event, DefectFound):
@@ -152,7 +152,7 @@ def run(options: argparse.Namespace) -> int:
                 take(item, session.feed(item))
                 show(source.done)
     except RecordingError as error:
-        if not observer.item_count:
+        if not walk.item_count:
             raise
         must.append(_without_path(error))
     take(None, session.finish())
@@ -164,12 +164,12 @@ def run(options: argparse.Namespace) -> int:
     has_many = bad_rows is not None and bad_rows.count > LARGE_SHARE * (bad_rows.count + bad_rows.good)
     prefix = f"{printable(str(options.files[0]))}: " if is_one else ""
     (must if has_many else may).extend(flaw.removeprefix(prefix) for flaw in flaws)
-    must += [*unused.sentences(), *wear_lines(observer), *observer.troubles]
+    must += [*unused.sentences(), *wear_lines(walk), *walk.troubles]
     may += [f"{foot} foot: {text}" for foot in Foot if (text := degraded[foot].sentence()) is not None]
-    may += [*observer.limitations, *link_health(observer)]
-    strides = {foot: counts.strides for foot, counts in observer.feet.items() if counts.strides}
+    may += [*walk.limitations, *link_health(walk)]
+    strides = {foot: counts.strides for foot, counts in walk.feet.items() if counts.strides}
     walked = ", ".join(f"{foot} foot {counted(count, 'stride')}" for foot, count in strides.items()) or "no stride"
-    print(f"{name}: {observer.covered_time.total:.1f} s, {walked}")
+    print(f"{name}: {walk.covered_time.total:.1f} s, {walked}")
     _print_list("must be mended", must)
     _print_list("worth knowing", may)
     if not must:

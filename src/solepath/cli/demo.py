@@ -97,10 +97,10 @@ def run(options: argparse.Namespace) -> int:
             note(f"the live view needs rich: {install_hint('live')}; plain text without it")
         _print_progress(demo)
     print()
-    lines = [*gait_lines(demo.observer.gait), comparison_table(demo.comparison()), ""]
+    lines = [*gait_lines(demo.found.gait), comparison_table(demo.comparison()), ""]
     if (place := demo.place()) is not None:
         lines += [place_table(place), ""]
-    print("\n".join([*lines, *latency(demo.observer)]))
+    print("\n".join([*lines, *latency(demo.found)]))
     return 0
 
 
@@ -146,17 +146,17 @@ def _draw(demo: Demo, speed: float) -> None:
     from ..show.tables.terminal import FRAME_RATE, picture, screen
 
     def title() -> str:
-        return f"{demo.observer.now:5.1f} of {demo.duration:.1f} s, {speed:g} times real time"
+        return f"{demo.found.now:5.1f} of {demo.duration:.1f} s, {speed:g} times real time"
 
     console, started = Console(), monotonic()
     with screen(console) as display:
         for packet in demo.play():
             if (wait := packet.t / speed - (monotonic() - started)) > 0.5 / FRAME_RATE:  # half a frame
-                display.draw(demo.observer, title())
+                display.draw(demo.found, title())
                 sleep(wait)
             else:
-                display.show(demo.observer, title())
-    console.print(picture(demo.observer, title()))
+                display.show(demo.found, title())
+    console.print(picture(demo.found, title()))
 
 
 def _print_progress(demo: Demo) -> None:
@@ -169,10 +169,10 @@ def _print_progress(demo: Demo) -> None:
     for packet in demo.play():
         if packet.t >= due:
             due += REPORT_INTERVAL
-            feet = (f"{foot} {counted(demo.observer.foot(foot).strides, 'stride')}" for foot in Foot)
+            feet = (f"{foot} {counted(demo.found.foot(foot).strides, 'stride')}" for foot in Foot)
             print(f"{packet.t:6.1f} s  {', '.join(feet)}", flush=True)
     print(
         "\n".join(
-            ["", *(line.rstrip() for line in plot(demo.observer.track.points, 72, 16)), "", *link_health(demo.observer)]
+            ["", *(line.rstrip() for line in plot(demo.found.track.points, 72, 16)), "", *link_health(demo.found)]
         )
     )

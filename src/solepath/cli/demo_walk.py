@@ -16,12 +16,12 @@ from ..emulate.walk import EmulatedWalk, emulate
 from ..events import Event, Placed, PlaceLost, TurnMade
 from ..floorplan.index import IndexedPlan
 from ..session import Session
-from ..show.observer import Observer
 from ..show.tables.table import milliseconds, number, percent, table
 from ..types import Foot, Packet, Sample
 from ..validate.comparison import FootComparison, compare
-from ..validate.gathered import EventCollection
+from ..validate.foot_run import FootRun
 from ..validate.place import PlaceScore, score
+from ..walk.walk import Walk
 
 
 @define
@@ -37,8 +37,8 @@ class Demo:
     """Walk through the emulated building; None when the walk is not in the building."""
     plan: IndexedPlan | None = None
     """Floor plan of that building; None when the walk is not in the building."""
-    observer: Observer = field(factory=Observer)
-    collection: EventCollection = field(factory=EventCollection)
+    found: Walk = field(factory=lambda: Walk(limit=None, keeps_all=True))
+    """What the session found."""
     _place_events: list[Event] = field(factory=list)
 
     @property
@@ -55,15 +55,14 @@ class Demo:
 
     def add_events(self, packet: Packet | Sample | None, events: list[Event]) -> None:
         """Add the events that a session returned for a packet; `packet` is None at the end."""
-        self.observer.take(packet, events)
+        self.found.take(packet, events)
         for event in events:
-            self.collection.add(event)
             if isinstance(event, Placed | PlaceLost | TurnMade):
                 self._place_events.append(event)
 
     def comparison(self) -> list[FootComparison]:
         """Return the comparison of both feet with the truth. Call it after `play` has finished."""
-        return compare(self.walk.truth, {foot: self.collection.foot(foot) for foot in Foot})
+        return compare(self.walk.truth, {foot: FootRun.of(self.found, foot) for foot in Foot})
 
     def place(self) -> PlaceScore | None:
         """Return the score of the position on the floor plan; None without a plan."""

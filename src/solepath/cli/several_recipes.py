@@ -32,7 +32,7 @@ def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> i
     from ..link.kinds import make_kinds
     from ..session import Session
     from ..show.tables.progress import progress_bar
-    from ..show.tables.recipes import RecipeWalk, recipe_lines
+    from ..show.tables.recipes import RecipeRun, recipe_lines
     from .common.loop import stop_signals_raise
     from .common.results import Results
 
@@ -45,7 +45,7 @@ def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> i
         check_pressure(recipe, source, drivers)
     plan, start = floorplan_of(options)
     name = printable(source.name)
-    walks, runs = list[RecipeWalk](), list[tuple[RecipeWalk, Session, Results]]()
+    rows, runs = list[RecipeRun](), list[tuple[RecipeRun, Session, Results]]()
     failure: RecordingError | None = None
     with stop_signals_raise(), ExitStack() as stack:
         for recipe in recipes:
@@ -61,16 +61,16 @@ def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> i
                     unused=UnusedPackets(make_kinds(drivers)),
                 )
             )
-            walks.append(RecipeWalk(recipe.name, results.observer))
-            runs.append((walks[-1], session, results))
+            rows.append(RecipeRun(recipe.name, results.walk))
+            runs.append((rows[-1], session, results))
 
         def feed(item: Packet | Sample | None) -> None:
-            for walk, session, results in runs:
+            for row, session, results in runs:
                 start_time = perf_counter()
                 events = session.finish() if item is None else session.feed(item)
                 results.open_files()
                 results.add(item, events)
-                walk.add(events, perf_counter() - start_time)
+                row.seconds += perf_counter() - start_time
 
         with progress_bar(name, source.total) as show:
             try:
@@ -79,11 +79,11 @@ def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> i
                     show(source.done)
             except RecordingError as error:
                 failure = error
-        if failure is None or walks[0].observer.item_count:
+        if failure is None or rows[0].walk.item_count:
             feed(None)
             for _, _, results in runs:
                 results.write_files()
-            print("\n".join(recipe_lines(f"{name}, {len(walks)} recipes", walks)))
+            print("\n".join(recipe_lines(f"{name}, {len(rows)} recipes", rows)))
             if options.out is not None:
                 print(f"written to {', '.join(printable(str(_folder(options.out, recipe))) for recipe in recipes)}")
     if failure is not None:

@@ -25,7 +25,7 @@ from .common.inputs import (
     source_of,
     undo_clocks,
 )
-from .common.outcomes import add_outcomes, band_files_of, clinic_of, has_outcomes
+from .common.outcomes import add_outcomes, band_files_of, has_outcomes, outcomes_of
 from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
 from .common.report import add_report, check_report_options, report_of
 from .common.tables import add_tables, feet_of, mapping_of
@@ -84,7 +84,7 @@ def run(options: argparse.Namespace) -> int:
         from .several_recipes import track_with_each
 
         return track_with_each(options, [recipe, *others])
-    clinic = clinic_of(options)
+    outcomes = outcomes_of(options)
     check_report_options(options)
     outputs = _check_outputs(options)
     calibration, drivers = calibration_of(options), drivers_of(options)
@@ -115,7 +115,7 @@ def run(options: argparse.Namespace) -> int:
         ),
         plan=None if plan is None else plan.plan,
         outputs=outputs,
-        clinic=clinic,
+        outcomes=outcomes,
         unused=UnusedPackets(make_kinds(drivers)),
     )
     seconds, shown = 0.0, False
@@ -124,7 +124,7 @@ def run(options: argparse.Namespace) -> int:
             seconds = _run_directly(recording, session, results)
         else:
             shown = _run_on_page(recording, session, results, plan, calibration, address, pace)
-        if recording.failure is None or results.observer.item_count:
+        if recording.failure is None or results.walk.item_count:
             results.write_and_print(seconds)
     if recording.failure is None:
         if (sentence := assumed_foot(source)) is not None:

@@ -11,7 +11,7 @@ from ..emulate.wearers.truth import FootTruth, Truth
 from ..events import FootFlat, HeelOff, HeelStrike, ToeOff
 from ..types import Foot
 from .alignment import position_errors
-from .gathered import FootRun
+from .foot_run import FootRun
 from .matching import Errors, Matching, match, pairs
 
 STRIDE_TOLERANCE = 0.4

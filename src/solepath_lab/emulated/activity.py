@@ -6,7 +6,7 @@ from attrs import frozen
 
 from solepath.recipes import Recipe
 from solepath.session import Session
-from solepath.validate.gathered import EventCollection
+from solepath.walk.walk import Walk
 
 from ..evaluate.activity import score_rides, score_samples, score_windows
 from ..measures.confusion import ActivityScore
@@ -30,10 +30,10 @@ def score(recipe: Recipe, seed: int) -> EmulatedScore:
     """Score a session of the recipe on the walk of a seed, which must not be a training seed (train/emulated.py)."""
     walk = emulated.walk(seed)
     session = Session(recipe)
-    collection = EventCollection.of(session.feed(walk.packets) + session.finish())
+    found = Walk.of(session.feed(walk.packets) + session.finish())
     truth = walk.truth
     t = [k * SAMPLING_INTERVAL for k in range(int(truth.duration / SAMPLING_INTERVAL))]
-    in_time = score_samples(t, [truth.activity(at) for at in t], collection.timeline)
+    in_time = score_samples(t, [truth.activity(at) for at in t], found.timeline)
     return EmulatedScore(
-        score_windows(truth.activities, collection.timeline), in_time + score_rides(truth.activities, collection.rides)
+        score_windows(truth.activities, found.timeline), in_time + score_rides(truth.activities, list(found.rides))
     )

@@ -31,8 +31,8 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Start
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Packet, Sample, Site
-from solepath.validate.gathered import EventCollection
 from solepath.validate.place import score
+from solepath.walk.walk import Walk
 
 from ..evaluate.activity import score_rides, score_windows
 from ..measures.confusion import ActivityScore
@@ -163,8 +163,8 @@ def _items(walk: EmulatedWalk | SampledWalk, evidence: Evidence) -> Iterable[Ite
 def _score_activities(recipe: str, walk: EmulatedWalk | SampledWalk, evidence: Evidence) -> WalkOutcome:
     session, truth = Session(recipes.by_name(recipe)), walk.truth
     events = session.feed(_items(walk, evidence)) + session.finish()
-    found = EventCollection.of(events)
-    windows = score_windows(truth.activities, found.timeline) + score_rides(truth.activities, found.rides)
+    found = Walk.of(events)
+    windows = score_windows(truth.activities, found.timeline) + score_rides(truth.activities, list(found.rides))
     ups = [event.up for event in events if isinstance(event, FlightClimbed)]
     true_ups = [span[2] is Activity.STAIRS_UP for span in truth.activities if span[2] in STAIRS]
     return WalkOutcome(windows, flights_right=int(ups == true_ups))

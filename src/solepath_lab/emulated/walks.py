@@ -30,6 +30,7 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Site
 from solepath.validate.alignment import Floats, aligned_at_start, distances, track_error
 from solepath.validate.comparison import compare
+from solepath.validate.foot_run import FootRun
 from solepath.validate.matching import Matching
 
 from ..evaluate.run import Meta, RunSettings, run_timed
@@ -77,9 +78,9 @@ def score_floors(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     seed: int = meta["seed"]
     walk = sampled(four_floors(seed), wearer=Wearer(), insoles=insoles_of(seed), seed=seed)
     session, truth = Session(settings.recipe, calibration=settings.calibration), walk.truth
-    collection, track, seconds = run_timed(session, walk.samples, POSITION_INTERVAL)
+    found, track, seconds = run_timed(session, walk.samples, POSITION_INTERVAL)
     heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
-    for foot in compare(truth, {foot: collection.foot(foot) for foot in Foot}):
+    for foot in compare(truth, {foot: FootRun.of(found, foot) for foot in Foot}):
         heel_strike += foot.events["heel_strike"]
         toe_off += foot.events["toe_off"]
         strides += StrideScore(foot.strides_true, foot.strides_found, foot.strides_invented, foot.length_errors)

@@ -11,8 +11,8 @@ from itertools import pairwise
 from pathlib import Path
 
 from solepath.events import ActivityChanged, LiftRidden
-from solepath.show.timeline import Timeline
 from solepath.types import Activity
+from solepath.walk.timeline import Timeline
 
 from ..measures.confusion import DELAYS, ActivityScore
 from ..measures.score import Figures, Scored
@@ -99,9 +99,9 @@ def score_labelled(path: Path, meta: Meta, settings: RunSettings, corrected: boo
     With `corrected`, labels that contradict the signal are corrected."""
     result = run(path, settings, poses=False)
     t, true = labels(path, corrected)
-    score = score_samples(t, true, result.collection.timeline) + score_rides(spans(t, true), result.collection.rides)
-    score += score_inside(t, true, result.collection.timeline)
-    score += score_delays(t, true, result.collection.activities)
+    score = score_samples(t, true, result.walk.timeline) + score_rides(spans(t, true), list(result.walk.rides))
+    score += score_inside(t, true, result.walk.timeline)
+    score += score_delays(t, true, result.walk.activities)
     wearers = ", ".join(map(str, sorted(FOLDS[fold_of(int(meta["subject"]))])))
     return scored(path, result, activity=score, groups=("all", f"of wearers {wearers}"))
 
@@ -131,7 +131,7 @@ def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         times = [start + k * SAMPLING_INTERVAL for k in range(int((end - start) / SAMPLING_INTERVAL))]
         t += times
         true += [activity] * len(times)
-    score = score_samples(t, true, result.collection.timeline)
+    score = score_samples(t, true, result.walk.timeline)
     return scored(path, result, figures=stairs_figures(score))
 
 

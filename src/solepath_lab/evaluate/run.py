@@ -23,7 +23,8 @@ from solepath.recording.samples.npz import read_arrays
 from solepath.session import Session
 from solepath.types import Foot, Sample
 from solepath.validate.alignment import Floats
-from solepath.validate.gathered import EventCollection, FootRun
+from solepath.validate.foot_run import FootRun
+from solepath.walk.walk import Walk
 
 from ..measures.score import Scored
 
@@ -55,7 +56,7 @@ class RecordingRun:
     """The events of the session that processed a recording, and the time that it took."""
 
     feet: dict[Foot, FootRun]
-    collection: EventCollection
+    walk: Walk
     samples: int
     """Number of samples."""
     seconds: float
@@ -86,14 +87,14 @@ def run(
     samples = list(recording)
     if without_pressure:
         samples = [attrs.evolve(sample, pressure=None) for sample in samples]
-    collection, wearer, seconds = run_timed(session, samples, 0.0 if body else None)
-    feet = {table.foot: collection.foot(table.foot) for table in recording.tables}
-    return RecordingRun(feet, collection, len(samples), seconds, wearer)
+    walk, wearer, seconds = run_timed(session, samples, 0.0 if body else None)
+    feet = {table.foot: FootRun.of(walk, table.foot) for table in recording.tables}
+    return RecordingRun(feet, walk, len(samples), seconds, wearer)
 
 
 def run_timed(
     session: Session, samples: Iterable[Sample], interval: float | None
-) -> tuple[EventCollection, ScoredTrack | None, float]:
+) -> tuple[Walk, ScoredTrack | None, float]:
     """Return the session's events for the samples, the wearer's track and the wall time, s.
 
     The track has a position every `interval` s, or after every sample when that is 0. With None there is no track."""
@@ -112,7 +113,7 @@ def run_timed(
         np.array([one.t for one in positions]), np.array([one.position for one in positions]).reshape(-1, 3),
         np.array(covariances).reshape(-1, 3),
     )  # fmt: skip
-    return EventCollection.of(event for events in outputs for event in events), track if positions else None, seconds
+    return Walk.of(event for events in outputs for event in events), track if positions else None, seconds
 
 
 Meta = dict[str, Any]

@@ -12,7 +12,7 @@ import numpy as np
 from solepath.events import HeelStrike, ToeOff
 from solepath.types import Foot, Turn
 from solepath.validate.alignment import at_times
-from solepath.validate.gathered import FootRun
+from solepath.validate.foot_run import FootRun
 from solepath.validate.matching import TOLERANCE, Errors, Matching, interval_errors, match
 
 from ..measures.contacts import force_contacts, is_loaded, merged, switch_contacts
@@ -89,8 +89,8 @@ def _turn_figures(span: list[float], result: RecordingRun) -> Figures:
     between pi and the largest angle of a turn that overlaps the span, or pi without such a turn. Reported U-turns that
     do not overlap the span are invented."""
     t_start, t_end = span
-    overlapping = [turn for turn in result.collection.turns if turn.t >= t_start and turn.t_start <= t_end]
-    n_about = sum(turn.turn is Turn.ABOUT for turn in result.collection.turns)
+    overlapping = [turn for turn in result.walk.made_turns if turn.t >= t_start and turn.t_start <= t_end]
+    n_about = sum(turn.turn is Turn.ABOUT for turn in result.walk.made_turns)
     found = any(turn.turn is Turn.ABOUT for turn in overlapping)
     angle = max([abs(turn.angle) for turn in overlapping], default=0.0)
     return {

@@ -9,7 +9,7 @@ import numpy as np
 
 from solepath.types import Foot
 from solepath.validate.alignment import at_times, path_length, position_errors, track_error
-from solepath.validate.gathered import FootRun
+from solepath.validate.foot_run import FootRun
 from solepath.validate.matching import Errors
 
 from ..measures.consistency import consistency_at_end

@@ -15,8 +15,8 @@ from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import ActivityChanged, Event, FlightClimbed, LiftRidden
-from solepath.show.timeline import Timeline
 from solepath.types import Activity, Foot, Packet, Sample, Site
+from solepath.walk.timeline import Timeline
 
 HOUSE = (
     Route().stand(3.0).walk(8.0, 1.3).stairs(11).walk(1.2).turn(pi, 0.6).stairs(11).walk(5.0).turn(pi)

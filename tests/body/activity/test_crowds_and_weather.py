@@ -23,8 +23,8 @@ from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.gait import random_wearer
 from solepath.emulate.wearers.truth import Truth
 from solepath.events import ActivityChanged, FlightClimbed, LiftRidden
-from solepath.show.timeline import Timeline
 from solepath.types import Activity, Site
+from solepath.walk.timeline import Timeline
 
 SEEDS = longer(1, 2, 3)
 """Seeds of wearers; those beyond the first repeat a walk with another gait and other sensor errors."""

@@ -18,8 +18,8 @@ from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.gait import SUBJECTS, Wearer
 from solepath.events import ActivityChanged
-from solepath.show.timeline import Timeline
 from solepath.types import Activity, Site
+from solepath.walk.timeline import Timeline
 
 SLOPE = 1.0 / 12.0
 UP = Route().stand(3.0).walk(5.0, 1.3).walk(25.0, slope=SLOPE).walk(3.0).stand(3.0)

@@ -23,7 +23,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.events import Defect, DefectFound, Event
 from solepath.recording import open_source, shift_clock
 from solepath.recording.errors import printable
-from solepath.show.observer import Observer
+from solepath.walk.walk import Walk
 
 LEVEL = Route().stand(1.5).walk(40.0, 1.3).stop(1.0)
 BETWEEN = ("step_time", "initial_double_support", "terminal_double_support", "single_support", "phase")
@@ -142,22 +142,22 @@ def test_a_clock_that_runs_200_ppm_fast_is_found_within_ten_minutes_and_again_as
 
 
 def test_nothing_compares_the_feet_after_their_clocks_were_found_apart() -> None:
-    session, observer = Session(), Observer()
+    session, walk = Session(), Walk()
     events: list[Event] = []
     for sample in with_late_right_foot(level(), 0.1):
         new = session.feed(sample)
-        observer.take(sample, new)
+        walk.take(sample, new)
         events += new
     (defect,) = found(events)
     later = [event for event in of(GaitCycleMeasured, events) if event.known_at > defect.known_at]
     assert len(later) > 10
     assert {getattr(cycle, name) for cycle in later for name in BETWEEN} == {None}
     assert all(cycle.stance_time > 0.5 for cycle in later), "a foot alone is measured as before"
-    for gait in (session.gait, observer.gait.parameters, observer.recent_gait.parameters):
+    for gait in (session.gait, walk.gait.parameters, walk.recent_gait.parameters):
         assert gait is not None and gait.both.stance_time is not None and gait.asymmetry("stance_time") is not None
         assert {getattr(gait.both, name) for name in BETWEEN} == {None}, "not in the means either"
         assert (gait.asymmetry("step_time"), gait.coordination) == (None, None)
-    assert observer.defects == [f"right foot: {defect.what}"]
+    assert walk.defects == [f"right foot: {defect.what}"]
 
 
 def means(events: list[Event]) -> dict[tuple[Foot, str], float]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from solepath.events import ActivityChanged
-from solepath.show.timeline import Timeline
 from solepath.types import Activity, Site
 from solepath.types.vector import GRAVITY, ZERO
+from solepath.walk.timeline import Timeline
 from solepath_lab.measures.confusion import ActivityScore
 from solepath_lab.reproduce.footstep.activities import fitted_climb, stair_stretches
 from solepath_lab.reproduce.footstep.corridor import WatchedZones

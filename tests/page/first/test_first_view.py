@@ -21,7 +21,7 @@ async def test_a_recording_at_its_end_is_shown_as_finished_with_the_means_of_the
     scene = scene_after(1e9)
     end = square_walk()[-1][0].t
     scene.playback = Playback(0.0, end, end, "ended")
-    total = scene.observer.gait.parameters
+    total = scene.walk.gait.parameters
     assert total is not None and total.both.speed is not None
     async with open_page(chromium, scene) as (view, _):
         await view.until(text_is("activity", "Finished"))

@@ -15,9 +15,9 @@ from solepath.papers.footstep_tracker.activity import two_second_windows
 from solepath.papers.footstep_tracker.activity.two_second_windows import MOVING_ACTIVITIES, TwoSecondWindows
 from solepath.papers.footstep_tracker.activity.window_model import FEATURES, Gaussian, WindowModel
 from solepath.papers.footstep_tracker.activity.windows import BLOCKS, FootWindows
-from solepath.show.timeline import Timeline
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
 from solepath.types.vector import GRAVITY
+from solepath.walk.timeline import Timeline
 
 SAMPLE_RATE = 20.0
 TRACKERS = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}

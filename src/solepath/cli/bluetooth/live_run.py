@@ -18,13 +18,13 @@ from ...floorplan.plan import Start
 from ...recipes import Recipe
 from ...recording import printable
 from ...session import Session
-from ...show.observer import Observer
 from ...show.page.body import LiveBody, legs_of
 from ...show.page.live_commands import position_of
 from ...show.page.scene.scales import newtons_of
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet
+from ...walk.walk import Walk
 from ..common.failure import Failure, is_installed, note
 from ..common.loop import unless_stopped
 from ..common.own_devices import drivers_of
@@ -55,7 +55,7 @@ async def listen(
         floorplan=plan,
         start=start,
     )
-    observer = Observer()
+    walk = Walk()
     scene: Scene | None = None
     async with AsyncExitStack() as stack:
         files = LiveFiles(options.record, options.out, places=plan is not None, force=options.force)
@@ -71,15 +71,15 @@ async def listen(
         publish = _publisher_of(options, session)
         if address is not None:
             floor_plan, newtons = None if plan is None else plan.plan, newtons_of(calibration)
-            scene = Scene("Live", recipe.name, "live", plan=floor_plan, newtons=newtons, observer=observer)
+            scene = Scene("Live", recipe.name, "live", plan=floor_plan, newtons=newtons, walk=walk)
             scene.body = LiveBody(lambda: legs_of(session))
             await stack.enter_async_context(
                 serve_page(scene, address, lambda command: packets.report_position(position_of(command, floor_plan)))
             )
-        live = LiveSession(session, observer if scene is None else scene, files, publish)
+        live = LiveSession(session, walk if scene is None else scene, files, publish)
         end_hint = "Ctrl-C ends" if seconds is None else f"{seconds:g} s"
         try:
-            with show_state(observer, end_hint) as report:
+            with show_state(walk, end_hint) as report:
                 async for packet in packets_until(packets, stop, seconds):
                     live.take(packet)
                     report()
@@ -89,9 +89,9 @@ async def listen(
             note("interrupted")
         finally:
             live.finish()
-    print(summary(observer, title=f"recipe {recipe.name}", seconds=0.0))  # 0: no line on the speed
+    print(summary(walk, title=f"recipe {recipe.name}", seconds=0.0))  # 0: no line on the speed
     if plan is not None:
-        print("\n".join(place_lines(observer.places)))
+        print("\n".join(place_lines(walk.places)))
     if files.failure is not None:
         raise Failure(files.failure)
     if files.unchanged:
@@ -109,7 +109,7 @@ class LiveSession:
     """A session that is shown and written while it runs: `collector` and `files` get its packets and events."""
 
     session: Session
-    collector: Observer | Scene
+    collector: Walk | Scene
     files: LiveFiles
     publish: Callable[[list[Event]], None] | None = None
     """Function that gets the events after each packet."""
@@ -150,7 +150,7 @@ REPORT_INTERVAL = 5.0
 
 
 @contextmanager
-def show_state(observer: Observer, end_hint: str) -> Iterator[Callable[[], None]]:
+def show_state(walk: Walk, end_hint: str) -> Iterator[Callable[[], None]]:
     """Yield a function that shows the state of the session, as a picture in a terminal if rich is installed.
 
     Otherwise it prints lines every REPORT_INTERVAL s. `end_hint`, the picture's title, says when the session ends."""
@@ -160,16 +160,16 @@ def show_state(observer: Observer, end_hint: str) -> Iterator[Callable[[], None]
         from ...show.tables.terminal import screen
 
         with screen(Console()) as terminal_screen:
-            yield lambda: terminal_screen.show(observer, end_hint)
+            yield lambda: terminal_screen.show(walk, end_hint)
         return
     started: float | None = None
     due = REPORT_INTERVAL
 
     def report() -> None:
         nonlocal started, due
-        started = observer.now if started is None else started
-        if observer.now - started >= due:
+        started = walk.now if started is None else started
+        if walk.now - started >= due:
             due += REPORT_INTERVAL
-            print("\n".join(f"{observer.now - started:6.1f} s  {line}" for line in status(observer)), flush=True)
+            print("\n".join(f"{walk.now - started:6.1f} s  {line}" for line in status(walk)), flush=True)
 
     yield report

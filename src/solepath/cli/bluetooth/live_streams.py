@@ -69,9 +69,9 @@ async def _listen(
     from ...recording.lsl.outlet import LslOutlets
     from ...recording.posed import PosedSession
     from ...session import Session
-    from ...show.observer import Observer
     from ...show.output import TrackFiles
     from ...show.tables.summary import summary
+    from ...walk.walk import Walk
     from .devices import listening_time
     from .live_run import show_state
 
@@ -87,11 +87,11 @@ async def _listen(
         inlet.offset = start
     outlets = None if options.lsl is None else LslOutlets(start, options.lsl, with_samples=False)
     files = None if options.out is None else TrackFiles(options.out)
-    observer = Observer()
+    walk = Walk()
 
     def publish(feed: Callable[[], Any], item: Any) -> None:
         events = feed()
-        observer.take(item, events)
+        walk.take(item, events)
         samples = posed.take()
         if outlets is not None:
             outlets.push(samples, events)
@@ -101,11 +101,11 @@ async def _listen(
 
     seconds = listening_time(options)
     end = None if seconds is None else local_clock() + seconds
-    with show_state(observer, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
+    with show_state(walk, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
         while not stop.is_set() and (end is None or local_clock() < end):
             for sample in sorted([one for inlet in inlets for one in inlet.pull()], key=lambda one: one.t):
                 publish(partial(posed.session.feed, sample), sample)
-            if observer.item_count:
+            if walk.item_count:
                 report()
             await asyncio.sleep(POLL_INTERVAL)
     publish(posed.session.finish, None)
@@ -115,7 +115,7 @@ async def _listen(
         if not inlet.received:
             note(f"the stream {inlet.name!r} sent nothing")
         inlet.close()
-    print(summary(observer, title=f"recipe {recipe.name}", seconds=0.0))  # 0: no line on the speed
+    print(summary(walk, title=f"recipe {recipe.name}", seconds=0.0))  # 0: no line on the speed
     if outlets is not None:
         print("published: " + ", ".join([f"{count} in {options.lsl} {name}" for name, count in outlets.sent.items()]))
         outlets.close()

@@ -11,7 +11,7 @@ from ...recording import printable
 from .failure import Failure
 
 if TYPE_CHECKING:
-    from ...show.outcomes.clinic import Clinic
+    from ...show.outcomes.clinic import OutcomeRequest
     from ...show.outcomes.references import Person
 
 MAX_AGE, HEIGHTS, WEIGHTS = 120.0, (50.0, 250.0), (10.0, 400.0)
@@ -53,13 +53,13 @@ def has_outcomes(options: argparse.Namespace) -> bool:
     return bool(options.outcomes) or options.six_minute_walk is not False or options.timed_up_and_go is not None
 
 
-def clinic_of(options: argparse.Namespace) -> Clinic | None:
-    """Return what collects the outcomes that the options name; None without any; raise Failure when one is wrong."""
+def outcomes_of(options: argparse.Namespace) -> OutcomeRequest | None:
+    """Return the outcomes that the options name; None without any; raise Failure when one is wrong."""
     if not has_outcomes(options):
         if options.reference and options.report is None:
             raise Failure("--reference goes with --report, --outcomes, --six-minute-walk or --timed-up-and-go")
         return None
-    from ...show.outcomes.clinic import Clinic
+    from ...show.outcomes.clinic import OutcomeRequest
 
     marks, up_and_go = None, options.timed_up_and_go
     if up_and_go is not None:
@@ -67,7 +67,7 @@ def clinic_of(options: argparse.Namespace) -> Clinic | None:
         if first is None or last is None or not first < last:
             raise Failure(f"--timed-up-and-go {printable(up_and_go, 80)} is not START,STOP, as in 12.5,24.1")
         marks = (first, last)
-    return Clinic(
+    return OutcomeRequest(
         outcomes=options.outcomes,
         six_minutes=options.six_minute_walk is not False,
         six_minutes_start=None if options.six_minute_walk is False else options.six_minute_walk,

@@ -13,17 +13,17 @@ from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recording import printable
 from ...saving.files import FileReplacements
-from ...show.observer import Observer
 from ...show.output import PLAN_FILE, TrackFiles, os_errors_naming
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
+from ...walk.walk import Walk
 from .failure import Failure, note
 from .files import OutputFile, replacements
 from .own_devices import UnusedPackets
 
 if TYPE_CHECKING:
-    from ...show.outcomes.clinic import Clinic
+    from ...show.outcomes.clinic import OutcomeRequest
     from ...show.report import Report
 
 
@@ -43,11 +43,10 @@ class Results:
     plan: FloorPlan | None = None
     outputs: Sequence[OutputFile] = ()
     """All files of `out`, and `report`, as they were before the run."""
-    clinic: Clinic | None = None
-    """Collects the clinical outcomes; None without any."""
+    outcomes: OutcomeRequest | None = None
+    """Clinical outcomes; None without any."""
     unused: UnusedPackets = field(factory=UnusedPackets)
-    observer: Observer = field(factory=Observer, init=False)
-    _picture: PlanPicture | None = field(init=False)
+    walk: Walk = field(factory=Walk, init=False)
     _files: TrackFiles | None = field(default=None, init=False)
     _open: ExitStack = field(factory=ExitStack, init=False)
     _file_replacements: FileReplacements = field(init=False)
@@ -57,9 +56,10 @@ class Results:
 
     def __attrs_post_init__(self) -> None:
         self._file_replacements, self._report_replacement = replacements(self.outputs), replacements(self.outputs)
-        self._picture = None if self.plan is None else PlanPicture(self.plan)
+        if self.out is not None or self.outcomes is not None:
+            self.walk.limit = None
         if self.contents is not None:
-            self.contents.observer, self.contents.clinic = self.observer, self.clinic
+            self.contents.walk, self.contents.outcomes = self.walk, self.outcomes
 
     def open_files(self) -> None:
         """Open the files, if they are not open."""
@@ -75,16 +75,11 @@ class Results:
 
     def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
         """Add a packet or sample and its events, or None and the last events at the end of the recording."""
-        collector = self.observer if self.contents is None else self.contents
-        collector.take(item, events)
+        self.walk.take(item, events)
         self.unused.take(item, events)
-        for event in events:
-            if self._files is not None:
+        if self._files is not None:
+            for event in events:
                 self._files.write(event)
-            if self._picture is not None:
-                self._picture.add(event)
-            if self.clinic is not None:
-                self.clinic.add(event)
 
     def write_files(self) -> list[str]:
         """Complete the files of `out`; return the lines of the clinical outcomes.
@@ -93,10 +88,10 @@ class Results:
         self._open.close()
         if self.unused.is_all:
             raise Failure(f"{self.title}: {'; '.join(self.unused.sentences())}")
-        if self._picture is not None and self._picture_path is not None and self.out is not None:
+        if self.plan is not None and self._picture_path is not None and self.out is not None:
             with os_errors_naming(self.out):
-                self._picture.write(self._picture_path, self.title)
-        results = None if self.clinic is None else self.clinic.results()
+                PlanPicture(self.plan, self.walk.placed).write(self._picture_path, self.title)
+        results = None if self.outcomes is None else self.outcomes.results(self.walk)
         if results is not None and self.out is not None:
             from ...show.outcomes.files import BOUTS_FILE, OUTCOMES_FILE, write_bouts, write_outcomes
 
@@ -104,14 +99,14 @@ class Results:
                 write_bouts(results, self._file_replacements.temporary_path(self.out / BOUTS_FILE))
                 write_outcomes(results, self._file_replacements.temporary_path(self.out / OUTCOMES_FILE))
         self._file_replacements.move_to_targets()
-        return [] if self.clinic is None or results is None else self.clinic.lines(results)
+        return [] if self.outcomes is None or results is None else self.outcomes.lines(results)
 
     def write_and_print(self, seconds: float) -> None:
         """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
         clinical_lines = self.write_files()
-        print(summary(self.observer, title=self.title, seconds=seconds))
-        if self._picture is not None:
-            print("\n".join(place_lines(self.observer.places)))
+        print(summary(self.walk, title=self.title, seconds=seconds))
+        if self.plan is not None:
+            print("\n".join(place_lines(self.walk.places)))
         if clinical_lines:
             print("\n".join(clinical_lines))
         if self.out is not None:

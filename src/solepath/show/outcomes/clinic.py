@@ -1,22 +1,20 @@
-r"""Collects what outcomes need from a session's events, and puts the outcomes into text.
+r"""Computes the outcomes that were requested of a walk, and puts them into text.
 
-    clinic = Clinic(outcomes=True)
-    for event in events:
-        clinic.add(event)
-    print("\n".join(clinic.lines(clinic.results())))
+    request = OutcomeRequest(outcomes=True)
+    print("\n".join(request.lines(request.results(walk))))
 
 The report (show/report/sections/clinical.py) and the files (files.py) show the same results."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
 
-from attrs import define, field, frozen
+from attrs import frozen
 
-from ...events import Event, GaitCycleMeasured, StrideTaken, TurnMade
+from ...events import Event
+from ...types import Foot
+from ...walk.walk import Walk
 from ..tables.table import number, table
-from ..valid import has_valid_numbers
 from .bouts import WalkingBout, walking_bouts
 from .mobility import implausible, mobility_outcomes
 from .references import Person
@@ -90,9 +88,9 @@ class ClinicalResults:
         ]
 
 
-@define
-class Clinic:
-    """The outcomes that were requested, and the events that they need; memory grows with the strides."""
+@frozen
+class OutcomeRequest:
+    """The outcomes that were requested. Their walk keeps all events: `Walk(limit=None)`."""
 
     outcomes: bool = False
     """True for bouts, mobility outcomes, variability and asymmetry."""
@@ -104,52 +102,34 @@ class Clinic:
     """Times at which an observer marked start and stop of a timed up and go, s."""
     person: Person | None = None
     """Person for whom references are given."""
-    events: list[Event] = field(factory=list, init=False)
-    start: float | None = field(default=None, init=False)
-    """Time of the earliest event of any kind, s."""
-    end: float | None = field(default=None, init=False)
-    """Time of the last event of any kind, s."""
 
-    def add(self, event: Event) -> None:
-        """Add an event of the session."""
-        if isfinite(event.t):
-            self.start = event.t if self.start is None else min(self.start, event.t)
-            self.end = event.t if self.end is None else max(self.end, event.t)
-        if isinstance(event, GaitCycleMeasured | StrideTaken | TurnMade) and event.final and has_valid_numbers(event):
-            self.events.append(event)
-
-    def results(self) -> ClinicalResults:
-        """Return the outcomes of the events so far."""
+    def results(self, walk: Walk) -> ClinicalResults:
+        """Return the outcomes of a walk so far."""
         rows: list[OutcomeRow] = []
-        walk = test = None
-        start_fault = self._find_fault([] if self.six_minutes_start is None else [self.six_minutes_start])
-        marks_fault = self._find_fault(self.up_and_go or [])
+        six_minutes = test = None
+        events: list[Event] = [*walk.made_turns]
+        for foot in Foot:
+            events += [*walk.cycles[foot], *walk.strides[foot]]
+        start_fault = _find_fault(walk.event_span, [] if self.six_minutes_start is None else [self.six_minutes_start])
+        marks_fault = _find_fault(walk.event_span, self.up_and_go or [])
         if self.six_minutes and not start_fault:
-            walk = six_minute_walk(self.events, self.six_minutes_start, self.end)
-            rows += [] if walk is None else six_minute_rows(walk, self.person)
+            end = None if walk.event_span is None else walk.event_span[1]
+            six_minutes = six_minute_walk(events, self.six_minutes_start, end)
+            rows += [] if six_minutes is None else six_minute_rows(six_minutes, self.person)
         if self.up_and_go is not None and not marks_fault:
-            test = timed_up_and_go(self.events, *self.up_and_go)
+            test = timed_up_and_go(events, *self.up_and_go)
             rows += up_and_go_rows(test, self.person)
-        bouts = walking_bouts(self.events)
+        bouts = walking_bouts(events)
         if self.outcomes:
-            rows += [*mobility_rows(mobility_outcomes(bouts)), *stride_rows(self.events, self.person)]
+            rows += [*mobility_rows(mobility_outcomes(bouts)), *stride_rows(events, self.person)]
         return ClinicalResults(
             bouts=bouts,
-            six_minutes=walk,
+            six_minutes=six_minutes,
             up_and_go=test,
             six_minutes_fault=start_fault,
             up_and_go_fault=marks_fault,
             rows=rows,
         )
-
-    def _find_fault(self, marks: Sequence[float]) -> str:
-        """Return a sentence on marks that are not within the recording; "" if they are."""
-        if self.start is None or self.end is None:
-            return ""
-        if all(self.start - MARK_ERROR <= mark <= self.end + MARK_ERROR for mark in marks):
-            return ""
-        given = " and ".join([f"{mark:.10g}" for mark in marks])
-        return f"The recording is from {self.start:.1f} to {self.end:.1f} s on its clock; {given} s is not within it."
 
     def lines(self, results: ClinicalResults) -> list[str]:
         """Return the outcomes as plain text."""
@@ -170,6 +150,14 @@ class Clinic:
                 lines += ["", *_interval_table(f"{part} of steady strides", results.part(part))]
             lines += [*([NEEDED, SENSORS] if results.part(*OF_STRIDES) else []), "", LABEL]
         return lines + results.sources(*PARTS)
+
+
+def _find_fault(span: tuple[float, float] | None, marks: Sequence[float]) -> str:
+    """Return a sentence on marks that are not within the recording, whose `span` is in s; "" if they are."""
+    if span is None or all(span[0] - MARK_ERROR <= mark <= span[1] + MARK_ERROR for mark in marks):
+        return ""
+    given = " and ".join([f"{mark:.10g}" for mark in marks])
+    return f"The recording is from {span[0]:.1f} to {span[1]:.1f} s on its clock; {given} s is not within it."
 
 
 def walk_sentence(results: ClinicalResults) -> str:

@@ -1,4 +1,4 @@
-"""Writes a walk as one HTML file, to read, mail and print, from the events of its session."""
+"""Writes a walk as one HTML file, to read, mail and print."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from xml.etree.ElementTree import tostring
 from attrs import define
 
 from ..output import os_errors_naming
-from .collected import CollectedWalk
+from .content import ReportContent
 
 
 @define
-class Report(CollectedWalk):
-    """Collects the events of a session with `poses` and `pressures`, in bounded memory, then writes the report."""
+class Report(ReportContent):
+    """The report of a walk; `take` adds what its session was fed and returned, `write` writes it."""
 
     def write(self, path: Path) -> None:
         """Write the page to a file, UTF-8; raise OSError, naming the file, when it cannot be written."""

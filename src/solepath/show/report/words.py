@@ -1,11 +1,11 @@
-"""Puts the counts of an observer into the sentences of a report."""
+"""Puts the counts of an walk into the sentences of a report."""
 
 from __future__ import annotations
 
 from ...recording import printable
 from ...types import Foot, Site, Turn
-from ..links import LinkLedger
-from ..observer import Observer
+from ...walk.links import LinkLedger
+from ...walk.walk import Walk
 from ..tables.summary import link_health, sample_lines, wear_lines
 from ..tables.table import counted, duration_text, number
 from ..tables.words import activity_words, turn_words
@@ -16,15 +16,15 @@ MAX_NAME_LENGTH = 60
 """Largest number of characters of a device's name that are shown."""
 
 
-def overview(observer: Observer, clock: ReportClock, cycle_counts: dict[Foot, int]) -> list[str]:
+def overview(walk: Walk, clock: ReportClock, cycle_counts: dict[Foot, int]) -> list[str]:
     """Return the sentences on the course of the recording.
 
     `cycle_counts`, the number of gait cycles of each foot, is used for a foot without a track."""
-    time = observer.covered_time
+    time = walk.covered_time
     lines = [f"The recording lasts {duration_text(time.total if time.span_count else clock.end - clock.start)}."]
     if time.span_count > 1:
         lines = [f"The recording lasts {duration_text(time.total)}; its times go back in between."]
-    tracked = {foot: observer.feet[foot] for foot in Foot if foot in observer.feet and observer.feet[foot].strides}
+    tracked = {foot: walk.feet[foot] for foot in Foot if foot in walk.feet and walk.feet[foot].strides}
     for foot, counts in tracked.items():
         distance = f" over {number(counts.distance, 1)} m" if counts.distance > 0.0 else ""
         lines.append(f"The {foot} foot took {counted(counts.strides, 'stride')}{distance}.")
@@ -33,41 +33,41 @@ def overview(observer: Observer, clock: ReportClock, cycle_counts: dict[Foot, in
             lines.append(f"The {foot} foot took {counted(count, 'stride')}; how far is not known.")
     if not tracked and not any(cycle_counts.values()):
         lines.append("No foot took a stride.")
-    if observer.fused is not None:
-        lines.append(f"Both feet together went {number(observer.fused.distance, 1)} m.")
-    durations = observer.timeline.durations(clock.end)
+    if walk.fused is not None:
+        lines.append(f"Both feet together went {number(walk.fused.distance, 1)} m.")
+    durations = walk.timeline.durations(clock.end)
     if durations:
         activities = [f"{activity_words(activity)} {duration_text(t)}" for activity, t in durations.items()]
         lines.append(f"Activities: {', '.join(activities)}.")
-    for up_counts, name in ((observer.flights, "Flights of stairs"), (observer.elevator_rides, "Lift rides")):
+    for up_counts, name in ((walk.flights, "Flights of stairs"), (walk.elevator_rides, "Lift rides")):
         directions = [f"{up_counts[up]} {'up' if up else 'down'}" for up in (True, False) if up_counts[up]]
         if directions:
             lines.append(f"{name}: {', '.join(directions)}.")
-    turns = [f"{counted(observer.turns[turn], 'turn')} {turn_words(turn)}" for turn in Turn if observer.turns[turn]]
+    turns = [f"{counted(walk.turns[turn], 'turn')} {turn_words(turn)}" for turn in Turn if walk.turns[turn]]
     if turns:
         lines.append(f"The wearer made {', '.join(turns)}.")
     return lines
 
 
-def faults(observer: Observer) -> list[str]:
+def faults(walk: Walk) -> list[str]:
     """Return sentences on what is missing or wrong in sensors, their wearing and their links; none without faults."""
-    return whole_sentences([*wear_lines(observer), *link_health(observer), *sample_lines(observer)])
+    return whole_sentences([*wear_lines(walk), *link_health(walk), *sample_lines(walk)])
 
 
-def sensors(observer: Observer) -> str:
+def sensors(walk: Walk) -> str:
     """Return the sensors in one line, with the names of the devices and the kinds of their data."""
     lines = []
-    for site, link in _links(observer):
+    for site, link in _links(walk):
         name = f" ({printable(link.name, MAX_NAME_LENGTH)})" if link.name else ""
         kinds = [kind for kind, present in (("motion", link.has_motion), ("pressure", link.has_pressure)) if present]
         lines.append(f"{site.words}{name}{': ' + ' and '.join(kinds) if kinds else ''}")
     return "; ".join(lines) if lines else "no data from any"
 
 
-def link_rows(observer: Observer) -> list[list[str]]:
+def link_rows(walk: Walk) -> list[list[str]]:
     """Return the rows of the table of links, with its header first."""
     rows = [["sensor", "samples", "Hz", "gaps", "s in gaps", "lost", "rejected", "silent", "battery"]]
-    for site, link in _links(observer):
+    for site, link in _links(walk):
         battery = "-" if link.battery is None else f"{100.0 * link.battery:.0f} %"
         gaps = [str(link.gaps), number(link.gap_time, 2)]
         counts = [str(link.lost), str(link.rejected.total()), str(link.silences), battery]
@@ -75,5 +75,5 @@ def link_rows(observer: Observer) -> list[list[str]]:
     return rows
 
 
-def _links(observer: Observer) -> list[tuple[Site, LinkLedger]]:
-    return [(site, observer.links[site]) for site in Site if site in observer.links]
+def _links(walk: Walk) -> list[tuple[Site, LinkLedger]]:
+    return [(site, walk.links[site]) for site in Site if site in walk.links]

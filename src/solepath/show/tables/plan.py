@@ -5,14 +5,14 @@ are drawn as dots; the smaller the weight, the fainter the dot. Sizes were chose
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import cos, sin
 from pathlib import Path
 from xml.etree.ElementTree import Element, ElementTree, SubElement, indent
 
 from attrs import define, field
 
-from ...events import Event, Placed, PlaceLost
+from ...events import Placed, PlaceLost
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Point
 from ..output import os_errors_naming
 from .svg import INK_COLOUR, PAPER_COLOUR, plain_text, px, write_text
@@ -41,12 +41,13 @@ TRACK_COLOURS = ("#440154", "#3b528b", "#21918c", "#5ec962", "#f0b420")
 
 @define
 class PlanPicture:
-    """Collects the places that a session reports, then draws them.
+    """Draws the places that a session reported: `events` are its events Placed and PlaceLost, in their order.
 
     Places are in the frame of the floor plan `plan`, m. `width` and `height` are the largest size of the drawing of a
     level, px. `columns` is the number of panels side by side; None chooses it by the number of levels."""
 
     plan: FloorPlan
+    events: Iterable[Placed | PlaceLost] = ()
     width: float = MAX_LEVEL_WIDTH
     height: float = MAX_LEVEL_HEIGHT
     columns: int | None = None
@@ -54,12 +55,12 @@ class PlanPicture:
     breaks: set[int] = field(factory=set, init=False)
     """Indices of the places that follow a loss of the place (PlaceLost)."""
 
-    def add(self, event: Event) -> None:
-        """Add an event of any class; only Placed and PlaceLost change the picture."""
-        if isinstance(event, Placed):
-            self.places.append(event)
-        elif isinstance(event, PlaceLost):
-            self.breaks.add(len(self.places))
+    def __attrs_post_init__(self) -> None:
+        for event in self.events:
+            if isinstance(event, Placed):
+                self.places.append(event)
+            else:
+                self.breaks.add(len(self.places))
 
     def write(self, path: Path, title: str) -> None:
         """Write the picture to a file, UTF-8; raise OSError, naming the file, when it cannot be written."""

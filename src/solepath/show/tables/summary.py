@@ -1,4 +1,4 @@
-"""Puts the counts of an observer into words: a summary of a recording, and the present state of links and place."""
+"""Puts the counts of an walk into words: a summary of a recording, and the present state of links and place."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from statistics import median
 from ...events import Placed
 from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
-from ..links import LinkLedger
-from ..observer import GAIT_EVENTS, FootCounts, Observer
-from ..places import MAX_LISTED, PlaceCounts
+from ...walk.links import LinkLedger
+from ...walk.places import MAX_LISTED, PlaceCounts
+from ...walk.walk import GAIT_EVENTS, FootCounts, Walk
 from .gait import gait_lines
 from .table import counted, duration_text, milliseconds, number, table, times
 from .words import activity_words, turn_words
@@ -18,47 +18,47 @@ from .words import activity_words, turn_words
 NO_DATA = "no data from either foot"
 
 
-def summary(observer: Observer, *, title: str, seconds: float) -> str:
+def summary(walk: Walk, *, title: str, seconds: float) -> str:
     """Return the summary of one recording; `seconds` is the wall time that computing it took."""
-    duration = observer.covered_time.total
+    duration = walk.covered_time.total
     lines = [f"{title}: {duration:.1f} s"]
-    lines += [f"DEFECT, {printable(what)}" for what in observer.defects]
-    lines += _foot_table(observer)
-    lines += _fused_feet(observer)
-    lines += activity_lines(observer)
-    if gait := gait_lines(observer.gait):
+    lines += [f"DEFECT, {printable(what)}" for what in walk.defects]
+    lines += _foot_table(walk)
+    lines += _fused_feet(walk)
+    lines += activity_lines(walk)
+    if gait := gait_lines(walk.gait):
         lines += ["", *gait]
-    lines += wear_lines(observer)
-    lines += link_health(observer)
-    lines += latency(observer)
-    lines += [f"limitation, {printable(what)}" for what in observer.limitations]
-    samples = sum([observer.samples(foot) for foot in Foot])
+    lines += wear_lines(walk)
+    lines += link_health(walk)
+    lines += latency(walk)
+    lines += [f"limitation, {printable(what)}" for what in walk.limitations]
+    samples = sum([walk.samples(foot) for foot in Foot])
     if seconds > 0.0 and samples:
         pace = f", {1e6 * seconds / samples:.0f} us a sample"
         lines.append(f"computed in {seconds:.2f} s: {duration / seconds:.0f} times as fast as walked{pace}")
     return "\n".join(lines)
 
 
-def _foot_table(observer: Observer) -> list[str]:
+def _foot_table(walk: Walk) -> list[str]:
     """Return a table of the feet, and lines about missing samples."""
-    if not observer.known_feet:
+    if not walk.known_feet:
         return [NO_DATA]
     header = ["foot", "samples", "Hz", "strides", "distance m", *[f"{name}s" for name in GAIT_EVENTS.values()]]
     rows = []
-    for foot in observer.known_feet:
-        counts = observer.feet.get(foot, FootCounts())
-        link = observer.links.get(SITE_OF_FOOT[foot], LinkLedger())
+    for foot in walk.known_feet:
+        counts = walk.feet.get(foot, FootCounts())
+        link = walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
         row = [f"{foot}", str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
         rows.append([*row, *[str(counts.events[name]) for name in GAIT_EVENTS.values()]])
-    return ["", table(header, rows), "", *sample_lines(observer)]
+    return ["", table(header, rows), "", *sample_lines(walk)]
 
 
-def sample_lines(observer: Observer) -> list[str]:
+def sample_lines(walk: Walk) -> list[str]:
     """Return lines about missing samples and the strides that they degrade; none if no sample is missing."""
     lines = []
-    for foot in observer.known_feet:
-        counts = observer.feet.get(foot, FootCounts())
-        link = observer.links.get(SITE_OF_FOOT[foot], LinkLedger())
+    for foot in walk.known_feet:
+        counts = walk.feet.get(foot, FootCounts())
+        link = walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
         if link.gaps:
             lines.append(f"{foot}: {counted(link.gaps, 'gap')} in the samples, {link.gap_time:.2f} s in all")
         if counts.degraded:
@@ -66,11 +66,11 @@ def sample_lines(observer: Observer) -> list[str]:
     return lines
 
 
-def fused_stride(observer: Observer) -> list[str]:
+def fused_stride(walk: Walk) -> list[str]:
     """Return lines about the last fused stride: distance (12), similarity (9), error index (10), coefficient (11).
 
     The numbers are those of Chen et al. 2019. The list is empty if the recipe does not fuse strides."""
-    fused = observer.fused
+    fused = walk.fused
     if fused is None:
         return []
     return [
@@ -81,45 +81,45 @@ def fused_stride(observer: Observer) -> list[str]:
     ]
 
 
-def _fused_feet(observer: Observer) -> list[str]:
+def _fused_feet(walk: Walk) -> list[str]:
     """Return the lines about the fused track and the walking modes; none if the recipe treats each foot by itself."""
     lines = []
-    if (fused := observer.fused) is not None:
+    if (fused := walk.fused) is not None:
         lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen} foot's path")
-    if observer.modes:
-        modes = ", ".join(f"{mode} {observer.modes[mode]}" for mode in WalkingMode if observer.modes[mode])
-        lines.append(f"{counted(observer.modes.total(), 'touchdown')}: {modes}")
+    if walk.modes:
+        modes = ", ".join(f"{mode} {walk.modes[mode]}" for mode in WalkingMode if walk.modes[mode])
+        lines.append(f"{counted(walk.modes.total(), 'touchdown')}: {modes}")
     return lines
 
 
-def activity_lines(observer: Observer) -> list[str]:
+def activity_lines(walk: Walk) -> list[str]:
     """Return a line for activities, flights of stairs, elevator rides and turns each, if there were any."""
     lines = []
-    if durations := observer.timeline.durations(observer.now):
+    if durations := walk.timeline.durations(walk.now):
         activities = [f"{activity_words(activity)} {duration_text(t)}" for activity, t in durations.items()]
         lines.append(f"activities: {', '.join(activities)}")
-    for counts, name in ((observer.flights, "flight"), (observer.elevator_rides, "lift ride")):
+    for counts, name in ((walk.flights, "flight"), (walk.elevator_rides, "lift ride")):
         directions = [f"{counts[up]} {'up' if up else 'down'}" for up in (True, False) if counts[up]]
         if directions:
             lines.append(f"{name}s: {', '.join(directions)}")
-    if observer.turns:
-        turns = [f"{observer.turns[turn]} {turn_words(turn)}" for turn in Turn if observer.turns[turn]]
+    if walk.turns:
+        turns = [f"{walk.turns[turn]} {turn_words(turn)}" for turn in Turn if walk.turns[turn]]
         lines.append(f"turns: {', '.join(turns)}")
     return lines
 
 
-def wear_lines(observer: Observer) -> list[str]:
+def wear_lines(walk: Walk) -> list[str]:
     """Return a line for each fault in how sensors are worn; none without faults."""
-    silent = {foot: observer.silences[foot] for foot in Foot if observer.silences[foot]}
+    silent = {foot: walk.silences[foot] for foot in Foot if walk.silences[foot]}
     return [
-        *observer.wear_problems,
+        *walk.wear_problems,
         *(f"{foot}: silent {times(n)} while the other walked on" for foot, n in silent.items()),
     ]
 
 
-def link_health(observer: Observer) -> list[str]:
+def link_health(walk: Walk) -> list[str]:
     """Return a line for each kind of fault of the links; none without faults."""
-    lines, links = [], list(observer.links.values())
+    lines, links = [], list(walk.links.values())
     if lost := sum([link.lost for link in links]):
         received = sum([link.received for link in links])
         lines.append(f"{f'{lost} of ' if received else ''}{counted(lost + received, 'packet')} lost")
@@ -138,23 +138,23 @@ def link_health(observer: Observer) -> list[str]:
     if dropped := sum([link.dropped for link in links]):
         lines.append(f"{counted(dropped, 'packet')} dropped: too many came to be used in time")
     for site in Site:
-        if site in observer.links and observer.links[site].connections > 1:
-            lines.append(f"{site.words}: connected {times(observer.links[site].connections)}")
-    lines += [f"trouble, {printable(what)}" for what in observer.troubles]
+        if site in walk.links and walk.links[site].connections > 1:
+            lines.append(f"{site.words}: connected {times(walk.links[site].connections)}")
+    lines += [f"trouble, {printable(what)}" for what in walk.troubles]
     return lines
 
 
-def latency(observer: Observer) -> list[str]:
+def latency(walk: Walk) -> list[str]:
     """Return a line with the median latency of each gait event, radio included; none without events."""
-    medians = {name: median(counts.elements()) for name, counts in observer.latencies.items() if counts}
+    medians = {name: median(counts.elements()) for name, counts in walk.latencies.items() if counts}
     texts = [f"{name} {milliseconds(1e-4 * tenths)} ms" for name, tenths in medians.items()]
     return [f"known after it happened, median: {', '.join(texts)}"] if texts else []
 
 
-def status(observer: Observer) -> list[str]:
+def status(walk: Walk) -> list[str]:
     """Return a line on the link of each site, in the order of Site, and one on the place if it is known."""
-    lines = [_link(site, observer.links[site], observer.now) for site in Site if site in observer.links]
-    place = observer.places.last
+    lines = [_link(site, walk.links[site], walk.now) for site in Site if site in walk.links]
+    place = walk.places.last
     return lines if place is None else [*lines, place_line(place)]
 
 

@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ...types import Foot, Phase
-from ..observer import FootCounts, Observer
+from ...walk.walk import FootCounts, Walk
 from .plot import plot
 from .summary import fused_stride, link_health, status, wear_lines
 from .table import number
@@ -32,14 +32,14 @@ class Screen:
         self._live = live
         self._drawn_at = -1.0
 
-    def show(self, observer: Observer, title: str) -> None:
+    def show(self, walk: Walk, title: str) -> None:
         """Draw the picture if 1 / FRAME_RATE s have passed since the last one."""
         if monotonic() - self._drawn_at > 1.0 / FRAME_RATE:
-            self.draw(observer, title)
+            self.draw(walk, title)
 
-    def draw(self, observer: Observer, title: str) -> None:
+    def draw(self, walk: Walk, title: str) -> None:
         """Draw the picture now."""
-        self._live.update(picture(observer, title), refresh=True)
+        self._live.update(picture(walk, title), refresh=True)
         self._drawn_at = monotonic()
 
 
@@ -50,22 +50,22 @@ def screen(console: Console) -> Iterator[Screen]:
         yield Screen(live)
 
 
-def picture(observer: Observer, title: str) -> Group:
+def picture(walk: Walk, title: str) -> Group:
     """Return a picture of both feet, the track and the links at this moment."""
     feet = Table.grid(expand=False, padding=(0, 3))
     for foot in Foot:
-        feet.add_row(*_foot(observer, foot))
-    lines = plot(observer.track.points, *PLOT_SIZE)
-    health = fused_stride(observer) + status(observer) + wear_lines(observer) + link_health(observer)
+        feet.add_row(*_foot(walk, foot))
+    lines = plot(walk.track.points, *PLOT_SIZE)
+    health = fused_stride(walk) + status(walk) + wear_lines(walk) + link_health(walk)
     return Group(
         Panel(feet, title=title, width=PLOT_SIZE[0] + 4),
         Panel(Text("\n".join(lines)), title="track", width=PLOT_SIZE[0] + 4),
-        Panel(Text("\n".join(health)), title=f"link, {observer.item_count} packets", width=PLOT_SIZE[0] + 4),
+        Panel(Text("\n".join(health)), title=f"link, {walk.item_count} packets", width=PLOT_SIZE[0] + 4),
     )
 
 
-def _foot(observer: Observer, foot: Foot) -> tuple[Text, ...]:
-    counts = observer.feet.get(foot, FootCounts())
+def _foot(walk: Walk, foot: Foot) -> tuple[Text, ...]:
+    counts = walk.feet.get(foot, FootCounts())
     phase = Text("-" if counts.phase is None else f"{counts.phase:10}")
     if counts.phase is not None:
         phase.stylize(f"bold {PHASE_COLOURS[counts.phase]}")

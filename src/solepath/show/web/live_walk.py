@@ -53,7 +53,7 @@ class LiveWalk:
 
     def save(self) -> str | None:
         """Return session and scene as JSON, from which `restore` continues; None before anything was received."""
-        if self.session.now is None or self.scene.observer.item_count == 0:
+        if self.session.now is None or self.scene.walk.item_count == 0:
             return None
         return json.dumps({"session": self.session.snapshot(), "scene": save_scene(self.scene)})
 
@@ -77,7 +77,7 @@ class LiveWalk:
 
     def report_position(self, position: PositionFrame) -> None:
         """Add a packet receiver/position: a person reports where the wearer is at the newest known time."""
-        now, sites = self.session.now, self.scene.observer.links
+        now, sites = self.session.now, self.scene.walk.links
         if now is not None and not self.finished:
             packet = Packet(now, next(iter(sites), Site.LEFT_FOOT), "receiver/position", build_position(position))
             self._observe(packet, self.session.feed(packet))

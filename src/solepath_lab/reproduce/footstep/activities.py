@@ -13,8 +13,8 @@ from solepath.body.altitude import height_of
 from solepath.events import ActivityChanged, Event
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
 from solepath.recording.decoded import decode_recording
-from solepath.show.timeline import Timeline
 from solepath.types import Activity, Packet, Site
+from solepath.walk.timeline import Timeline
 
 from ...evaluate.activity import score_windows
 from ...measures.confusion import ActivityScore

@@ -9,7 +9,7 @@ from math import hypot
 from attrs import frozen
 
 from ....events import TrackRevised
-from ...links import SET_BACK_TOLERANCE
+from ....walk.links import SET_BACK_TOLERANCE
 from ..messages import rounded
 from .lists import TrackPoint
 

@@ -7,22 +7,22 @@ from typing import Any
 from ....events import StrideFused, TouchedDown
 from ....foot.phase import SUPPORT
 from ....types import Foot
-from ...observer import Observer
+from ....walk.walk import Walk
 from ..body import LiveBody, body_frame
 from ..messages import rounded, rounded_all
 from .feet import FootScene
 
 
-def both_feet_frame(feet: dict[Foot, FootScene], observer: Observer, body: LiveBody | None) -> dict[str, Any]:
+def both_feet_frame(feet: dict[Foot, FootScene], walk: Walk, body: LiveBody | None) -> dict[str, Any]:
     """Return the members "support", "touchdown", "body" and "fused" of a frame; `body` has the legs between events."""
     left, right = feet[Foot.LEFT].phase, feet[Foot.RIGHT].phase
-    down = observer.touchdown
-    legs = None if body is None else body.frame(observer.now)
+    down = walk.touchdown
+    legs = None if body is None else body.frame(walk.now)
     return {
         "support": None if left is None or right is None else SUPPORT[left][right].value,
         "touchdown": _touchdown_frame(down),
         "body": legs if legs is not None or down is None or down.legs is None else body_frame(down.t, down.legs),
-        "fused": _fused_frame(observer.fused),
+        "fused": _fused_frame(walk.fused),
     }
 
 

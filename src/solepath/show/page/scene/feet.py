@@ -14,7 +14,7 @@ from ....events import FootMoved, FootPressed, StrideTaken
 from ....foot.phase import EVENT_OF_PHASE
 from ....types import Foot, Layout, Phase, Vec3
 from ....types.attrs import NOT_SAVED
-from ...observer import FootCounts
+from ....walk.walk import FootCounts
 from ..messages import rounded, rounded_all
 from .bending import Bend
 from .lists import RecentItems, WalkedTrack

@@ -21,7 +21,7 @@ from ....events import (
 )
 from ....recording import printable
 from ....types import SITE_OF_FOOT, Foot, Site
-from ...links import LinkLedger
+from ....walk.links import LinkLedger
 from ..messages import rounded
 
 FAULTS = {

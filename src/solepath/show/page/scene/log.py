@@ -35,7 +35,7 @@ from ....events import (
 )
 from ....recording import printable
 from ....types import SITE_OF_FOOT, Activity, Turn
-from ...observer import Observer
+from ....walk.walk import Walk
 from ..messages import rounded
 from .links import fault_words
 from .lists import RecentItems
@@ -56,17 +56,17 @@ class SceneLog:
 
     lines: RecentItems[LogLine] = field(factory=lambda: RecentItems(MAX_LINES))
 
-    def add_event(self, event: Event, observer: Observer) -> None:
+    def add_event(self, event: Event, walk: Walk) -> None:
         """Add the line of an event, if it has one and the log does not say the same already.
 
-        `observer` has not counted the event yet."""
+        `walk` has not counted the event yet."""
         line = sentence(event)
         if line is None:
             return
-        if isinstance(event, FootSilent) and observer.link(SITE_OF_FOOT[event.foot]).state(observer.now) != "ok":
+        if isinstance(event, FootSilent) and walk.link(SITE_OF_FOOT[event.foot]).state(walk.now) != "ok":
             return
         if isinstance(event, BatteryLevel):
-            level = observer.link(event.site).battery
+            level = walk.link(event.site).battery
             if level is not None and level <= LOW_BATTERY:
                 return
         self.add(event.t, *line)

@@ -33,8 +33,8 @@ from ....floorplan.plan import FloorPlan
 from ....recording import printable
 from ....types import SITE_OF_FOOT, Foot, Packet, Sample, Site
 from ....types.attrs import NOT_SAVED
-from ...observer import REJECTIONS, Observer
-from ...valid import has_valid_numbers
+from ....walk.valid import has_valid_numbers
+from ....walk.walk import REJECTIONS, Walk
 from ..body import LiveBody
 from ..guide import Guide, guide_frame
 from ..messages import EncodedOnce, rounded
@@ -72,7 +72,7 @@ class Scene:
 
     Times are in s on the session's clock; positions in m, in the world frame, places on `plan` in the plan frame.
     `source` is "live", "demo" or "recording". `newtons` are the feet whose calibration turns counts into N. A player
-    writes `playback`, who measures a shoe or a walk `guide`. The scene feeds `observer` and shows its counts.
+    writes `playback`, who measures a shoe or a walk `guide`. The scene feeds `walk` and shows its counts.
     `take` is cheap: it is called for every packet. `message_since` takes some 0.1 ms and is for at most 30 calls a
     second. Memory is bounded. Two threads must not use a scene at once."""
 
@@ -84,7 +84,7 @@ class Scene:
     guide: Guide | None = field(default=None, metadata=NOT_SAVED)
     body: LiveBody | None = field(default=None, metadata=NOT_SAVED)
     newtons: tuple[Foot, ...] = ()
-    observer: Observer = field(factory=Observer)
+    walk: Walk = field(factory=Walk)
     feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
     wearer: WearerScene = field(factory=WearerScene, init=False)
     gait_means: SceneGaitMeans = field(factory=SceneGaitMeans, init=False)
@@ -107,7 +107,7 @@ class Scene:
         for event in events:
             if not isinstance(event, REJECTIONS):
                 self.tick(event.known_at)  # a silent foot is shown as silent before the event that ends it
-        self.observer.count_item(item, events)
+        self.walk.count_item(item, events)
         for event in events:
             if isfinite(event.known_at) and isfinite(event.t):
                 self._show(event)
@@ -117,18 +117,18 @@ class Scene:
     def tick(self, t: float) -> None:
         """Advance the time to `t`, s, on the clock of the packets."""
         if t > self.now:
-            self.observer.advance(t)
+            self.walk.advance(t)
             self._mark_silent_feet()
 
     @property
     def now(self) -> float:
         """Latest known moment, s."""
-        return self.observer.now
+        return self.walk.now
 
     def _show(self, event: Event) -> None:
-        self.log.add_event(event, self.observer)
+        self.log.add_event(event, self.walk)
         self.findings.add_event(event)
-        self.observer.add(event)
+        self.walk.add(event)
         handle = HANDLERS.get(type(event))
         if handle is not None:
             handle(self, event)
@@ -140,7 +140,7 @@ class Scene:
 
         A phase that started after the silence stays: the foot sends again, and the event of its sample comes next."""
         for foot, foot_scene in self.feet.items():
-            link = self.observer.links.get(SITE_OF_FOOT[foot])
+            link = self.walk.links.get(SITE_OF_FOOT[foot])
             if foot_scene.phase is None or link is None or link.state(self.now) == "ok":
                 continue
             if not foot_scene.phase_started_after(link.silent_from):
@@ -148,7 +148,7 @@ class Scene:
 
     def _connected(self, foot: Foot) -> bool:
         """Return whether a foot is connected; late samples of a broken connection do not count."""
-        return self.observer.link(SITE_OF_FOOT[foot]).broken_at is None
+        return self.walk.link(SITE_OF_FOOT[foot]).broken_at is None
 
     def _moved(self, event: FootMoved) -> None:
         if self._connected(event.foot):
@@ -253,23 +253,23 @@ class Scene:
         )
 
     def _values(self) -> dict[str, Any]:
-        now, observer = self.now, self.observer
-        links = {site: link_frame(observer.links[site], now) for site in Site if site in observer.links}
+        now, walk = self.now, self.walk
+        links = {site: link_frame(walk.links[site], now) for site in Site if site in walk.links}
         feet: dict[str, Any] = {}
         for foot, foot_scene in self.feet.items():
             link = links.get(SITE_OF_FOOT[foot])
             rate = 0.0 if link is None else link["rate"]
-            feet[foot.value] = foot_scene.frame(rate, observer.feet.get(foot, NO_COUNTS))
-        silent_since, (since, activity) = feet_silent_since(observer.links, now), observer.timeline.last
+            feet[foot.value] = foot_scene.frame(rate, walk.feet.get(foot, NO_COUNTS))
+        silent_since, (since, activity) = feet_silent_since(walk.links, now), walk.timeline.last
         return {
             "feet": feet,
             "wearer": self.wearer.wearer_frame(),
-            "place": self.wearer.place_frame(observer.places.last),
+            "place": self.wearer.place_frame(walk.places.last),
             "activity": activity_frame(since, activity, silent_since),
             "pace": None if silent_since is not None else self.pace.frame(now, activity, since, self.findings.unsound),
-            **both_feet_frame(self.feet, observer, self.body),
+            **both_feet_frame(self.feet, walk, self.body),
             "scales": self.scales.frame(),
-            **self.gait_means.frames(observer.recent_gait, observer.gait),
+            **self.gait_means.frames(walk.recent_gait, walk.gait),
             "findings": self.findings.frame(
                 frozenset(site for site, link in links.items() if link["state"] in ("silent", "lost"))
             ),
@@ -297,4 +297,4 @@ HANDLERS: dict[type, Callable[[Scene, Any], None]] = {
     LayoutKnown: Scene._layout_known,
     ClockReset: Scene._reset,
 }
-"""Function that changes the scene at each event; the observer and the log get every event besides."""
+"""Function that changes the scene at each event; the walk and the log get every event besides."""

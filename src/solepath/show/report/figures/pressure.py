@@ -8,10 +8,10 @@ from math import fsum, hypot
 from xml.etree.ElementTree import Element
 
 from ....types import Foot, Layout
+from ....walk.soles import STATIONS, SoleLoads
 from ...tables.plan import blend
 from ...tables.svg import px
 from ..markup import add, figure, table
-from ..soles import STATIONS, ReportSole
 from .axes import Chart, drawing, line, padded_range, write
 from .stride import legend
 
@@ -22,7 +22,7 @@ SOLE_HEIGHT = 250.0
 THIRDS = ("heel", "midfoot", "forefoot")
 
 
-def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
+def pressure_figures(parent: Element, soles: dict[Foot, SoleLoads]) -> bool:
     """Draw the maps and curves for which there is data; return False when there is no pressure."""
     pressed = {foot: soles[foot] for foot in Foot if foot in soles and soles[foot].samples}
     if not pressed:
@@ -52,7 +52,7 @@ def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
     return True
 
 
-def _unit(soles: dict[Foot, ReportSole]) -> str:
+def _unit(soles: dict[Foot, SoleLoads]) -> str:
     return " and ".join(sorted({sole.unit for sole in soles.values()}))
 
 
@@ -71,7 +71,7 @@ def _map(
     parent: Element,
     name: str,
     title: str,
-    soles: dict[Foot, ReportSole],
+    soles: dict[Foot, SoleLoads],
     maps: dict[Foot, Layout],
     loads: dict[Foot, list[float]],
     *,
@@ -102,7 +102,7 @@ def _map(
     figure(parent, svg, title, *notes)
 
 
-def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked: ReportSole | None) -> None:
+def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked: SoleLoads | None) -> None:
     """Draw a sole seen from above, with the toe up.
 
     `shares` are the loads relative to the highest load. `walked` is the sole whose paths are drawn; None for none."""
@@ -133,7 +133,7 @@ def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked:
             add(svg, "circle", cx=px(mean[0][0]), cy=px(mean[0][1]), r="4", class_="path-start")
 
 
-def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
+def _forces(parent: Element, soles: dict[Foot, SoleLoads]) -> None:
     curves = {foot: [force / sole.contacts for force in sole.force_sums] for foot, sole in soles.items()}
     unit = _unit(soles)
     texts = [f"{foot}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]

@@ -214,9 +214,8 @@ def _plan_picture(
 ) -> Element:
     """Return the drawing of the places on the plan, with at most so many levels side by side."""
     columns = min(columns, max(len(plan.levels), 1))
-    picture = PlanPicture(plan, width=(width - (columns - 1) * PANEL_GAP) / columns, height=height, columns=columns)
-    for event in events:
-        picture.add(event)
+    level_width = (width - (columns - 1) * PANEL_GAP) / columns
+    picture = PlanPicture(plan, events, width=level_width, height=height, columns=columns)
     svg = picture.drawn(plan.name or "Floor plan")
     svg.set("role", "img")
     for name in ("xmlns", "width", "height", "font-family"):

@@ -15,7 +15,8 @@ from ...outcomes.clinic import (
     NO_STEP,
     SENSORS,
     UP_AND_GO_NOTE,
-    Clinic,
+    ClinicalResults,
+    OutcomeRequest,
     bout_row,
     interval_row,
     walk_sentence,
@@ -31,10 +32,9 @@ SIX_MINUTE_NOTE = (
 TOO_FEW = "There are too few steady strides for variability and asymmetry: four of a foot are needed."
 
 
-def clinical_sections(main: Element, clinic: Clinic) -> None:
+def clinical_sections(main: Element, request: OutcomeRequest, results: ClinicalResults) -> None:
     """Add a section for each outcome that was requested."""
-    results = clinic.results()
-    if clinic.six_minutes:
+    if request.six_minutes:
         parent = section(main, "six-minute-walk", "Six-minute walk")
         walk = results.six_minutes
         add(parent, "p", walk_sentence(results))
@@ -52,7 +52,7 @@ def clinical_sections(main: Element, clinic: Clinic) -> None:
         _table(parent, "Timed up and go", results.part(UP_AND_GO))
         notes = [UP_AND_GO_NOTE, *([] if results.up_and_go.steps else [NO_STEP]), *results.sources(UP_AND_GO)]
         _notes(parent, notes)
-    if clinic.outcomes:
+    if request.outcomes:
         parent = section(main, "outcomes", "Walking bouts and mobility outcomes")
         add(parent, "p", LABEL, class_="caution")
         if results.bouts:

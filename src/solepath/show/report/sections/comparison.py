@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import hypot, sqrt
 from xml.etree.ElementTree import Element
 
-from ..collected import CollectedWalk
+from ..content import ReportContent
 from ..figures.track import track_figure
 from ..markup import add, section, table
 from ..measures import SWING_DIFFERENCE, Measure
@@ -24,7 +24,7 @@ NOTE = (
 NO_COMMON = "The two walks have no measure in common."
 
 
-def comparison(parent: Element, before: CollectedWalk, after: CollectedWalk, facts: Facts) -> None:
+def comparison(parent: Element, before: ReportContent, after: ReportContent, facts: Facts) -> None:
     """Add the section that compares two walks."""
     earlier = facts_of(before)
     parent = section(parent, "comparison", "Compared with the walk before")

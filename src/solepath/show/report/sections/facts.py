@@ -8,7 +8,7 @@ from attrs import frozen
 
 from ....types import Activity, Foot
 from ...tables.gait import strides_of
-from ..collected import CollectedWalk
+from ..content import ReportContent
 from ..measures import Measure, run_measures, walk_measures
 from ..walk_summary import SWING_TIME, FootDifference, distance_in, foot_differences, gait_spans
 from .headline import Bout, WalkFacts
@@ -31,38 +31,38 @@ class Facts:
     """Asymmetry in words; "" if it is not known."""
 
 
-def facts_of(report: CollectedWalk) -> Facts:
+def facts_of(report: ReportContent) -> Facts:
     """Return what the head of a report shows."""
-    observer = report.observer
-    walking, running = observer.gait.of(False), observer.gait.of(True)
-    differences = foot_differences(list(report.newest), walking)
+    walk = report.walk
+    walking, running = walk.gait.of(False), walk.gait.of(True)
+    differences = foot_differences(list(walk.newest_cycles), walking)
     swing = differences.get(SWING_TIME)
     interval = None if swing is None else (swing.value, swing.half_width)
     walk_figures = [] if walking is None else walk_measures(walking, interval)
     run_figures = [] if running is None else run_measures(running)
     bouts = _bouts(report, {False: walk_figures, True: run_figures})
     kind = _kind(bouts.get(False), bouts.get(True))
-    walk, run = bouts.get(False), bouts.get(True)
+    walked, ran = bouts.get(False), bouts.get(True)
     parameters = [one for one in (walking, running) if one is not None]
-    feet = observer.known_feet
-    went = walk is not None or run is not None
+    feet = walk.known_feet
+    went = walked is not None or ran is not None
     judged = MeasuredWalk(
-        observer=observer,
-        found=sum([strides.count for strides in report.strides.values()]),  # whole numbers
+        walk=walk,
+        found=sum([cycles.count for cycles in walk.cycles.values()]),  # whole numbers
         used=sum([strides_of(one, foot) or 0 for one in parameters for foot in Foot]),  # whole numbers
-        duration=observer.covered_time.total or report.clock.end - report.clock.start,
-        defects=report.defects,
+        duration=walk.covered_time.total or report.clock.end - report.clock.start,
+        defects=walk.found_defects,
         clocks_compared=any(one.both.step_time is not None for one in parameters),
         calibrated=report.calibrated,
     )
     facts = WalkFacts(
-        has_data=report.event_span is not None,
+        has_data=walk.event_span is not None,
         duration=judged.duration,
-        stood=Activity.STANDING in observer.timeline.durations(report.clock.end),
-        walk=walk,
-        run=run,
-        flights=observer.flights,
-        rides=observer.elevator_rides,
+        stood=Activity.STANDING in walk.timeline.durations(report.clock.end),
+        walk=walked,
+        run=ran,
+        flights=walk.flights,
+        rides=walk.elevator_rides,
         only_foot=feet[0].value if len(feet) == 1 and went else "",
         differences=differences,
     )
@@ -92,13 +92,13 @@ def _difference_words(swing: FootDifference | None) -> str:
     return f"{interval}; {'right' if swing.value > 0.0 else 'left'} longer"
 
 
-def _bouts(report: CollectedWalk, measures: dict[bool, list[Measure]]) -> dict[bool, Bout]:
+def _bouts(report: ReportContent, measures: dict[bool, list[Measure]]) -> dict[bool, Bout]:
     """Return what the wearer walked (False) and ran (True), of those that there were.
 
     Without activities, as with some recipes, it is from the first to the last gait cycle of the kind."""
-    cycles = [one for strides in report.strides.values() for one in strides]
-    activities = report.observer.timeline.spans(report.clock.end)
-    distances = {foot: list(pairs) for foot, pairs in report.distances.items() if len(pairs)}
+    cycles = [one for cycles in report.walk.cycles.values() for one in cycles]
+    activities = report.walk.timeline.spans(report.clock.end)
+    distances = {foot: list(pairs) for foot, pairs in report.walk.distances.items() if len(pairs)}
     if any(activity is not Activity.UNKNOWN for _, _, activity in activities):
         spans = gait_spans(activities, cycles)
     else:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from xml.etree.ElementTree import Element
 
-from ..collected import CollectedWalk
+from ..content import ReportContent
 from ..figures.activity import activity_figure
 from ..figures.cycle import cycle_figure
 from ..figures.pressure import pressure_figures
@@ -25,7 +25,7 @@ NO_PLACE = "Where on the floor plan the wearer was is not known."
 NO_TRACK = "There is no track: no foot with a motion sensor took two strides."
 
 
-def page_of(report: CollectedWalk) -> Element:
+def page_of(report: ReportContent) -> Element:
     """Return the page of a report as an <html> element."""
     facts = facts_of(report)
     title = title_of(report.details, report.when, facts.kind)
@@ -44,34 +44,34 @@ def page_of(report: CollectedWalk) -> Element:
     _ways(main, report)
     if facts.walk.has_data:
         _course(main, report)
-    has_strides = any(strides.count for strides in report.strides.values())
+    has_strides = any(cycles.count for cycles in report.walk.cycles.values())
     details = add(main, "div")
     if has_strides and report.before is None:
         details.set("class", "second-page")
     if report.before is not None:
         comparison(details, report.before, report, facts)
-    if report.clinic is not None:
+    if report.outcomes is not None:
         from .clinical import clinical_sections
 
-        clinical_sections(details, report.clinic)
+        clinical_sections(details, report.outcomes, report.outcomes.results(report.walk))
     if has_strides:
         _gait(details, report)
-    if any(sole.samples for sole in report.soles.values()):
+    if any(sole.samples for sole in report.walk.soles.values()):
         parent = section(details, "pressure", "Pressure")
-        pressure_figures(add(parent, "div", class_="figures thirds"), report.soles)
+        pressure_figures(add(parent, "div", class_="figures thirds"), report.walk.soles)
     _health(details, report)
-    if report.observer.gait.of(False) is not None or report.observer.gait.of(True) is not None:
+    if report.walk.gait.of(False) is not None or report.walk.gait.of(True) is not None:
         parent = section(details, "definitions", "Definitions and sources")
-        definitions(parent, report.observer.gait, difference=bool(facts.difference_words))
+        definitions(parent, report.walk.gait, difference=bool(facts.difference_words))
     parent = section(details, "making", "How this report was made")
     add_making(parent, _making(report))
     return html
 
 
-def _ways(main: Element, report: CollectedWalk) -> None:
+def _ways(main: Element, report: ReportContent) -> None:
     """Add the section with plan, track and heights, over the whole width."""
     track = report.track
-    places = list(report.places)
+    places = list(report.walk.placed)
     if len(track) < 2 and report.plan is None:
         return
     parent = section(main, "track-part", "Where the wearer went")
@@ -83,55 +83,55 @@ def _ways(main: Element, report: CollectedWalk) -> None:
         add(figures, "p", NO_TRACK)
 
 
-def _gait(parent: Element, report: CollectedWalk) -> None:
+def _gait(parent: Element, report: ReportContent) -> None:
     parent = section(parent, "gait", "Gait")
-    if not gait_tables(parent, report.observer.gait):
+    if not gait_tables(parent, report.walk.gait):
         add(parent, "p", NO_STEADY)
     figures = add(parent, "div", class_="figures")
     for running in (False, True):
-        parameters = report.observer.gait.of(running)
+        parameters = report.walk.gait.of(running)
         if parameters is not None:
             cycle_figure(figures, parameters)
-    stride_figures(figures, {foot: list(strides) for foot, strides in report.strides.items()}, report.clock)
+    stride_figures(figures, {foot: list(cycles) for foot, cycles in report.walk.cycles.items()}, report.clock)
 
 
-def _course(parent: Element, report: CollectedWalk) -> None:
+def _course(parent: Element, report: ReportContent) -> None:
     """Add the course of the recording: its sentences, and the activities."""
     parent = section(parent, "course", "Course of the recording")
-    counts = {foot: strides.count for foot, strides in report.strides.items()}
+    counts = {foot: cycles.count for foot, cycles in report.walk.cycles.items()}
     figures = add(parent, "div", class_="figures")
-    sentences(figures, overview(report.observer, report.clock, counts))
-    activity_figure(figures, report.observer.timeline.spans(report.clock.end), report.clock)
+    sentences(figures, overview(report.walk, report.clock, counts))
+    activity_figure(figures, report.walk.timeline.spans(report.clock.end), report.clock)
     track = report.track
-    if report.places.count:
+    if report.walk.placed.count:
         track_figure(figures, track, report.foot_tracks, report.clock, wide=False)
     space_figure(figures, track)
-    height_figure(figures, {foot: list(heights) for foot, heights in report.heights.items()}, report.clock)
+    height_figure(figures, {foot: list(positions) for foot, positions in report.walk.standing.items()}, report.clock)
 
 
-def _health(parent: Element, report: CollectedWalk) -> None:
-    observer = report.observer
-    header, *rows = link_rows(observer)
+def _health(parent: Element, report: ReportContent) -> None:
+    walk = report.walk
+    header, *rows = link_rows(walk)
     if not rows:
         return
     parent = section(parent, "health", "Sensors and links")
     table(parent, "From each sensor", header, rows, "numbers links")
-    found = {"Cannot be right": whole_sentences(observer.defects), "Missing or wrong": faults(observer)}
+    found = {"Cannot be right": whole_sentences(walk.defects), "Missing or wrong": faults(walk)}
     if not any(found.values()):
         add(parent, "p", "Nothing was wrong with the sensors and their links.")
-    for title, texts in {**found, "Done without": whole_sentences(observer.limitations)}.items():
+    for title, texts in {**found, "Done without": whole_sentences(walk.limitations)}.items():
         if texts:
             add(parent, "h3", title)
             sentences(parent, texts)
 
 
-def _making(report: CollectedWalk) -> list[tuple[str, str]]:
+def _making(report: ReportContent) -> list[tuple[str, str]]:
     clock = report.clock
-    times = f"{clock.start:.1f} to {clock.end:.1f} s of its own clock" if report.event_span else ""
+    times = f"{clock.start:.1f} to {clock.end:.1f} s of its own clock" if report.walk.event_span else ""
     return [
         ("Recording", ", ".join([words for words in (report.source, times) if words])),
         ("Start", report.when),
-        ("Sensors", sensors(report.observer)),
+        ("Sensors", sensors(report.walk)),
         ("Recipe", report.recipe),
         ("Made by", f"solepath {report.version}".rstrip()),
     ]

@@ -12,7 +12,7 @@ from attrs import frozen
 
 from ....events import Defect, DefectFound
 from ....types import SITE_OF_FOOT, Foot, Site
-from ...observer import Observer
+from ....walk.walk import Walk
 from ...tables.gait import MIN_STRIDES
 from ...tables.summary import wear_lines
 from ...tables.table import counted, number, times
@@ -46,7 +46,7 @@ class Judgement:
 class MeasuredWalk:
     """All that is judged."""
 
-    observer: Observer
+    walk: Walk
     found: int
     """Number of gait cycles of both feet."""
     used: int
@@ -59,11 +59,11 @@ class MeasuredWalk:
     calibrated: bool
 
 
-def judgements(walk: MeasuredWalk) -> list[Judgement]:
+def judgements(walked: MeasuredWalk) -> list[Judgement]:
     """Return the judgement of each part that there is anything to say about."""
-    if not walk.observer.known_feet:
+    if not walked.walk.known_feet:
         return []
-    parts = [_strides(walk), _samples(walk), _clocks(walk), _plausibility(walk), _wear(walk), _calibration(walk)]
+    parts = [judge(walked) for judge in (_strides, _samples, _clocks, _plausibility, _wear, _calibration)]
     return [part for part in parts if part is not None]
 
 
@@ -87,26 +87,26 @@ def quality_box(parent: Element, parts: Sequence[Judgement]) -> None:
         add(row, "dd", part.words)
 
 
-def _strides(walk: MeasuredWalk) -> Judgement:
-    if not walk.found:
+def _strides(walked: MeasuredWalk) -> Judgement:
+    if not walked.found:
         return Judgement("strides", QualityVerdict.LOOK, "No stride was found.", "no strides")
-    words = f"{walk.used} of {counted(walk.found, 'stride')} are steady and count."
-    if walk.used >= MIN_STRIDES:
+    words = f"{walked.used} of {counted(walked.found, 'stride')} are steady and count."
+    if walked.used >= MIN_STRIDES:
         return Judgement("strides", QualityVerdict.GOOD, words)
     words += f" Figures settle with {MIN_STRIDES} (Galna et al. 2013)."
     return Judgement("strides", QualityVerdict.LOOK, words, "few strides")
 
 
-def _samples(walk: MeasuredWalk) -> Judgement:
+def _samples(walked: MeasuredWalk) -> Judgement:
     missing, worst = [], 0.0
-    for foot in walk.observer.known_feet:
-        link = walk.observer.links.get(SITE_OF_FOOT[foot])
+    for foot in walked.walk.known_feet:
+        link = walked.walk.links.get(SITE_OF_FOOT[foot])
         if link is not None and link.gaps:
-            share = link.gap_time / walk.duration if walk.duration > 0.0 else 0.0
+            share = link.gap_time / walked.duration if walked.duration > 0.0 else 0.0
             worst = max(worst, share)
             shown = f"{100.0 * share:.1f} %" if share >= 0.0005 else "less than 0.1 %"
             missing.append(f"{foot} {number(link.gap_time)} s ({shown}) in {counted(link.gaps, 'gap')}")
-    silences = walk.observer.silences.total()
+    silences = walked.walk.silences.total()
     if silences:
         missing.append(f"a foot was silent {times(silences)} while the other walked on")
     if not missing:
@@ -116,25 +116,25 @@ def _samples(walk: MeasuredWalk) -> Judgement:
     return Judgement("samples", verdict, f"Missing: {'; '.join(missing)}.", "missing samples")
 
 
-def _clocks(walk: MeasuredWalk) -> Judgement | None:
+def _clocks(walked: MeasuredWalk) -> Judgement | None:
     part = "clocks"
-    for (_, defect), event in walk.defects.items():
+    for (_, defect), event in walked.defects.items():
         if defect is Defect.CLOCKS:
             words = " ".join(whole_sentences([f"{event.site.words}: {event.what}"]))
             return Judgement(part, QualityVerdict.LOOK, words, "the clocks of the feet")
-    resets = sum([link.clock_resets for link in walk.observer.links.values()])  # whole numbers
+    resets = sum([link.clock_resets for link in walked.walk.links.values()])  # whole numbers
     if resets:
         return Judgement(part, QualityVerdict.LOOK, f"A sensor's clock restarted {times(resets)}.", "restarted clocks")
-    if len(walk.observer.known_feet) < len(Foot) or not walk.found:
+    if len(walked.walk.known_feet) < len(Foot) or not walked.found:
         return None
-    if walk.clocks_compared:
+    if walked.clocks_compared:
         return Judgement(part, QualityVerdict.GOOD, "The times of both feet fit together.")
     words = "The times of the feet could not be compared."
     return Judgement(part, QualityVerdict.LOOK, words, "the clocks of the feet")
 
 
-def _plausibility(walk: MeasuredWalk) -> Judgement:
-    part, found = "plausibility", [one for key, one in walk.defects.items() if key[1] is not Defect.CLOCKS]
+def _plausibility(walked: MeasuredWalk) -> Judgement:
+    part, found = "plausibility", [one for key, one in walked.defects.items() if key[1] is not Defect.CLOCKS]
     if not found:
         return Judgement(part, QualityVerdict.GOOD, "Nothing contradicts itself or physics.")
     verdict = QualityVerdict.STOP if any(one.spoils for one in found) else QualityVerdict.LOOK
@@ -143,8 +143,8 @@ def _plausibility(walk: MeasuredWalk) -> Judgement:
     return Judgement(part, verdict, f"{' '.join(words)} What to do is under Sensors and links.", concern)
 
 
-def _wear(walk: MeasuredWalk) -> Judgement | None:
-    lines = [line for line in walk.observer.wear_problems if line in wear_lines(walk.observer)]
+def _wear(walked: MeasuredWalk) -> Judgement | None:
+    lines = [line for line in walked.walk.wear_problems if line in wear_lines(walked.walk)]
     return (
         Judgement("wearing", QualityVerdict.LOOK, " ".join(whole_sentences(lines)), "how the sensors are worn")
         if lines
@@ -152,7 +152,7 @@ def _wear(walk: MeasuredWalk) -> Judgement | None:
     )
 
 
-def _calibration(walk: MeasuredWalk) -> Judgement:
-    if walk.calibrated:
+def _calibration(walked: MeasuredWalk) -> Judgement:
+    if walked.calibrated:
         return Judgement("calibration", QualityVerdict.GOOD, "One of this wearer, these shoes or sensors was used.")
     return Judgement("calibration", QualityVerdict.NOTE, "No calibration was given: the sensors' own scale is used.")

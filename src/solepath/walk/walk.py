@@ -1,19 +1,19 @@
-"""Counts what a session was fed and what it reported, for every display.
+"""One walk: counts and keeps what a session was fed and what it reported, for every kind of output.
 
-    observer = Observer()
-    observer.take(packet, session.feed(packet))
-    observer.take(None, session.finish())
+    walk = Walk()
+    walk.take(packet, session.feed(packet))
+    walk.take(None, session.finish())
 
-Terminal, summary, page and report show its counts; links.py defines those of links. An item is a packet or a sample.
-Numbers without a source were chosen by hand and not swept."""
+Terminal, summary, files, page, report, outcomes and scores all read it; links.py defines the figures of links. An item
+is a packet or a sample. Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
+from collections import Counter, deque
+from collections.abc import Iterable, Sequence
 from math import inf
 
-from attrs import define, field
+from attrs import define, evolve, field
 
 from ..body.gait.means import GaitMeans
 from ..events import (
@@ -33,21 +33,27 @@ from ..events import (
     HeelOff,
     HeelStrike,
     InsoleNeverUnloads,
+    LayoutKnown,
     LiftRidden,
     Limitation,
     LinkTrouble,
     PacketRejected,
+    Placed,
+    PlaceLost,
     SampleRejected,
     StrideFused,
     StrideTaken,
     ToeOff,
     TouchedDown,
     TurnMade,
+    WearerMoved,
 )
 from ..link.decoder import Decoder
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Turn, Vec3, WalkingMode
 from .links import SET_BACK_TOLERANCE, CoveredTime, LinkLedger, is_frame_fragment, is_sample_channel
 from .places import PlaceCounts
+from .soles import SoleLoads
+from .thinned import T, ThinnedList
 from .timeline import Timeline
 from .track import LiveTrack
 from .valid import has_valid_numbers
@@ -69,6 +75,18 @@ MAX_SENTENCES = 100
 """Largest number of different sentences of one kind that are kept; later ones are left out."""
 MAX_ACTIVITY_CHANGES = 2000
 """Largest number of activity changes that are kept; with more, the shortest activities are left out."""
+LIMIT = 1200
+"""Largest number of strides of a foot, and of other things that are kept, where a walk may last all day."""
+MAX_CANDIDATES = 40
+"""Largest number of candidates of a place; those with the largest weights are kept."""
+MAX_POINTS = 1500
+"""Largest number of points of a drawn line; a walk of any length has no more."""
+HEIGHT_INTERVAL = 0.5
+"""Shortest time between two kept positions of a stationary foot, s."""
+
+
+def _of_each_foot() -> dict[Foot, ThinnedList[T]]:
+    return {foot: ThinnedList() for foot in Foot}
 
 
 @define
@@ -84,16 +102,23 @@ class FootCounts:
     events: Counter[str] = field(factory=Counter)
     """Number of final events of each kind, by its name in GAIT_EVENTS."""
     phase: Phase | None = None
+    start: Vec3 | None = None
+    """First position, world frame, m."""
     position: Vec3 | None = None
     """Live position, world frame, m."""
 
 
 @define
-class Observer:
-    """The counts of a session from its start until now.
+class Walk:
+    """The counts of a session from its start until now, and what it reported.
 
-    The session is made with `poses=True`. Memory is bounded. An event with a number that is not finite is left out."""
+    The session is made with `poses=True`, and with `pressures=True` for the loads of the soles. Of strides, gait
+    cycles, turns and places at most `limit` of each foot are kept, evenly thinned, so that memory is bounded; with None
+    all are kept, as outcomes and scores need them. An event with a number that is not finite is left out."""
 
+    limit: int | None = LIMIT
+    keeps_all: bool = False
+    """True to keep every position of the feet, gait event and activity as well, as scores need them."""
     item_count: int = 0
     """Number of items that were fed, used or not."""
     now: float = -inf
@@ -132,10 +157,48 @@ class Observer:
     """Different sentences on sensors that are worn wrongly, and on faulty cells."""
     troubles: list[str] = field(factory=list)
     """Different sentences on what the receiver could not do."""
+    strides: dict[Foot, ThinnedList[StrideTaken]] = field(factory=_of_each_foot)
+    """Final strides, from foot-flat to foot-flat."""
+    distances: dict[Foot, ThinnedList[tuple[float, float]]] = field(factory=_of_each_foot)
+    """Pairs of the end of a stride, s, and the distance that the foot has gone until then, m."""
+    cycles: dict[Foot, ThinnedList[GaitCycleMeasured]] = field(factory=_of_each_foot)
+    """Gait cycles, from initial contact to initial contact."""
+    newest_cycles: deque[GaitCycleMeasured] = field(factory=lambda: deque(maxlen=2 * LIMIT))
+    """Newest gait cycles of both feet, in their order, from which the differences between the feet follow."""
+    made_turns: ThinnedList[TurnMade] = field(factory=ThinnedList)
+    rides: ThinnedList[LiftRidden] = field(factory=ThinnedList)
+    """Final elevator rides."""
+    standing: dict[Foot, ThinnedList[FootMoved]] = field(factory=_of_each_foot)
+    """Positions of each foot while it was stationary, at most one each HEIGHT_INTERVAL."""
+    wearer_track: ThinnedList[WearerMoved] = field(factory=ThinnedList)
+    placed: ThinnedList[Placed | PlaceLost] = field(factory=ThinnedList)
+    soles: dict[Foot, SoleLoads] = field(factory=dict)
+    found_defects: dict[tuple[Site, Defect], DefectFound] = field(factory=dict)
+    """Newest report of each defect of each site."""
+    sample_span: tuple[float, float] | None = None
+    """Times of the first and the last sample that the session reported, s."""
+    event_span: tuple[float, float] | None = None
+    """Times of the earliest and the latest event, s."""
+    positions: dict[Foot, list[FootMoved]] = field(factory=lambda: {foot: [] for foot in Foot})
+    """All live positions of each foot; empty unless `keeps_all`."""
+    times: dict[Foot, dict[type[Event], list[float]]] = field(
+        factory=lambda: {foot: {kind: [] for kind in GAIT_EVENTS} for foot in Foot}
+    )
+    """Times of the final events of GAIT_EVENTS of each foot, s; empty unless `keeps_all`."""
+    activities: list[ActivityChanged] = field(factory=list)
+    """Activities in the order in which they were reported; empty unless `keeps_all`."""
     silences: Counter[Foot] = field(factory=Counter)
     """Number of times that a foot sent nothing while the other one walked on."""
     _other_decoders: dict[Site, Decoder] = field(factory=dict)
     """Decoders that count the samples of sites that are not feet; a session has no event for these samples."""
+
+    @classmethod
+    def of(cls, events: Iterable[Event]) -> Walk:
+        """Return a walk of these events that keeps all; what the session was fed is not counted."""
+        walk = cls(limit=None, keeps_all=True)
+        for event in events:
+            walk.add(event)
+        return walk
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
         """Add an item that the session was fed, and the events that it returned.
@@ -178,17 +241,27 @@ class Observer:
             return False
         if not isinstance(event, REJECTIONS):
             self.advance(event.known_at)
+        self.event_span = _extend(self.event_span, event.t)
         match event:
             case FootMoved(t=t, known_at=known_at, foot=foot, position=position):
                 counts, link = self.foot(foot), self.link(SITE_OF_FOOT[foot])
                 counts.phase, counts.position = event.phase, position
+                counts.start = counts.start or position
                 link.add_sample(t, known_at)
                 link.has_motion = True
                 self.track.add(foot, position[0], position[1])
+                if self.keeps_all:
+                    self.positions[foot].append(event)
+                self.sample_span = _extend(self.sample_span, t)
+                last = self.standing[foot].last
+                if event.phase is Phase.STATIONARY and (last is None or not 0.0 <= t - last.t < HEIGHT_INTERVAL):
+                    self.standing[foot].add(event, MAX_POINTS)
             case FootPressed(t=t, known_at=known_at, foot=foot):
                 link = self.link(SITE_OF_FOOT[foot])
                 link.add_sample(t, known_at)
                 link.has_pressure = True
+                self.sample_span = _extend(self.sample_span, t)
+                self.sole(foot).add_sample(event)
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
                 self._count_gait_event(event)
             case _:
@@ -211,10 +284,16 @@ class Observer:
         """Return the counts of a foot; they are made on first use."""
         return self.feet.setdefault(foot, FootCounts())
 
+    def sole(self, foot: Foot) -> SoleLoads:
+        """Return the loads of a foot's sole; they are made on first use."""
+        return self.soles.setdefault(foot, SoleLoads())
+
     def _count_gait_event(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
         if event.final:
             name = GAIT_EVENTS[type(event)]
             self.foot(event.foot).events[name] += 1
+            if self.keeps_all:
+                self.times[event.foot][type(event)].append(event.t)
             self.latencies[name][round(1e4 * (event.known_at - event.t))] += 1
 
     def _count_event(self, event: Event) -> None:
@@ -224,13 +303,20 @@ class Observer:
                 counts.strides += 1
                 counts.degraded += event.degraded
                 counts.distance += event.length
+                self.strides[event.foot].add(event, self.limit)
+                self.distances[event.foot].add((event.t, counts.distance), self.limit)
             case GaitCycleMeasured():
                 self.gait.add(event, UNLIMITED_STRIDES)
                 self.recent_gait.add(event)
+                self.cycles[event.foot].add(event, self.limit)
+                self.newest_cycles.append(event)
+                self.sole(event.foot).add_cycle(event)
             case ClockReset(known_at=known_at) if known_at < self.now - SET_BACK_TOLERANCE:
                 self.now = known_at
             case ActivityChanged():
-                self.timeline.add(event, MAX_ACTIVITY_CHANGES)
+                self.timeline.add(event, None if self.keeps_all else MAX_ACTIVITY_CHANGES)
+                if self.keeps_all:
+                    self.activities.append(event)
             case StrideFused(final=True):
                 self.fused = event
             case TouchedDown(mode=mode, final=final):
@@ -241,8 +327,17 @@ class Observer:
                 self.flights[up] += 1
             case LiftRidden(up=up, final=True):
                 self.elevator_rides[up] += 1
-            case TurnMade(turn=turn, final=True) if turn is not None:
-                self.turns[turn] += 1
+                self.rides.add(event, self.limit)
+            case TurnMade(turn=turn, final=True):
+                self.made_turns.add(event, self.limit)
+                if turn is not None:
+                    self.turns[turn] += 1
+            case WearerMoved():
+                self.wearer_track.add(event, MAX_POINTS)
+            case Placed() | PlaceLost():
+                self.placed.add(_with_heaviest(event), self.limit)
+            case LayoutKnown(site=site, layout=layout) if site.foot is not None:
+                self.sole(site.foot).layout = layout
             case FootSilent(foot=foot):
                 self.silences[foot] += 1
             case _:
@@ -252,6 +347,7 @@ class Observer:
         """Add a sentence on a fault, unless it is there already."""
         match event:
             case DefectFound(site=site, what=what, defect=defect):
+                self.found_defects[site, defect] = event
                 if defect is Defect.CLOCKS:
                     self.gait.separate_feet()
                     self.recent_gait.separate_feet()
@@ -282,6 +378,17 @@ class Observer:
         """Return the number of used samples of a foot."""
         link = self.links.get(SITE_OF_FOOT[foot])
         return 0 if link is None else link.samples
+
+
+def _with_heaviest(event: Placed | PlaceLost) -> Placed | PlaceLost:
+    """Return the event with at most MAX_CANDIDATES candidates, which are in the order of their weights."""
+    if isinstance(event, Placed) and len(event.candidates) > MAX_CANDIDATES:
+        return evolve(event, candidates=event.candidates[:MAX_CANDIDATES])
+    return event
+
+
+def _extend(span: tuple[float, float] | None, t: float) -> tuple[float, float]:
+    return (t, t) if span is None else (min(span[0], t), max(span[1], t))
 
 
 def _add_new_sentence(sentences: list[str], sentence: str) -> None:

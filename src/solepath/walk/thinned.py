@@ -1,4 +1,4 @@
-"""Keeps a limited number of evenly spaced items of a walk of any length."""
+"""Keeps a limited number of evenly spaced items of a walk of any length, or all of them."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ class ThinnedList(Generic[T]):
     """Number of items that were ever added."""
     last: T | None = field(default=None, init=False)
 
-    def add(self, item: T, max_count: int) -> None:
-        """Add one item; `items` then holds at most `max_count`."""
+    def add(self, item: T, max_count: int | None) -> None:
+        """Add one item; `items` then holds at most `max_count`, or all where that is None."""
         if self.count % self.interval == 0:
-            if len(self.items) >= max_count:
+            if max_count is not None and len(self.items) >= max_count:
                 self.items = self.items[::2]
                 self.interval *= 2
             if self.count % self.interval == 0:

@@ -10,8 +10,8 @@ from collections import deque
 
 from attrs import define, field
 
-from ...events import FootPressed, GaitCycleMeasured
-from ...types import Layout
+from ..events import FootPressed, GaitCycleMeasured
+from ..types import Layout
 
 MAX_SAMPLES = 2000
 """Largest number of samples of a foot that are kept: 5 s at 400 Hz, more than a gait cycle and that second."""
@@ -27,7 +27,7 @@ Pair = tuple[float, float]
 
 
 @define
-class ReportSole:
+class SoleLoads:
     """The load of one foot's sole; loads are in the unit of the samples, positions in the foot frame, m."""
 
     layout: Layout | None = None

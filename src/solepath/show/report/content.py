@@ -1,0 +1,72 @@
+"""What a report shows: a walk, its plan, its outcomes, and the words that a caller adds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING
+
+from attrs import define, field
+
+from ...events import Event
+from ...floorplan.plan import FloorPlan
+from ...types import Foot, Packet, Sample
+from ...walk.walk import Walk
+from .bands import Band
+from .clock import ReportClock
+from .figures.track import TimedPosition
+from .sections.heading import ReportDetails
+
+if TYPE_CHECKING:
+    from ..outcomes.clinic import OutcomeRequest
+
+
+def _installed() -> str:
+    try:
+        return version("solepath")
+    except PackageNotFoundError:  # solepath runs from a folder without being installed
+        return ""
+
+
+@define
+class ReportContent:
+    """The content of the report of a session with `poses` and `pressures`.
+
+    `source` is the recording's name. `plan` is the session's floor plan. `recipe` is the name of the recipe. `when` is
+    the date and time of the walk, as in "2026-11-26 09:40 UTC". `version` is that of solepath."""
+
+    source: str = ""
+    plan: FloorPlan | None = None
+    recipe: str = ""
+    when: str = ""
+    version: str = field(factory=_installed)
+    walk: Walk = field(factory=Walk)
+    details: ReportDetails = field(factory=ReportDetails)
+    bands: Mapping[str, Band] = field(factory=dict)
+    """Bands of reference by the names of the measures (measures.py)."""
+    calibrated: bool = False
+    """True if the session has a calibration."""
+    before: ReportContent | None = None
+    """Content of the report of the earlier walk with which this one is compared."""
+    outcomes: OutcomeRequest | None = None
+    """Clinical outcomes, which the report shows before the gait; None without any."""
+
+    def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
+        """Add a packet or sample that the session was fed, and the events that it returned, to the walk."""
+        self.walk.take(item, events)
+
+    @property
+    def clock(self) -> ReportClock:
+        """Clock from the first to the last sample, or from the first to the last event if there are no samples."""
+        start, end = self.walk.sample_span or self.walk.event_span or (0.0, 0.0)
+        return ReportClock(start, end)
+
+    @property
+    def foot_tracks(self) -> dict[Foot, list[TimedPosition]]:
+        """Ends of the strides of each foot that took any."""
+        return {foot: list(strides) for foot, strides in self.walk.strides.items() if len(strides)}
+
+    @property
+    def track(self) -> Sequence[TimedPosition]:
+        """Track of the wearer or, if it is not known, that of the foot with the most strides."""
+        return list(self.walk.wearer_track) or max(self.foot_tracks.values(), key=len, default=[])
