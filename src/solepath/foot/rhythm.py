@@ -51,7 +51,9 @@ class Rhythm:
             if usual_interval is None or (self.intervals <= FIRST_INTERVALS and dt * LEAST_GAP_RATIO < usual_interval):
                 self.usual_interval = dt
                 return False
-        self.usual_interval = follow(usual_interval, dt, USUAL_GAIN)
+        shortest, longest = LEAST_RATIO * usual_interval, LARGEST_RATIO * usual_interval
+        counted = shortest if dt < shortest else longest if dt > longest else dt
+        self.usual_interval = usual_interval + USUAL_GAIN * (counted - usual_interval)
         if dt <= LEAST_GAP_RATIO * usual_interval or dt - usual_interval <= LEAST_GAP_DIFFERENCE:
             self.gaps_in_a_row = 0
             return False

@@ -34,31 +34,12 @@ LEAST_AREA_RANGE = 0.05
 """Smallest range of the load of an area with working cells, as a share of the full load."""
 
 
-def add_up(cells: tuple[float, ...]) -> float:
-    """Return the sum of the cells, in order; `fsum` takes twice the time, and `sum` rounds as its Python does."""
-    total = 0.0
-    for value in cells:
-        total += value
-    return total
-
-
-def add_up_area(cells: tuple[float, ...], indices: tuple[int, ...]) -> float:
-    """Return the sum of the cells with these indices, of which there is at least one, in ascending order."""
-    first = indices[0]
-    if indices[-1] - first + 1 == len(indices):  # a slice takes a tenth of the time of picking cells one by one
-        return add_up(cells[first : first + len(indices)])
-    total = 0.0
-    for i in indices:
-        total += cells[i]
-    return total
-
-
 @define
 class Extremes:
     """The lowest and highest value of the last 8 to 10 s, kept for each of five spans of 2 s; O(1) a sample."""
 
     span_end: float | None = None
-    """End of the current span, s; None before any."""
+    """Time from which on a value starts the next span, s; None before any."""
     lows: list[float] = field(factory=list)
     """Lowest value of each span."""
     highs: list[float] = field(factory=list)
@@ -68,22 +49,20 @@ class Extremes:
     high: float = 0.0
     """Highest value of all spans."""
 
-    def update(self, t: float, value: float) -> float:
-        """Add one value at `t`, s; return its difference from the lowest value."""
-        if self.span_end is None or t >= self.span_end - TIME_EPSILON:
-            self.span_end = t + SPAN_DURATION
+    def update(self, t: float, value: float) -> None:
+        """Add one value at `t`, s; a value between the extremes of a span that has not ended need not be added."""
+        if self.span_end is None or t >= self.span_end:
+            self.span_end = t + SPAN_DURATION - TIME_EPSILON
             self.lows = [*self.lows[-4:], value]
             self.highs = [*self.highs[-4:], value]
             self.low = min(self.lows)
             self.high = max(self.highs)
-            return value - self.low
-        if value < self.lows[-1]:
+        elif value < self.lows[-1]:
             self.lows[-1] = value
             self.low = min(self.low, value)
-        if value > self.highs[-1]:
+        elif value > self.highs[-1]:
             self.highs[-1] = value
             self.high = max(self.high, value)
-        return value - self.low
 
 
 @define
@@ -151,14 +130,23 @@ class InsoleLoads:
         if len(settings.noise) == len(cells):
             cells = above(settings.noise, cells)
         self.cells = cells
-        total = self.sum = add_up(cells)
-        self.total.update(t, total)
-        heel = forefoot = None
-        if self.layout is not None and len(cells) == len(self.layout.cells):
-            if self.heel_cells:
-                heel = self.heel.update(t, add_up_area(cells, self.heel_cells))
-            if self.forefoot_cells:
-                forefoot = self.forefoot.update(t, add_up_area(cells, self.forefoot_cells))
+        # loops, because `fsum` takes twice the time, and `sum` rounds as its Python does
+        total = heel_sum = forefoot_sum = 0.0
+        for value in cells:
+            total += value
+        self.sum = total
+        sums: tuple[tuple[Extremes, float], ...] = ((self.total, total),)
+        has_areas = self.layout is not None and len(cells) == len(self.layout.cells)
+        if has_areas:
+            for i in self.heel_cells:
+                heel_sum += cells[i]
+            for i in self.forefoot_cells:
+                forefoot_sum += cells[i]
+            sums = ((self.total, total), (self.heel, heel_sum), (self.forefoot, forefoot_sum))
+        for extremes, value in sums:
+            span_end = extremes.span_end
+            if span_end is None or t >= span_end or not extremes.lows[-1] <= value <= extremes.highs[-1]:
+                extremes.update(t, value)
         low, high = self.total.low, self.total.high
         load_range = high - low
         if load_range <= LEAST_LOAD_RANGE * high or load_range <= 0.0:
@@ -176,14 +164,11 @@ class InsoleLoads:
             self.tare_total = total
         self.was_airborne = airborne
         # an area without variation is dead or absent, so it has no load
-        if heel is not None:
-            heel = heel / load_range if self.heel.high - self.heel.low > LEAST_AREA_RANGE * load_range else None
-        if forefoot is not None:
-            forefoot = (
-                forefoot / load_range
-                if self.forefoot.high - self.forefoot.low > LEAST_AREA_RANGE * load_range
-                else None
-            )
+        heel = forefoot = None
+        if has_areas and self.heel.high - self.heel.low > LEAST_AREA_RANGE * load_range:
+            heel = (heel_sum - self.heel.low) / load_range
+        if has_areas and self.forefoot.high - self.forefoot.low > LEAST_AREA_RANGE * load_range:
+            forefoot = (forefoot_sum - self.forefoot.low) / load_range
         centre = self.centre_of_pressure(cells) if with_centre and not airborne else None
         return Load(share, heel, forefoot, airborne, cells, centre)
 
