@@ -35,7 +35,7 @@ from ..events import (
     StrideTaken,
     WearerMoved,
 )
-from ..foot.pressure.sole import Sole
+from ..foot.pressure.insole import Sole
 from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.settings import FootSettings
 from ..foot.tracker import FootTracker

@@ -36,7 +36,7 @@ from ...emulate.walk import emulate
 from ...emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from ...emulate.wearers.walker import Walker
 from ...foot.navigate.dedrift import LinearDedrift
-from ...foot.stance.shoe import ShoeDetector
+from ...foot.stance.cycle import ShoeDetector
 from ...foot.tracker import FootTracker
 from ...link.decoder import Decoder
 from ...recipes import Recipe
