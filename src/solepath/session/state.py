@@ -86,6 +86,8 @@ class SessionState:
     """Parts in the order in which they receive events."""
     sampled: tuple[tuple[int, Part], ...] = field(default=(), init=False, metadata=NOT_SAVED)
     """Parts that need samples without events too, each after the number of the part that follows it."""
+    awake: tuple[tuple[int, Part], ...] = field(default=(), init=False, metadata=NOT_SAVED)
+    """Those of `sampled` that were not idle after the last events, notice or reset; only these can wake a part."""
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
     height: tuple[float, float] = field(default=(0.0, 0.0), init=False)
     """Height correction added to the tracks' z, m, positive upwards, and its variance, m^2."""
@@ -108,6 +110,10 @@ class SessionState:
             if hasattr(part, "plan"):
                 part.plan = plan
         self.sampled = tuple([(number, part) for number, part in enumerate(self.parts, 1) if part.needs_samples])
+        self._find_awake()
+
+    def _find_awake(self) -> None:
+        self.awake = tuple([(number, part) for number, part in self.sampled if not part.idle])
 
     def feed_packet(self, packet: Packet, kinds: DeviceKinds) -> list[Event]:
         """Add a packet of one of these kinds of devices; raise TypeError for one of wrong types."""
@@ -204,6 +210,7 @@ class SessionState:
         for part in self.parts:
             if type(notice) in part.notices:
                 part.feed((notice,), None)
+        self._find_awake()
 
     def report(self, site: Site, event: Event) -> list[Event]:
         """Use an event of a link; return it and the events that follow from it."""
@@ -276,7 +283,7 @@ class SessionState:
             tracker.viewed_at = t
         if not events and sample.air_pressure is None:  # nearly always
             view = tracker.view(sample, known_at, False, False, None)
-            for following, part in self.sampled:
+            for following, part in self.awake:
                 if not part.idle and (output := part.feed((), view)):
                     self._apply(output, events)
                     self._run_parts(events, view, known_at, following)
@@ -308,6 +315,7 @@ class SessionState:
         parts = [part for part in self.parts if site in part.sites]
         for part in parts:
             self._apply(part.feed((LimbSampled(sample),), None), events)
+            self._find_awake()
         if not parts and site not in self.unused:
             self.unused.append(site)
             text = f"recipe {self.settings.recipe.name} has no use for a sensor at the {site.value}"
@@ -331,6 +339,7 @@ class SessionState:
                 self._apply(output, events)
             if finishing:
                 self._apply(part.finish(known_at), events)
+        self._find_awake()
         if moved is None and self.settings.poses and any([isinstance(event, StrideTaken) for event in events]):
             moved = self._make_moved(known_at)
         return moved
@@ -363,6 +372,7 @@ class SessionState:
     def _reset_parts(self, site: Site) -> None:
         for part in self.parts:
             part.reset(site)
+        self._find_awake()
 
     def _tracker(self, foot: Foot) -> FootTracker:
         """Return the foot's tracker, or a new one, which is not yet added to `feet`."""
