@@ -84,10 +84,10 @@ class SessionState:
     finished: bool = field(default=False, init=False)
     parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
     """Parts in the order in which they receive events."""
-    sampled: tuple[tuple[int, Part], ...] = field(default=(), init=False, metadata=NOT_SAVED)
-    """Parts that need samples without events too, each after the number of the part that follows it."""
     awake: tuple[tuple[int, Part], ...] = field(default=(), init=False, metadata=NOT_SAVED)
-    """Those of `sampled` that were not idle after the last events, notice or reset; only these can wake a part."""
+    """Parts that need samples without events too, each after the number of the part that follows it.
+
+    A part that is idle after events, a notice or a reset is left out, because only one of these wakes it."""
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
     height: tuple[float, float] = field(default=(0.0, 0.0), init=False)
     """Height correction added to the tracks' z, m, positive upwards, and its variance, m^2."""
@@ -109,11 +109,11 @@ class SessionState:
             part.ready()
             if hasattr(part, "plan"):
                 part.plan = plan
-        self.sampled = tuple([(number, part) for number, part in enumerate(self.parts, 1) if part.needs_samples])
         self._find_awake()
 
     def _find_awake(self) -> None:
-        self.awake = tuple([(number, part) for number, part in self.sampled if not part.idle])
+        numbered = enumerate(self.parts, 1)
+        self.awake = tuple([(number, part) for number, part in numbered if part.needs_samples and not part.idle])
 
     def feed_packet(self, packet: Packet, kinds: DeviceKinds) -> list[Event]:
         """Add a packet of one of these kinds of devices; raise TypeError for one of wrong types."""
@@ -260,7 +260,7 @@ class SessionState:
     def _use_sample(self, sample: Sample) -> list[Event]:
         """Add a sample of any site and return the events."""
         if sample.quat is not None:
-            sample = with_sound_attitude(sample)
+            sample = with_sound_attitude(sample, sample.quat)
         foot = sample.site.foot
         if foot is None:
             return self._feed_limb(sample)

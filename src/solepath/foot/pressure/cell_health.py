@@ -82,9 +82,8 @@ class CellSpan:
     def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
         """Add one sample; cells with an index in `excluded` do not count in the sum."""
         total = 0.0
-        for i, value in enumerate(cells):
-            if i not in excluded:
-                total += value
+        for value in [v for i, v in enumerate(cells) if i not in excluded] if excluded else cells:
+            total += value
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
             self.low = self.high = total
@@ -193,13 +192,6 @@ class CellWindow:
             return len(self.ranges) <= MOST_PRESSED_CELLS or lively_windows >= LIVELY_WINDOWS_ALONE
         is_enclosed, any_neighbours = enclosed(layout, i, self.find_lively())
         return is_enclosed or (lively_windows >= LIVELY_WINDOWS and any_neighbours)
-
-
-def unloads(span: CellSpan, layout: Layout | None) -> bool:
-    """Return whether the load of the insole falls to a small share of its highest value, or is always zero."""
-    in_newtons = layout is not None and layout.scale is not None
-    share = LOADED_SHARE if in_newtons else LOADED_SHARE_IN_COUNTS
-    return not (span.high > 0.0 and span.low > share * span.high)
 
 
 @define
@@ -373,10 +365,12 @@ class CellHealth:
             self._count_constant(t, known_at, window_start, window, events)
             return
         self.constant_windows = 0
-        if unloads(span, layout):
-            self.loaded_windows = 0
-        else:
+        in_newtons = layout is not None and layout.scale is not None
+        share = LOADED_SHARE if in_newtons else LOADED_SHARE_IN_COUNTS
+        if span.high > 0.0 and span.low > share * span.high:
             self._count_loaded(t, known_at, window_start, events)
+        else:
+            self.loaded_windows = 0
         faults = window.find_faults(layout, self.lively_windows)
         for fault, cells in faults.items():
             new_cells = tuple([i for i in cells if i in self.suspected.get(fault, [])])

@@ -141,14 +141,14 @@ class InsoleLoads:
         for value in cells:
             total += value
         self.sum = total
-        sums: tuple[tuple[Extremes, float], ...] = ((self.total, total),)
+        sums = [(self.total, total)]
         has_areas = self.layout is not None and len(cells) == len(self.layout.cells)
         if has_areas:
             for i in self.heel_cells:
                 heel_sum += cells[i]
             for i in self.forefoot_cells:
                 forefoot_sum += cells[i]
-            sums = ((self.total, total), (self.heel, heel_sum), (self.forefoot, forefoot_sum))
+            sums += [(self.heel, heel_sum), (self.forefoot, forefoot_sum)]
         for extremes, value in sums:
             span_end = extremes.span_end
             if span_end is None or t >= span_end or not extremes.lows[-1] <= value <= extremes.highs[-1]:
@@ -381,8 +381,6 @@ class Sole:
         t, pressure = sample.t, sample.pressure or ()
         if pressure and not self.count_checked:
             self._check_count(len(pressure), t, known_at, limitations, events)
-        if not pressure and not self.had_cells:
-            return None
         known_layout = None if self.layout_estimated else self.insole.layout
         events += self.health.update(t, known_at, pressure, phase, sample.gyro, known_layout)
         health = self.health
