@@ -12,8 +12,7 @@ from solepath import Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Sessio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.pressure.insole import InsoleLoads
-from solepath.foot.pressure.sole import LayoutGuess
+from solepath.foot.pressure.insole import InsoleLoads, LayoutGuess
 
 
 def test_an_insole_without_an_inertial_sensor_still_gives_the_phases() -> None:

@@ -24,7 +24,7 @@ from solepath.emulate.routes.route import Route
 
 MODULES = (
     "types/plain.py", "types/records.py", "types/vector.py", "foot/settings.py", "foot/phase.py", "foot/view.py",
-    "foot/stance/stance.py", "foot/stance/cycle.py", "foot/stance/shoe.py", "foot/navigate/corrector.py",
+    "foot/stance/stance.py", "foot/stance/cycle.py", "foot/navigate/corrector.py",
     "foot/navigate/strapdown.py", "session/state.py", "body/part.py",
 )  # fmt: skip
 """Modules of classes that derive from protocols, are frozen, are made at every sample, or hold the state of others."""

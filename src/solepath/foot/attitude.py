@@ -140,7 +140,7 @@ class Levelling:
                 self.final, self.walks = True, False
                 return levelling(mean_acc), REST_TILT_SIGMA
         attitude = self._level_in_stance(t, acc, gyro)
-        self.final = t - self.started_at >= LONGEST_STRIDE - TIME_EPSILON and self.least_motion < LARGEST_MOTION
+        self.final = t - self.started_at >= LONGEST_STRIDE - TIME_EPSILON and self.found
         return attitude
 
     def _level_in_stance(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[Quat, float] | None:

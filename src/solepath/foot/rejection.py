@@ -6,7 +6,7 @@ from math import hypot, inf, isfinite
 from typing import NamedTuple
 
 from ..events import Defect, Rejection, SampleRejected
-from ..types import Sample, Vec3
+from ..types import Quat, Sample, Vec3
 from ..types.attrs import evolve
 from ..types.vector import normalise
 
@@ -118,23 +118,21 @@ def _size_of_numbers(cells: tuple[float, ...]) -> float:
         return inf
 
 
-def with_sound_attitude(sample: Sample) -> Sample:
-    """Return the sample with a unit quaternion, or without attitude if its quaternion has no valid norm."""
-    if sample.quat is None:
-        return sample
-    w, x, y, z = sample.quat
+def with_sound_attitude(sample: Sample, quat: Quat) -> Sample:
+    """Return the sample with its `quat` made a unit quaternion, or without attitude if that has no valid norm."""
+    w, x, y, z = quat
     square = w * w + x * x + y * y + z * z
     if 1.0 - 1e-9 < square < 1.0 + 1e-9:
         return sample
     if not SHORTEST_QUAT < square < 1.0 / SHORTEST_QUAT:  # also true for nan
         return evolve(sample, quat=None)
-    return evolve(sample, quat=normalise(sample.quat))
+    return evolve(sample, quat=normalise(quat))
 
 
 def wrong_time(sample: Sample) -> RejectionReason | None:
     """Return the reason why a time of `sample` is invalid, whatever came before; None when both are valid."""
     for t in (sample.t, sample.known_at):
-        if t is not None and not -ABSURD_TIME <= t <= ABSURD_TIME:
+        if not LEAST_TIME <= t <= ABSURD_TIME:
             if t != t or abs(t) == inf:
                 return RejectionReason(Rejection.NOT_FINITE, "time is not a number")
             detail = f"time of {_format_number(t)} s"
@@ -149,7 +147,7 @@ def rejected(sample: Sample, rejection: RejectionReason, newest: float | None) -
     """Return the event for a rejected sample; `newest`, s, replaces an invalid time."""
     reason, detail, defect = rejection
     t, known_at = sample.t, sample.known_at
-    if not -ABSURD_TIME <= t <= ABSURD_TIME:
+    if not LEAST_TIME <= t <= ABSURD_TIME:
         t = 0.0 if newest is None else newest
     if not t <= known_at <= ABSURD_TIME:
         known_at = t

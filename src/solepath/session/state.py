@@ -35,7 +35,7 @@ from ..events import (
     StrideTaken,
     WearerMoved,
 )
-from ..foot.pressure.sole import Sole
+from ..foot.pressure.insole import Sole
 from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.settings import FootSettings
 from ..foot.tracker import FootTracker
@@ -84,8 +84,10 @@ class SessionState:
     finished: bool = field(default=False, init=False)
     parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
     """Parts in the order in which they receive events."""
-    sampled: tuple[tuple[int, Part], ...] = field(default=(), init=False, metadata=NOT_SAVED)
-    """Parts that need samples without events too, each after the number of the part that follows it."""
+    awake: tuple[tuple[int, Part], ...] = field(default=(), init=False, metadata=NOT_SAVED)
+    """Parts that need samples without events too, each after the number of the part that follows it.
+
+    A part that is idle after events, a notice or a reset is left out, because only one of these wakes it."""
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
     height: tuple[float, float] = field(default=(0.0, 0.0), init=False)
     """Height correction added to the tracks' z, m, positive upwards, and its variance, m^2."""
@@ -107,7 +109,11 @@ class SessionState:
             part.ready()
             if hasattr(part, "plan"):
                 part.plan = plan
-        self.sampled = tuple([(number, part) for number, part in enumerate(self.parts, 1) if part.needs_samples])
+        self._find_awake()
+
+    def _find_awake(self) -> None:
+        numbered = enumerate(self.parts, 1)
+        self.awake = tuple([(number, part) for number, part in numbered if part.needs_samples and not part.idle])
 
     def feed_packet(self, packet: Packet, kinds: DeviceKinds) -> list[Event]:
         """Add a packet of one of these kinds of devices; raise TypeError for one of wrong types."""
@@ -204,6 +210,7 @@ class SessionState:
         for part in self.parts:
             if type(notice) in part.notices:
                 part.feed((notice,), None)
+        self._find_awake()
 
     def report(self, site: Site, event: Event) -> list[Event]:
         """Use an event of a link; return it and the events that follow from it."""
@@ -253,7 +260,7 @@ class SessionState:
     def _use_sample(self, sample: Sample) -> list[Event]:
         """Add a sample of any site and return the events."""
         if sample.quat is not None:
-            sample = with_sound_attitude(sample)
+            sample = with_sound_attitude(sample, sample.quat)
         foot = sample.site.foot
         if foot is None:
             return self._feed_limb(sample)
@@ -276,7 +283,7 @@ class SessionState:
             tracker.viewed_at = t
         if not events and sample.air_pressure is None:  # nearly always
             view = tracker.view(sample, known_at, False, False, None)
-            for following, part in self.sampled:
+            for following, part in self.awake:
                 if not part.idle and (output := part.feed((), view)):
                     self._apply(output, events)
                     self._run_parts(events, view, known_at, following)
@@ -308,6 +315,7 @@ class SessionState:
         parts = [part for part in self.parts if site in part.sites]
         for part in parts:
             self._apply(part.feed((LimbSampled(sample),), None), events)
+            self._find_awake()
         if not parts and site not in self.unused:
             self.unused.append(site)
             text = f"recipe {self.settings.recipe.name} has no use for a sensor at the {site.value}"
@@ -331,6 +339,7 @@ class SessionState:
                 self._apply(output, events)
             if finishing:
                 self._apply(part.finish(known_at), events)
+        self._find_awake()
         if moved is None and self.settings.poses and any([isinstance(event, StrideTaken) for event in events]):
             moved = self._make_moved(known_at)
         return moved
@@ -363,6 +372,7 @@ class SessionState:
     def _reset_parts(self, site: Site) -> None:
         for part in self.parts:
             part.reset(site)
+        self._find_awake()
 
     def _tracker(self, foot: Foot) -> FootTracker:
         """Return the foot's tracker, or a new one, which is not yet added to `feet`."""

@@ -93,6 +93,10 @@ class ClippedPeak(NamedTuple):
     """Slope at which the axis came back into the range, rad/s^2 or m/s^3."""
 
 
+ClippedPeaks = tuple[ClippedPeak, ...]
+NO_PEAKS: ClippedPeaks = ()
+
+
 @define
 class ClippedAxis:
     """The clipping of one axis of a sensor."""
@@ -149,12 +153,12 @@ class Clipping:
 
     def update(
         self, dt: float, readings: Vec3, previous: Vec3, earlier: Vec3, earlier_dt: float, saturated: bool
-    ) -> tuple[ClippedPeak, ...]:
+    ) -> ClippedPeaks:
         """Return the clipped peaks that become known with this sample.
 
         `readings` comes `dt` s after `previous`, which came `earlier_dt` s after `earlier`; all in rad/s or m/s^2.
         `saturated` is True when the device reports that a sensor is at the end of its range."""
-        peaks: tuple[ClippedPeak, ...] = ()
+        peaks = NO_PEAKS
         clipping = False
         for i in (0, 1, 2):
             axis, reading = self.axes[i], readings[i]
@@ -374,25 +378,28 @@ class Recovery:
     """Rate before the last one, sensor frame, rad/s."""
     earlier_dt: float = field(default=0.0, init=False)
     """Time between the last two samples, s."""
+    watches: bool = field(default=False, init=False)
+    """The next sample is watched wherever it lies, because a sensor was near the end of its range in this one."""
 
     def watch(
         self, dt: float, acc: Vec3, gyro: Vec3, previous_rate: Vec3, attitude: Quat, saturated: bool
-    ) -> tuple[tuple[ClippedPeak, ...] | None, tuple[ClippedPeak, ...] | None]:
+    ) -> tuple[ClippedPeaks, ClippedPeaks]:
         """Return the clipped peaks of gyroscope and accelerometer that become known with this sample.
 
         `acc` is in m/s^2, `gyro` in rad/s. `previous_rate` and `attitude` are those of the last sample. `saturated` is
         True when the device reports that a sensor is at the end of its range."""
         x, y, z = gyro
-        gyro_clipping, gyro_peaks = self.gyro_clipping, None
+        gyro_clipping, gyro_peaks = self.gyro_clipping, NO_PEAKS
         if gyro_clipping.clipping or x * x + y * y + z * z > gyro_clipping.near_end_square:
             gyro_peaks = gyro_clipping.update(dt, gyro, previous_rate, self.earlier_rate, self.earlier_dt, saturated)
             self.swing.add_sample(dt, gyro, previous_rate, acc, attitude)
         elif self.swing.rows:
             self.swing.rows = []
         x, y, z = acc
-        acc_clipping, acc_peaks = self.acc_clipping, None
+        acc_clipping, acc_peaks = self.acc_clipping, NO_PEAKS
         if acc_clipping.clipping or x * x + y * y + z * z > acc_clipping.near_end_square:
             acc_peaks = acc_clipping.update(dt, acc, self.last_acc, self.earlier_acc, self.earlier_dt, saturated)
+        self.watches = gyro_clipping.clipping or acc_clipping.clipping or bool(self.swing.rows)
         return gyro_peaks, acc_peaks
 
     def reset(self) -> None:
@@ -406,7 +413,7 @@ class Recovery:
         self.gyro_clipping.end_stride()
         self.acc_clipping.end_stride()
 
-    def add_turns(self, gyro_peaks: tuple[ClippedPeak, ...], state: State) -> State:
+    def add_turns(self, gyro_peaks: ClippedPeaks, state: State) -> State:
         """Return the state corrected for clipped peaks of the gyroscope, with their uncertainty."""
         attitude, velocity, position, covariance = state
         for peak in gyro_peaks:
@@ -421,7 +428,7 @@ class Recovery:
         return attitude, velocity, position, covariance
 
     @staticmethod
-    def add_velocities(acc_peaks: tuple[ClippedPeak, ...], state: State) -> State:
+    def add_velocities(acc_peaks: ClippedPeaks, state: State) -> State:
         """Return the state corrected for clipped peaks of the accelerometer, with their uncertainty."""
         attitude, velocity, position, covariance = state
         for peak in acc_peaks:

@@ -249,10 +249,14 @@ def scale(covariance: Covariance, factor: float) -> Covariance:
     return tuple([factor * p for p in covariance])
 
 
-def inflate(covariance: Covariance, variances: tuple[float, ...]) -> Covariance:
-    """Return the covariance with `variances` of the nine states added."""
-    pairs = zip(covariance, PAIRS, strict=True)
-    return tuple([p + variances[i] if i == j else p for p, (i, j) in pairs])
+def inflate(
+    covariance: Covariance, velocity: float, tilt: float, position: float = 0.0, height: float = 0.0, yaw: float = 0.0
+) -> Covariance:
+    """Return the covariance with these variances added: of velocity, (m/s)^2, position, m^2, and of the angles, rad^2.
+
+    `velocity` is that of each axis, `position` that of x and y, `tilt` that about each horizontal axis."""
+    added = (position, position, height, velocity, velocity, velocity, tilt, tilt, yaw)
+    return tuple([p + added[i] if i == j else p for p, (i, j) in zip(covariance, PAIRS, strict=True)])
 
 
 def add_error(covariance: Covariance, error: tuple[Vec3, Vec3, Vec3], sigma: float) -> Covariance:

@@ -20,7 +20,7 @@ from ..phase import STATIONARY
 from ..rhythm import StanceRhythm
 from ..settings import ErrorStateSettings
 from ..stance.stance import Stance
-from .clipping import ClippedPeak, Recovery
+from .clipping import NO_PEAKS, ClippedPeaks, Recovery
 from .corrector import LONGEST_BRIDGE
 from .covariance import (
     HEIGHT,
@@ -184,8 +184,8 @@ class ErrorStateFilter(Strapdown):
     """True if the gate has rejected evidence since `accepted_at`."""
     evidence_since: float | None = field(default=None, init=False)
     """Start of the current unbroken evidence, s; None without evidence."""
-    landing_error: Vec3 = field(default=ZERO, init=False)
-    """Error of the velocity at the first accepted evidence of the newest stance, m/s; see `velocity_error`."""
+    velocity_error: Vec3 = field(default=ZERO, init=False)
+    """Error of the velocity at the first accepted evidence of the newest stance, m/s; see `Corrector`."""
     rhythm: StanceRhythm = field(factory=StanceRhythm, init=False)
     """Usual durations of stance and swing, for evidence that the gate rejects."""
     recovery: Recovery = field(factory=Recovery, init=False)
@@ -202,22 +202,19 @@ class ErrorStateFilter(Strapdown):
         self.time_since_anchor = 0.0
         # a foot whose tilt was not measured at rest may move
         speed = SPEED_AT_REST if tilt_sigma < LARGEST_REST_TILT else SPEED_PER_TILT * tilt_sigma
-        self.uncertainty = (0.0,) * 45
-        self._inflate(velocity=speed * speed, tilt=tilt_sigma * tilt_sigma)
+        self.uncertainty = inflate((0.0,) * 45, velocity=speed * speed, tilt=tilt_sigma * tilt_sigma)
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         gx, gy, gz = gyro
         rate, last_force, recovery = self.rate or gyro, self.force, self.recovery
         dt_before, last_acc, earlier_acc = recovery.earlier_dt, recovery.last_acc, recovery.earlier_acc
-        gyro_peaks = acc_peaks = None
+        gyro_peaks = acc_peaks = NO_PEAKS
         rate_square, (x, y, z) = gx * gx + gy * gy + gz * gz, acc
         gyro_clipping, acc_clipping = recovery.gyro_clipping, recovery.acc_clipping
         if (
             rate_square > gyro_clipping.near_end_square
             or x * x + y * y + z * z > acc_clipping.near_end_square
-            or gyro_clipping.clipping
-            or acc_clipping.clipping
-            or recovery.swing.rows
+            or recovery.watches
         ):  # a call for every sample would cost 1 % of it
             gyro_peaks, acc_peaks = recovery.watch(dt, acc, gyro, rate, self.attitude, saturated)
         recovery.earlier_acc, recovery.last_acc = last_acc, acc
@@ -255,14 +252,12 @@ class ErrorStateFilter(Strapdown):
         if (gyro_peaks or acc_peaks) and settings.recover:
             self._add_peaks(gyro_peaks, acc_peaks)
 
-    def _add_peaks(self, gyro_peaks: tuple[ClippedPeak, ...] | None, acc_peaks: tuple[ClippedPeak, ...] | None) -> None:
+    def _add_peaks(self, gyro_peaks: ClippedPeaks, acc_peaks: ClippedPeaks) -> None:
         """Correct the state by the clipped peaks of gyroscope and accelerometer."""
         self._propagate()
         state = (self.attitude, self.velocity, self.position, self.uncertainty)
-        if gyro_peaks:
-            state = self.recovery.add_turns(gyro_peaks, state)
-        if acc_peaks:
-            state = self.recovery.add_velocities(acc_peaks, state)
+        state = self.recovery.add_turns(gyro_peaks, state)
+        state = self.recovery.add_velocities(acc_peaks, state)
         self.attitude, self.velocity, self.position, self.uncertainty = state
         self._mark_start()
 
@@ -299,7 +294,7 @@ class ErrorStateFilter(Strapdown):
         self._inject(error)
         self.rhythm.add(t, self.accepted_at)
         if self.accepted_at < self.evidence_since:
-            self.landing_error = sub((vx, vy, vz), stance.v_ref)
+            self.velocity_error = sub((vx, vy, vz), stance.v_ref)
         self.accepted_at = t
         self.gated = False
         return True
@@ -311,10 +306,6 @@ class ErrorStateFilter(Strapdown):
             return t - accepted_at > self.rhythm.time_until_stance(inf, share, longest) - TIME_EPSILON
         until = self.rhythm.time_until_stance(evidence_since - accepted_at, share, longest)
         return t - evidence_since > until - TIME_EPSILON
-
-    @property
-    def velocity_error(self) -> Vec3:
-        return self.landing_error
 
     def bridge(self, dt: float) -> float:
         if dt <= LONGEST_BRIDGE:
@@ -329,7 +320,8 @@ class ErrorStateFilter(Strapdown):
         self.velocity = self.start_velocity = ZERO
         self.force = self.rate = None
         distance = GAP_WALKING_SPEED * min(dt, LONGEST_GAP_WALK)
-        self._inflate(
+        self.uncertainty = inflate(
+            self.uncertainty,
             position=distance * distance,
             height=GAP_RISE_RATIO * distance * distance,
             velocity=GAP_SPEED * GAP_SPEED,
@@ -344,7 +336,8 @@ class ErrorStateFilter(Strapdown):
         self.attitude, self.velocity, self.position = attitude, velocity, position
         self.force = self.rate = None
         self._mark_start()
-        self._inflate(
+        self.uncertainty = inflate(
+            self.uncertainty,
             position=INFILL_POSITION_VARIANCE,
             height=INFILL_POSITION_VARIANCE,
             velocity=INFILL_VELOCITY_SIGMA * INFILL_VELOCITY_SIGMA,
@@ -412,13 +405,6 @@ class ErrorStateFilter(Strapdown):
         self.elapsed = self.acc_variance = self.gyro_variance = 0.0
         self.start_velocity = self.velocity
         self.start_position = self.position
-
-    def _inflate(
-        self, velocity: float, tilt: float, position: float = 0.0, height: float = 0.0, yaw: float = 0.0
-    ) -> None:
-        """Add to the variances of each axis of velocity, (m/s)^2, and position, m^2, and of the angles, rad^2."""
-        added = (position, position, height, velocity, velocity, velocity, tilt, tilt, yaw)
-        self.uncertainty = inflate(self.uncertainty, added)
 
     def _inject(self, error: Correction) -> None:
         """Correct the state by `error`."""

@@ -21,7 +21,6 @@ from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads
 from ...types import Layout, Phase, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ..rejection import ABSURD_PRESSURE
-from .insole import add_up
 
 CHECK_INTERVAL = 0.0795
 """Interval at which the cells are checked, s; a load under the toes lasts about 0.15 s."""
@@ -82,7 +81,9 @@ class CellSpan:
 
     def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
         """Add one sample; cells with an index in `excluded` do not count in the sum."""
-        total = add_up(tuple([v for i, v in enumerate(cells) if i not in excluded]) if excluded else cells)
+        total = 0.0
+        for value in [v for i, v in enumerate(cells) if i not in excluded] if excluded else cells:
+            total += value
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
             self.low = self.high = total
@@ -193,13 +194,6 @@ class CellWindow:
         return is_enclosed or (lively_windows >= LIVELY_WINDOWS and any_neighbours)
 
 
-def unloads(span: CellSpan, layout: Layout | None) -> bool:
-    """Return whether the load of the insole falls to a small share of its highest value, or is always zero."""
-    in_newtons = layout is not None and layout.scale is not None
-    share = LOADED_SHARE if in_newtons else LOADED_SHARE_IN_COUNTS
-    return not (span.high > 0.0 and span.low > share * span.high)
-
-
 @define
 class CellHealth:
     """The health of the cells of one insole.
@@ -283,8 +277,17 @@ class CellHealth:
             if self.window_start is None or not 0.0 <= t - self.window_start < LONGEST_WINDOW:
                 self.window_start, self.swings, self.span = t, 0, CellSpan()
             self.span.add(cells, self.excluded)
-        x, y, z = (LEAST_SWING_RATE, LEAST_SWING_RATE, LEAST_SWING_RATE) if gyro is None else gyro
-        if x * x + y * y + z * z >= LEAST_SWING_RATE * LEAST_SWING_RATE and self._swing_starts(t, phase, gyro is None):
+        if gyro is None:
+            was_airborne, self.airborne = self.airborne, phase is Phase.SWING
+            swing_starts = self.airborne and not was_airborne
+        else:
+            x, y, z = gyro
+            swing_starts = x * x + y * y + z * z >= LEAST_SWING_RATE * LEAST_SWING_RATE and not (
+                self.swing_start is not None and 0.0 <= t - self.swing_start < LEAST_SWING_INTERVAL
+            )
+            if swing_starts:
+                self.swing_start = t
+        if swing_starts:
             self.swings += 1
             if (
                 self.swings >= SWINGS_OF_WINDOW
@@ -351,16 +354,6 @@ class CellHealth:
         if new_cells:
             self._report(t, known_at, CellFault.MISSING, new_cells, events)
 
-    def _swing_starts(self, t: float, phase: Phase, rate_unknown: bool) -> bool:
-        """Return whether a swing starts, for a foot that turns fast or whose rate is unknown."""
-        if rate_unknown:
-            was_airborne, self.airborne = self.airborne, phase is Phase.SWING
-            return self.airborne and not was_airborne
-        if self.swing_start is not None and 0.0 <= t - self.swing_start < LEAST_SWING_INTERVAL:
-            return False
-        self.swing_start = t
-        return True
-
     def _judge(
         self, t: float, known_at: float, window_start: float, layout: Layout | None, events: list[Event]
     ) -> None:
@@ -372,10 +365,12 @@ class CellHealth:
             self._count_constant(t, known_at, window_start, window, events)
             return
         self.constant_windows = 0
-        if unloads(span, layout):
-            self.loaded_windows = 0
-        else:
+        in_newtons = layout is not None and layout.scale is not None
+        share = LOADED_SHARE if in_newtons else LOADED_SHARE_IN_COUNTS
+        if span.high > 0.0 and span.low > share * span.high:
             self._count_loaded(t, known_at, window_start, events)
+        else:
+            self.loaded_windows = 0
         faults = window.find_faults(layout, self.lively_windows)
         for fault, cells in faults.items():
             new_cells = tuple([i for i in cells if i in self.suspected.get(fault, [])])

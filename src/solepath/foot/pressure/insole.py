@@ -1,4 +1,4 @@
-"""Load of one insole: tare, full load, centre of pressure, and load of heel and forefoot.
+"""Pressure cells under one foot: tare, full load, centre of pressure, load of heel and forefoot, and layout.
 
 An insole needs no calibration before walking. The tare is the value of each cell when the foot is in the air, where the
 shoe still presses on the cells. The full load is the highest minus the lowest sum of all cells in the last 8 to 10 s,
@@ -12,13 +12,19 @@ The numbers were chosen by hand and not swept."""
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import repeat
+from math import fsum
+from operator import add
 
 from ...calibration import Calibration, Newtons
-from ...types import Foot, Layout
+from ...events import Event, FootPressed, LayoutKnown
+from ...types import SITE_OF_FOOT, Cell, Foot, Layout, Phase, Sample
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIME_EPSILON
-from ..settings import InsoleSettings
+from ..limitations import Limitations
+from ..settings import FootSettings, InsoleSettings
 from ..stance.stance import Load
+from .cell_health import CellHealth
 
 SPAN_DURATION = 2.0
 """Duration of one of the five spans over which the lowest and highest load are kept, s."""
@@ -34,31 +40,12 @@ LEAST_AREA_RANGE = 0.05
 """Smallest range of the load of an area with working cells, as a share of the full load."""
 
 
-def add_up(cells: tuple[float, ...]) -> float:
-    """Return the sum of the cells, in order; `fsum` takes twice the time, and `sum` rounds as its Python does."""
-    total = 0.0
-    for value in cells:
-        total += value
-    return total
-
-
-def add_up_area(cells: tuple[float, ...], indices: tuple[int, ...]) -> float:
-    """Return the sum of the cells with these indices, of which there is at least one, in ascending order."""
-    first = indices[0]
-    if indices[-1] - first + 1 == len(indices):  # a slice takes a tenth of the time of picking cells one by one
-        return add_up(cells[first : first + len(indices)])
-    total = 0.0
-    for i in indices:
-        total += cells[i]
-    return total
-
-
 @define
 class Extremes:
     """The lowest and highest value of the last 8 to 10 s, kept for each of five spans of 2 s; O(1) a sample."""
 
     span_end: float | None = None
-    """End of the current span, s; None before any."""
+    """Time from which on a value starts the next span, s; None before any."""
     lows: list[float] = field(factory=list)
     """Lowest value of each span."""
     highs: list[float] = field(factory=list)
@@ -68,22 +55,20 @@ class Extremes:
     high: float = 0.0
     """Highest value of all spans."""
 
-    def update(self, t: float, value: float) -> float:
-        """Add one value at `t`, s; return its difference from the lowest value."""
-        if self.span_end is None or t >= self.span_end - TIME_EPSILON:
-            self.span_end = t + SPAN_DURATION
+    def update(self, t: float, value: float) -> None:
+        """Add one value at `t`, s; a value between the extremes of a span that has not ended need not be added."""
+        if self.span_end is None or t >= self.span_end:
+            self.span_end = t + SPAN_DURATION - TIME_EPSILON
             self.lows = [*self.lows[-4:], value]
             self.highs = [*self.highs[-4:], value]
             self.low = min(self.lows)
             self.high = max(self.highs)
-            return value - self.low
-        if value < self.lows[-1]:
+        elif value < self.lows[-1]:
             self.lows[-1] = value
             self.low = min(self.low, value)
-        if value > self.highs[-1]:
+        elif value > self.highs[-1]:
             self.highs[-1] = value
             self.high = max(self.high, value)
-        return value - self.low
 
 
 @define
@@ -151,14 +136,23 @@ class InsoleLoads:
         if len(settings.noise) == len(cells):
             cells = above(settings.noise, cells)
         self.cells = cells
-        total = self.sum = add_up(cells)
-        self.total.update(t, total)
-        heel = forefoot = None
-        if self.layout is not None and len(cells) == len(self.layout.cells):
-            if self.heel_cells:
-                heel = self.heel.update(t, add_up_area(cells, self.heel_cells))
-            if self.forefoot_cells:
-                forefoot = self.forefoot.update(t, add_up_area(cells, self.forefoot_cells))
+        # loops, because `fsum` takes twice the time, and `sum` rounds as its Python does
+        total = heel_sum = forefoot_sum = 0.0
+        for value in cells:
+            total += value
+        self.sum = total
+        sums = [(self.total, total)]
+        has_areas = self.layout is not None and len(cells) == len(self.layout.cells)
+        if has_areas:
+            for i in self.heel_cells:
+                heel_sum += cells[i]
+            for i in self.forefoot_cells:
+                forefoot_sum += cells[i]
+            sums += [(self.heel, heel_sum), (self.forefoot, forefoot_sum)]
+        for extremes, value in sums:
+            span_end = extremes.span_end
+            if span_end is None or t >= span_end or not extremes.lows[-1] <= value <= extremes.highs[-1]:
+                extremes.update(t, value)
         low, high = self.total.low, self.total.high
         load_range = high - low
         if load_range <= LEAST_LOAD_RANGE * high or load_range <= 0.0:
@@ -176,14 +170,11 @@ class InsoleLoads:
             self.tare_total = total
         self.was_airborne = airborne
         # an area without variation is dead or absent, so it has no load
-        if heel is not None:
-            heel = heel / load_range if self.heel.high - self.heel.low > LEAST_AREA_RANGE * load_range else None
-        if forefoot is not None:
-            forefoot = (
-                forefoot / load_range
-                if self.forefoot.high - self.forefoot.low > LEAST_AREA_RANGE * load_range
-                else None
-            )
+        heel = forefoot = None
+        if has_areas and self.heel.high - self.heel.low > LEAST_AREA_RANGE * load_range:
+            heel = (heel_sum - self.heel.low) / load_range
+        if has_areas and self.forefoot.high - self.forefoot.low > LEAST_AREA_RANGE * load_range:
+            forefoot = (forefoot_sum - self.forefoot.low) / load_range
         centre = self.centre_of_pressure(cells) if with_centre and not airborne else None
         return Load(share, heel, forefoot, airborne, cells, centre)
 
@@ -241,3 +232,230 @@ def centre(layout: Layout) -> float | None:
     pressure while the foot is in the air."""
     xs = [cell.x for cell in layout.cells]
     return 0.5 * (min(xs) + max(xs)) if xs else None
+
+
+ASSUMED_LENGTH = 0.26
+"""Length of an insole of unknown size, m: that of size 42."""
+REAR_POSITION, FRONT_POSITION = 0.1, 0.9
+"""Positions of the first and the last loaded cell, measured from the heel, as shares of the length, 0 to 1."""
+ESTIMATED_LAYOUT_ID = 0
+"""Value of `Layout.id` for an estimated layout."""
+STANCES_OF_ESTIMATE = 2
+"""Number of complete stances that an estimate needs."""
+STANCE_START_LOAD, STANCE_END_LOAD = 0.10, 0.05
+"""Loads at which a stance starts and ends, as shares of the full load, 0 to 1."""
+SHORTEST_STANCE, LONGEST_STANCE = 0.25, 2.0
+"""Shortest and longest stance of walking, s."""
+LEAST_CELL_LOAD = 0.02
+"""Smallest load of a cell whose position is estimated, as a share of the most loaded cell's.
+
+Other cells get the middle of the insole."""
+
+
+@define
+class LayoutGuess:
+    """Estimates an unknown layout of pressure cells from the order in which a stance loads them.
+
+    The cells of the heel bear the start of each stance and those of the toes its end. So the mean time of a cell's load
+    within the stance grows from heel to toe. The signal does not show where a cell lies from left to right.
+
+    Call `update` with every sample until it returns a layout. A sample costs two additions a cell."""
+
+    foot: Foot
+    stance_start: float | None = None
+    """Start of the current stance, s; None while the foot is in the air."""
+    was_airborne: bool = False
+    """The foot was in the air before this stance, so the start of the stance is known."""
+    loads: list[float] = field(factory=list)
+    """For each cell, sum of its load over this stance."""
+    moments: list[float] = field(factory=list)
+    """For each cell, sum of its load times the time since the start of this stance, s."""
+    weights: list[float] = field(factory=list)
+    """For each cell, sum of its load over all stances."""
+    relative_times: list[float] = field(factory=list)
+    """For each cell, sum over all stances of its load times the relative time in the stance (0 to 1)."""
+    stances: int = 0
+    """Number of complete stances so far."""
+
+    def update(self, t: float, cells: tuple[float, ...], load_share: float) -> Layout | None:
+        """Add one sample; return the layout once it is known.
+
+        `cells` holds the values minus those in the air, `load_share` their total as a share of the full load."""
+        if self.stance_start is None:
+            if load_share > STANCE_START_LOAD:
+                self.stance_start = t
+                self.loads = list(cells)
+                self.moments = [0.0] * len(cells)
+            else:
+                self.was_airborne = True
+            return None
+        time_since_start = t - self.stance_start
+        if load_share >= STANCE_END_LOAD and time_since_start < LONGEST_STANCE and len(cells) == len(self.loads):
+            self.loads = list(map(add, self.loads, cells))
+            self.moments = [moment + time_since_start * cell for moment, cell in zip(self.moments, cells, strict=True)]
+            return None
+        is_complete, self.stance_start = self.was_airborne, None
+        self.was_airborne = load_share < STANCE_END_LOAD
+        if not is_complete or not SHORTEST_STANCE <= time_since_start < LONGEST_STANCE:
+            return None
+        if len(self.weights) != len(self.loads):
+            self.weights, self.relative_times, self.stances = [0.0] * len(self.loads), [0.0] * len(self.loads), 0
+        self.weights = list(map(add, self.weights, self.loads))
+        self.relative_times = [
+            m + moment / time_since_start for m, moment in zip(self.relative_times, self.moments, strict=True)
+        ]
+        self.stances += 1
+        return self._layout() if self.stances >= STANCES_OF_ESTIMATE else None
+
+    def _layout(self) -> Layout | None:
+        largest_weight = max(self.weights)
+        if largest_weight <= 0.0:
+            return None
+        is_loaded = [w > LEAST_CELL_LOAD * largest_weight for w in self.weights]
+        mean_times = [
+            m / w if loaded else 0.0 for m, w, loaded in zip(self.relative_times, self.weights, is_loaded, strict=True)
+        ]
+        known_times = [middle for middle, loaded in zip(mean_times, is_loaded, strict=True) if loaded]
+        if not known_times:
+            return None
+        earliest, latest = min(known_times), max(known_times)
+        if latest <= earliest:
+            return None
+        metres_per_time = (FRONT_POSITION - REAR_POSITION) * ASSUMED_LENGTH / (latest - earliest)
+        xs = [
+            REAR_POSITION * ASSUMED_LENGTH + (middle - earliest) * metres_per_time if loaded else 0.5 * ASSUMED_LENGTH
+            for middle, loaded in zip(mean_times, is_loaded, strict=True)
+        ]
+        return Layout(ESTIMATED_LAYOUT_ID, self.foot, tuple([Cell(x, 0.0) for x in xs]), ASSUMED_LENGTH)
+
+
+@define
+class Sole:
+    """The pressure cells of one foot.
+
+    Failed cells are not used. If the layout is unknown and the recipe needs pressure, the layout is estimated."""
+
+    foot: Foot
+    insole: InsoleLoads
+    settings: FootSettings = FootSettings()
+    had_cells: bool = field(default=False, init=False)
+    """At least one sample with usable cells was added."""
+    health: CellHealth = field(init=False)
+    guess: LayoutGuess = field(init=False)
+    layout_estimated: bool = field(default=False, init=False)
+    """The layout is an estimate."""
+    calibrated_layout: Layout | None = field(default=None, init=False)
+    """Layout of the calibration that waits for a sample with the same number of cells; None when none waits."""
+    count_checked: bool = field(default=False, init=False)
+    """It is decided whether the calibration is used: it matches the number of cells, or was rejected."""
+    highest: float = field(default=0.0, init=False)
+    """Highest recent value of any cell of a pressure event, unit of the cells; it decays slowly."""
+    layout_changed: bool = field(default=False, init=False)
+    """The layout has changed, and detector and cues have not received it yet."""
+
+    def __attrs_post_init__(self) -> None:
+        self.health = CellHealth(SITE_OF_FOOT[self.foot])
+        self.guess = LayoutGuess(self.foot)
+
+    def set_layout(self, layout: Layout, limitations: Limitations) -> None:
+        """Set the layout that the device has sent, or that of a calibration that matches the samples."""
+        self.layout_estimated, self.calibrated_layout = False, None
+        self._apply_layout(layout, limitations)
+
+    def set_calibrated_layout(self, layout: Layout) -> None:
+        """Set the layout of a calibration; it is used if samples have as many cells."""
+        self.calibrated_layout = layout
+
+    def reset(self) -> None:
+        """Discard what depends on unbroken samples, because times restart."""
+        self.insole.reset()
+        self.health.reset()
+
+    def add_sample(
+        self, sample: Sample, known_at: float, phase: Phase, with_centre: bool, limitations: Limitations,
+        events: list[Event],
+    ) -> Load | None:  # fmt: skip
+        """Return the load of one sample of a foot in this phase; None while it is unknown, or without usable cells.
+
+        `with_centre`: the centre of pressure is computed, too."""
+        t, pressure = sample.t, sample.pressure or ()
+        if pressure and not self.count_checked:
+            self._check_count(len(pressure), t, known_at, limitations, events)
+        known_layout = None if self.layout_estimated else self.insole.layout
+        events += self.health.update(t, known_at, pressure, phase, sample.gyro, known_layout)
+        health = self.health
+        has_unusable_cells = health.excluded or health.non_numeric or len(pressure) != health.count
+        cells = health.usable(pressure) if has_unusable_cells else pressure
+        if not cells:
+            return None
+        self.had_cells = True
+        layout = self.insole.layout
+        if self.layout_estimated and layout is not None and len(layout.cells) != len(cells):
+            self._forget_layout()  # it was estimated for another insole
+        load = self.insole.update(t, cells, with_centre)
+        if self.settings.needs_pressure and self.insole.layout is None and load is not None:
+            self._guess_layout(t, known_at, load, limitations, events)
+        return load
+
+    def make_event(self, t: float, known_at: float, pressure: tuple[float, ...]) -> FootPressed | None:
+        """Return the pressure event of the sample of the last `add_sample`; None if no cell could be used."""
+        insole, health = self.insole, self.health
+        if not health.usable(pressure):
+            return None
+        self.highest = max(self.highest * HIGHEST_DECAY, *insole.cells)
+        values = insole.above_tare(insole.cells)
+        if health.excluded or health.non_numeric:  # the calibration's cubic may turn 0 into a force
+            failed_cells = {*health.excluded, *[i for i, _ in health.non_numeric]}
+            values = tuple([0.0 if i in failed_cells else value for i, value in enumerate(values)])
+        force = fsum(values)  # in the unit of the cells
+        centre, layout = None, insole.layout
+        if layout is not None and not self.layout_estimated and len(values) == len(layout.cells):
+            # after a long time in the air the range of loads is small; then the highest cell value sets the limit
+            least_force = LEAST_LOAD * max(insole.total.high - insole.total.low, self.highest)
+            if force > least_force:
+                load, x_sum, y_sum = weighted_sums(values, repeat(0.0, len(values)), layout.xs, layout.ys)
+                centre = (x_sum / load, y_sum / load)
+        return FootPressed(t=t, known_at=known_at, foot=self.foot, values=values, force=force, centre=centre)
+
+    def _check_count(
+        self, count: int, t: float, known_at: float, limitations: Limitations, events: list[Event]
+    ) -> None:
+        """Check that the calibration matches the `count` cells of a sample, and use its layout if it does."""
+        layout, noise = self.calibrated_layout, self.insole.settings.noise
+        if layout is not None and len(layout.cells) == count:
+            self.set_layout(layout, limitations)
+            events.append(LayoutKnown(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], layout=layout))
+            layout = None
+        mismatch = layout is not None or (bool(noise) and len(noise) != count)
+        self.count_checked = not mismatch or limitations.rejects_calibration(layout, noise, count, t, known_at, events)
+        if mismatch and self.count_checked:
+            self.calibrated_layout = None
+
+    def _apply_layout(self, layout: Layout, limitations: Limitations) -> None:
+        self.insole.set_layout(layout)
+        insole = self.insole
+        if (
+            insole.settings.newtons is not None
+            and not insole.in_newtons
+            and layout.scale is not None
+            and not self.layout_estimated
+        ):
+            insole.in_newtons = True
+            text = f"the {self.foot.value} insole tells newtons itself: the calibration's cubic is not used"
+            limitations.queue(text)
+        self.layout_changed = True
+
+    def _guess_layout(
+        self, t: float, known_at: float, load: Load, limitations: Limitations, events: list[Event]
+    ) -> None:
+        layout = self.guess.update(t, self.insole.above_tare(load.cells), load.total)
+        if layout is not None:
+            text = f"nobody says where the cells of the {self.foot.value} insole are: learnt from how steps load them"
+            limitations.report(text, t, known_at, events)
+            self.layout_estimated = True
+            self._apply_layout(layout, limitations)
+
+    def _forget_layout(self) -> None:
+        self.layout_estimated, self.highest = False, 0.0
+        self.guess = LayoutGuess(self.foot)
+        self.insole = evolve(self.insole)  # a copy with the same settings and nothing learnt

@@ -87,7 +87,7 @@ def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
     """Return the indices of each region's cells, the nearest to its points.
 
     The result is empty if the cells do not show left and right: there are fewer cells than regions, or the layout was
-    guessed (foot/pressure/sole.py) or has impossible places. Then only standing can be recognised, and a
+    guessed (foot/pressure/insole.py) or has impossible places. Then only standing can be recognised, and a
     touchdown is treated as one of straight walking, which is the most frequent."""
     if len(layout.cells) < len(REGION_POINTS) or not SHORTEST_SOLE <= layout.length <= LONGEST_SOLE:
         return {}
