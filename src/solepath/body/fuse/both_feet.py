@@ -291,7 +291,9 @@ class BothFeet(MeanOfFeet):
             self._move_both(move)
 
         # the drift of the heading in the stride, which turns its displacement by the drift up to mid-swing
-        stance, swing = _phase_times(event)
+        t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off
+        stance = max(0.0, min(t_toe_off - event.t_start, MAX_PHASE_TIME))
+        swing = max(0.0, min(event.t_end - t_toe_off, MAX_PHASE_TIME))
         duration = stance + swing if rested else min(event.t_end - event.t_start, MAX_STANDING)
         count, rate = usual_strides(length), self.errors.rates[foot]
         drift = common.turn_of(foot, count, turn, duration)
@@ -449,10 +451,3 @@ class BothFeet(MeanOfFeet):
 
 def _side(foot: Foot) -> float:
     return 1.0 if foot is Foot.LEFT else -1.0
-
-
-def _phase_times(event: StrideTaken) -> Vec2:
-    """Return the stance time and the swing time of a stride, s, each up to `MAX_PHASE_TIME`."""
-    t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off
-    stance, swing = t_toe_off - event.t_start, event.t_end - t_toe_off
-    return max(0.0, min(stance, MAX_PHASE_TIME)), max(0.0, min(swing, MAX_PHASE_TIME))
