@@ -49,10 +49,6 @@ class RateIntegral:
             kept = kept[MAX_INSTANTS // 8 * INSTANT.size :]
         self.instants = kept + INSTANT.pack(t, x, y, z)
 
-    def clear(self) -> None:
-        """Discard all instants."""
-        self.t, self.turn, self.instants = None, ZERO, b""
-
     def turns_between(self, i: int, j: int) -> list[Vec3]:
         """Return the turn since instant `i` at each instant from `i` to before `j`, rad."""
         rows = list(INSTANT.iter_unpack(self.instants))
@@ -218,8 +214,7 @@ class Sides:
     def reset(self) -> None:
         """Discard the recent motion of both feet, which is no longer needed."""
         for side in self.feet.values():
-            side.turn_integral.clear()
-            side.centre_ys = []
+            side.turn_integral, side.centre_ys = RateIntegral(), []
 
     def _both_look_swapped(self) -> bool:
         left, right = self.feet.values()

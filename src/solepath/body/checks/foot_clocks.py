@@ -196,7 +196,8 @@ class LoneStrides:
     def add(self, event: GaitEvent) -> str | None:
         """Add an event of a foot; return sentences for the person if the foot has walked while the other one stood."""
         this, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
-        other.restart()
+        if other.strides:
+            other.restart()
         if not isinstance(event, StrideTaken):
             this.is_known = True
             this.stood_since = event.t if isinstance(event, HeelStrike | FootFlat) else None

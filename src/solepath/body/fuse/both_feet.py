@@ -345,12 +345,8 @@ class BothFeet(MeanOfFeet):
         if self.compass is not None:
             self.compass.turned(move[2])
         left, right = [self.common.shares[foot] * track.flat(self._end_of(foot)) for foot, track in self.tracks.items()]
-        self._move_tracks(left + right, move, move)
-
-    def _move_tracks(self, centre: complex, *moves: Sequence[float]) -> None:
-        """Move the left and the right track by x and y, m, and turn it by a third number, rad, about `centre`, m."""
-        for (foot, track), (dx, dy, yaw) in zip(self.tracks.items(), moves, strict=True):
-            track.correct(self._end_of(foot), yaw, complex(dx, dy), centre)
+        for foot, track in self.tracks.items():
+            track.correct(self._end_of(foot), move[2], complex(*move[:2]), left + right)
 
     def _middle(self, shares: PerFoot[float]) -> complex:
         """Return the newest place between both feet, m, common frame; each foot counts with its share."""
@@ -404,11 +400,12 @@ class BothFeet(MeanOfFeet):
         deviation = self.directions[foot].add_stride(phase(moved), turn) if length > MIN_LENGTH else 0.0
         if other_stride is None or alone:
             return
+        ends = {foot: event.position, OTHER[foot]: other_stride.end}
         walks_on = length > MIN_LENGTH and abs(turn) < MAX_TURN and abs(deviation) < MAX_DIRECTION_DEVIATION
         if walks_on and event.t_start < other_stride.t_end < event.t_end and not degraded:
             middle = other.flat(other_stride.end) - (this.flat(event.position) - 0.5 * moved)
             for measured in standing_foot(foot, moved, middle, turn, times, self.width):
-                self._correct(self.errors.correct(measured, GATE_LIMIT))
+                self._correct(self.errors.correct(measured, GATE_LIMIT), ends)
         to_other = other.flat(other.newest_place) - this.flat(event.position)
         if hypot(to_other.real, to_other.imag) > REACH:
             # a foot that moved far without a stride has a wrong track, which must not pull the other foot
@@ -416,14 +413,15 @@ class BothFeet(MeanOfFeet):
             self.errors.inflate(OTHER[foot], max(0.0, hypot(wx, wy) - MAX_STRIDE_LENGTH))
             if other_stride.t_end < event.t_start:  # no foot stands that long: its strides were not detected
                 self.errors.inflate(OTHER[foot], event.length)
-            self._correct(self.errors.correct(feet_apart(foot, to_other, REACH), NO_GATE))
+            self._correct(self.errors.correct(feet_apart(foot, to_other, REACH), NO_GATE), ends)
 
-    def _correct(self, errors: list[float] | None) -> None:
-        """Remove the estimated errors (None: no change) from both tracks."""
+    def _correct(self, errors: list[float] | None, ends: PerFoot[Vec3]) -> None:
+        """Remove the estimated errors (None: no change) from both tracks, whose feet stood last at these `ends`, m."""
         if errors is not None:
             self.width += errors[WIDTH]
-            right = FEET[Foot.RIGHT]
-            self._move_tracks(complex(*self.errors.centre), errors[:RATE], errors[right : right + RATE])
+            for foot, end in ends.items():
+                x, y, yaw = errors[FEET[foot] : FEET[foot] + RATE]
+                self.tracks[foot].correct(end, yaw, complex(x, y), complex(*self.errors.centre))
 
     def _shift_foot(self, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
         """Return the correction that has accumulated for the foot since its last one, and reset its placement."""
