@@ -232,10 +232,20 @@ class Altitude(Part):
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add the reading of a foot's barometer, if the sample has one, and strides and rides."""
         outputs: list[PartOutput] = []
-        if view is not None and (height := height_above_track(view)) is not None:
-            outputs += self._add_reading(view.t, SOURCES[view.foot], height)
+        if view is not None and view.sample.air_pressure is not None:
+            height = height_above_track(view)
+            if height is not None:
+                outputs += self._add_reading(view.t, SOURCES[view.foot], height)
         for event in events:
-            outputs += self._receive(event)
+            if isinstance(event, StrideTaken):
+                outputs += self._add_stride(event)
+            elif isinstance(event, LiftRidden):
+                outputs += [Replacement(event, self._corrected_ride(event)), *self._height_shift()]
+            elif isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
+                source = SOURCES[event.site.foot]
+                self.sides[source].faulty = True
+                self._replace_inputs([entry for entry in map(_unpack, self.inputs) if entry[1] != source])
+                outputs += self._height_shift()
         return outputs
 
     def _add_reading(self, t: float, source: int, height: float) -> Sequence[PartOutput]:
@@ -254,19 +264,6 @@ class Altitude(Part):
             self.noise = max(measured_noise(self.noise, square, MAX_NOISE_RATIO), MIN_NOISE)
         side.read_at, side.total, side.count, side.previous_height = t, 0.0, 0, height
         return self._add_input((t, source, height, self.noise))
-
-    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Add a stride's variance to that of the correction, or replace a ride by one with its likeliest height."""
-        if isinstance(event, StrideTaken):
-            return self._add_stride(event)
-        if isinstance(event, LiftRidden):
-            return [Replacement(event, self._corrected_ride(event)), *self._height_shift()]
-        if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
-            source = SOURCES[event.site.foot]
-            self.sides[source].faulty = True
-            self._replace_inputs([entry for entry in map(_unpack, self.inputs) if entry[1] != source])
-            return self._height_shift()
-        return ()
 
     def _replace_inputs(self, inputs: list[HeightInput]) -> None:
         """Process other inputs than those that are kept, and keep them instead."""

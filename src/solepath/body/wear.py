@@ -10,7 +10,7 @@ from typing import ClassVar
 
 from ..events import FeetSwapped, FootResumed, FootSilent, StrideTaken, ToeOff
 from ..foot.view import FootView
-from ..types import OTHER, Foot, Layout, PerFoot, Vec3, per_foot
+from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec3, per_foot
 from ..types.attrs import ROW_SIZE, define, field, frozen
 from ..types.vector import ZERO, add, cross, dot, rotate_back, sub
 from .part import LayoutReported, Notice, Part, PartInput, PartOutput
@@ -48,18 +48,6 @@ class RateIntegral:
         if len(kept) >= MAX_INSTANTS * INSTANT.size:
             kept = kept[MAX_INSTANTS // 8 * INSTANT.size :]
         self.instants = kept + INSTANT.pack(t, x, y, z)
-
-    def keep_newest(self) -> None:
-        """Discard all instants but the newest."""
-        self.instants = self.instants[-INSTANT.size :]
-
-    def clear(self) -> None:
-        """Discard all instants."""
-        self.t, self.turn, self.instants = None, ZERO, b""
-
-    def times(self) -> list[float]:
-        """Return the times of the instants, s, oldest first."""
-        return [t for t, *_ in INSTANT.iter_unpack(self.instants)]
 
     def turns_between(self, i: int, j: int) -> list[Vec3]:
         """Return the turn since instant `i` at each instant from `i` to before `j`, rad."""
@@ -187,8 +175,8 @@ class Sides:
         for event in events:
             if isinstance(event, StrideTaken):
                 evidence_changed = True
-                _add_landing(side, event, rotate_back(view.attitude, UPWARDS))
-                side.turn_integral.keep_newest()
+                _add_landing(side, event, view.attitude)
+                side.turn_integral.instants = side.turn_integral.instants[-INSTANT.size :]
             elif isinstance(event, ToeOff) and side.centre_ys:
                 evidence_changed = True
                 _add_stance(side, view.foot is Foot.LEFT)
@@ -226,8 +214,7 @@ class Sides:
     def reset(self) -> None:
         """Discard the recent motion of both feet, which is no longer needed."""
         for side in self.feet.values():
-            side.turn_integral.clear()
-            side.centre_ys = []
+            side.turn_integral, side.centre_ys = RateIntegral(), []
 
     def _both_look_swapped(self) -> bool:
         left, right = self.feet.values()
@@ -240,15 +227,15 @@ class Sides:
         return left.centre.exceeds(CENTRE_LIMIT) and right.centre.exceeds(CENTRE_LIMIT)
 
 
-def _add_landing(side: SwapEvidence, stride: StrideTaken, up: Vec3) -> None:
-    """Add the roll of the foot at the heel-strike of a finished stride; `up` is in the sensor frame, at foot-flat."""
+def _add_landing(side: SwapEvidence, stride: StrideTaken, attitude: Quat) -> None:
+    """Add the roll of the foot at the heel-strike of a finished stride; `attitude` is that at foot-flat."""
     t_toe_off, t_heel_strike = stride.t_toe_off, stride.t_heel_strike
     if t_toe_off is None or t_heel_strike is None or stride.degraded:
         return
     if stride.length < MIN_STRIDE_LENGTH or abs(stride.heading_change) > MAX_HEADING_CHANGE:
         return
     rate_integral = side.turn_integral
-    times = rate_integral.times()
+    times = [t for t, *_ in INSTANT.iter_unpack(rate_integral.instants)]
     if not times or times[0] > t_toe_off - PUSH_OFF_TIME:
         return
     toe_off_index = bisect_right(times, t_toe_off + TIME_TOLERANCE)
@@ -266,7 +253,7 @@ def _add_landing(side: SwapEvidence, stride: StrideTaken, up: Vec3) -> None:
     if side.left_axis is not None:
         axis = add(side.left_axis, sub(axis, side.left_axis), AXIS_WEIGHT)
     side.left_axis = axis
-    forward = cross(axis, up)
+    forward = cross(axis, rotate_back(attitude, UPWARDS))
     length = hypot(*forward)
     if length <= 0.5:  # the axis is nearly vertical
         return

@@ -109,10 +109,9 @@ def set_newest(part: FootClocks, event: GaitEvent, spans: dict[Foot, list[tuple[
     """Set the newest sample of the other foot at an event, as the views of the feet do in a session."""
     other = OTHER[event.foot]
     times = [min(event.known_at, last) for first, last in spans[other] if first <= event.known_at]
-    newest = times[-1] if times else None
-    part.lone.other_t = newest
-    if newest is not None and not part.lone.feet[other].is_known:
-        part.lone.feet[other].stand(newest)
+    part.lone.other_t, standing = max(times, default=None), part.lone.feet[other]
+    if times and not standing.is_known:
+        standing.is_known, standing.stood_since = True, times[-1]
 
 
 def row(data: str, damage: str, outcomes: Sequence[ClockOutcome], limit: float) -> str:

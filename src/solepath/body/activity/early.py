@@ -55,14 +55,14 @@ class ActivityReport:
         best = hypotheses.best
         path = () if best is None else best.path if hypotheses.settled is None else best.path[1:]
         newest = [*[(segment, hypotheses.probability(segment)) for segment in path], *early]
-        unchanged = 0
-        for (old, _), (new, _) in zip(self.provisional, newest, strict=False):
+        unchanged: list[Early] = []
+        for (old, _), (new, probability) in zip(self.provisional, newest, strict=False):
             if old.activity is not new.activity or abs(old.t - new.t) > START_TOLERANCE:
                 break
-            unchanged += 1
-        withdrawn, changed = self.provisional[unchanged:], newest[unchanged:]
+            unchanged.append((old, probability))
+        withdrawn, changed = self.provisional[len(unchanged) :], newest[len(unchanged) :]
         revised = withdrawn[0][0].t if withdrawn else self.withdrawn_at
-        self.provisional = [(old, new[1]) for (old, _), new in zip(self.provisional[:unchanged], newest, strict=False)]
+        self.provisional = unchanged
         if withdrawn and not changed:
             # no new activity takes the place of the withdrawn one: the activity before it continues
             events.append(self._withdraw(hypotheses, withdrawn[0][0].t, known_at, False))

@@ -271,10 +271,10 @@ class Hypotheses:
         """Settle the segments that are certain at `now`, s; return each with the one before it and its probability."""
         best = self.best
         settled_segments: list[tuple[ActivitySegment, ActivitySegment | None, float]] = []
-        if best is None:
+        i = 0 if self.settled is None else 1
+        if best is None or len(best.path) <= i:
             return settled_segments
         old = _settled_by(best.path, now)
-        i = 0 if self.settled is None else 1
         while len(best.path) > i:
             segment = best.path[i]
             if not (

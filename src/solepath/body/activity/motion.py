@@ -59,24 +59,16 @@ class SlopeEvidence:
 def slope_evidence(length: float, rise: float) -> SlopeEvidence:
     """Return the evidence of a stride, or a step to the side, with this length and rise, m, for one block."""
     error = RISE_ERROR + RISE_ERROR_SHARE * length
-    level = _density(rise, error)
-    up, down = [log(_stairs(sign * rise, error) + 1e-9) - log(level + 1e-9) for sign in (1.0, -1.0)]
-    return SlopeEvidence(BLOCK_SHARE * _limited(up), BLOCK_SHARE * _limited(down))
-
-
-def _stairs(rise: float, error: float) -> float:
-    single = _density(rise - TREADS_RISE, (TREADS_DEVIATION**2 + error**2) ** 0.5)
-    double = _density(min(rise, MAX_RISE) - DOUBLE_RISE, (DOUBLE_DEVIATION**2 + error**2) ** 0.5)
-    return (1.0 - DOUBLE_SHARE) * single + DOUBLE_SHARE * double
-
-
-def _density(residual: float, deviation: float) -> float:
-    """Return the density of a normal distribution, times the root of 2 pi, 1/m."""
-    return exp(-0.5 * (residual / deviation) ** 2) / deviation
-
-
-def _limited(value: float) -> float:
-    return max(-MOST_EVIDENCE, min(MOST_EVIDENCE, value))
+    # densities of normal distributions, times the root of 2 pi, 1/m
+    level = exp(-0.5 * (rise / error) ** 2) / error
+    one, two = (TREADS_DEVIATION**2 + error**2) ** 0.5, (DOUBLE_DEVIATION**2 + error**2) ** 0.5
+    found: list[float] = []
+    for climb in (rise, -rise):
+        single = exp(-0.5 * ((climb - TREADS_RISE) / one) ** 2) / one
+        double = exp(-0.5 * ((min(climb, MAX_RISE) - DOUBLE_RISE) / two) ** 2) / two
+        ratio = log((1.0 - DOUBLE_SHARE) * single + DOUBLE_SHARE * double + 1e-9) - log(level + 1e-9)
+        found.append(BLOCK_SHARE * max(-MOST_EVIDENCE, min(MOST_EVIDENCE, ratio)))
+    return SlopeEvidence(*found)
 
 
 MOTIONS = ("still", "walking", "running", "stairs_up", "stairs_down")

@@ -83,15 +83,13 @@ class AirPressure(Part):
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add the reading of a foot's barometer, if the sample has one, and strides, which show that people walk."""
-        outputs = () if view is None else self._add_reading(view)
+        outputs = () if view is None or view.sample.air_pressure is None else self._add_reading(view)
         for event in events:
             if isinstance(event, StrideTaken):
                 self.stride_at, self.degraded = event.t, event.degraded
         return outputs
 
     def _add_reading(self, view: FootView) -> Sequence[PartOutput]:
-        if view.sample.air_pressure is None:
-            return ()
         t, barometer = view.t, self.feet[view.foot]
         if self.stride_at is None or abs(t - self.stride_at) > STRIDE_PAUSE:
             barometer.count = 0

@@ -165,10 +165,6 @@ class LoneFoot:
     y: float = 0.0
     """Displacement by these strides along the y axis of the world, m."""
 
-    def stand(self, since: float | None) -> None:
-        """Set that this foot is tracked, and the time from which on it is on the ground, s, or None if it is not."""
-        self.is_known, self.stood_since = True, since
-
     def restart(self) -> None:
         """Restart the count, because the other foot moved, or may have moved."""
         self.strides, self.x, self.y = 0, 0.0, 0.0
@@ -188,7 +184,8 @@ class LoneStrides:
         """Take a sample with events, or one of the foot that was requested."""
         this, other = self.feet[view.foot], OTHER[view.foot]
         if not this.is_known and view.levelled and view.moved_at is not None:
-            this.stand(view.t if view.phase in (Phase.STATIONARY, Phase.LOADING) else None)
+            this.is_known = True
+            this.stood_since = view.t if view.phase in (Phase.STATIONARY, Phase.LOADING) else None
         if self.requested is view.foot:
             self.requested = None
         if view.after is not None:
@@ -199,9 +196,11 @@ class LoneStrides:
     def add(self, event: GaitEvent) -> str | None:
         """Add an event of a foot; return sentences for the person if the foot has walked while the other one stood."""
         this, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
-        other.restart()
+        if other.strides:
+            other.restart()
         if not isinstance(event, StrideTaken):
-            this.stand(event.t if isinstance(event, HeelStrike | FootFlat) else None)
+            this.is_known = True
+            this.stood_since = event.t if isinstance(event, HeelStrike | FootFlat) else None
             return None
         is_lone = other.stood_since is not None and other.stood_since <= event.t_start
         if event.degraded or not is_lone or self.other_t is None or self.other_t < event.t_end - MAX_LAG:
@@ -312,33 +311,31 @@ class FootClocks(Part):
         if view is not None:
             self.lone.see(view)
             self.idle = self.lone.requested is None
-            outputs += self._report_lone(view.t, view.known_at)
+            if self.lone_sentences is not None:
+                outputs += self._report_lone(view.t, view.known_at)
         for event in events:
-            outputs += self._receive(event)
+            if isinstance(event, GaitEvent):
+                left, right = self.feet.values()
+                if not (self.lone_reported or left.spoiled or right.spoiled):
+                    self.lone_sentences = self.lone.add(event) or self.lone_sentences
+                    self.idle = self.idle and self.lone_sentences is None
+                    outputs += self._add_event(event, self.feet[event.foot])
+            elif isinstance(event, SampleGap | DefectFound | ClockUnsettled) and event.site.foot is not None:
+                foot = self.feet[event.site.foot]
+                if isinstance(event, ClockUnsettled):
+                    foot.unsettled = event.until
+                elif isinstance(event, SampleGap):
+                    self.lone.add_gap(event)
+                    if event.duration > MAX_GAP:
+                        foot.discard()
+                elif is_spoiling(event):
+                    foot.spoiled = True
+                    self._forget()
         return outputs
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return DefectFound if the newest stride was the last sample."""
         return self._report_lone(now, now)
-
-    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
-        if isinstance(event, GaitEvent):
-            if not self.lone_reported and not any([foot.spoiled for foot in self.feet.values()]):
-                self.lone_sentences = self.lone.add(event) or self.lone_sentences
-                self.idle = self.idle and self.lone_sentences is None
-                return self._add_event(event, self.feet[event.foot])
-        elif isinstance(event, SampleGap | DefectFound | ClockUnsettled) and event.site.foot is not None:
-            foot = self.feet[event.site.foot]
-            if isinstance(event, ClockUnsettled):
-                foot.unsettled = event.until
-            elif isinstance(event, SampleGap):
-                self.lone.add_gap(event)
-                if event.duration > MAX_GAP:
-                    foot.discard()
-            elif is_spoiling(event):
-                foot.spoiled = True
-                self._forget()
-        return ()
 
     def _add_event(self, event: GaitEvent, foot: FootClock) -> Sequence[PartOutput]:
         """Add an event of a foot; return DefectFound if the offset that it shows is significant and new."""

@@ -102,23 +102,21 @@ class SensorChecks(Part):
                 outputs += self._report(view.foot, view.t, view.known_at, _examine(check, view.gyro_bias))
                 check.rows = []
         for event in events:
-            outputs += self._receive(event)
+            if isinstance(event, HeelStrike):
+                self.feet[event.foot].loads.new_contacts += 1
+            elif isinstance(event, StrideTaken):
+                foot, other = event.foot, OTHER[event.foot]
+                finding = self.feet[foot].loads.add_stride(event, self.feet[foot].in_newtons)
+                if finding is not None:
+                    outputs += self._report(foot, event.t, event.known_at, [finding])
+                if (stuck := _stuck(self.feet[other], event)) is not None:
+                    outputs += self._report(other, event.t, event.known_at, [stuck])
+            elif isinstance(event, SampleRejected) and event.site.foot is not None:
+                finding = _wrong_unit(self.feet[event.site.foot], event)
+                outputs += self._report(event.site.foot, event.t, event.known_at, [finding])
+            elif isinstance(event, DefectFound) and event.site.foot is not None:
+                self.feet[event.site.foot].reported.append(event.defect)
         return outputs
-
-    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive contacts and strides, which an insole or a stuck sensor may contradict, and rejected samples."""
-        if isinstance(event, HeelStrike):
-            self.feet[event.foot].loads.new_contacts += 1
-        elif isinstance(event, StrideTaken):
-            check, other = self.feet[event.foot], OTHER[event.foot]
-            found = self._report(event.foot, event.t, event.known_at, [check.loads.add_stride(event, check.in_newtons)])
-            return found + self._report(other, event.t, event.known_at, [_stuck(self.feet[other], event)])
-        elif isinstance(event, SampleRejected) and event.site.foot is not None:
-            finding = _wrong_unit(self.feet[event.site.foot], event)
-            return self._report(event.site.foot, event.t, event.known_at, [finding])
-        elif isinstance(event, DefectFound) and event.site.foot is not None:
-            self.feet[event.site.foot].reported.append(event.defect)
-        return ()
 
     def reset(self, site: Site) -> None:
         """Forget what was found at a site, where another device is worn or the clock has restarted."""

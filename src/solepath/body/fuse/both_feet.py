@@ -190,29 +190,25 @@ class BothFeet(MeanOfFeet):
                 self._keep_placements()
         outputs: list[PartOutput] = []
         for event in events:
-            outputs += self._receive(event, view)
+            if isinstance(event, (StrideTaken, SampleGap)):
+                if view is None or view.after is None or self.tracks[view.foot].unplaced:
+                    continue
+                if isinstance(event, StrideTaken):
+                    outputs += self._add_stride(event, view.after)
+                    continue
+                # unseen: the other foot had no samples either in the first half, or the first second, of the gap
+                other_t = self.tracks[OTHER[view.foot]].t
+                unseen = other_t is None or other_t < event.t + min(0.5 * event.duration, ABSENCE_TIME)
+                self.common.add_gap(event.duration, unseen)
+            elif isinstance(event, DefectFound):
+                self.straight_ways.add_defect(event)
+            elif isinstance(event, StartGiven):
+                start = event.start
+                if start.heading is not None and start.place is not None:
+                    self.plan_start = PlanStart(start.place, start.heading, start.spread)
+            elif isinstance(event, PositionReported) and (self.common.started or event.place):
+                outputs += self._use_position(event)
         return outputs
-
-    def _receive(self, event: PartInput, view: FootView | None) -> Sequence[PartOutput]:
-        """Receive a stride or gap, a position that a person reports, or a defect that spoils straight ways."""
-        if isinstance(event, (StrideTaken, SampleGap)):
-            if view is None or view.after is None or self.tracks[view.foot].unplaced:
-                return ()
-            if isinstance(event, StrideTaken):
-                return self._add_stride(event, view.after)
-            # unseen: the other foot had no samples either in the first half, or the first second, of the gap
-            other_t = self.tracks[OTHER[view.foot]].t
-            unseen = other_t is None or other_t < event.t + min(0.5 * event.duration, ABSENCE_TIME)
-            self.common.add_gap(event.duration, unseen)
-        elif isinstance(event, DefectFound):
-            self.straight_ways.add_defect(event)
-        elif isinstance(event, StartGiven):
-            start = event.start
-            if start.heading is not None and start.place is not None:
-                self.plan_start = PlanStart(start.place, start.heading, start.spread)
-        elif isinstance(event, PositionReported) and (self.common.started or event.place):
-            return self._use_position(event)
-        return ()
 
     def _add_magnetic_field(self, view: FootView, mag: Vec3) -> None:
         """Add a sample of a foot that stands, with the magnetic flux density `mag`, T, sensor frame."""
@@ -275,14 +271,18 @@ class BothFeet(MeanOfFeet):
         Returns what was found, and the correction of the foot."""
         foot, common, length, turn = event.foot, self.common, event.length, event.heading_change
         this, other = self.tracks[foot], self.tracks[OTHER[foot]]
-        numbers = (*event.position, *event.displacement, *event.covariance)
-        if not all([abs(number) < MAX_TRACK_VALUE for number in numbers]) or self.errors.diverged:
+        for number in (*event.position, *event.displacement, *event.covariance):
+            if not abs(number) < MAX_TRACK_VALUE:
+                return self._restart()
+        if self.errors.diverged:
             return self._restart()
-        share = common.start_stride(foot, not (self.started and other.is_here))
+        alone = not (self.started and other.is_here)
+        share = common.start_stride(foot, alone)
 
         # what was seen before the stride; a compass waits until the tracks are aligned
         ground = self.ground.add_stride(event, after.velocity_error)
-        common.inflate(self.ground.variance(event.t_end))
+        if self.ground.since is not None:
+            common.inflate(self.ground.variance(event.t_end))
         rested = common.has_rested(foot, after.bias)
         self._move_both(common.add_rest(foot, event.t_end, after.bias))
         fault = misfit = None
@@ -291,7 +291,9 @@ class BothFeet(MeanOfFeet):
             self._move_both(move)
 
         # the drift of the heading in the stride, which turns its displacement by the drift up to mid-swing
-        stance, swing = _phase_times(event)
+        t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off
+        stance = max(0.0, min(t_toe_off - event.t_start, MAX_PHASE_TIME))
+        swing = max(0.0, min(event.t_end - t_toe_off, MAX_PHASE_TIME))
         duration = stance + swing if rested else min(event.t_end - event.t_start, MAX_STANDING)
         count, rate = usual_strides(length), self.errors.rates[foot]
         drift = common.turn_of(foot, count, turn, duration)
@@ -310,8 +312,9 @@ class BothFeet(MeanOfFeet):
         degraded = self.errors.judge_stride(foot, event.degraded, foot in self.straight_ways.spoiled) or excess > 0.0
         if self.started:
             self.errors.propagate(foot, (stance, swing), this.flat(event.position), moved, variance, degraded)
-        self.errors.inflate(foot, excess)
-        common.inflate(share * share * excess * excess)
+        if excess > 0.0:
+            self.errors.inflate(foot, excess)
+            common.inflate(share * share * excess * excess)
 
         # the other foot
         self.distance = min(ALIGNMENT_DISTANCE, self.distance + share * length)
@@ -319,20 +322,20 @@ class BothFeet(MeanOfFeet):
         self.strides[foot] = DirectedStride(event.t_end, event.position, phase(own) if has_direction else None)
         realigned = self.started and self.distance < ALIGNMENT_DISTANCE and self._realign(event)
         if self.started and not realigned:
-            self._compare_feet(event, moved, (stance, swing), degraded)
+            self._compare_feet(event, moved, (stance, swing), degraded, alone)
 
         # what the way so far shows
         self.path.add_stride(event.t_end, self._middle(common.shares), share * length)
         if self.settings.straightness and not realigned:
             move, misfit = self.straight_ways.add_stride(event, count, moved, common)
             self._move_both(move)
-        sentences = {Defect.MOVING_GROUND: ground, Defect.COMPASS: fault, Defect.CALIBRATION: misfit}
-        site = SITE_OF_FOOT[foot]
-        found = [
-            DefectFound(t=event.t, known_at=event.known_at, site=site, defect=defect, what=what, spoils=False)
-            for defect, what in sentences.items()
-            if what is not None
-        ]
+        found: list[PartOutput] = []
+        for defect, what in ((Defect.MOVING_GROUND, ground), (Defect.COMPASS, fault), (Defect.CALIBRATION, misfit)):
+            if what is not None:
+                site = SITE_OF_FOOT[foot]
+                found.append(
+                    DefectFound(t=event.t, known_at=event.known_at, site=site, defect=defect, what=what, spoils=False)
+                )
         return [*found, *self._shift_foot(foot, after.takes_shifts)]
 
     def _move_both(self, move: Move) -> None:
@@ -342,17 +345,13 @@ class BothFeet(MeanOfFeet):
         if self.compass is not None:
             self.compass.turned(move[2])
         left, right = [self.common.shares[foot] * track.flat(self._end_of(foot)) for foot, track in self.tracks.items()]
-        self._move_tracks(left + right, dict.fromkeys(Foot, move))
-
-    def _move_tracks(self, centre: complex, moves: Mapping[Foot, Sequence[float]]) -> None:
-        """Move each track by its x and y, m, and turn it by its third number, rad, about `centre`, m."""
-        for foot, (dx, dy, yaw) in moves.items():
-            self.tracks[foot].correct(self._end_of(foot), yaw, complex(dx, dy), centre)
+        for foot, track in self.tracks.items():
+            track.correct(self._end_of(foot), move[2], complex(*move[:2]), left + right)
 
     def _middle(self, shares: PerFoot[float]) -> complex:
         """Return the newest place between both feet, m, common frame; each foot counts with its share."""
-        left, right = [shares[foot] * track.flat(track.newest_place) for foot, track in self.tracks.items()]
-        return left + right
+        left, right = self.tracks.values()
+        return shares[Foot.LEFT] * left.flat(left.newest_place) + shares[Foot.RIGHT] * right.flat(right.newest_place)
 
     def _end_of(self, foot: Foot) -> Vec3:
         """Return where a foot stood last, on its own track, m."""
@@ -392,18 +391,21 @@ class BothFeet(MeanOfFeet):
         self._keep_placements()
         return True
 
-    def _compare_feet(self, event: StrideTaken, moved: complex, times: Vec2, degraded: bool) -> None:
-        """Compare a stride by `moved`, m, with where the other foot stood; `times` of its stance and swing are in s."""
+    def _compare_feet(self, event: StrideTaken, moved: complex, times: Vec2, degraded: bool, alone: bool) -> None:
+        """Compare a stride by `moved`, m, with where the other foot stood, unless this one is `alone`.
+
+        The `times` of its stance and swing are in s."""
         foot, turn, length = event.foot, event.heading_change, hypot(moved.real, moved.imag)
         this, other, other_stride = self.tracks[foot], self.tracks[OTHER[foot]], self.strides[OTHER[foot]]
         deviation = self.directions[foot].add_stride(phase(moved), turn) if length > MIN_LENGTH else 0.0
-        if other_stride is None or not other.is_here:
+        if other_stride is None or alone:
             return
+        ends = {foot: event.position, OTHER[foot]: other_stride.end}
         walks_on = length > MIN_LENGTH and abs(turn) < MAX_TURN and abs(deviation) < MAX_DIRECTION_DEVIATION
         if walks_on and event.t_start < other_stride.t_end < event.t_end and not degraded:
             middle = other.flat(other_stride.end) - (this.flat(event.position) - 0.5 * moved)
             for measured in standing_foot(foot, moved, middle, turn, times, self.width):
-                self._correct(self.errors.correct(measured, GATE_LIMIT))
+                self._correct(self.errors.correct(measured, GATE_LIMIT), ends)
         to_other = other.flat(other.newest_place) - this.flat(event.position)
         if hypot(to_other.real, to_other.imag) > REACH:
             # a foot that moved far without a stride has a wrong track, which must not pull the other foot
@@ -411,13 +413,15 @@ class BothFeet(MeanOfFeet):
             self.errors.inflate(OTHER[foot], max(0.0, hypot(wx, wy) - MAX_STRIDE_LENGTH))
             if other_stride.t_end < event.t_start:  # no foot stands that long: its strides were not detected
                 self.errors.inflate(OTHER[foot], event.length)
-            self._correct(self.errors.correct(feet_apart(foot, to_other, REACH), NO_GATE))
+            self._correct(self.errors.correct(feet_apart(foot, to_other, REACH), NO_GATE), ends)
 
-    def _correct(self, errors: list[float] | None) -> None:
-        """Remove the estimated errors (None: no change) from both tracks."""
+    def _correct(self, errors: list[float] | None, ends: PerFoot[Vec3]) -> None:
+        """Remove the estimated errors (None: no change) from both tracks, whose feet stood last at these `ends`, m."""
         if errors is not None:
             self.width += errors[WIDTH]
-            self._move_tracks(complex(*self.errors.centre), {foot: errors[k : k + RATE] for foot, k in FEET.items()})
+            for foot, end in ends.items():
+                x, y, yaw = errors[FEET[foot] : FEET[foot] + RATE]
+                self.tracks[foot].correct(end, yaw, complex(x, y), complex(*self.errors.centre))
 
     def _shift_foot(self, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
         """Return the correction that has accumulated for the foot since its last one, and reset its placement."""
@@ -445,10 +449,3 @@ class BothFeet(MeanOfFeet):
 
 def _side(foot: Foot) -> float:
     return 1.0 if foot is Foot.LEFT else -1.0
-
-
-def _phase_times(event: StrideTaken) -> Vec2:
-    """Return the stance time and the swing time of a stride, s, each up to `MAX_PHASE_TIME`."""
-    t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off
-    stance, swing = t_toe_off - event.t_start, event.t_end - t_toe_off
-    return max(0.0, min(stance, MAX_PHASE_TIME)), max(0.0, min(swing, MAX_PHASE_TIME))

@@ -33,7 +33,7 @@ from math import exp, fsum, sqrt
 from ...calibration import HeadingCalibration
 from ...foot.gap import LONGEST_FILLED_GAP
 from ...foot.navigate.bias import BIAS_WANDER, FIRST_BIAS, Bias
-from ...types import Foot, PerFoot
+from ...types import OTHER, Foot, PerFoot
 from ...types.attrs import define, evolve, field, frozen
 
 DRIFT = 0.0014
@@ -145,7 +145,7 @@ class CommonError:
         Returns the share of this foot, 0.5 or 1."""
         self.started = True
         share = 1.0 if alone else 0.5
-        self.shares = {one: share if one is foot else 1.0 - share for one in Foot}
+        self.shares[foot], self.shares[OTHER[foot]] = share, 1.0 - share
         return share
 
     def aid(self, first: int) -> complex:
@@ -214,8 +214,10 @@ class CommonError:
         p, row, w, rows = self.covariance, FEET[foot], self.shares[foot], range(HEADING + 1, len(self.covariance))
         n, k, t = w * strides, w * turn, w * duration
         # a: the turn of the heading in the stride; g: the heading in its middle; each with all errors
-        a = [n * r + k * q + t * b for r, q, b in zip(*p[row : row + 3], strict=True)]
-        g = [heading + 0.5 * half for heading, half in zip(p[HEADING], a, strict=True)]
+        a, g = list[float](), list[float]()
+        for r, q, b, heading in zip(*p[row : row + 3], p[HEADING], strict=True):
+            a.append(n * r + k * q + t * b)
+            g.append(heading + 0.5 * a[-1])
         aa, ah, hh = n * a[row] + k * a[row + TURN] + t * a[row + BIAS], a[HEADING], p[HEADING][HEADING]
         gg, gh = hh + ah + 0.25 * aa, hh + 1.5 * ah + 0.5 * aa
         arms = (-w * displacement.imag, w * displacement.real)

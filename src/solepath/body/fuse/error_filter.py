@@ -24,7 +24,6 @@ from math import exp, hypot
 
 from ...types import OTHER, Foot, PerFoot, Vec2, per_foot
 from ...types.attrs import define, field
-from ...types.vector import pair
 from .common_error import Term, column
 
 FEET = {Foot.LEFT: 0, Foot.RIGHT: 4}
@@ -116,7 +115,7 @@ class TrackErrorFilter:
 
         `displacement` of the stride and its `end` are in m, common frame; `variance` is xx, xy, yy, m^2."""
         p, (stance, swing), moved = self.covariance, times, end - complex(*self.centre)
-        self.centre = pair(end)
+        self.centre = (end.real, end.imag)
         x = FEET[foot]
         y, heading, rate = x + Y, x + HEADING, x + RATE
         duration, time_to_mid_swing = stance + swing, stance + 0.5 * swing
@@ -124,12 +123,17 @@ class TrackErrorFilter:
         noise = DEGRADED_ERROR * DEGRADED_ERROR if degraded else 0.0
         p[heading][heading] += noise + HEADING_DRIFT * HEADING_DRIFT * duration
         # P <- F P F': first the rows, then the columns. F moves the centre for both feet, then adds the stride
-        steps = [(k + i, k + HEADING, arm) for k in FEET.values() for i, arm in ((X, -moved.imag), (Y, moved.real))]
-        arm = time_to_mid_swing * displacement
-        steps += [(x, rate, -arm.imag), (y, rate, arm.real), (heading, rate, duration)]
+        arm, other = time_to_mid_swing * displacement, FEET[OTHER[foot]]
+        steps = (
+            (x, heading, -moved.imag), (y, heading, moved.real),
+            (other + X, other + HEADING, -moved.imag), (other + Y, other + HEADING, moved.real),
+            (x, rate, -arm.imag), (y, rate, arm.real), (heading, rate, duration),
+        )  # fmt: skip
         for i, j, k in steps:
-            p[i] = [to + k * of for to, of in zip(p[i], p[j], strict=True)]
-        p[rate] = [decay * of for of in p[rate]]
+            for n in range(STATE_COUNT):
+                p[i][n] += k * p[j][n]
+        for n in range(STATE_COUNT):
+            p[rate][n] *= decay
         for row in p:
             for i, j, k in steps:
                 row[i] += k * row[j]
@@ -179,10 +183,11 @@ class TrackErrorFilter:
         for row, gain, one in zip(p, gains, with_all, strict=True):
             for j in range(STATE_COUNT):
                 row[j] += gain * rest[j] - one * gains[j]
-        errors = [gain * z for gain in gains]
+        for j in range(STATE_COUNT):
+            gains[j] *= z
         for foot, first in FEET.items():
-            self.rates[foot] += errors[first + RATE]
-        return errors
+            self.rates[foot] += gains[first + RATE]
+        return gains
 
 
 def standing_foot(

@@ -96,9 +96,9 @@ class PlacedTrack:
 
     def to_own(self, place: Vec3) -> Vec3:
         """Return the position `place` of the common frame on the foot's own track, m."""
-        x, y, z = sub(place, self.offset)
-        own = complex(x, y) * rect(1.0, -self.turn)
-        return (own.real, own.imag, z)
+        (x, y, z), (off_x, off_y, off_z) = place, self.offset
+        own = complex(x - off_x, y - off_y) * rect(1.0, -self.turn)
+        return (own.real, own.imag, z - off_z)
 
     def turned_covariance(self, own: Covariance3) -> tuple[float, float, float]:
         """Return the horizontal covariance `own` of the foot's own track in the common frame: xx, xy, yy, m^2."""
@@ -112,11 +112,13 @@ class PlacedTrack:
 
         The move is in the common frame. With a `centre`, m, of that frame, `pivot` moves as if it turned about it by a
         small angle."""
-        (x, y, z), before = self.offset, self.flat(pivot)
+        (x, y, z), own = self.offset, complex(pivot[0], pivot[1])
+        offset = complex(x, y)
+        before = own * rect(1.0, self.turn) + offset
         if centre is not None:
             by += 1j * yaw * (before - centre)
         self.turn += yaw
-        offset = complex(x, y) + before + by - self.flat(pivot)
+        offset = offset + before + by - (own * rect(1.0, self.turn) + offset)
         self.offset = (offset.real, offset.imag, z)
 
 
@@ -140,7 +142,8 @@ class MeanOfFeet(TrackPart):
     @property
     def is_aligned(self) -> bool:
         """Flag: no foot has to be placed beside the other one."""
-        return not any([track.unplaced for track in self.tracks.values()])
+        left, right = self.tracks.values()
+        return not (left.unplaced or right.unplaced)
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add one sample of a foot and detect an absent or returned foot; returns no output."""
@@ -231,7 +234,7 @@ class MeanOfFeet(TrackPart):
     def _place_returned(self, foot: Foot) -> None:
         """Add a stride while both feet have samples, and align the unplaced foot when there are enough strides."""
         left, right = self.tracks.values()
-        if self.is_aligned:
+        if not (left.unplaced or right.unplaced):
             self.tracks[foot].separation = sub(left.newest, right.newest)
             return
         returned = Foot.LEFT if left.unplaced else Foot.RIGHT

@@ -125,7 +125,7 @@ class Places:
         """Return the places with one more at `t`, s, after `strides` more usual strides."""
         square = x * x
         more = (x, square, square * x, square * square, y, x * y, square * y, y * y)
-        sums = tuple([old + new for old, new in zip(self.sums, more, strict=True)])
+        sums = tuple(map(float.__add__, self.sums, more))
         return Places(self.t_start, t, x, y, self.strides + strides, self.count + 1, sums)
 
     def parabola(self) -> Vec2 | None:
@@ -333,7 +333,8 @@ class StraightWays:
         if devices != self.devices:  # a calibration of the old one neither fits nor misfits any longer
             self._forget_calibration()
             self.devices = devices
-        self._move({FEET[event.foot]: share * strides, FEET[event.foot] + TURN: share * turn}, share * displacement)
+        if self.moved:
+            self._move({FEET[event.foot]: share * strides, FEET[event.foot] + TURN: share * turn}, share * displacement)
         if event.foot in self.spoiled:
             self.straightness.reset()
             return NO_MOVE, None

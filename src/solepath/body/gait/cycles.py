@@ -199,18 +199,17 @@ def measure_cycle(
     if is_contradictory(cycle, contact, other_toe_off):
         contact = other_toe_off = None
     # a clearance is negative, and counts as 0, when the corrected foot-flat height is above all heights of the swing
-    length, clearance, off_angle, strike_angle, turning, rise = (
-        (None,) * 6
-        if stride is None
-        else _keep_plausible(
-            stride.length,
-            max(0.0, stride.features.clearance),
-            stride.features.toe_off_angle,
-            stride.features.heel_strike_angle,
-            stride.heading_change,
-            stride.height_change,
-        )
-    )
+    values: list[float | None] = [None] * 6
+    if stride is not None:
+        features = stride.features
+        values = [
+            stride.length, max(0.0, features.clearance), features.toe_off_angle, features.heel_strike_angle,
+            stride.heading_change, stride.height_change,
+        ]  # fmt: skip
+        for k, value in enumerate(values):
+            if value is not None and not abs(value) < MAX_VALUE:
+                values[k] = None
+    length, clearance, off_angle, strike_angle, turning, rise = values
     return GaitCycleMeasured(
         t=end,
         known_at=max(known_at, end),
@@ -259,23 +258,15 @@ def is_steady(cycle: PendingCycle, time: float, previous: GaitCycleMeasured | No
     """Return whether the cycle, whose duration is `time`, s, is steady by the rule above."""
     if cycle.lack == UNSTEADY or not cycle.follows_cycle or previous is None or previous.t != cycle.start:
         return False
-    if not _is_similar(time, previous.stride_time):
+    if max(time, previous.stride_time) >= STEADY_FACTOR * min(time, previous.stride_time):
         return False
     stride = cycle.stride
     if stride is None:
         return not (tracked and cycle.foot_was_flat)
-    if abs(stride.heading_change) > MAX_TURN or abs(stride.height_change) > MAX_SLOPE * stride.length:
+    length, before = stride.length, previous.stride_length
+    if abs(stride.heading_change) > MAX_TURN or abs(stride.height_change) > MAX_SLOPE * length:
         return False
-    return previous.stride_length is None or _is_similar(stride.length, previous.stride_length)
-
-
-def _is_similar(first: float, second: float) -> bool:
-    return first < STEADY_FACTOR * second and second < STEADY_FACTOR * first
-
-
-def _keep_plausible(*values: float | None) -> list[float | None]:
-    """Return the values, with None for a value that is missing or too large."""
-    return [value if value is not None and abs(value) < MAX_VALUE else None for value in values]
+    return before is None or max(length, before) < STEADY_FACTOR * min(length, before)
 
 
 MAX_WAIT = 0.5
@@ -377,8 +368,9 @@ class GaitCycles(Part):
         """Measure the first of the waiting cycles and return its event."""
         this, other = self.feet[foot], self.feet[OTHER[foot]]
         this.count, this.waiting_cycles = this.count + 1, this.waiting_cycles[1:]
-        is_unsettled = any([falls.unsettled is not None and falls.unsettled > cycle.start for falls in (this, other)])
-        comparable = not (self.clocks_apart or is_unsettled)
+        comparable = not self.clocks_apart
+        for falls in (this, other):
+            comparable &= falls.unsettled is None or falls.unsettled <= cycle.start
         measured = measure_cycle(foot, cycle, self.means.newest[foot], this, other, comparable, known_at)
         self.means.add(measured)
         return measured

@@ -39,14 +39,6 @@ class RunningMean:
         sd = sqrt(self.variance * self.count / (self.count - 1)) if self.count > 1 else None
         return Figure(self.mean, sd, self.count)
 
-    def add(self, value: float, memory: int) -> None:
-        """Add a value; older values fade after `memory` values."""
-        self.count = min(self.count + 1, memory)
-        weight = 1.0 / self.count
-        deviation = value - self.mean
-        self.mean += weight * deviation
-        self.variance = (1.0 - weight) * (self.variance + weight * deviation * deviation)
-
 
 @frozen
 class Figure:
@@ -174,11 +166,16 @@ class ParameterMeans:
     def add(self, stride: GaitCycleMeasured, memory: int) -> None:
         """Add a stride; older strides fade after `memory` strides."""
         means = self.feet[stride.foot]
-        values = {parameter: getattr(stride, parameter.value) for parameter in MEAN_PARAMETERS}
-        values[Parameter.OFF_PHASE] = None if stride.phase is None else abs(stride.phase - 0.5)
-        for parameter, value in values.items():
+        for parameter in Parameter:
+            is_off_phase = parameter is Parameter.OFF_PHASE
+            value: float | None = stride.phase if is_off_phase else getattr(stride, parameter.value)
             if value is not None:
-                means.setdefault(parameter, RunningMean()).add(value, memory)
+                one = means.setdefault(parameter, RunningMean())
+                one.count = min(one.count + 1, memory)
+                weight = 1.0 / one.count
+                deviation = (abs(value - 0.5) if is_off_phase else value) - one.mean
+                one.mean += weight * deviation
+                one.variance = (1.0 - weight) * (one.variance + weight * deviation * deviation)
 
     @property
     def coordination(self) -> float | None:

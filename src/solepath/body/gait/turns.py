@@ -302,11 +302,15 @@ class Turns(Part):
             return ()
         outputs: list[PartOutput] = []
         for event in events:
+            ended = None
             if isinstance(event, StrideTaken):
-                outputs += turn_made(self.detector.add_stride(event), view.known_at)
+                ended = self.detector.add_stride(event)
             elif isinstance(event, FootFlat) and view.levelled and view.after is not None:
-                outputs += turn_made(self._add_foot_flat(events, view.after, event), view.known_at)
-        outputs = outputs or turn_made(self.detector.advance(view.t), view.known_at)
+                ended = self._add_foot_flat(events, view.after, event)
+            if ended is not None:
+                outputs += turn_made(ended, view.known_at)
+        if not outputs and self.detector.t_start is not None:
+            outputs = turn_made(self.detector.advance(view.t), view.known_at)
         self.idle = self.detector.t_start is None
         return outputs
 
@@ -314,9 +318,11 @@ class Turns(Part):
         """Add a foot-flat, before which the foot may have pivoted without a stride."""
         previous, attitude = self.last_flat.get(event.foot), after.flat_attitude
         self.last_flat[event.foot] = FlatFoot(event.t, attitude)
-        has_stride = any([isinstance(other, StrideTaken) and other.t == event.t for other in events])
-        if previous is None or has_stride or event.t < previous.t:
+        if previous is None or event.t < previous.t:
             return None
+        for other in events:
+            if isinstance(other, StrideTaken) and other.t == event.t:
+                return None
         return self.detector.add_pivot(event.foot, previous.t, event.t, heading_turned(previous.attitude, attitude))
 
     def finish(self, now: float) -> Sequence[PartOutput]:
