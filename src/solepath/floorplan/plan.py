@@ -41,17 +41,10 @@ class Wall:
 
 
 @frozen
-class Door:
-    """A straight opening to walk through; if it lies on a wall, the wall has a gap."""
+class Door(Wall):
+    """A straight opening to walk through, from post to post; if it lies on a wall, the wall has a gap."""
 
-    start: Point
-    end: Point
     name: str = ""
-
-    @property
-    def line(self) -> Line:
-        """The door from post to post."""
-        return (*self.start, *self.end)
 
 
 class ConnectorKind(Enum):

@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from enum import Enum
 from itertools import chain
-from math import atan2, hypot
+from math import atan2
 
 from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_WALLS
 from ..doors import MAX_DOOR_OFFSET, Openings, cut_openings
-from ..geometry import Ring, contains, distance, edges, find_inner_point, join_holes, normalize_ring
+from ..geometry import Ring, contains, direction, distance, edges, find_inner_point, join_holes, normalize_ring
 from ..plan import (
     Anchor,
     Connector,
@@ -209,9 +209,7 @@ def merge_walls(walls: set[Wall]) -> list[Wall]:
 
 def _line_sort_key(wall: Wall) -> tuple[float, float, Point, Point]:
     """Return a sort key that groups walls on one line: direction, rad, distance from the origin, m, and the ends."""
-    (ax, ay), (bx, by) = wall.start, wall.end
-    length = hypot(bx - ax, by - ay)
-    ux, uy = (bx - ax) / length, (by - ay) / length
+    (ax, ay), (_, ux, uy) = wall.start, direction(wall.start, wall.end)
     return round(atan2(uy, ux), 4), round(ux * ay - uy * ax, 3), wall.start, wall.end
 
 

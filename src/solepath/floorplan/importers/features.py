@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, groupby
-from math import hypot
+from math import dist
 from typing import Any, NoReturn
 
 from ...types.attrs import evolve, frozen
@@ -97,7 +97,7 @@ class Feature:
 
     def _ring(self, line: tuple[Position, ...], to_plan: ToPlan, remark: Callable[[str], None]) -> Ring:
         corners = [point for point, _ in groupby(self.convert_line(line, to_plan))]
-        open_by = hypot(corners[-1][0] - corners[0][0], corners[-1][1] - corners[0][1]) if corners else 0.0
+        open_by = dist(corners[0], corners[-1]) if corners else 0.0
         if open_by <= MAX_CLOSING_DISTANCE and len(corners) > 1:
             corners.pop()
         if len(corners) > 1 and corners[0] == corners[-1]:

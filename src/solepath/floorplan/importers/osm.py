@@ -9,11 +9,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from itertools import chain, groupby, pairwise
-from math import floor, hypot, inf
+from math import floor, inf
 
 from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_RISE, MIN_RISE
-from ..geometry import Ring, distance, share_along
+from ..geometry import Ring, direction, distance, share_along
 from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point
 from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
@@ -121,7 +121,7 @@ def door_at(place: Point, neighbours: list[Point], width: float) -> tuple[Point,
 
     `neighbours` are the other ends of the walls at the node, m. In the middle of a wall the door is centred on the
     node; at a corner it starts there, along the longest wall. `width` is in m."""
-    directions = sorted({_direction(place, other) for other in neighbours if other != place})
+    directions = sorted({direction(place, other) for other in neighbours if other != place})
     if not directions:
         return None
     pairs = [(ax * bx + ay * by, i, j) for i, (_, ax, ay) in enumerate(directions)
@@ -137,18 +137,13 @@ def door_beside(place: Point, walls: list[Line], width: float) -> tuple[Point, P
     far, wall = min([(distance(*wall, *place), wall) for wall in walls], default=(inf, (0.0, 0.0, 0.0, 0.0)))
     if far > MAX_NODE_DISTANCE:
         return None
-    direction = _direction(wall[:2], wall[2:])
-    middle = _move(wall[:2], direction, share_along(*wall, *place) * direction[0])
-    return _move(middle, direction, -0.5 * width), _move(middle, direction, 0.5 * width)
+    way = direction(wall[:2], wall[2:])
+    middle = _move(wall[:2], way, share_along(*wall, *place) * way[0])
+    return _move(middle, way, -0.5 * width), _move(middle, way, 0.5 * width)
 
 
-def _direction(a: Point, b: Point) -> tuple[float, float, float]:
-    length = hypot(b[0] - a[0], b[1] - a[1])
-    return length, (b[0] - a[0]) / length, (b[1] - a[1]) / length
-
-
-def _move(place: Point, direction: tuple[float, float, float], by: float) -> Point:
-    return to_mm((place[0] + by * direction[1], place[1] + by * direction[2]))
+def _move(place: Point, way: tuple[float, float, float], by: float) -> Point:
+    return to_mm((place[0] + by * way[1], place[1] + by * way[2]))
 
 
 def read_osm(data: bytes, storey: float) -> FloorPlan:
