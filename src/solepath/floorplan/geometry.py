@@ -62,7 +62,7 @@ def distance(ax: float, ay: float, bx: float, by: float, x: float, y: float) -> 
 
 
 def direction(a: Point, b: Point) -> tuple[float, float, float]:
-    """Return the length of the straight line from a to b, m, and the unit vector along it, which is 0 if they are one."""
+    """Return the length of the straight line from a to b, m, and the unit vector along it; 0 for one point."""
     length = dist(a, b)
     k = length or 1.0
     return length, (b[0] - a[0]) / k, (b[1] - a[1]) / k

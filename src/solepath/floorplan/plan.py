@@ -7,6 +7,7 @@ of them (doors.py). checks.py has the requirements on a plan."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from enum import Enum
 
 from ..saving.codec import checksum, save
@@ -25,6 +26,15 @@ Line = tuple[float, float, float, float]
 
 class FloorPlanError(ValueError):
     """Raised when a floor plan cannot be read or used; its one line names the file, the feature and the fault."""
+
+
+@contextmanager
+def naming(name: str) -> Iterator[None]:
+    """Put a name before the line of each FloorPlanError in this context."""
+    try:
+        yield
+    except FloorPlanError as error:
+        raise FloorPlanError(f"{name} {error}") from None
 
 
 @frozen
