@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import repeat
-from math import atan2, cos, exp, fsum, hypot, isfinite, pi, sin, sqrt
+from math import atan2, cos, dist, exp, fsum, hypot, isfinite, pi, sin, sqrt
 from typing import ClassVar
 
 from ..body.fuse.common_error import LEAST_WAY, POSITION_GATE
@@ -349,9 +349,9 @@ class Particles(Part):
         levels = frozenset([particle.level for particle in self.particles])
         for reference in self.references.update(plan, events, here, levels):
             match reference:
-                case LevelChangePossible(kind, t):
-                    staying, displacement = self._staying(), self._displacement_since(t)
-                    self.set_particles(staying + entering(plan, staying, kind, displacement))
+                case LevelChangePossible():
+                    staying = self._staying()
+                    self.set_particles(staying + self._entering(plan, staying, reference))
                 case LevelReached():
                     outputs += self._arrive(plan, reference, known_at)
                     arrived = True
@@ -500,8 +500,10 @@ class Particles(Part):
         self._continue_from_exits(plan, evolve(arrived, certainty=CONTRADICTED_CERTAINTY))
         return [wrong]
 
-    def _entering(self, plan: IndexedPlan, particles: list[Particle], arrived: LevelReached) -> list[Particle]:
-        return entering(plan, particles, arrived.kind, self._displacement_since(arrived.t_start))
+    def _entering(
+        self, plan: IndexedPlan, particles: list[Particle], change: LevelChangePossible | LevelReached
+    ) -> list[Particle]:
+        return entering(plan, particles, change.kind, self._displacement_since(change.t_start))
 
     def _come_back(self, plan: IndexedPlan, whole: LevelReached, is_back: bool) -> None:
         """Continue the particles of a lift that stopped between landings, after the rest of its way or back."""
@@ -630,11 +632,11 @@ class Particles(Part):
         level, sigma, particles = plan.number(event.level), max(event.sigma, EXIT_ERROR), self.particles
         variance = sigma * sigma + PARTICLE_SIGMA * PARTICLE_SIGMA
         there = [one for one in particles if one.level == level or one.landing]
-        distances = [_distance((one.x, one.y), place) for one in there]
+        distances = [dist(one[:2], place) for one in there]
         distance, again = min(distances, default=NOWHERE_NEAR), False
         if self.rejected is not None:
             before, track = self.rejected
-            again = max(_distance(self.last_place, track), _distance(place, before)) < LEAST_WAY
+            again = max(dist(self.last_place, track), dist(place, before)) < LEAST_WAY
         if not particles:
             self.particles = stored(self._spread(plan, level, place, sigma, self.known.heading, MAX_PARTICLES))
         elif distance * distance < POSITION_GATE * variance and not again:
@@ -662,10 +664,6 @@ class Particles(Part):
     def _reject(self, event: PositionReported, place: Point, distance: float, what: str) -> list[Event]:
         self.rejected = (place, self.last_place)
         return [PositionRejected(t=event.t, known_at=event.known_at, distance=distance, sigma=event.sigma, what=what)]
-
-
-def _distance(one: Point, other: Point) -> float:
-    return hypot(one[0] - other[0], one[1] - other[1])
 
 
 def start_error(plan: IndexedPlan, start: Start) -> str | None:
