@@ -401,19 +401,20 @@ class References:
             self.track.popleft()
         references: list[Reference] = []
         for event in events:
-            if isinstance(event, StrideTaken):
-                self._add_stride(event.foot)
-            elif isinstance(event, ActivityChanged):
-                references += self._change_activity(plan, event)
-            elif isinstance(event, FlightClimbed):
-                references += self._add_flight(plan, event)
-            elif isinstance(event, LiftRidden):
-                references += self._add_ride(event)
-        if self.passage is not None:
-            if self.passage.t_left is not None:
-                references += self._decide(self.passage, self.passage.t_left, plan, levels, here)
-            elif self.passage.leads_away(here.position):
-                references += self._cancel()
+            match event:
+                case StrideTaken():
+                    self._add_stride(event.foot)
+                case ActivityChanged():
+                    references += self._change_activity(plan, event)
+                case FlightClimbed():
+                    references += self._add_flight(plan, event)
+                case LiftRidden():
+                    references += self._add_ride(event)
+        passage = self.passage
+        if passage is not None and passage.t_left is not None:
+            references += self._decide(passage, passage.t_left, plan, levels, here)
+        elif passage is not None and passage.leads_away(here.position):
+            references += self._cancel()
         return references
 
     def _cancel(self) -> list[Reference]:
@@ -463,8 +464,7 @@ class References:
             passage.t_left = passage.end = None
         else:
             references = [] if passage is None else self._cancel()
-            passage = self.passage = self._enter(plan, kind, event.t)
-            references.append(LevelChangePossible(kind, event.t))
+            passage = self._enter(plan, kind, event.t, references)
         if kind is ConnectorKind.LIFT:
             passage.add_direction(up)
         else:
@@ -475,10 +475,8 @@ class References:
         """Add a flight to the passage over stairs; without one, the flight starts a passage."""
         passage, references = self.passage, list[Reference]()
         if passage is None:
-            t = min(event.t_start, event.t)
-            self.passage = passage = self._enter(plan, ConnectorKind.STAIRS, t)
+            passage = self._enter(plan, ConnectorKind.STAIRS, min(event.t_start, event.t), references)
             passage.t_left = -inf
-            references = [LevelChangePossible(ConnectorKind.STAIRS, t)]
             passage.add_direction(event.up)
         elif passage.kind is ConnectorKind.LIFT:
             return []
@@ -488,10 +486,12 @@ class References:
             passage.t_left, passage.end = event.t, self.position_at(event.t)
         return references
 
-    def _enter(self, plan: IndexedPlan, kind: ConnectorKind, t: float) -> Passage:
-        """Return a new passage from `t`, s, on; from a half-way landing it continues the one that ended there."""
+    def _enter(self, plan: IndexedPlan, kind: ConnectorKind, t: float, references: list[Reference]) -> Passage:
+        """Begin a passage at `t`, s; from a half-way landing it continues the one that ended there."""
+        references.append(LevelChangePossible(kind, t))
         start, partial = self.position_at(t), self.partial
-        passage, self.partial = Passage(kind, t, start, riser=riser_height(plan)), None
+        passage = Passage(kind, t, start, riser=riser_height(plan))
+        self.passage, self.partial = passage, None
         if partial is not None and kind is ConnectorKind.STAIRS and partial.is_continued(t, start):
             passage.height_before, passage.flights = partial.height_signed(start), partial.flights
         return passage
