@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from math import fsum, hypot, sqrt
+from math import dist, fsum, sqrt
 
 from ..types import checking
 from ..types.checking import describe
@@ -91,10 +91,7 @@ def _find_faults(plan: FloorPlan) -> Iterator[str]:
             yield f"{name} has no length, at {describe(points[0])}"
         if kind == "room" and len(points) < 3 or kind == "outline" and len(points) in (1, 2):
             yield f"{name} has {len(points)} corners"
-        lengths += [
-            hypot(bx - ax, by - ay)
-            for (ax, ay), (bx, by) in pairwise(points if kind in ("wall", "door") else points + points[:1])
-        ]
+        lengths += [dist(a, b) for a, b in pairwise(points if kind in ("wall", "door") else points + points[:1])]
     yield from _find_faults_of_units(plan)
     for connector in connectors:
         yield from _find_faults_of_connector(connector, elevations)

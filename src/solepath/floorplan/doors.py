@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator
-from math import dist, hypot
+from math import dist
 
 from ..types.attrs import evolve
+from .geometry import direction
 from .plan import Level, Point, Wall
 
 MAX_DOOR_OFFSET = 0.3
@@ -63,9 +64,8 @@ def cut_openings(
 
 
 def _cut(wall: Wall, openings: list[tuple[Point, Point]], beside: float) -> Iterator[Wall]:
-    (ax, ay), (bx, by) = wall.start, wall.end
-    length = hypot(bx - ax, by - ay) or MIN_PIECE_LENGTH
-    ux, uy = (bx - ax) / length, (by - ay) / length
+    ax, ay = wall.start
+    length, ux, uy = direction(wall.start, wall.end)
     gaps = []  # start and end along the wall, m, and as places
     for opening in openings:
         ends = []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, hypot, sqrt
+from math import ceil, dist, sqrt
 
 from .doors import MAX_DOOR_OFFSET
 from .geometry import distance, side
@@ -96,8 +96,8 @@ class Enclosure:
 def _find_closing_lines(level: Level, walls: Walls) -> list[Line]:
     """Return lines from the ends of doors to near ends of walls, as a map may draw a door on one face of its wall."""
     ends = [end for door in level.doors for end in (door.start, door.end)]
-    lines = {(*end, *wall[k : k + 2]) for end in ends for wall in walls.near(*end) for k in (0, 2)}
-    return sorted([(ax, ay, bx, by) for ax, ay, bx, by in lines if 0.0 < hypot(bx - ax, by - ay) <= _CLOSING_DISTANCE])
+    lines = {(*end, *other) for end in ends for wall in walls.near(*end) for other in (wall[:2], wall[2:])}
+    return sorted([line for line in lines if 0.0 < dist(line[:2], line[2:]) <= _CLOSING_DISTANCE])
 
 
 def _hull(points: list[Point]) -> list[Point]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import fsum, hypot
+from math import dist, fsum, hypot
 
 from .plan import Line, Point
 
@@ -61,6 +61,13 @@ def distance(ax: float, ay: float, bx: float, by: float, x: float, y: float) -> 
     return hypot(x - ax - k * (bx - ax), y - ay - k * (by - ay))
 
 
+def direction(a: Point, b: Point) -> tuple[float, float, float]:
+    """Return the length of the straight line from a to b, m, and the unit vector along it; 0 for one point."""
+    length = dist(a, b)
+    k = length or 1.0
+    return length, (b[0] - a[0]) / k, (b[1] - a[1]) / k
+
+
 def edges(ring: Ring) -> list[Line]:
     """Return the straight lines of a ring."""
     return [(*a, *b) for a, b in zip(ring, (*ring[1:], *ring[:1]), strict=True)]
@@ -68,11 +75,12 @@ def edges(ring: Ring) -> list[Line]:
 
 def contains(lines: list[Line], x: float, y: float) -> bool:
     """Return whether (x, y), m, is within these edges, by the even-odd rule with a ray to +x."""
-    odd = False
-    for ax, ay, bx, by in lines:
-        if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
-            odd = not odd
-    return odd
+    return len([east for east in _find_ends(lines, y) if x < east]) % 2 == 1
+
+
+def _find_ends(lines: list[Line], y: float) -> list[float]:
+    """Return the x of each place at which these edges meet the line along x at y, m."""
+    return [ax + (y - ay) * (bx - ax) / (by - ay) for ax, ay, bx, by in lines if (ay > y) != (by > y)]
 
 
 def area(ring: Ring) -> float:
@@ -99,9 +107,8 @@ def find_inner_point(ring: Ring) -> Point:
     else:
         x, y = [fsum(axis) / len(ring) for axis in zip(*ring, strict=True)]
     if not contains(lines, x, y):
-        ends = sorted([ax + (y - ay) * (bx - ax) / (by - ay) for ax, ay, bx, by in lines if (ay > y) != (by > y)])
-        intervals = [(west - east, west, east) for west, east in zip(ends[::2], ends[1::2], strict=False)]
-        _, west, east = min(intervals, default=(0.0, x, x))
+        ends = sorted(_find_ends(lines, y))
+        west, east = min(zip(ends[::2], ends[1::2], strict=False), key=lambda one: one[0] - one[1], default=(x, x))
         x = 0.5 * (west + east)
     return x, y
 
@@ -125,8 +132,6 @@ def join_holes(rings: tuple[Ring, ...]) -> Ring:
     outline = rings[0] if rings else ()
     for hole in rings[1:]:
         k = hole.index(min(hole))
-        x, y = hole[k]
-        distances = [hypot(ox - x, oy - y) for ox, oy in outline]
-        i = distances.index(min(distances))
+        i = min(range(len(outline)), key=lambda i: dist(outline[i], hole[k]))
         outline = (*outline[: i + 1], *hole[k:], *hole[: k + 1], *outline[i:])
     return outline

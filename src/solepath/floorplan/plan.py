@@ -7,6 +7,7 @@ of them (doors.py). checks.py has the requirements on a plan."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from enum import Enum
 
 from ..saving.codec import checksum, save
@@ -27,6 +28,15 @@ class FloorPlanError(ValueError):
     """Raised when a floor plan cannot be read or used; its one line names the file, the feature and the fault."""
 
 
+@contextmanager
+def naming(name: str) -> Iterator[None]:
+    """Put a name before the line of each FloorPlanError in this context."""
+    try:
+        yield
+    except FloorPlanError as error:
+        raise FloorPlanError(f"{name} {error}") from None
+
+
 @frozen
 class Wall:
     """A straight solid wall without thickness."""
@@ -41,17 +51,10 @@ class Wall:
 
 
 @frozen
-class Door:
-    """A straight opening to walk through; if it lies on a wall, the wall has a gap."""
+class Door(Wall):
+    """A straight opening to walk through, from post to post; if it lies on a wall, the wall has a gap."""
 
-    start: Point
-    end: Point
     name: str = ""
-
-    @property
-    def line(self) -> Line:
-        """The door from post to post."""
-        return (*self.start, *self.end)
 
 
 class ConnectorKind(Enum):

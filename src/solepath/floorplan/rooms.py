@@ -65,11 +65,8 @@ class Rooms:
 
     def inside(self, x: float, y: float) -> bool:
         """Return whether (x, y), m, is in a room, a stairwell or an elevator cabin, or on a doorstep."""
-        rooms, doors = self._list(x, y)
-        for lines, _ in rooms:
-            if contains(lines, x, y):
-                return True
-        return any([distance(*door.line, x, y) <= DOORSTEP_DISTANCE for door in doors])
+        doors = self._list(x, y)[1]
+        return bool(self.find(x, y)) or any([distance(*door.line, x, y) <= DOORSTEP_DISTANCE for door in doors])
 
     def find_doors(self, x: float, y: float) -> list[tuple[float, str, Point]]:
         """Return the doors within DOOR_DISTANCE of (x, y), m, the nearest first.

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import chain
-from math import ceil, hypot, isfinite, sqrt
+from math import dist, isfinite, sqrt
 
-from .geometry import UNDERFLOW, distance, touch
+from .geometry import UNDERFLOW, direction, distance, touch
 from .plan import Line
 
 CELL_SIZE = 1.0
@@ -21,9 +21,6 @@ MAX_SHORT_MOVE = 1.5
 """Longest move that is tested in one cell only, m: longer than a step, shorter than the width of a wide corridor."""
 
 _MAX_SHORT_MOVE2 = MAX_SHORT_MOVE * MAX_SHORT_MOVE
-
-_PIECE_LENGTH = 0.999 * MAX_SHORT_MOVE
-"""Longest piece of a long move, m: rounding must not make a piece longer than MAX_SHORT_MOVE."""
 
 _SIDE_MARGIN = 1e-6
 """Distance from a wall's line beyond which the side is certain, m: coordinates below 1e7 m are accurate to 1e-8 m."""
@@ -85,7 +82,7 @@ class Walls:
         dx, dy = x1 - x0, y1 - y0
         length2 = dx * dx + dy * dy
         if not length2 <= _MAX_SHORT_MOVE2:  # also if it is NaN
-            return self._crosses_far(x0, y0, x1, y1)
+            return self._crosses_far((x0, y0, x1, y1))
         size = self._size
         cell = self._cells.get(x0 // size * CELLS_PER_COLUMN + y0 // size)
         if cell is None or length2 < cell[0]:
@@ -107,23 +104,20 @@ class Walls:
                 return True
         return False
 
-    def _crosses_far(self, x0: float, y0: float, x1: float, y1: float) -> bool:
-        if not all(map(isfinite, (x0, y0, x1, y1))):
+    def _crosses_far(self, move: Line) -> bool:
+        if not all(map(isfinite, move)):
             return True
-        pieces = hypot(x1 - x0, y1 - y0) / _PIECE_LENGTH
-        if pieces > len(self._walls):
-            near: Iterable[_Wall] = self._walls
-        else:
-            dx, dy = (x1 - x0) / ceil(pieces), (y1 - y0) / ceil(pieces)
-            near = chain(*[self._list(x0 + k * dx, y0 + k * dy) for k in range(ceil(pieces))])
-        return any(touch(*wall[3:], x0, y0, x1, y1) for wall in near)
+        near: Iterable[_Wall] = self._walls
+        if dist(move[:2], move[2:]) < self._size * len(self._walls):
+            near = chain(*[self._list(cell) for cell, _ in find_cells(move, 0.0, self._size)])
+        return any(touch(*wall[3:], *move) for wall in near)
 
-    def _list(self, x: float, y: float) -> tuple[_Wall, ...]:
-        return self._cells.get(x // self._size * CELLS_PER_COLUMN + y // self._size, (0.0, ()))[1]
+    def _list(self, cell: float) -> tuple[_Wall, ...]:
+        return self._cells.get(cell, (0.0, ()))[1]
 
     def near(self, x: float, y: float) -> list[Line]:
         """Return the walls within MAX_SHORT_MOVE of (x, y), m, and some more."""
-        return [wall[3:] for wall in self._list(x, y)]
+        return [wall[3:] for wall in self._list(x // self._size * CELLS_PER_COLUMN + y // self._size)]
 
     def find_densest(self) -> tuple[int, float, float]:
         """Return the largest number of walls that one cell lists, and the middle of that cell, m."""
@@ -133,6 +127,5 @@ class Walls:
 
 
 def _make_wall(ax: float, ay: float, bx: float, by: float) -> _Wall:
-    length = hypot(bx - ax, by - ay)
-    a, b = (ay - by) / length, (bx - ax) / length
-    return a, b, a * ax + b * ay, ax, ay, bx, by
+    _, ux, uy = direction((ax, ay), (bx, by))
+    return -uy, ux, ux * ay - uy * ax, ax, ay, bx, by

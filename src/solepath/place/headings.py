@@ -102,10 +102,10 @@ class KnownHeading:
         is_new, self.source = self.source is HeadingSource.NONE, HeadingSource.COMPASS
         return stored(_weigh(particles, self.heading, is_new))
 
-    def find_contradiction(self, particles: list[Particle], t: float, known_at: float) -> PlanContradicted | None:
-        """Use the heading no longer if at `t`, s, all particles have other ones, and return the event that says so."""
+    def find_contradiction(self, particles: list[Particle], t: float, known_at: float) -> list[PlanContradicted]:
+        """Use the heading no longer if at `t`, s, all particles have other ones, and return the events that say so."""
         if self.heading is None:
-            return None
+            return []
         angle, error = self.heading
         drift = HEADING_DRIFT * max(0.0, t - self.since) if error <= START_HEADING_ERROR else 0.0
         limit = min(error + HEADING_MARGIN + drift, pi)
@@ -114,11 +114,11 @@ class KnownHeading:
             off = atan2(particle.b, particle.a) - angle
             c, s = cos(off), sin(off)
             if abs(atan2(s, c)) <= limit:
-                return None
+                return []
             x += particle.weight * c
             y += particle.weight * s
         if hypot(x, y) < AGREEMENT * total_weight(particles):
-            return None
+            return []
         by_compass, off = self.source is HeadingSource.COMPASS, atan2(y, x)
         self.heading, self.source = None, HeadingSource.CONTRADICTED
         source = "the heading by the compass in the feet" if by_compass else "the first heading that was given"
@@ -126,7 +126,7 @@ class KnownHeading:
             f"{source} does not fit the plan by {abs(degrees(off)):.0f} degrees: the compass was "
             "disturbed, or the plan's north is wrong. The walls decide without it"
         )
-        return PlanContradicted(t=t, known_at=known_at, what=what, heading_off=round(off, 4))
+        return [PlanContradicted(t=t, known_at=known_at, what=what, heading_off=round(off, 4))]
 
 
 def _weigh(particles: list[Particle], heading: Heading, is_new: bool) -> list[Particle]:

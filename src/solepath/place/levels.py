@@ -6,7 +6,7 @@ of the plan and later events decide between them."""
 
 from __future__ import annotations
 
-from math import exp, fsum, hypot, inf
+from math import dist, exp, fsum, hypot, inf
 
 from ..events import Placed, PlanContradicted, WearerMoved
 from ..floorplan.index import IndexedPlan, Landing
@@ -47,13 +47,9 @@ def entering(plan: IndexedPlan, particles: list[Particle], kind: ConnectorKind, 
     back = (-displacement[0], -displacement[1])
     found: list[Particle] = []
     for particle in particles:
-        x, y = particle.after(back)
-        near = [
-            (hypot(one.place[0] - x, one.place[1] - y), one.index)
-            for one in plan.landings
-            if one.kind is kind and one.level == particle.level
-        ]
-        distance, index = min(near, default=(inf, 0))
+        place = particle.after(back)
+        landings = [one for one in plan.landings if one.kind is kind and one.level == particle.level]
+        distance, index = min([(dist(one.place, place), one.index) for one in landings], default=(inf, 0))
         if distance <= LANDING_REACH:
             likelihood = exp(-0.5 * (distance / DISTANCE_DEVIATION) ** 2)
             weight = ON_STAIRS_WEIGHT * particle.weight * likelihood
@@ -99,12 +95,9 @@ def odds_of_reversal(plan: IndexedPlan, changing: list[Particle], arrived: Level
     Levels to which they lead in both directions are left out. None for a lift."""
     if arrived.kind is ConnectorKind.LIFT:
         return None
+    entered = [plan.landings[at - 1] for at in landings_of(changing)]
     expected, opposite = [
-        {
-            one.level
-            for at in landings_of(changing)
-            for one, _ in find_exits(plan, plan.landings[at - 1], up, arrived.height)
-        }
+        {one.level for at in entered for one, _ in find_exits(plan, at, up, arrived.height)}
         for up in (arrived.up, not arrived.up)
     ]
     share = max(arrived.opposite_share, LEAST_OPPOSITE_SHARE[arrived.kind])
@@ -118,9 +111,8 @@ def levels_on_the_way(
     """Return the particles, those that change level with a level, and their heights, m, by landing of entry.
 
     The level is the nearer one; about half-way, particles alternate between both. Heights end at the next landing."""
-    up, height = False, 0.0
-    if passage is not None:
-        up, height = passage.net_up > 0, passage.height(here.position) or 0.0
+    up = passage is not None and passage.net_up > 0
+    height = passage and passage.height(here.position) or 0.0
     heights: dict[int, float] = {}
     levels: dict[int, tuple[int, int]] = {}
     for index in landings_of(particles):
@@ -221,8 +213,7 @@ def hold_alike_levels(
     new, around = _near(after, x, y), _near(after, x, y, PLACE_RADIUS + length)
     if level not in new:
         return after
-    factors: dict[int, float] = {}
-    twins: list[Particle] = []
+    factors, twins = dict[int, float](), list[Particle]()
     new_weight = total_weight(new[level])
     for other, particles in old.items():
         share = total_weight(particles) / weight
@@ -234,9 +225,7 @@ def hold_alike_levels(
             drawn = resample(new[level], TWINS)
             k = share * new_weight / total_weight(drawn)
             twins += [one._replace(weight=k * one.weight, level=other) for one in drawn]
-    if factors:
-        after = scaled(after, [factors.get(one.level, 1.0) if _is_near(one, x, y) else 1.0 for one in after])
-    return after + twins
+    return scaled(after, [factors.get(one.level, 1.0) if _is_near(one, x, y) else 1.0 for one in after]) + twins
 
 
 def _near(particles: list[Particle], x: float, y: float, radius: float = PLACE_RADIUS) -> dict[int, list[Particle]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import chain, cycle
-from math import atan2, cos, fsum, hypot, pi, sin, sqrt
+from math import atan2, cos, dist, fsum, hypot, pi, sin, sqrt
 from struct import Struct
 from typing import NamedTuple
 
@@ -225,7 +225,7 @@ def sway(
                 if len(kept) > count:
                     break
             else:
-                if any([hypot(px - x, py - y) < NEAR_LANDING for px, py in plan.stop_places[level]]):
+                if any([dist(place, (x, y)) < NEAR_LANDING for place in plan.stop_places[level]]):
                     kept.append(Particle(x, y, a, b, weight * STAY_WEIGHT, level, origin))
         if kept:
             break
@@ -289,7 +289,7 @@ MIN_CANDIDATE_WEIGHT = 0.002
 
 @define
 class _Group:
-    """Sums over particles of their weight, and of weighted x, y, a, b and length of (a, b)."""
+    """Particles that are near each other."""
 
     level: int
     origin: int
@@ -297,41 +297,40 @@ class _Group:
     landing: int
     """Landing of the first particle."""
     weight: float = 0.0
-    x: float = 0.0
-    y: float = 0.0
-    a: float = 0.0
-    b: float = 0.0
-    length: float = 0.0
+    """Sum of the weights."""
+    sums: tuple[float, ...] = (0.0,) * 5
+    """Weighted sums of x, y, a, b and the length of (a, b)."""
+
+    @property
+    def place(self) -> Point:
+        """The mean place, m."""
+        return self.sums[0] / self.weight, self.sums[1] / self.weight
 
     def add(self, particle: Particle) -> None:
         x, y, a, b, w, level, _, _ = particle
         if level == self.level:
+            values = (x, y, a, b, sqrt(a * a + b * b))
+            self.sums = tuple([total + w * value for total, value in zip(self.sums, values, strict=True)])
             self.weight += w
-            self.x += w * x
-            self.y += w * y
-            self.a += w * a
-            self.b += w * b
-            self.length += w * sqrt(a * a + b * b)
         else:  # the list is full: add the weight of the particle, not its place
             ratio = (self.weight + w) / self.weight
-            self.weight, self.x, self.y = self.weight * ratio, self.x * ratio, self.y * ratio
-            self.a, self.b, self.length = self.a * ratio, self.b * ratio, self.length * ratio
+            self.sums, self.weight = tuple([total * ratio for total in self.sums]), self.weight * ratio
 
     def has_heading(self, particle: Particle) -> bool:
         """Return whether the heading of the track is nearly equal."""
-        cosine = self.a * particle.a + self.b * particle.b
-        return cosine > MIN_TURN_COSINE * self.length * hypot(particle.a, particle.b)
+        _, _, a, b, length = self.sums
+        return a * particle.a + b * particle.b > MIN_TURN_COSINE * length * hypot(particle.a, particle.b)
 
 
 def _group(particles: list[Particle], limit: float) -> list[_Group]:
     """Return all particles as one group when their rms deviation is below `limit`, m; else grouped by distance."""
-    level = particles[0].level
-    if all([particle.level == level for particle in particles]):
-        whole = _Group(*particles[0][5:])
+    whole = _Group(*particles[0][5:])
+    if all([particle.level == whole.level for particle in particles]):
         for particle in particles:
             whole.add(particle)
-        w, square = whole.weight, fsum([one.weight * (one.x * one.x + one.y * one.y) for one in particles])
-        if square / w - (whole.x * whole.x + whole.y * whole.y) / (w * w) < limit * limit:
+        x, y = whole.place
+        square = fsum([one.weight * (one.x * one.x + one.y * one.y) for one in particles])
+        if square / whole.weight - (x * x + y * y) < limit * limit:
             return [whole]
     groups: list[_Group] = []
     for particle in sorted(particles, key=lambda one: one.weight, reverse=True):
@@ -341,8 +340,8 @@ def _group(particles: list[Particle], limit: float) -> list[_Group]:
         for group in groups:
             is_here = group.level == level
             if is_here or is_full:
-                ex, ey = group.x / group.weight - x, group.y / group.weight - y
-                square = ex * ex + ey * ey + (0.0 if is_here else FAR)
+                at_x, at_y = group.place
+                square = (at_x - x) ** 2 + (at_y - y) ** 2 + (0.0 if is_here else FAR)
                 is_near = is_full or square < NARROW_RADIUS * NARROW_RADIUS
                 if square < nearest and (is_near or group.has_heading(particle)):
                     best, nearest = group, square
@@ -372,10 +371,11 @@ def candidates_of(
     for group, share in zip(groups, (1.0 - fsum(shares), *shares), strict=True):
         level, origin = plan.levels[group.level], group.origin
         height = heights.get(group.landing, level.elevation) if track_height is None else track_height
-        position = (round(x0 + group.x / group.weight, 3), round(y0 + group.y / group.weight, 3), round(height, 3))
-        heading = round(atan2(group.b, group.a), 4) if hypot(group.a, group.b) > 0.5 * group.length else None
+        (x, y), (_, _, a, b, length) = group.place, group.sums
+        position = (round(x0 + x, 3), round(y0 + y, 3), round(height, 3))
+        heading = round(atan2(b, a), 4) if hypot(a, b) > 0.5 * length else None
         name = plan.connectors[origin - 1].name if origin else "start"
         candidates.append(Candidate(level.id, position, heading, share, name))
-    x, y = groups[0].x / groups[0].weight, groups[0].y / groups[0].weight
+    x, y = groups[0].place
     squares = fsum([one.weight * ((one.x - x) ** 2 + (one.y - y) ** 2) for one in particles])
     return tuple(candidates), sqrt(squares / total)

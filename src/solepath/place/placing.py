@@ -10,8 +10,8 @@ latency of a level."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import repeat
-from math import atan2, cos, exp, fsum, hypot, isfinite, pi, sin, sqrt
+from itertools import pairwise, repeat
+from math import atan2, cos, dist, exp, fsum, hypot, isfinite, pi, sin, sqrt
 from typing import ClassVar
 
 from ..body.fuse.common_error import LEAST_WAY, POSITION_GATE
@@ -246,7 +246,10 @@ class Particles(Part):
 
     def set_particles(self, particles: list[Particle]) -> None:
         """Set the particles, thinned to the largest number that may be kept."""
-        self.particles = stored(particles if len(particles) <= MAX_PARTICLES else self.thin(particles, MAX_PARTICLES))
+        self.particles = stored(self._limited(particles))
+
+    def _limited(self, particles: list[Particle]) -> list[Particle]:
+        return particles if len(particles) <= MAX_PARTICLES else self.thin(particles, MAX_PARTICLES)
 
     def _move(
         self, plan: IndexedPlan, particles: list[Particle], move: Point, error_factor: float, turn: float
@@ -323,9 +326,9 @@ class Particles(Part):
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: WearerMoved) -> list[Event]:
         """Take events after which the wearer is at `here`, and return the place; never raises."""
-        outputs: list[Event] = []
         if not all([isfinite(v) for v in (here.t, *here.position)]):
-            return outputs
+            return []
+        outputs: list[Event] = []
         known_at, track = max([here.t, *[event.known_at for event in events]]), self.references.track
         if not track:
             self.known.since = here.t
@@ -345,23 +348,21 @@ class Particles(Part):
                 wrong = after_wrong_turn(plan, self.particles, self._displacement_since(event.t))
                 self.set_particles(self.particles + wrong)
                 self.wide_strides, self.first_arrival = ABOUT_TURN_STRIDES, None
-        arrived = False
         levels = frozenset([particle.level for particle in self.particles])
-        for reference in self.references.update(plan, events, here, levels):
+        references = self.references.update(plan, events, here, levels)
+        for reference in references:
             match reference:
-                case LevelChangePossible(kind, t):
-                    staying, displacement = self._staying(), self._displacement_since(t)
-                    self.set_particles(staying + entering(plan, staying, kind, displacement))
+                case LevelChangePossible():
+                    staying = self._staying()
+                    self.set_particles(staying + self._entering(plan, staying, reference))
                 case LevelReached():
                     outputs += self._arrive(plan, reference, known_at)
-                    arrived = True
                 case DirectionRevised():
                     self._revise_direction()
                 case _:
                     self.particles = stored(self._staying())
-        if (strides or arrived) and self.particles:
-            wrong_heading = self.known.find_contradiction(self.particles, here.t, known_at)
-            outputs += [] if wrong_heading is None else [wrong_heading]
+        if self.particles and (strides or any([isinstance(one, LevelReached) for one in references])):
+            outputs += self.known.find_contradiction(self.particles, here.t, known_at)
             outputs.append(self._report_place(plan, here, known_at))
         return outputs
 
@@ -379,11 +380,10 @@ class Particles(Part):
                 self.particles = stored(self._spread(plan, level, start.place, start.spread, heading, count))
                 return []
         else:
-            what = f"no {'start' if start is None else 'place of the start'} was given"
+            rest = " and the plan has neither stairs nor lifts: the place cannot be known"
             if plan.plan.connectors:
-                what += ", so the place is not known before the first stairs or lift"
-            else:
-                what += " and the plan has neither stairs nor lifts: the place cannot be known"
+                rest = ", so the place is not known before the first stairs or lift"
+            what = f"no {'start' if start is None else 'place of the start'} was given{rest}"
         self.last_place = (x, y)
         return [self._lose(here, known_at, what)]
 
@@ -418,10 +418,10 @@ class Particles(Part):
         self.particles = stored(particles) if self.stuck_distance <= MAX_STUCK_DISTANCE else []
         if self.particles:
             return []
-        where = ""
+        what = "the track goes where the plan has no way"
         if placed is not None:
-            where = f" near ({placed.position[0]:.1f}, {placed.position[1]:.1f}) on level {placed.level}"
-        return [self._lose(here, known_at, f"the track goes where the plan has no way{where}")]
+            what += f" near ({placed.position[0]:.1f}, {placed.position[1]:.1f}) on level {placed.level}"
+        return [self._lose(here, known_at, what)]
 
     def _lose(self, here: WearerMoved, known_at: float, what: str) -> PlaceLost:
         """Lose the place, and return the event that says why."""
@@ -449,10 +449,7 @@ class Particles(Part):
         is_wide = self.wide_strides > 0
         is_small = len(particles) <= 1.25 * count and (is_wide or effective_count(particles) >= 0.5 * count)
         if heaviest.weight >= MIN_CLEAR_WEIGHT and others and not is_wide and not self.level_uncertain:
-            fades = [
-                one.level != level and (one.x - x) ** 2 + (one.y - y) ** 2 < FADE_RADIUS * FADE_RADIUS
-                for one in with_levels
-            ]
+            fades = [one.level != level and dist(one[:2], (x, y)) < FADE_RADIUS for one in with_levels]
             particles = scaled(particles, [FADE_FACTOR if fade else 1.0 for fade in fades])
             self.particles = stored(particles)
         if not is_small:
@@ -478,9 +475,8 @@ class Particles(Part):
 
     def _arrive(self, plan: IndexedPlan, arrived: LevelReached, known_at: float) -> list[Event]:
         """Arrive on another level, and return an event if the plan has no such ride."""
-        is_ride, height = arrived.kind is ConnectorKind.LIFT, arrived.height or 0.0
-        height = height if arrived.up else -height
-        if self.unmapped and is_ride and arrived.height is not None:
+        height = (1.0 if arrived.up else -1.0) * (arrived.height or 0.0)
+        if self.unmapped and arrived.kind is ConnectorKind.LIFT and arrived.height is not None:
             height += self.unmapped_height
             whole = evolve(arrived, up=height > 0.0, height=abs(height))
             is_back = abs(height) < HEIGHT_ERROR
@@ -500,8 +496,10 @@ class Particles(Part):
         self._continue_from_exits(plan, evolve(arrived, certainty=CONTRADICTED_CERTAINTY))
         return [wrong]
 
-    def _entering(self, plan: IndexedPlan, particles: list[Particle], arrived: LevelReached) -> list[Particle]:
-        return entering(plan, particles, arrived.kind, self._displacement_since(arrived.t_start))
+    def _entering(
+        self, plan: IndexedPlan, particles: list[Particle], change: LevelChangePossible | LevelReached
+    ) -> list[Particle]:
+        return entering(plan, particles, change.kind, self._displacement_since(change.t_start))
 
     def _come_back(self, plan: IndexedPlan, whole: LevelReached, is_back: bool) -> None:
         """Continue the particles of a lift that stopped between landings, after the rest of its way or back."""
@@ -543,11 +541,8 @@ class Particles(Part):
             return
         self.arrived_at, self.odds = arrived.t, odds_of_reversal(plan, changing, arrived)
         found = scaled(found, repeat(k))
-        if len(found) > MAX_PARTICLES:
-            found = self.thin(found, MAX_PARTICLES)
-        found = self._move_from_exits(plan, found, arrived) + resample(staying, KNOWN_PARTICLES)
-        if found:
-            self.set_particles(found)
+        found = self._move_from_exits(plan, self._limited(found), arrived) + resample(staying, KNOWN_PARTICLES)
+        self.set_particles(found or self.particles)
 
     def _spread_over_exits(self, plan: IndexedPlan, arrived: LevelReached, most: int) -> list[Particle]:
         """Return about `most` particles, spread over all exits that `arrived` allows and over all headings.
@@ -605,8 +600,8 @@ class Particles(Part):
         moved: list[Particle] = []
         times, k = EXIT_TIMES[arrived.kind], self.stride_scale.factor
         for first, dt in enumerate(times):
-            some, path = particles[first :: len(times)], self.references.path_since(arrived.t - dt)
-            for (x, y, _), (x1, y1, _) in zip(path, path[1:], strict=False):
+            some = particles[first :: len(times)]
+            for (x, y, _), (x1, y1, _) in pairwise(self.references.path_since(arrived.t - dt)):
                 move = ((x1 - x) * k, (y1 - y) * k)
                 if some and move != (0.0, 0.0) and hypot(*move) < MAX_JUMP:
                     some = self._move(plan, some, move, DEGRADED_FACTOR, 0.0)
@@ -630,11 +625,11 @@ class Particles(Part):
         level, sigma, particles = plan.number(event.level), max(event.sigma, EXIT_ERROR), self.particles
         variance = sigma * sigma + PARTICLE_SIGMA * PARTICLE_SIGMA
         there = [one for one in particles if one.level == level or one.landing]
-        distances = [_distance((one.x, one.y), place) for one in there]
+        distances = [dist(one[:2], place) for one in there]
         distance, again = min(distances, default=NOWHERE_NEAR), False
         if self.rejected is not None:
             before, track = self.rejected
-            again = max(_distance(self.last_place, track), _distance(place, before)) < LEAST_WAY
+            again = max(dist(self.last_place, track), dist(place, before)) < LEAST_WAY
         if not particles:
             self.particles = stored(self._spread(plan, level, place, sigma, self.known.heading, MAX_PARTICLES))
         elif distance * distance < POSITION_GATE * variance and not again:
@@ -662,10 +657,6 @@ class Particles(Part):
     def _reject(self, event: PositionReported, place: Point, distance: float, what: str) -> list[Event]:
         self.rejected = (place, self.last_place)
         return [PositionRejected(t=event.t, known_at=event.known_at, distance=distance, sigma=event.sigma, what=what)]
-
-
-def _distance(one: Point, other: Point) -> float:
-    return hypot(one[0] - other[0], one[1] - other[1])
 
 
 def start_error(plan: IndexedPlan, start: Start) -> str | None:

@@ -11,13 +11,15 @@ known with the next activity, or up to `MAX_WAIT` s or `WAIT_DISTANCE` m later w
 from __future__ import annotations
 
 from collections import deque
-from math import exp, fsum, hypot, inf, isfinite
+from itertools import permutations
+from math import dist, exp, fsum, inf, isfinite
 
 from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
 from ..floorplan.index import IndexedPlan, Landing
 from ..floorplan.plan import ConnectorKind, Point
 from ..types import Activity, Foot, Vec3
 from ..types.attrs import define, field, frozen
+from ..types.vector import add, sub
 
 # What the plan says about its stairs and elevators.
 
@@ -79,8 +81,8 @@ class Storeys:
     """Largest climb, m."""
     rises: tuple[float, ...]
     """Every possible climb, m, the least first; empty when the plan has no heights."""
-    flights: int | None
-    """Least number of flights of a storey; None if the plan does not know it of every staircase."""
+    flights: int
+    """Least number of flights of a storey; 0 if the plan does not know it of every staircase."""
 
 
 def storeys_of(plan: IndexedPlan, levels: frozenset[int], up: bool | None = None) -> Storeys:
@@ -91,15 +93,13 @@ def storeys_of(plan: IndexedPlan, levels: frozenset[int], up: bool | None = None
     stairs = [landing for landing in plan.landings if landing.kind is ConnectorKind.STAIRS]
     pairs = [
         (a, b)
-        for a in stairs
-        for b in stairs
-        if a.connector == b.connector and a is not b and (not levels or a.level in levels)
+        for a, b in permutations(stairs, 2)
+        if a.connector == b.connector and (not levels or a.level in levels)
         if up is None or (b.elevation > a.elevation) is up
     ]
     if not pairs:
-        return storeys_of(plan, frozenset()) if levels or up is not None else Storeys(0.0, 0.0, (), None)
-    known = [plan.plan.connectors[a.connector].flights for a, _ in pairs]
-    flights = None if None in known else min([number for number in known if number is not None])
+        return storeys_of(plan, frozenset()) if levels or up is not None else Storeys(0.0, 0.0, (), 0)
+    flights = min([plan.plan.connectors[a.connector].flights or 0 for a, _ in pairs])
     if plan.plan.heights_known:
         rises = tuple(sorted({round(a.distance(b), 3) for a, b in pairs}))
         return Storeys(rises[0], rises[-1], rises, flights)
@@ -193,8 +193,8 @@ class Passage:
 
     def move(self, by: Point) -> None:
         """Move with the track by x and y, m."""
-        self.start = _moved(self.start, by)
-        self.end = None if self.end is None else _moved(self.end, by)
+        self.start = add(self.start, (*by, 0.0))
+        self.end = self.end and add(self.end, (*by, 0.0))
 
     @property
     def net_up(self) -> int:
@@ -268,11 +268,7 @@ class Passage:
 
 def _distance(one: Vec3, other: Vec3) -> float:
     """Return the horizontal distance, m."""
-    return hypot(one[0] - other[0], one[1] - other[1])
-
-
-def _moved(position: Vec3, by: Point) -> Vec3:
-    return (position[0] + by[0], position[1] + by[1], position[2])
+    return dist(one[:2], other[:2])
 
 
 # References.
@@ -311,10 +307,10 @@ CONNECTOR_OF_ACTIVITY = {
 
 @frozen
 class LevelChangePossible:
-    """The reference that the wearer may be on stairs or in an elevator from `t`, s, on."""
+    """The reference that the wearer may be on stairs or in an elevator from `t_start`, s, on."""
 
     kind: ConnectorKind
-    t: float
+    t_start: float
 
 
 @frozen
@@ -375,17 +371,13 @@ class References:
         t1, after = inf, (0.0, 0.0, 0.0)
         for t0, before in reversed(self.track):
             if t0 <= t:
-                if not t0 < t1 < inf:
-                    return before
-                k = (t - t0) / (t1 - t0)
-                (x, y, z), (x1, y1, z1) = before, after
-                return (x + k * (x1 - x), y + k * (y1 - y), z + k * (z1 - z))
+                return add(before, sub(after, before), (t - t0) / (t1 - t0)) if t0 < t1 < inf else before
             t1, after = t0, before
         return after
 
     def move(self, by: Point) -> None:
         """Move all positions that are kept by x and y, m, because the track was revised."""
-        self.track = deque([(t, _moved(position, by)) for t, position in self.track])
+        self.track = deque([(t, add(position, (*by, 0.0))) for t, position in self.track])
         if self.passage is not None:
             self.passage.move(by)
 
@@ -409,19 +401,20 @@ class References:
             self.track.popleft()
         references: list[Reference] = []
         for event in events:
-            if isinstance(event, StrideTaken):
-                self._add_stride(event.foot)
-            elif isinstance(event, ActivityChanged):
-                references += self._change_activity(plan, event)
-            elif isinstance(event, FlightClimbed):
-                references += self._add_flight(plan, event)
-            elif isinstance(event, LiftRidden):
-                references += self._add_ride(event)
-        if self.passage is not None:
-            if self.passage.t_left is not None:
-                references += self._decide(self.passage, self.passage.t_left, plan, levels, here)
-            elif self.passage.leads_away(here.position):
-                references += self._cancel()
+            match event:
+                case StrideTaken():
+                    self._add_stride(event.foot)
+                case ActivityChanged():
+                    references += self._change_activity(plan, event)
+                case FlightClimbed():
+                    references += self._add_flight(plan, event)
+                case LiftRidden():
+                    references += self._add_ride(event)
+        passage = self.passage
+        if passage is not None and passage.t_left is not None:
+            references += self._decide(passage, passage.t_left, plan, levels, here)
+        elif passage is not None and passage.leads_away(here.position):
+            references += self._cancel()
         return references
 
     def _cancel(self) -> list[Reference]:
@@ -471,8 +464,7 @@ class References:
             passage.t_left = passage.end = None
         else:
             references = [] if passage is None else self._cancel()
-            passage = self.passage = self._enter(plan, kind, event.t)
-            references.append(LevelChangePossible(kind, event.t))
+            passage = self._enter(plan, kind, event.t, references)
         if kind is ConnectorKind.LIFT:
             passage.add_direction(up)
         else:
@@ -483,10 +475,8 @@ class References:
         """Add a flight to the passage over stairs; without one, the flight starts a passage."""
         passage, references = self.passage, list[Reference]()
         if passage is None:
-            t = min(event.t_start, event.t)
-            self.passage = passage = self._enter(plan, ConnectorKind.STAIRS, t)
+            passage = self._enter(plan, ConnectorKind.STAIRS, min(event.t_start, event.t), references)
             passage.t_left = -inf
-            references = [LevelChangePossible(ConnectorKind.STAIRS, t)]
             passage.add_direction(event.up)
         elif passage.kind is ConnectorKind.LIFT:
             return []
@@ -496,10 +486,12 @@ class References:
             passage.t_left, passage.end = event.t, self.position_at(event.t)
         return references
 
-    def _enter(self, plan: IndexedPlan, kind: ConnectorKind, t: float) -> Passage:
-        """Return a new passage from `t`, s, on; from a half-way landing it continues the one that ended there."""
+    def _enter(self, plan: IndexedPlan, kind: ConnectorKind, t: float, references: list[Reference]) -> Passage:
+        """Begin a passage at `t`, s; from a half-way landing it continues the one that ended there."""
+        references.append(LevelChangePossible(kind, t))
         start, partial = self.position_at(t), self.partial
-        passage, self.partial = Passage(kind, t, start, riser=riser_height(plan)), None
+        passage = Passage(kind, t, start, riser=riser_height(plan))
+        self.passage, self.partial = passage, None
         if partial is not None and kind is ConnectorKind.STAIRS and partial.is_continued(t, start):
             passage.height_before, passage.flights = partial.height_signed(start), partial.flights
         return passage
@@ -524,14 +516,9 @@ class References:
         if not measured and height < MIN_STOREY_SHARE * least <= passage.height_one_way:
             height = passage.height_one_way  # half of the directions are wrong, or the wearer went up and down again
         fits = min([abs(height - rise) for rise in rises], default=inf) <= FIT_SHARE * least
-        flights = abs(passage.flights) or None
-        is_partial = (
-            not fits
-            and storeys.flights is not None
-            and flights is not None
-            and flights < storeys.flights
-            and height <= flights * MAX_RISERS * passage.riser  # a higher one is two flights, taken for one
-        )
+        flights = abs(passage.flights)
+        # a higher one is two flights, taken for one
+        is_partial = not fits and 0 < flights < storeys.flights and height <= flights * MAX_RISERS * passage.riser
         is_storey = height >= MIN_STOREY_SHARE * least and not is_partial
         leads_away = passage.leads_away(end)
         is_possible = KERB_SHARE * least <= height <= MAX_CLIMB_RATIO * storeys.most and not leads_away
@@ -545,4 +532,4 @@ class References:
         self.passage, self.decided, opposite = None, (t_left, up), passage.opposite_share
         certainty = HALF_CERTAINTY if not is_storey else SURE_CERTAINTY if fits or not rises else FAIR_CERTAINTY
         certainty *= 1.0 - opposite
-        return [LevelReached(kind, up, height, passage.t, t_left, certainty, opposite, flights)]
+        return [LevelReached(kind, up, height, passage.t, t_left, certainty, opposite, flights or None)]

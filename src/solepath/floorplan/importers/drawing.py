@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from enum import Enum
 from itertools import chain
-from math import atan2, hypot
+from math import atan2
 
 from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_WALLS
 from ..doors import MAX_DOOR_OFFSET, Openings, cut_openings
-from ..geometry import Ring, contains, distance, edges, find_inner_point, join_holes, normalize_ring
+from ..geometry import Ring, contains, direction, distance, edges, find_inner_point, join_holes, normalize_ring
 from ..plan import (
     Anchor,
     Connector,
@@ -75,17 +75,16 @@ class ConnectorPart:
     rings: tuple[Ring, ...]
     group: str
     rise: float | None = None
-    outline: Ring = field(init=False)
+    outline: Ring = field(init=False, default=())
     """The outline and the holes as one ring, empty when unknown."""
+    middle: Point = field(init=False)
+    """A place within the outline, m."""
 
     def __attrs_post_init__(self) -> None:
-        ring = join_holes(self.rings)
-        self.outline = normalize_ring(ring) if ring else ()
-
-    @property
-    def middle(self) -> Point:
-        """A place within the outline, m."""
-        return find_inner_point(self.outline) if self.outline else self.place or (0.0, 0.0)
+        self.middle = self.place or (0.0, 0.0)
+        if self.rings:
+            self.outline = normalize_ring(join_holes(self.rings))
+            self.middle = find_inner_point(self.outline)
 
     def contains(self, place: Point) -> bool:
         """Return whether the outline contains a place, m."""
@@ -120,14 +119,14 @@ class Drawing:
         Raises FloorPlanError when there are more levels, walls, doors or connectors than a plan may have."""
         storeys = self.storeys.values()
         rings = [space.rings for storey in storeys for space in storey.spaces] + [part.rings for part in self.parts]
-        limits = {
-            f"{MAX_LEVELS} levels": len(storeys) - MAX_LEVELS,
-            f"{MAX_WALLS} walls": sum(map(len, chain(*rings))) + sum(len(one.lines) for one in storeys) - MAX_WALLS,
-            f"{MAX_PARTS} stairs and lifts": len(self.parts) - MAX_PARTS,
-        }
-        for limit, excess in limits.items():
-            if excess > 0:
-                raise FloorPlanError(f"has more than {limit}")
+        lines = [line for one in storeys for line in one.lines]
+        for what, most, count in (
+            ("levels", MAX_LEVELS, len(storeys)),
+            ("walls", MAX_WALLS, sum(map(len, chain(*rings))) + len(lines)),
+            ("stairs and lifts", MAX_PARTS, len(self.parts)),
+        ):
+            if count > most:
+                raise FloorPlanError(f"has more than {most} {what}")
         ids = sorted(self.storeys, key=lambda level: (self.storeys[level].order, level))
         levels = tuple([self._level(level, self.storeys[level], height) for level in ids])
         connectors = tuple(self._join_parts({level: i for i, level in enumerate(ids)}))
@@ -164,25 +163,28 @@ class Drawing:
         """Return the connectors: parts of one group, and parts that overlap on neighbouring levels.
 
         Neighbours are levels that are at most one storey apart or adjacent in the list of levels."""
-        corners = [min(chain(*part.rings), default=part.place or (0.0, 0.0)) for part in self.parts]
-        keys = [(part.kind.value, numbers[part.level], corner, part.name)
-                for part, corner in zip(self.parts, corners, strict=True)]  # fmt: skip
-        ordered = [self.parts[i] for i in sorted(range(len(keys)), key=keys.__getitem__)]
-        middles = [part.middle for part in ordered]
 
-        def belong(i: int, j: int) -> bool:
-            low, high = ordered[i], ordered[j]
+        def key(part: ConnectorPart) -> tuple[str, int, Point, str]:
+            corner = min(chain(*part.rings), default=part.middle)
+            return part.kind.value, numbers[part.level], corner, part.name
+
+        def belong(low: ConnectorPart, high: ConnectorPart) -> bool:
             if low.kind is not high.kind or low.group == high.group:
                 return low.kind is high.kind
             rise = self.storeys[high.level].order - self.storeys[low.level].order
             are_neighbours = rise > 0.0 and (rise <= 1.0 or numbers[high.level] - numbers[low.level] == 1)
-            return are_neighbours and (high.contains(middles[i]) or low.contains(middles[j]))
+            return are_neighbours and (high.contains(low.middle) or low.contains(high.middle))
 
-        groups: list[list[int]] = []
-        for j in range(len(ordered)):
-            joined = [group for group in groups if any(belong(i, j) for i in group)]
-            groups = [group for group in groups if group not in joined] + [sorted([*chain(*joined), j])]
-        connectors = [_make_connector([ordered[i] for i in group], numbers) for group in sorted(groups)]
+        ordered = sorted(self.parts, key=key)
+        groups = list(range(len(ordered)))
+        for j, high in enumerate(ordered):
+            for i, low in enumerate(ordered[:j]):
+                if groups[i] != groups[j] and belong(low, high):
+                    groups = [groups[i] if one == groups[j] else one for one in groups]
+        connectors = [
+            _make_connector([part for part, one in zip(ordered, groups, strict=True) if one == group], numbers)
+            for group in dict.fromkeys(groups)
+        ]
         return sorted(connectors, key=lambda one: (one.kind.value, one.name, one.stops[0].place))
 
 
@@ -209,9 +211,7 @@ def merge_walls(walls: set[Wall]) -> list[Wall]:
 
 def _line_sort_key(wall: Wall) -> tuple[float, float, Point, Point]:
     """Return a sort key that groups walls on one line: direction, rad, distance from the origin, m, and the ends."""
-    (ax, ay), (bx, by) = wall.start, wall.end
-    length = hypot(bx - ax, by - ay)
-    ux, uy = (bx - ax) / length, (by - ay) / length
+    (ax, ay), (_, ux, uy) = wall.start, direction(wall.start, wall.end)
     return round(atan2(uy, ux), 4), round(ux * ay - uy * ax, 3), wall.start, wall.end
 
 
@@ -226,8 +226,7 @@ def _make_connector(parts: list[ConnectorPart], numbers: dict[str, int]) -> Conn
     stops: dict[str, ConnectorStop] = {}
     for part in parts:
         if part.level not in stops or not stops[part.level].outline:
-            place = part.place if part.place is not None else part.middle
-            stops[part.level] = ConnectorStop(part.level, to_mm(place), part.outline)
+            stops[part.level] = ConnectorStop(part.level, to_mm(part.place or part.middle), part.outline)
     name = next((part.name for part in parts if part.name), "")
     rise = next((part.rise for part in parts if part.rise is not None), None)
     return Connector(parts[0].kind, name, tuple([stops[level] for level in sorted(stops, key=numbers.__getitem__)]),

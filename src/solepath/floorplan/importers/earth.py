@@ -6,8 +6,11 @@ less than 0.001 mm at 500 m and 0.1 mm at 2.5 km. The rounding error is below 1e
 
 from __future__ import annotations
 
-from math import cos, isfinite, radians, sin, sqrt
+from cmath import rect
+from math import cos, isfinite, pi, radians, sin, sqrt
 
+from ...types import Vec3
+from ...types.vector import dot, pair, sub
 from ..plan import MAX_LATITUDE, Anchor, FloorPlanError, Point
 
 _A = 6378137.0
@@ -25,31 +28,34 @@ class Tangent:
     def __init__(self, anchor: Anchor) -> None:
         latitude, longitude = radians(anchor.latitude), radians(anchor.longitude)
         self._origin = _earth_fixed(latitude, longitude)
-        self._sin_cos = [(sin(angle), cos(angle)) for angle in (latitude, longitude, anchor.bearing)]
+        self._east = _outwards(0.0, longitude + 0.5 * pi)
+        self._north = _outwards(latitude + 0.5 * pi, longitude)
+        self._turn = rect(1.0, anchor.bearing)
 
     def plan(self, latitude: float, longitude: float) -> Point:
         """Return the point of the plan, m, at these degrees; raise FloorPlanError when it is not near the anchor."""
         if not (isfinite(longitude) and abs(latitude) <= 90.0 and abs(longitude) <= 360.0):
             raise FloorPlanError(f"there is no latitude {latitude:g}, longitude {longitude:g}")
-        place = _earth_fixed(radians(latitude), radians(longitude))
-        dx, dy, dz = [value - zero for value, zero in zip(place, self._origin, strict=True)]
-        (sp, cp), (sl, cl), (s, c) = self._sin_cos
-        outward = cl * dx + sl * dy
-        east, north, down = cl * dy - sl * dx, cp * dz - sp * outward, -cp * outward - sp * dz
-        if east * east + north * north + down * down > MAX_ANCHOR_DISTANCE**2:
+        offset = sub(_earth_fixed(radians(latitude), radians(longitude)), self._origin)
+        if dot(offset, offset) > MAX_ANCHOR_DISTANCE**2:
             raise FloorPlanError(f"latitude {latitude:g}, longitude {longitude:g} is far from the rest of the plan")
-        return c * east - s * north, s * east + c * north
+        return pair(complex(dot(self._east, offset), dot(self._north, offset)) * self._turn)
 
     def place(self, position: Point) -> Point:
         """Return the point of the plan, m, rounded to 1 mm, at (longitude, latitude) in degrees."""
         return to_mm(self.plan(position[1], position[0]))
 
 
-def _earth_fixed(latitude: float, longitude: float) -> tuple[float, float, float]:
+def _outwards(latitude: float, longitude: float) -> Vec3:
+    """Return the unit vector that points away from the ellipsoid at these angles, rad, Earth-fixed."""
+    return cos(latitude) * cos(longitude), cos(latitude) * sin(longitude), sin(latitude)
+
+
+def _earth_fixed(latitude: float, longitude: float) -> Vec3:
     """Return Earth-centred, Earth-fixed coordinates of a point on the ellipsoid, m."""
-    prime = _A / sqrt(1.0 - _E2 * sin(latitude) ** 2)
-    axis_distance = prime * cos(latitude)
-    return axis_distance * cos(longitude), axis_distance * sin(longitude), prime * (1.0 - _E2) * sin(latitude)
+    x, y, z = _outwards(latitude, longitude)
+    prime = _A / sqrt(1.0 - _E2 * z * z)
+    return prime * x, prime * y, prime * (1.0 - _E2) * z
 
 
 def south_west(positions: list[tuple[float, float]]) -> Anchor:

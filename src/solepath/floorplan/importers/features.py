@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, groupby
-from math import hypot
+from math import dist
 from typing import Any, NoReturn
 
 from ...types.attrs import evolve, frozen
 from ...types.checking import describe
 from ..geometry import Ring
-from ..plan import Anchor, FloorPlanError, Point
+from ..plan import Anchor, FloorPlanError, Point, naming
 from .earth import south_west
 
 MAX_CORNERS = 1_000_000
@@ -56,11 +56,10 @@ class Feature:
 
         Raises FloorPlanError when both are missing, and when the property is neither a text nor a number."""
         value = self.properties.get(key)
-        if value is None and default is not None:
-            return default
+        value = default if value is None else value
         if isinstance(value, str):
             return value
-        if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < MAX_NUMBER:
+        if _is_number(value):
             return f"{value:g}" if isinstance(value, float) else str(value)
         return self.fail(f"its {key} is missing" if value is None else f"its {key} is {describe(value)}, not a text")
 
@@ -85,10 +84,8 @@ class Feature:
 
     def convert_line(self, line: Iterable[Position], to_plan: ToPlan) -> list[Point]:
         """Return the points of a line of the feature, m, plan frame."""
-        try:
+        with naming(f"{self.name}:"):
             return [to_plan(position) for position in line]
-        except FloorPlanError as error:
-            self.fail(str(error))
 
     def polygons(self, to_plan: ToPlan, remark: Callable[[str], None]) -> list[tuple[Ring, ...]]:
         """Return the outline and the holes of each polygon of the feature, m, plan frame."""
@@ -97,7 +94,7 @@ class Feature:
 
     def _ring(self, line: tuple[Position, ...], to_plan: ToPlan, remark: Callable[[str], None]) -> Ring:
         corners = [point for point, _ in groupby(self.convert_line(line, to_plan))]
-        open_by = hypot(corners[-1][0] - corners[0][0], corners[-1][1] - corners[0][1]) if corners else 0.0
+        open_by = dist(corners[0], corners[-1]) if corners else 0.0
         if open_by <= MAX_CLOSING_DISTANCE and len(corners) > 1:
             corners.pop()
         if len(corners) > 1 and corners[0] == corners[-1]:
@@ -191,8 +188,12 @@ def find_anchor(features: Iterable[Feature]) -> Anchor:
     return south_west([*chain(*chain(*[part for feature in features for part in feature.lines]))])
 
 
-def parse_number(value: object, what: str) -> float:
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < MAX_NUMBER  # not if NaN
+
+
+def parse_number(value: Any, what: str) -> float:
     """Return the value as a number; FloorPlanError, which names it `what`, for anything else."""
-    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < MAX_NUMBER:  # also if NaN
+    if not _is_number(value):
         raise FloorPlanError(f"{what} is {describe(value)}, not a number that can be")
     return float(value)

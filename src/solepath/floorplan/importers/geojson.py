@@ -167,7 +167,7 @@ class _GeoJsonReader:
         first = stops[0][0]
         flights = {feature.whole_number("flights") for feature, _ in stops} - {None} or {None}
         rises = {feature.number("rise") for feature, _ in stops} - {None} or {None}
-        if len(flights) > 1 or len(rises) > 1:
+        if len(flights) + len(rises) > 2:
             first.fail("its stops tell different flights or rises")
         ordered = sorted([stop for _, stop in stops], key=lambda stop: self.storeys[stop.level].level.elevation)
         return Connector(ConnectorKind(first.kind), first.text("name", ""), tuple(ordered), *flights, *rises)

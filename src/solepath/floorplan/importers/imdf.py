@@ -6,18 +6,18 @@ walls (drawing.py), and levels lie one storey apart."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from itertools import groupby, pairwise
 
 from ..geometry import Ring
-from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point
+from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point, naming
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent
 from .features import Feature, find_anchor, parse_json, parse_positions, read_features
 
-FILES = ("manifest.json", "venue.geojson", "building.geojson", "level.geojson", "unit.geojson", "opening.geojson",
-         "fixture.geojson")  # fmt: skip
+_KINDS = ("level", "unit", "opening", "fixture", "building", "venue")
+
+FILES = ("manifest.json", *[f"{kind}.geojson" for kind in _KINDS])
 """Files of an archive that are read."""
 
 _CONNECTORS = {
@@ -44,7 +44,7 @@ def read_archive(files: Mapping[str, bytes], storey: float) -> FloorPlan:
     `storey` is the assumed height from one ordinal to the next, m."""
     if "manifest.json" not in files:
         raise FloorPlanError("has no manifest.json, which every IMDF archive has")
-    with _name_file("manifest.json"):
+    with naming("manifest.json:"):
         manifest = parse_json(files["manifest.json"])
         version = manifest.get("version")
         if not isinstance(version, str) or not version.startswith("1."):
@@ -56,13 +56,15 @@ def read_archive(files: Mapping[str, bytes], storey: float) -> FloorPlan:
     return _ImdfReader(files, language if isinstance(language, str) else "en").plan(storey)
 
 
-@contextmanager
-def _name_file(name: str) -> Iterator[None]:
-    """Add the file's name to the error messages of the context."""
-    try:
-        yield
-    except FloorPlanError as error:
-        raise FloorPlanError(f"{name}: {error}") from None
+def _read_features(files: Mapping[str, bytes], kind: str) -> list[Feature]:
+    name, found = f"{kind}.geojson", list[Feature]()
+    with naming(f"{name}:"):
+        if name in files:
+            found += read_features(parse_json(files[name]), "feature_type", in_properties=False)
+        for feature in found:
+            if feature.kind != kind:
+                feature.fail(f"is a {feature.kind[:30]!r} among the {kind}s")
+    return found
 
 
 class _ImdfReader:
@@ -70,26 +72,14 @@ class _ImdfReader:
 
     def __init__(self, files: Mapping[str, bytes], language: str) -> None:
         self._language = language
-        self._levels = self._read_features(files, "level")
-        self._units = self._read_features(files, "unit")
-        self._openings = self._read_features(files, "opening")
-        self._fixtures = self._read_features(files, "fixture")
-        buildings = self._read_features(files, "building") + self._read_features(files, "venue")
-        self._drawing = Drawing(next((name for feature in buildings if (name := self._label(feature, "name"))), ""))
+        self._levels, self._units, self._openings, self._fixtures, buildings, venues = [
+            _read_features(files, kind) for kind in _KINDS
+        ]
+        names = [self._label(feature, "name") for feature in buildings + venues]
+        self._drawing = Drawing(next(filter(None, names), ""))
         self._anchor = find_anchor(self._levels + self._units)
         self._to_plan = Tangent(self._anchor).place
         self._names: dict[str, str] = {}
-
-    def _read_features(self, files: Mapping[str, bytes], kind: str) -> list[Feature]:
-        if f"{kind}.geojson" not in files:
-            return []
-        with _name_file(f"{kind}.geojson"):
-            collection = parse_json(files[f"{kind}.geojson"])
-            features_read = list(read_features(collection, "feature_type", in_properties=False))
-            for feature in features_read:
-                if feature.kind != kind:
-                    feature.fail(f"is a {feature.kind[:30]!r} among the {kind}s")
-        return features_read
 
     def _label(self, feature: Feature, key: str) -> str:
         """Return a LABELS value in the archive's language, else in English, else in any other language; "" for none."""

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from itertools import chain, groupby, pairwise
-from math import floor, hypot, inf
+from itertools import chain, combinations, groupby, pairwise
+from math import floor, inf
 
 from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_RISE, MIN_RISE
-from ..geometry import Ring, distance, share_along
-from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point
+from ..geometry import Ring, direction, distance, share_along
+from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point, naming
 from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent, south_west, to_mm
@@ -52,9 +52,7 @@ def parse_levels(text: str) -> list[float]:
         match = _RANGE.fullmatch(part)
         if match is None:
             raise FloorPlanError(f"{text[:40]!r} tells no levels")
-        low = float(match[1])
-        high = float(match[2]) if match[2] is not None else low
-        low, high = min(low, high), max(low, high)
+        low, high = sorted([float(match[1]), float(match[2] or match[1])])
         if high - low > MAX_LEVELS:
             raise FloorPlanError(f"{text[:40]!r} tells more than {MAX_LEVELS} levels")
         levels |= {low + 0.0, high + 0.0, *(float(k) for k in range(floor(low) + 1, floor(high) + 1))}
@@ -64,11 +62,10 @@ def parse_levels(text: str) -> list[float]:
 def levels_of(element: Element) -> dict[str, float]:
     """Return the levels that an element is on, by `level` and `repeat_on`, ascending, each by its id."""
     levels: set[float] = set()
-    for key in [key for key in ("level", "repeat_on") if key in element.tags]:
-        try:
-            levels.update(parse_levels(element.tags[key]))
-        except FloorPlanError as error:
-            raise FloorPlanError(f"{element.name}: its {key} {error}") from None
+    for key in ("level", "repeat_on"):
+        if key in element.tags:
+            with naming(f"{element.name}: its {key}"):
+                levels.update(parse_levels(element.tags[key]))
     return {f"{level:g}": level for level in sorted(levels)}
 
 
@@ -121,15 +118,15 @@ def door_at(place: Point, neighbours: list[Point], width: float) -> tuple[Point,
 
     `neighbours` are the other ends of the walls at the node, m. In the middle of a wall the door is centred on the
     node; at a corner it starts there, along the longest wall. `width` is in m."""
-    directions = sorted({_direction(place, other) for other in neighbours if other != place})
+    directions = sorted({direction(place, other) for other in neighbours if other != place})
     if not directions:
         return None
-    pairs = [(ax * bx + ay * by, i, j) for i, (_, ax, ay) in enumerate(directions)
-             for j, (_, bx, by) in enumerate(directions[:i])]  # fmt: skip
-    cosine, i, j = min(pairs, default=(1.0, 0, 0))
+    pairs = [(a[1] * b[1] + a[2] * b[2], a, b) for b, a in combinations(directions, 2)]
+    longest = directions[-1]
+    cosine, one, other = min(pairs, default=(1.0, longest, longest))
     if cosine <= _MAX_STRAIGHT_COSINE:
-        return _move(place, directions[i], 0.5 * width), _move(place, directions[j], 0.5 * width)
-    return place, _move(place, directions[-1], min(width, directions[-1][0]))
+        return _move(place, one, 0.5 * width), _move(place, other, 0.5 * width)
+    return place, _move(place, longest, min(width, longest[0]))
 
 
 def door_beside(place: Point, walls: list[Line], width: float) -> tuple[Point, Point] | None:
@@ -137,18 +134,13 @@ def door_beside(place: Point, walls: list[Line], width: float) -> tuple[Point, P
     far, wall = min([(distance(*wall, *place), wall) for wall in walls], default=(inf, (0.0, 0.0, 0.0, 0.0)))
     if far > MAX_NODE_DISTANCE:
         return None
-    direction = _direction(wall[:2], wall[2:])
-    middle = _move(wall[:2], direction, share_along(*wall, *place) * direction[0])
-    return _move(middle, direction, -0.5 * width), _move(middle, direction, 0.5 * width)
+    way = direction(wall[:2], wall[2:])
+    middle = _move(wall[:2], way, share_along(*wall, *place) * way[0])
+    return _move(middle, way, -0.5 * width), _move(middle, way, 0.5 * width)
 
 
-def _direction(a: Point, b: Point) -> tuple[float, float, float]:
-    length = hypot(b[0] - a[0], b[1] - a[1])
-    return length, (b[0] - a[0]) / length, (b[1] - a[1]) / length
-
-
-def _move(place: Point, direction: tuple[float, float, float], by: float) -> Point:
-    return to_mm((place[0] + by * direction[1], place[1] + by * direction[2]))
+def _move(place: Point, way: tuple[float, float, float], by: float) -> Point:
+    return to_mm((place[0] + by * way[1], place[1] + by * way[2]))
 
 
 def read_osm(data: bytes, storey: float) -> FloorPlan:
@@ -180,29 +172,25 @@ class _OsmReader:
     """The conversion of the elements of one file into a Drawing."""
 
     def __init__(self, file: OsmFile) -> None:
-        ways = [*file.way.values(), *file.relation.values()]
+        ways = [*file["way"].values(), *file["relation"].values()]
         self._ways = [_Drawn(way, *find_shapes(way, file)) for way in ways if is_indoor(way)]
         drawn_refs = {ref for way in self._ways for ref in chain(*way.chains)}
         if not drawn_refs:
             raise FloorPlanError("has no ways or relations with indoor=* and level=*")
         self._nodes = [
-            _Drawn(node) for node in file.node.values()
+            _Drawn(node) for node in file["node"].values()
             if is_indoor(node) or node.id in drawn_refs and (connector_kind(node) is not None or is_door(node))
         ]  # fmt: skip
-        nodes = [file.node[ref] for ref in sorted(drawn_refs)] + [
-            node.element for node in self._nodes if node.element.id not in drawn_refs
-        ]
+        nodes = [file["node"][ref] for ref in sorted(drawn_refs.union([node.element.id for node in self._nodes]))]
         self._anchor = south_west([node.position for node in nodes])
         tangent = Tangent(self._anchor)
         self._places: dict[str, Point] = {}
         for node in nodes:
-            try:
+            with naming(f"{node.name}:"):
                 self._places[node.id] = tangent.place(node.position)
-            except FloorPlanError as error:
-                raise FloorPlanError(f"{node.name}: {error}") from None
-        named = [element.tags["name"] for element in (*file.relation.values(), *file.way.values())
-                 if "building" in element.tags and element.tags.get("name")]  # fmt: skip
-        self._drawing = Drawing(named[0] if named else "")
+        named = [element.tags.get("name") for element in (*file["relation"].values(), *file["way"].values())
+                 if "building" in element.tags]  # fmt: skip
+        self._drawing = Drawing(next(filter(None, named), ""))
         self._neighbours: dict[str, dict[str, list[str]]] = {}
         """Nodes that a wall joins to each node, by level and node."""
         self._walls_by_level: dict[str, Walls] = {}
@@ -217,15 +205,16 @@ class _OsmReader:
         return self._drawing.plan(self._anchor, storey)
 
     def _storeys(self) -> None:
-        levels = sorted({level for one in self._ways + self._nodes for level in one.levels.values()})
-        all_whole, count_below = all(level == floor(level) for level in levels), sum(level < 0.0 for level in levels)
-        for i, level in enumerate(levels):
-            own_id = f"{level:g}"
-            self._drawing.storeys[own_id] = Storey(own_id, int(level) if all_whole else i - count_below, level)
+        levels = dict(chain(*[one.levels.items() for one in self._ways + self._nodes]))
+        ordered = sorted(levels, key=levels.__getitem__)
+        all_whole = all([level == floor(level) for level in levels.values()])
+        first = -len([level for level in levels.values() if level < 0.0])
+        for rank, (own_id, level) in enumerate([(own_id, levels[own_id]) for own_id in ordered], first):
+            self._drawing.storeys[own_id] = Storey(own_id, int(level) if all_whole else rank, level)
         for way in self._ways:
             tags = way.element.tags
-            name = tags.get("name") or tags.get("level:ref") if tags.get("indoor") == "level" else None
-            for own_id in way.levels if name else ():
+            name = tags.get("name") or tags.get("level:ref")
+            for own_id in way.levels if name and tags.get("indoor") == "level" else ():
                 self._drawing.storeys[own_id].name = name or own_id
 
     def _draw(self, way: _Drawn) -> None:
@@ -272,8 +261,7 @@ class _OsmReader:
     def _outlines(self, way: _Drawn) -> list[tuple[Ring, ...]]:
         """Return the outline and the holes of each shape, m, plan frame."""
         shapes = [[tuple(self._line(refs[:-1])) for refs in shape] for shape in way.shapes]
-        outlines = [tuple([ring for ring in rings if len(set(ring)) >= 3]) for rings in shapes]
-        return [rings for rings in outlines if rings]
+        return [*filter(None, [tuple([ring for ring in rings if len(set(ring)) >= 3]) for rings in shapes])]
 
     def _add_walls(self, level: str, chains: Iterable[Refs]) -> None:
         """Add the pairs of nodes that walls join to `_neighbours`."""
@@ -285,12 +273,12 @@ class _OsmReader:
     def _remove_inner_flights(self) -> None:
         """Remove flights drawn as lines within stairs drawn as an area, since they are part of these stairs."""
         stairs = [part for part in self._drawing.parts if part.kind is ConnectorKind.STAIRS]
-        flights = [(part.group, part.level, part.place) for part in stairs if part.place is not None]
+        flights = [part for part in stairs if part.place is not None]
         outer = {
-            group for group, level, place in flights
-            if not any(part.level == level and part.contains(place) for part in stairs)
+            flight.group for flight in flights
+            if not any(part.level == flight.level and part.contains(flight.middle) for part in stairs)
         }  # fmt: skip
-        inner = {group for group, _, _ in flights} - outer
+        inner = {flight.group for flight in flights} - outer
         self._drawing.parts = [part for part in self._drawing.parts if part.group not in inner]
 
     def _draw_node(self, node: _Drawn) -> None:

@@ -11,7 +11,7 @@ from xml.etree.ElementTree import XML, ParseError, TreeBuilder, XMLParser
 from xml.etree.ElementTree import Element as XmlElement
 from xml.parsers.expat import ErrorString
 
-from ...types.attrs import define, field, frozen
+from ...types.attrs import frozen
 from ..plan import FloorPlanError
 
 MAX_XML_TAGS = 4_000_000
@@ -38,13 +38,8 @@ class Element:
         return f"{self.kind} {self.id[:40]!r}"
 
 
-@define
-class OsmFile:
-    """Elements of a file, by id."""
-
-    node: dict[str, Element] = field(factory=dict)
-    way: dict[str, Element] = field(factory=dict)
-    relation: dict[str, Element] = field(factory=dict)
+OsmFile = dict[str, dict[str, Element]]
+"""Elements of a file, by kind and id."""
 
 
 class _Builder(TreeBuilder):
@@ -67,12 +62,11 @@ def parse_elements(data: bytes) -> OsmFile:
         raise FloorPlanError(f"is not XML ({error})") from None
     if root.tag != "osm":
         raise FloorPlanError(f"is XML, but not of OpenStreetMap: its root is {root.tag[:40]!r}")
-    found = OsmFile()
-    by_kind = {"node": found.node, "way": found.way, "relation": found.relation}
+    found: OsmFile = {"node": {}, "way": {}, "relation": {}}
     for one in root:
-        if one.tag in by_kind and one.get("action") != "delete" and one.get("visible") != "false":
+        if one.tag in found and one.get("action") != "delete" and one.get("visible") != "false":
             element = _parse_element(one)
-            if by_kind[one.tag].setdefault(element.id, element) is not element:
+            if found[one.tag].setdefault(element.id, element) is not element:
                 raise FloorPlanError(f"two {one.tag}s have the id {element.id[:40]!r}")
     return found
 
@@ -119,20 +113,22 @@ def find_shapes(element: Element, file: OsmFile) -> tuple[list[list[Refs]], list
     sides: tuple[list[Refs], list[Refs]] = [], []
     for kind, ref, role in element.members:
         if kind == "way":
-            if ref not in file.way:
-                raise FloorPlanError(f"{element.name}: its way {ref[:40]!r} is not in the file")
-            sides[role == "inner"].append(_find_refs(file.way[ref], file))
+            sides[role == "inner"].append(_find_refs(_find(element, kind, ref, file), file))
     (rings, lines), (holes, open_holes) = [_split_closed(_join_chains(ways)) for ways in sides]
     if len(rings) == 1:
-        return [[*rings, *holes]], lines + open_holes
+        return [rings + holes], lines + open_holes
     return [[ring] for ring in rings], lines + open_holes + holes  # the file does not say in which outline they are
 
 
 def _find_refs(way: Element, file: OsmFile) -> Refs:
-    for ref in way.refs:
-        if ref not in file.node:
-            raise FloorPlanError(f"{way.name}: its node {ref[:40]!r} is not in the file")
-    return [ref for ref, _ in groupby(way.refs)]
+    return [ref for ref, _ in groupby([_find(way, "node", ref, file).id for ref in way.refs])]
+
+
+def _find(element: Element, kind: str, ref: str, file: OsmFile) -> Element:
+    """Return a way or node of an element; raise FloorPlanError when it is not in the file."""
+    if ref not in file[kind]:
+        raise FloorPlanError(f"{element.name}: its {kind} {ref[:40]!r} is not in the file")
+    return file[kind][ref]
 
 
 def _split_closed(chains: list[Refs]) -> tuple[list[Refs], list[Refs]]:

@@ -98,9 +98,7 @@ def _unpack(data: bytes) -> dict[str, bytes]:
             folder = min(manifests, key=len, default="manifest.json").removesuffix("manifest.json")
             files: dict[str, bytes] = {}
             bytes_left = MAX_FILE_SIZE
-            for name in imdf.FILES:
-                if folder + name not in names:
-                    continue
+            for name in [name for name in imdf.FILES if folder + name in names]:
                 info = archive.getinfo(folder + name)
                 if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
                     raise FloorPlanError(f"{name}: is packed in a way that IMDF does not know")
@@ -114,5 +112,5 @@ def _unpack(data: bytes) -> dict[str, bytes]:
             return files
     except FloorPlanError:
         raise
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, ValueError, OSError) as error:
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, EOFError, ValueError, OSError) as error:
         raise FloorPlanError(f"is a damaged archive ({error})") from None
