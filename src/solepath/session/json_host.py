@@ -6,9 +6,10 @@ for message in json.loads(host.receive(text)): ..."""
 from __future__ import annotations
 
 import json
+import re
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Iterable, Mapping
-from typing import Any, TypeVar
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from ..events import Event
 from ..link.catalogue import BY_NAME, PROFILES
@@ -21,13 +22,14 @@ from .host import Host, HostCommand, Observe
 from .session import Session
 
 Message = dict[str, Any]
-T = TypeVar("T")
 
 SITES = {site.value: site for site in Site}
 BASE_UUID = "-0000-1000-8000-00805f9b34fb"
 """End of every UUID that Bluetooth itself assigns (Bluetooth Core, vol 3 part B, 2.5.1)."""
 MAX_NAME_LENGTH = 248
 """Longest name of a device, characters (Bluetooth Core, vol 3 part C, 12.1: 248 bytes)."""
+HEX = re.compile("([0-9a-fA-F]{2})*")
+"""Bytes as hexadecimal digits."""
 MAX_CHARACTERISTICS = 1000
 """Largest number of characteristics of a device, chosen by hand."""
 
@@ -71,9 +73,25 @@ class JsonHost:
         try:
             if self._is_finished and kind not in AFTER_THE_END:
                 raise ValueError("the walk is finished")
-            HANDLERS[kind](self, _Fields(message))
+            HANDLERS[kind](self, self._read(message))
         except ValueError as error:
             self._messages.append(_error(str(error), kind, message.get("device")))
+
+    def _read(self, message: Message) -> Message:
+        """Return the keys of a message that are known and not null; ValueError when one has an impossible value."""
+        names: dict[str, dict[str, Any]] = {"site": SITES, "profile": BY_NAME | self.host.profiles}
+        fields = _Fields()
+        for key, value in message.items():
+            if value is None:
+                continue
+            if key in KEYS:
+                value = _checked(key, value)
+            elif key in names:
+                if not isinstance(value, str) or value not in names[key]:
+                    raise ValueError(f"there is no {key} {value!r:.40}")
+                value = names[key][value]
+            fields[key] = value
+        return fields
 
     def _observe(self, packet: Packet | None, events: list[Event]) -> None:
         if packet is not None and self._packets:
@@ -101,93 +119,55 @@ class JsonHost:
 
     def _start(self, message: Message) -> None:
         """Replace the session by a new or a saved one, with recipe and devices of the earlier, and no other option."""
-        state, packets = message.get("state"), message.get("packets", False)
-        if type(packets) is not bool:
-            raise ValueError("packets is true or false")
-        if state is not None and not isinstance(state, str):
-            raise ValueError("state is the text of a message saved")
         recipe = self.host.session.recipe
         drivers = self.host.session._kinds.drivers
-        if state is None:
-            session = Session(recipe, profiles=drivers)
+        if "state" in message:
+            state = b64decode(message["state"], validate=True)
+            session = Session.unpack(state, recipe, profiles=drivers)
         else:
-            session = Session.unpack(b64decode(state, validate=True), recipe, profiles=drivers)
+            session = Session(recipe, profiles=drivers)
         self.host = Host(session, self.host.observe)
-        self._packets, self._is_finished = packets, False
+        self._packets, self._is_finished = message.get("packets", False), False
         self._connections.clear()
 
-    def _bind(self, message: Message) -> None:
-        site, address = _choose(message, "site", SITES), message.get("address", "")
-        if site is None:
-            raise ValueError("site is absent")
-        if not isinstance(address, str):
-            raise ValueError("address is no address of a device")
-        self.host.session.bind(site, address)
-
-    def _add(self, message: Message) -> None:
-        address = message.get("address")
-        if address is not None and (not isinstance(address, str) or not is_address(address)):
-            raise ValueError("address is no address of a device")
-        site, profile = _choose(message, "site", SITES), _choose(message, "profile", BY_NAME | self.host.profiles)
-        self.host.add(_device(message), site, profile, address)
-
     def _remove(self, message: Message) -> None:
-        self.host.remove(_device(message))
-        self._connections.pop(_device(message), None)
+        self.host.remove(message["device"])
+        self._connections.pop(message["device"], None)
 
     def _connected(self, message: Message) -> None:
-        characteristics, name, signal = message["characteristics"], message.get("name") or "", message.get("signal")
-        if not isinstance(characteristics, list) or len(characteristics) > MAX_CHARACTERISTICS:
-            raise ValueError("characteristics are a list")
-        if not isinstance(name, str) or len(name) > MAX_NAME_LENGTH:
-            raise ValueError("name is no name of a device")
-        if signal is not None and (type(signal) is not int or not -127 <= signal <= 20):
-            raise ValueError("signal is a whole number of dBm")
         found: dict[tuple[str, str], GattCharacteristic] = {}
-        for one in characteristics:
+        for one in message["characteristics"]:
             match one:
                 case [str(service), str(uuid), bool(can_notify)]:
                     key = _whole(service), _whole(uuid)
                     found.setdefault(key, GattCharacteristic(*key, can_notify))
                 case _:
                     raise ValueError("a characteristic is [service, UUID, can notify]")
-        device, connection = _device(message), message.get("connection")
-        if connection is not None and type(connection) is not int:
-            raise ValueError("connection is a whole number")
-        commands = self.host.connect(device, name, found.values(), _time(message), signal)
-        self._connections[device] = connection
+        device, name = message["device"], message.get("name", "")
+        commands = self.host.connect(device, name, found.values(), message["t"], message.get("signal"))
+        self._connections[device] = message.get("connection")
         self._command(commands)
 
-    def _done(self, message: Message) -> None:
-        device, now, value = _device(message), _time(message), _bytes(message.get("value", ""))
-        if self._is_current(message):
-            self._command(self.host.answer(device, now, value))
-
-    def _rejected(self, message: Message) -> None:
-        device, now, reason = _device(message), _time(message), _reason(message)
-        if self._is_current(message):
-            self._command(self.host.reject(device, now, reason))
-
-    def _is_current(self, message: Message) -> bool:
-        """Return whether the message is of the newest connection of its device, as far as it names one."""
-        connection = message.get("connection")
-        return connection is None or connection == self._connections.get(_device(message))
-
-    def _failed(self, message: Message) -> None:
-        self.host.report(_device(message), _time(message), _reason(message))
+    def _answer(self, message: Message) -> None:
+        """Use the outcome of a request, unless it is of an earlier connection of the device."""
+        device, now = message["device"], message["t"]
+        is_done = message["type"] == "done"
+        outcome: Any = bytes.fromhex(message.get("value", "")) if is_done else message["reason"]
+        if message.get("connection") in (None, self._connections.get(device)):
+            self._command((self.host.answer if is_done else self.host.reject)(device, now, outcome))
 
     def _values(self, message: Message) -> None:
         values = []
-        for one in message["values"] if isinstance(message["values"], list) else [None]:
+        for one in message["values"]:
             match one:
-                case [float() | int() as t, str(device), str(channel), data]:
-                    values.append((device, channel, _time({"t": t}), _bytes(data)))
+                case [t, str(device), str(channel), value]:
+                    values.append((device, channel, _checked("t", t), bytes.fromhex(_checked("value", value))))
                 case _:
                     raise ValueError("each is [t, device, channel, value]")
         unknown = ""
-        for device, channel, arrival, value in values:
+        for notification in values:
             try:
-                self.host.notify(device, channel, arrival, value)
+                self.host.notify(*notification)
             except ValueError as error:  # its last ones, after it was removed, end none of the others
                 unknown = str(error)
         if unknown:
@@ -225,63 +205,56 @@ class _Fields(Message):
         raise ValueError(f"{key} is absent")
 
 
+def _checked(key: str, value: Any) -> Any:
+    """Return the value of a key; ValueError for one that it cannot have."""
+    kinds, condition, words = KEYS[key]
+    if type(value) not in kinds or not condition(value):
+        raise ValueError(words)
+    return float(value) if key == "t" else value
+
+
+def _any(_: object) -> bool:
+    return True
+
+
 def _error(reason: str, of: str | None = None, device: Any = None) -> Message:
     about = {"device": device} if isinstance(device, str) else {}
     return {"type": "error", "of": of, **about, "reason": reason}
 
 
-def _device(message: Message) -> str:
-    device = message["device"]
-    if not isinstance(device, str) or not device or not is_address(device):
-        raise ValueError("device is no address of a device")
-    return device
-
-
-def _choose(message: Message, key: str, known: Mapping[str, T]) -> T | None:
-    """Return what the text below `key` names; None when it is absent or null."""
-    name = message.get(key)
-    if name is not None and (not isinstance(name, str) or name not in known):
-        raise ValueError(f"there is no {key} {name!r:.40}")
-    return None if name is None else known[name]
-
-
-def _time(message: Message) -> float:
-    t = message["t"]
-    if type(t) not in (int, float) or not -MAX_ARRIVAL_TIME <= t <= MAX_ARRIVAL_TIME:
-        raise ValueError("t is a time in s")
-    return float(t)
-
-
-def _reason(message: Message) -> str:
-    reason = message["reason"]
-    if not isinstance(reason, str) or not reason:
-        raise ValueError("reason is a sentence")
-    return reason
-
-
-def _bytes(text: Any) -> bytes:
-    if not isinstance(text, str):
-        raise ValueError("a value is a text of hexadecimal digits")
-    try:
-        return bytes.fromhex(text)
-    except ValueError:
-        raise ValueError("a value is a text of hexadecimal digits") from None
+KEYS: dict[str, tuple[tuple[type, ...], Callable[[Any], object], str]] = {
+    "address": ((str,), is_address, "address is no address of a device"),
+    "characteristics": ((list,), lambda rows: len(rows) <= MAX_CHARACTERISTICS, "characteristics are a list"),
+    "connection": ((int,), _any, "connection is a whole number"),
+    "device": ((str,), lambda device: device and is_address(device), "device is no address of a device"),
+    "name": ((str,), lambda name: len(name) <= MAX_NAME_LENGTH, "name is no name of a device"),
+    "packets": ((bool,), _any, "packets is true or false"),
+    "reason": ((str,), len, "reason is a sentence"),
+    "signal": ((int,), lambda signal: -127 <= signal <= 20, "signal is a whole number of dBm"),
+    "state": ((str,), _any, "state is the text of a message saved"),
+    "t": ((int, float), lambda t: abs(t) <= MAX_ARRIVAL_TIME, "t is a time in s"),
+    "value": ((str,), HEX.fullmatch, "a value is a text of hexadecimal digits"),
+    "values": ((list,), _any, "values are a list"),
+}
+"""What the values of keys are: types, a condition, and words for an error."""
 
 
 HANDLERS: dict[str, Callable[[JsonHost, Message], None]] = {
     "start": JsonHost._start,
-    "bind": JsonHost._bind,
-    "scan": lambda json_host, message: json_host._messages.append(filters(json_host.host.profiles.values())),
-    "add": JsonHost._add,
+    "bind": lambda one, message: one.host.session.bind(message["site"], message.get("address", "")),
+    "scan": lambda one, message: one._messages.append(filters(one.host.profiles.values())),
+    "add": lambda one, message: one.host.add(
+        message["device"], message.get("site"), message.get("profile"), message.get("address")
+    ),
     "remove": JsonHost._remove,
     "connected": JsonHost._connected,
-    "done": JsonHost._done,
-    "rejected": JsonHost._rejected,
-    "failed": JsonHost._failed,
+    "done": JsonHost._answer,
+    "rejected": JsonHost._answer,
+    "failed": lambda one, message: one.host.report(message["device"], message["t"], message["reason"]),
     "values": JsonHost._values,
-    "disconnected": lambda json_host, message: json_host.host.disconnect(_device(message), _time(message)),
-    "time": lambda json_host, message: json_host._command(json_host.host.advance(_time(message))),
-    "restart": lambda json_host, message: json_host.host.restart_clock(_time(message)),
+    "disconnected": lambda one, message: one.host.disconnect(message["device"], message["t"]),
+    "time": lambda one, message: one._command(one.host.advance(message["t"])),
+    "restart": lambda one, message: one.host.restart_clock(message["t"]),
     "save": JsonHost._save,
     "finish": JsonHost._finish,
 }
