@@ -9,7 +9,7 @@ from typing import Any
 import attrs
 
 from ..types import Site
-from ..types.attrs import fields, frozen
+from ..types.attrs import field, fields, frozen
 
 FIRST_KEYS = ("t", "known_at", "final", "foot")
 """Keys that come first in an event's JSON, in this order."""
@@ -21,10 +21,14 @@ class BaseEvent:
 
     t: float
     """Time at which the event happened, s."""
-    known_at: float
-    """First time at which the event could be reported, s; never earlier than `t`."""
+    known_at: float = field()
+    """First time at which the event could be reported, s, by default `t`; never earlier than `t`."""
     final: bool = True
     """True if no later event revises this event."""
+
+    @known_at.default
+    def _at_once(self) -> float:
+        return self.t
 
     def to_dict(self) -> dict[str, Any]:
         """Return the event as plain data for strict JSON, as in its line of events.jsonl.

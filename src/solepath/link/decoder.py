@@ -125,7 +125,7 @@ class Decoder:
             self.newest_stream_arrival = now
         if self.link is not None:
             self.link.restart_clock()
-        out.append(ClockReset(t=now, known_at=now, site=self.site, restarted=False))
+        out.append(ClockReset(t=now, site=self.site, restarted=False))
         return out
 
     def is_bound_to(self, device: str) -> bool:
@@ -158,7 +158,7 @@ class Decoder:
         newest, limit = self.newest_stream_arrival, kind.profile.stale_after
         self.newest_stream_arrival = t
         if newest is not None and (self.stale or (t - newest > limit and not link.may_be_silent)):
-            resumed = StreamResumed(t=t, known_at=t, site=self.site, silent_for=t - newest)
+            resumed = StreamResumed(t=t, site=self.site, silent_for=t - newest)
             out[:0] = [resumed] if self.stale else [self._silence(newest, t, limit), resumed]
             self.stale = False
         return out
@@ -177,7 +177,7 @@ class Decoder:
 
         if packet.channel == "device/battery":
             level = parse_battery(packet.data) / 100.0
-            return [BatteryLevel(t=packet.t, known_at=packet.t, site=self.site, level=level)]
+            return [BatteryLevel(t=packet.t, site=self.site, level=level)]
         if packet.channel != "device/firmware":
             raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
         self.firmware = parse_text(packet.data).rstrip("\0")

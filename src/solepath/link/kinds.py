@@ -66,7 +66,7 @@ class DeviceLink(Protocol):
         if not what or self.limitation_reported:
             return []
         self.limitation_reported = True
-        return [Limitation(t=arrival, known_at=arrival, site=self.site, what=what)]
+        return [Limitation(t=arrival, site=self.site, what=what)]
 
 
 @frozen

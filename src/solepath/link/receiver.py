@@ -29,27 +29,23 @@ def parse_receiver_event(packet: Packet) -> list[LinkEvent]:
             return []
         case "receiver/connected":
             connection = parse_connected(packet.data)
-            return [
-                Connected(
-                    t=t, known_at=t, site=site, device=packet.device, name=connection.name, signal=connection.signal
-                )
-            ]
+            return [Connected(t=t, site=site, device=packet.device, name=connection.name, signal=connection.signal)]
         case "receiver/disconnected":
             parse_nothing(packet.data)
-            return [Disconnected(t=t, known_at=t, site=site)]
+            return [Disconnected(t=t, site=site)]
         case "receiver/dropped":
-            return [PacketsDropped(t=t, known_at=t, site=site, count=parse_dropped(packet.data))]
+            return [PacketsDropped(t=t, site=site, count=parse_dropped(packet.data))]
         case "receiver/restarted":
-            return [StreamRestarted(t=t, known_at=t, site=site, channel=parse_text(packet.data))]
+            return [StreamRestarted(t=t, site=site, channel=parse_text(packet.data))]
         case "receiver/position":
             return [reported_position(parse_position(packet.data), t, site)]
         case "receiver/trouble":
-            return [LinkTrouble(t=t, known_at=t, site=site, what=parse_text(packet.data))]
+            return [LinkTrouble(t=t, site=site, what=parse_text(packet.data))]
     raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
 
 
 def reported_position(frame: PositionFrame, t: float, site: Site) -> PositionReported:
     """Return the event of a position that a person reports at `t`, s."""
     return PositionReported(
-        t=t, known_at=t, site=site, position=frame.position, place=frame.place, level=frame.level, sigma=frame.sigma
+        t=t, site=site, position=frame.position, place=frame.place, level=frame.level, sigma=frame.sigma
     )

@@ -139,11 +139,11 @@ class StreamLink(DeviceLink):
     def _make_events(self, reading: Reading, arrival: float) -> Output:
         out: Output = []
         if reading.layout is not None:
-            out.append(LayoutKnown(t=arrival, known_at=arrival, site=self.site, layout=reading.layout))
+            out.append(LayoutKnown(t=arrival, site=self.site, layout=reading.layout))
         if reading.battery is not None:
-            out.append(BatteryLevel(t=arrival, known_at=arrival, site=self.site, level=float(reading.battery)))
+            out.append(BatteryLevel(t=arrival, site=self.site, level=float(reading.battery)))
         if reading.keys is not None:
-            out.append(KeysChanged(t=arrival, known_at=arrival, site=self.site, down=reading.keys))
+            out.append(KeysChanged(t=arrival, site=self.site, down=reading.keys))
         return out
 
     def _take_slow_values(self, reading: Reading, arrival: float) -> Output:

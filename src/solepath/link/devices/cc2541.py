@@ -192,7 +192,7 @@ class Cc2541Link(DeviceLink):
                 self.gyro_clock.set_period(value.period)
             case "cc2541/keys":
                 down = tuple([name for name in ("left", "right", "side") if value[name]])
-                return [KeysChanged(t=arrival, known_at=arrival, site=self.site, down=down)]
+                return [KeysChanged(t=arrival, site=self.site, down=down)]
         return []
 
     def set_firmware(self, firmware: str) -> None:

@@ -138,7 +138,7 @@ class InsoleLink(DeviceLink):
         if detail is None:
             return []
         t, channel, reason = arrival, "insole/frame", Rejection.TRUNCATED
-        return [PacketRejected(t=t, known_at=t, site=self.site, channel=channel, reason=reason, detail=detail)]
+        return [PacketRejected(t=t, site=self.site, channel=channel, reason=reason, detail=detail)]
 
     def _read_info(self, data: bytes, arrival: float) -> Output:
         info = parse_info(data)
@@ -160,7 +160,7 @@ class InsoleLink(DeviceLink):
             scale=scale,
             full_scale=FULL_PRESSURE_COUNTS * (scale or 1.0),
         )
-        return [LayoutKnown(t=arrival, known_at=arrival, site=self.site, layout=shared(layout))]
+        return [LayoutKnown(t=arrival, site=self.site, layout=shared(layout))]
 
     def _read_frame(self, frame: InsoleFrame, arrival: float) -> Output:
         if frame.foot is not self.site.foot:
