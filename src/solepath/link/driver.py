@@ -7,7 +7,7 @@ work that is the same for all declared devices. A new device is therefore one fi
 of test vectors, which solepath.testing.vectors compares with it. link/devices/ has the built-in devices, and
 examples/own_device.py shows a device of an app, which the app passes to `Session(profiles=[...])`.
 
-A driver holds functions and is never saved. A saved state holds the driver's name and numbers (`DriverSignature`), and
+A driver holds functions and is never saved. A saved state holds the driver's name and numbers (`Driver.signature`), and
 the app passes the driver again when it restores the state. A driver with other numbers is then rejected. The functions
 cannot be compared."""
 
@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from enum import Enum
+from functools import cached_property
 from math import inf, isfinite
 from struct import error as StructError
 from types import MappingProxyType
@@ -151,26 +152,6 @@ class TimeAxis(Enum):
 
 
 @frozen
-class DriverSignature:
-    """The numbers of a driver without which the saved state of a link cannot be interpreted."""
-
-    built_in: bool
-    """True if the device is built in (devices/), not added by an app."""
-    stream: str
-    """Name of the channel with samples."""
-    nominal_rate: float
-    """Samples a second after the setup, Hz."""
-    axis: TimeAxis
-    """Source of sample times."""
-    sequence: int
-    """Number of values of the sequence counter; 0 without one."""
-    tick_rate: float
-    """Ticks a second of the device's time, Hz; 0 without one."""
-    tick_modulus: int
-    """Number of values of the device's time; 0 without one."""
-
-
-@frozen
 class Driver:
     """The declaration of one kind of device, which is data except for the readers.
 
@@ -224,18 +205,18 @@ class Driver:
         """Name of the device, the prefix of its channels."""
         return self.profile.name
 
-    @property
+    @cached_property
     def axis(self) -> TimeAxis:
         """Source of sample times: ticks if they are fine enough, else sequence numbers, else arrivals."""
         if self.tick_rate >= (FINE_SAMPLE_TICKS if self.sequence else MIN_SAMPLE_TICKS) * self.profile.nominal_rate:
             return TimeAxis.TICKS
         return TimeAxis.COUNT if self.sequence else TimeAxis.ARRIVAL
 
-    def signature(self, built_in: bool) -> DriverSignature:
+    def signature(self, built_in: bool) -> str:
         """Return the numbers on which a saved link depends; `built_in` is True for a device of devices/."""
-        (stream,) = self.profile.streams
-        rate = self.profile.nominal_rate
-        return DriverSignature(built_in, stream, rate, self.axis, self.sequence, self.tick_rate, self.tick_modulus)
+        profile = self.profile
+        counters = self.axis.name, self.sequence, self.tick_rate, self.tick_modulus
+        return repr((built_in, profile.streams, profile.nominal_rate, *counters))
 
     def parse(self, channel: str, data: bytes) -> Any:
         """Return the value that the channel's construct reads from `data`; WireError when `data` does not fit it."""

@@ -15,7 +15,7 @@ from ..types.attrs import field, frozen
 from ..types.registry import TABLE, load
 
 if TYPE_CHECKING:  # imported at run time only with a device that needs them
-    from .driver import Driver, DriverSignature
+    from .driver import Driver
     from .profile import Profile
 
 Output = list[Sample | LinkEvent]
@@ -31,8 +31,8 @@ class DeviceLink(Protocol):
     site: Site
     limitation_reported: bool
     """True if a Limitation of the device was reported."""
-    signature: Any = None
-    """`DriverSignature` of the driver that the link was made with; None for devices without a driver."""
+    signature: str = ""
+    """Signature of the driver that the link was made with; "" for devices without a driver."""
 
     @property
     def name(self) -> str:
@@ -75,12 +75,12 @@ class DeviceKind:
 
     `make_link(site)` returns a fresh link. `feed(link, channel, data, arrival)` returns the samples and events of a
     value, and raises WireError for a value that cannot be used. `signature`: driver numbers on which the state of the
-    links depends; None for a device that is not declared."""
+    links depends; "" for a device that is not declared."""
 
     profile: Profile
     make_link: Callable[[Site], DeviceLink]
     feed: Callable[[Any, str, bytes, float], Output]
-    signature: DriverSignature | None = None
+    signature: str = ""
 
     def accepts(self, link: DeviceLink) -> bool:
         """Return whether a saved link was made by this kind."""

@@ -18,7 +18,7 @@ from ..wire.error import WireError
 from ..wire.fields import malformed
 from .clock import MIN_INCREMENT
 from .counters import PacketPosition, PacketRun, SampleTimes, signed_difference
-from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, DriverSignature, Reading, TimeAxis
+from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
 from .periodic import PeriodicClock
 
@@ -48,7 +48,7 @@ class StreamLink(DeviceLink):
 
     name: str
     """Name of the driver."""
-    signature: DriverSignature
+    signature: str
     """Numbers of the driver that the link was made with."""
     rate: float
     """Nominal rate, samples a second."""
@@ -107,7 +107,7 @@ class StreamLink(DeviceLink):
             raise WireError(Rejection.ABSURD, f"more than {MOST_KNOWN} known numbers")
         if reading.samples and channel not in driver.profile.streams:
             raise malformed(f"samples on {channel!r}, which is no stream")
-        axis = self.signature.axis
+        axis = driver.axis
         if reading.period is not None and axis is not TimeAxis.ARRIVAL:
             raise malformed("a period, of a device that counts")
         if reading.rate is not None and axis is TimeAxis.TICKS and reading.rate * MIN_SAMPLE_TICKS > driver.tick_rate:
@@ -122,7 +122,7 @@ class StreamLink(DeviceLink):
         if reading.silent is not None:
             self.may_be_silent = reading.silent
         if reading.rate is not None and not reading.samples:
-            if self.signature.axis is TimeAxis.TICKS:
+            if driver.axis is TimeAxis.TICKS:
                 self.packet_run.packet_ticks *= self.rate / reading.rate
             self._set_rate(reading.rate)
         if reading.period is not None:
@@ -158,7 +158,7 @@ class StreamLink(DeviceLink):
         return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
 
     def _make_samples(self, driver: Driver, channel: str, reading: Reading, arrival: float) -> Output:
-        axis = self.signature.axis
+        axis = driver.axis
         rate = self.rate if reading.rate is None else reading.rate
         if axis is TimeAxis.ARRIVAL:
             self._set_rate(rate)

@@ -15,7 +15,6 @@ from ..events import Event
 from ..link.catalogue import BY_NAME, PROFILES
 from ..link.decoder import MAX_ARRIVAL_TIME, is_address
 from ..link.profile import Profile
-from ..link.setup.config import scan_filters, used_services
 from ..link.setup.device_setup import GattCharacteristic
 from ..types import Packet, Site
 from .host import Host, HostCommand, Observe
@@ -183,9 +182,15 @@ class JsonHost:
 
 def filters(own: Iterable[Profile] = ()) -> Message:
     """Return the message "filters": the conditions of a scan for `own` and built-in devices, and their services."""
-    profiles = (*own, *PROFILES)
-    conditions = [{"name": one.name, "prefix": one.prefix, "service": one.service} for one in scan_filters(profiles)]
-    return {"type": "filters", "filters": conditions, "services": [*used_services(profiles)]}
+    conditions: dict[tuple[str, str, str], None] = {}  # each once, in their order
+    services: dict[str, None] = {}
+    for profile in (*own, *PROFILES):
+        conditions |= dict.fromkeys([("", "", service) for service in profile.services])
+        conditions |= dict.fromkeys([(name, "", "") for name in profile.names])
+        conditions |= dict.fromkeys([("", prefix, "") for prefix in profile.prefixes])
+        services |= dict.fromkeys([channel.service for channel in profile.channels])
+    rows = [dict(zip(("name", "prefix", "service"), one, strict=True)) for one in conditions]
+    return {"type": "filters", "filters": rows, "services": [*services]}
 
 
 def _whole(uuid: str) -> str:

@@ -4,21 +4,15 @@ The other standard value, the firmware revision (2A26), is a text (fields.py).""
 
 from __future__ import annotations
 
-from construct import Int8ul
+from functools import partial
 
-from .fields import build_whole, malformed, parse_whole
+from construct import Int8ul, OneOf
 
+from .fields import build_whole, parse_whole
 
-def parse_battery(data: bytes) -> int:
-    """Return the battery level (2A19) in percent, 0 to 100; WireError for any other bytes."""
-    percent: int = parse_whole(Int8ul, bytes(data))
-    if percent > 100:
-        raise malformed(f"{percent} percent")
-    return percent
+_PERCENT = OneOf(Int8ul, range(101))
 
-
-def build_battery(percent: int) -> bytes:
-    """Return the bytes of a battery level in percent; ValueError unless it is 0 to 100."""
-    if not 0 <= percent <= 100:
-        raise ValueError(f"{percent} percent")
-    return build_whole(Int8ul, percent)
+parse_battery: partial[int] = partial(parse_whole, _PERCENT)
+"""Return the battery level (2A19) in percent, 0 to 100; WireError for any other bytes."""
+build_battery = partial(build_whole, _PERCENT)
+"""Return the bytes of a battery level in percent; ValueError unless it is 0 to 100."""

@@ -88,29 +88,3 @@ def identify(name: str, services: Sequence[str], own: Iterable[Profile] = ()) ->
 
     Profiles of an app's `own` devices go before the built-in ones."""
     return next((profile for profile in (*own, *PROFILES) if advertises(profile, name, services)), None)
-
-
-@frozen
-class ScanFilter:
-    """One condition of a scan, of which a device meets at least one; a condition that is "" is none."""
-
-    name: str = ""
-    prefix: str = ""
-    """Start of the name."""
-    service: str = ""
-    """UUID of a service that is advertised."""
-
-
-def scan_filters(profiles: Iterable[Profile]) -> tuple[ScanFilter, ...]:
-    """Return the conditions under which a scan or the chooser of a browser shows the devices of these profiles."""
-    conditions: list[ScanFilter] = []
-    for profile in profiles:
-        conditions += [ScanFilter(service=service) for service in profile.services]
-        conditions += [ScanFilter(name=name) for name in profile.names]
-        conditions += [ScanFilter(prefix=prefix) for prefix in profile.prefixes]
-    return tuple(dict.fromkeys(conditions))
-
-
-def used_services(profiles: Iterable[Profile]) -> tuple[str, ...]:
-    """Return the UUIDs of all services that devices of these profiles are used by, which a browser must know first."""
-    return tuple(dict.fromkeys(channel.service for profile in profiles for channel in profile.channels))
