@@ -5,7 +5,7 @@
 
 protocol/fleet.md describes the rows that a phone sends, the order in which they are used, and the state."""
 
-from ..events.fleet import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
+from .events import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
 from .fleet import Fleet
 from .rows import EVENT_COLUMNS, SENT_COLUMNS, event_row, read_line, read_lines, read_sent, sent_line, sent_row
 from .step.keyed import Keyed

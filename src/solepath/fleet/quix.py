@@ -18,7 +18,7 @@ from quixstreams import State, message_context
 from quixstreams.dataframe import StreamingDataFrame
 from quixstreams.models.serializers.simple_types import BytesDeserializer
 
-from ..events.fleet import SentRejected, SentRejection
+from .events import SentRejected, SentRejection
 from .fleet import Fleet
 from .rows import event_row, read_line
 from .step.keyed import Keyed

@@ -12,8 +12,8 @@ import pyarrow as pa
 import pyarrow.compute as pc
 from pyarrow import parquet
 
-from ...events.fleet import FleetEvent
 from ...recording import printable
+from ..events import FleetEvent
 from ..parquet import SCHEMA
 from .sending import Remark
 

@@ -12,10 +12,10 @@ from typing import Any
 
 from attrs import frozen
 
-from ...events.fleet import SentRejection
 from ...link.decoder import Decoder
 from ...link.kinds import make_kinds
 from ...types import Packet, Sample, Site
+from ..events import SentRejection
 from ..step.sent import MAX_DATA_LENGTH, End, Tick
 
 LATE_SHARE, MAX_DELAY_ROWS = 0.02, 100

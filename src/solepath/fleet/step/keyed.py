@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 from ...events import Event
-from ...events.fleet import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
 from ...saving.codec import SnapshotError
 from ...session import Session
 from ...types import Packet
+from ..events import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
 from .order import MissingNumbers, RejectedItem, RowOrder, check_payload, is_valid
 from .sent import MAX_COUNT, MAX_DETAIL_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
 from .sessions import Sessions

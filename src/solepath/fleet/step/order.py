@@ -12,8 +12,8 @@ from math import inf
 
 from attrs import define, field, frozen
 
-from ...events.fleet import SentRejection
 from ...types import Packet, Site
+from ..events import SentRejection
 from .sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_DETAIL_LENGTH, MAX_NAME_LENGTH, MAX_TIME, End, Tick
 from .unused import NumberSpan, StrayRows, UnusedNumbers
 

@@ -7,8 +7,8 @@ from typing import Any, SupportsIndex
 from attrs import frozen
 
 from ...events import Event
-from ...events.fleet import FleetEvent
 from ...types import Packet
+from ..events import FleetEvent
 
 MAX_COUNT = 2**53 - 1
 """Largest run and number: the JSON of every language reads it exactly."""

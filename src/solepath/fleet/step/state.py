@@ -14,8 +14,8 @@ from struct import error as StructError
 
 from attrs import define, field, frozen
 
-from ...events.fleet import SentRejection
 from ...types import Packet, Site
+from ..events import SentRejection
 from .order import Payload, RejectedItem
 from .sent import MAX_COUNT, End, Tick
 from .unused import NumberSpan, StrayRows, UnusedNumbers

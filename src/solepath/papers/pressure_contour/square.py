@@ -23,13 +23,13 @@ from pathlib import Path
 import numpy as np
 
 from ...calibration import Calibration, CalibrationError
-from ...calibration.file import read_rows
 from ...events import StrideTaken
 from ...recipes import Recipe
 from ...session import Session
 from ...types import Foot, Packet, Sample, Vec3
 from ...types.attrs import evolve, frozen
 from ...types.vector import from_yaw, rotate
+from ..tables import read_rows
 from .bias_zupt import BiasZupt
 from .recipe import PRESSURE_CONTOUR
 

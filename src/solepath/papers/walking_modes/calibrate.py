@@ -18,7 +18,6 @@ from operator import attrgetter
 from pathlib import Path
 
 from ...calibration import Calibration, CalibrationError
-from ...calibration.file import read_rows
 from ...events import TouchedDown
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.stance.cycle import Cycle
@@ -27,6 +26,7 @@ from ...recording.decoded import DecodedRecording
 from ...session import Session
 from ...types import Foot, WalkingMode
 from ...types.attrs import evolve, frozen
+from ..tables import read_rows
 from .modes import Modes
 from .settings import ModesSettings
 

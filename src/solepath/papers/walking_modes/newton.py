@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from ...calibration import CalibrationError, Newtons
-from ...calibration.file import read_rows
 from ...types.attrs import frozen
+from ..tables import read_rows
 
 LOWEST_FORCE, HIGHEST_FORCE = 5.0, 200.0
 """Range of the paper's insole, N."""

@@ -24,9 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....calibration import Calibration, CalibrationError, ShoeGeometry
-from ....calibration.file import read_rows
 from ....saving.files import write_whole
 from ....types.attrs import frozen
+from ...tables import read_rows
 
 COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")
 """Names of the columns that a file must have."""

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from enum import Enum
 
+from ..events.happening import BaseEvent
 from ..types.attrs import frozen
-from .happening import BaseEvent
 
 
 class SentRejection(Enum):
