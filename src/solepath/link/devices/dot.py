@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import fsum, isfinite, radians
 from typing import Any
 
-from construct import Bytes, Const, ExprValidator, Int8ul, Int16ul, Int32ul, OneOf, Struct, Terminated
+from construct import Bytes, Const, ExprValidator, Int8ul, Int16ul, Int32ul, OneOf, Struct
 
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, Hex
@@ -86,7 +86,6 @@ def _driver(name: str, mode: int, stream: Channel, definition: Definition, reade
             "type" / OneOf(Int8ul, [1]),
             "action" / OneOf(Int8ul, [0, 1]),
             "mode" / OneOf(Int8ul, [*range(1, 8), *range(16, 27)]),
-            Terminated,
         ),
         device_control: Struct(
             "visit" / Int8ul,
@@ -98,9 +97,8 @@ def _driver(name: str, mode: int, stream: Channel, definition: Definition, reade
             "rate" / ExprValidator(Int16ul, _is_rate_allowed),
             "filter" / Int8ul,
             "reserved" / Hex(Bytes(5)),
-            Terminated,
         ),
-        battery: Struct("percent" / OneOf(Int8ul, range(101)), "charging" / OneOf(Int8ul, [0, 1]), Terminated),
+        battery: Struct("percent" / OneOf(Int8ul, range(101)), "charging" / OneOf(Int8ul, [0, 1])),
     }
     readers = {stream.name: reader, control: read_control, device_control: _device_control, battery: _battery}
     return Driver(profile, formats, readers, tick_rate=1e6, tick_modulus=1 << 32)
@@ -122,7 +120,6 @@ DRIVER = _driver(
         "acc" / ExprValidator(Fields("<3f"), _all_finite),
         "gyro" / ExprValidator(Fields("<3f"), _all_finite),
         Const(bytes(12)),
-        Terminated,
     ),
     _rates,
 )
@@ -136,6 +133,6 @@ ORIENTATION_DRIVER = _driver(
     "dot-orientation",
     5,
     Channel("dot-orientation/quaternion", _uuid(0x2000), _uuid(0x2004), Access.NOTIFY),
-    Struct("ticks" / Int32ul, "quat" / ExprValidator(Fields("<4f"), _has_length_one), Terminated),
+    Struct("ticks" / Int32ul, "quat" / ExprValidator(Fields("<4f"), _has_length_one)),
     _quaternion,
 )

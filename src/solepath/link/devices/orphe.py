@@ -8,20 +8,7 @@ from __future__ import annotations
 from math import radians
 from typing import Any
 
-from construct import (
-    Array,
-    Bytes,
-    Const,
-    ExprValidator,
-    GreedyBytes,
-    Int8ub,
-    Int16ub,
-    OneOf,
-    Struct,
-    Switch,
-    Terminated,
-    this,
-)
+from construct import Array, Bytes, Const, ExprValidator, GreedyBytes, Int8ub, Int16ub, OneOf, Struct, Switch, this
 
 from ...types import Foot
 from ...types.vector import GRAVITY
@@ -90,7 +77,6 @@ FORMATS = {
         "millisecond" / OneOf(Int16ub, range(1000)),
         "samples" / Switch(this.header, _SAMPLES),
         "unused" / Hex(Switch(this.header, {50: Bytes(12), 56: Bytes(32)}, default=Bytes(0))),
-        Terminated,
     ),
     "orphe/info": Struct(
         "battery" / Int8ub,
@@ -100,7 +86,7 @@ FORMATS = {
         "gyro_range" / OneOf(Int8ub, range(4)),
         "rest" / ExprValidator(Hex(GreedyBytes), _is_short_enough),
     ),
-    "orphe/mode": Struct(Const(b"\x0d"), "mode" / OneOf(Int8ub, [1, 2, 3, 4]), Terminated),
+    "orphe/mode": Struct(Const(b"\x0d"), "mode" / OneOf(Int8ub, [1, 2, 3, 4])),
 }
 
 

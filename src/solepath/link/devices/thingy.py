@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import radians
 from typing import Any
 
-from construct import Int8ul, Int16ul, Int32sl, OneOf, Struct, Terminated
+from construct import Int8ul, Int16ul, Int32sl, OneOf, Struct
 
 from ...types.vector import GRAVITY
 from ...wire.fields import Fields
@@ -53,16 +53,15 @@ PROFILE = Profile(
 )
 
 FORMATS = {
-    "thingy/motion": Struct("acc" / Fields("<3h"), "gyro" / Fields("<3h"), "mag" / Fields("<3h"), Terminated),
+    "thingy/motion": Struct("acc" / Fields("<3h"), "gyro" / Fields("<3h"), "mag" / Fields("<3h")),
     "thingy/motion-config": Struct(
         "pedometer_ms" / OneOf(Int16ul, range(100, 5001)),
         "temperature_ms" / OneOf(Int16ul, range(100, 5001)),
         "compass_ms" / OneOf(Int16ul, range(100, 1001)),
         "rate" / OneOf(Int16ul, range(5, 201)),
         "wake_on_motion" / OneOf(Int8ul, [0, 1]),
-        Terminated,
     ),
-    "thingy/pressure": Struct("hectopascal" / Int32sl, "hundredths" / OneOf(Int8ul, range(100)), Terminated),
+    "thingy/pressure": Struct("hectopascal" / Int32sl, "hundredths" / OneOf(Int8ul, range(100))),
     "thingy/environment-config": Struct(
         "temperature_ms" / OneOf(Int16ul, range(100, 5001)),
         "pressure_ms" / OneOf(Int16ul, range(50, 5001)),
@@ -70,7 +69,6 @@ FORMATS = {
         "colour_ms" / OneOf(Int16ul, range(200, 5001)),
         "gas_mode" / OneOf(Int8ul, [1, 2, 3]),
         "lamp" / Fields("<3B"),
-        Terminated,
     ),
 }
 
