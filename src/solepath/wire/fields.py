@@ -1,7 +1,7 @@
 """Additions to the library construct: several numbers in one call, bytes as hexadecimal digits, whole values.
 
-`Fields` parses several plain numbers with one call of `struct`. A construct for each number would be too slow for
-insole frames at 100 Hz. `parse_whole` and `build_whole` turn construct's exceptions into WireError and ValueError."""
+`Fields` parses several plain numbers with one call of `struct`; a construct for each number would be slow.
+`parse_whole` and `build_whole` turn construct's exceptions into WireError and ValueError."""
 
 from __future__ import annotations
 
