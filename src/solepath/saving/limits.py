@@ -21,7 +21,6 @@ MAX_DEPTH = 64
 MAX_DIGITS = 309
 """Largest number of digits of an int: one with more is beyond the largest float, 1.8e308."""
 _INT_LIMIT = 10**MAX_DIGITS
-_TEXT_LENGTH = 80
 
 
 class SnapshotError(ValueError):
@@ -54,12 +53,3 @@ def check_size(value: Any) -> None:
             return
         level = below
     raise ValueError(f"no snapshot has more than {MAX_DEPTH} lists and objects within each other")
-
-
-def shorten(value: Any) -> str:
-    """Return a JSON value as a short text for an error: the type of a list or an object, else its first characters."""
-    if isinstance(value, str):
-        return repr(value[:_TEXT_LENGTH])
-    if value is None or type(value) in (bool, float) or (type(value) is int and abs(value) < _INT_LIMIT):
-        return repr(value)[:_TEXT_LENGTH]
-    return type(value).__name__

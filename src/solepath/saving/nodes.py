@@ -19,7 +19,8 @@ from math import isfinite
 from typing import Any
 
 from ..types.attrs import field, frozen
-from .limits import MAX_VALUES, Classes, Json, SnapshotError, shorten
+from ..types.checking import describe
+from .limits import MAX_VALUES, Classes, Json, SnapshotError
 from .streams import Lists, Streams
 
 
@@ -96,7 +97,7 @@ class EnumNode:
         try:
             return self.cls(value)
         except (TypeError, ValueError):
-            raise SnapshotError(f"{shorten(value)} is no {self.cls.__name__}") from None
+            raise SnapshotError(f"{describe(value)} is no {self.cls.__name__}") from None
 
     def write(self, value: Any, lists: Lists) -> None:
         lists.ints.append(self.members.index(value))
@@ -314,7 +315,7 @@ class OpenNode:
     def _find(self, name: Any, classes: Classes) -> type:
         cls = self.known.get(name) if self.known else classes(_exact(str, name))
         if cls is None:
-            raise SnapshotError(f"a snapshot of a part {shorten(name)} that is not known here")
+            raise SnapshotError(f"a snapshot of a part {describe(name)} that is not known here")
         return cls
 
     def save(self, value: Any) -> Json:
@@ -335,7 +336,7 @@ class OpenNode:
             raise SnapshotError(f"packed with {name:.80}, and this recipe has {type(made).__name__}")
         record = self.record(type(made) if self.made else self._find(name, streams.classes))
         if identity != identify_record(record):
-            raise SnapshotError(f"packed with a part {shorten(name)} that had other fields")
+            raise SnapshotError(f"packed with a part {describe(name)} that had other fields")
         return record.read(made, streams)
 
 
@@ -369,7 +370,7 @@ class RecordNode(GeneratedNode):
         for name in saved | self.fields:
             if name not in saved or name not in self.fields:
                 lacks = "no" if name in saved else "not the"
-                raise SnapshotError(f"{self.cls.__name__} has {lacks} field {shorten(name)}")
+                raise SnapshotError(f"{self.cls.__name__} has {lacks} field {describe(name)}")
         loaded = {name: node.load(saved[name], classes) for name, node in self.fields.items()}
         new: Any = self.cls.__new__  # object's own makes no compiled classes
         record = new(self.cls)
@@ -415,7 +416,7 @@ def locate_error(error: Exception, cls: type, name: str) -> str:
 
 def _exact(kind: type, value: Any) -> Any:
     if type(value) is not kind:
-        raise SnapshotError(f"expected {kind.__name__}, found {shorten(value)}")
+        raise SnapshotError(f"expected {kind.__name__}, found {describe(value)}")
     return value
 
 

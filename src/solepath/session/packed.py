@@ -17,12 +17,12 @@ from typing import Any
 from ..calibration import Calibration
 from ..recipes import Recipe, shared_copy
 from ..saving.codec import SnapshotError
-from ..saving.limits import shorten
 from ..saving.nodes import schema_check
 from ..saving.schema import record_of
 from ..saving.streams import Lists, Streams, from_bytes, to_bytes
 from ..types import Foot, shared
 from ..types.attrs import define
+from ..types.checking import describe
 from .snapshot import check_names, make_class_lookup
 from .state import VERSION, SessionSettings, SessionState
 
@@ -120,7 +120,7 @@ def _read_state(streams: Streams, recipe: Recipe) -> SessionState:
     Raises SnapshotError when the state was packed with another recipe."""
     head: Head = HEAD.read(None, streams)
     if head.recipe != recipe.name:
-        raise SnapshotError(f"packed with the recipe {shorten(head.recipe)}, and this is {recipe.name!r}")
+        raise SnapshotError(f"packed with the recipe {describe(head.recipe)}, and this is {recipe.name!r}")
     state: SessionState = STATE.read(_make_initial_state(recipe, head), streams)
     streams.end()
     for foot in state.feet.values():

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 from ..link.kinds import DeviceKinds
 from ..recipes import Recipe, part_class, shared_copy
 from ..saving.codec import Classes, Json, SnapshotError, checksum, load, save
-from ..saving.limits import check_size, shorten
+from ..saving.limits import check_size
 from ..saving.schema import is_record
 from ..types import Foot, Site
 from ..types.attrs import evolve
+from ..types.checking import describe
 from ..types.registry import TABLE
 from .state import VERSION, SessionState, sort_by_key
 
@@ -37,7 +38,7 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
         raise SnapshotError("not a snapshot of a session")
     version = saved["solepath"]
     if version != VERSION:
-        raise SnapshotError(f"a snapshot of version {shorten(version)}; this release reads version {VERSION} alone")
+        raise SnapshotError(f"a snapshot of version {describe(version)}; this release reads version {VERSION} alone")
     state = load(SessionState, saved["state"], classes)
     state.decoders = sort_by_key(state.decoders, Site)
     state.feet = sort_by_key(state.feet, Foot)
@@ -90,4 +91,4 @@ def check_fit(state: SessionState, kinds: DeviceKinds, plan: IndexedPlan | None)
         kind = kinds.get(link.name)
         if kind is None or not kind.accepts(link):
             what = "restore it with its profile" if kind is None else "another driver declared it"
-            raise SnapshotError(f"a snapshot of a device {shorten(link.name)}: {what}")
+            raise SnapshotError(f"a snapshot of a device {describe(link.name)}: {what}")
