@@ -31,6 +31,8 @@ from .profile import Profile
 
 FULL_SCALE_COUNTS = 32768
 """Counts that are the full scale of a sensor with 16 bits."""
+RANGE_END_COUNTS = 32767
+"""Magnitude of a count at the end of the range of such a sensor."""
 MAX_COUNTER = 1 << 64
 """Number of values of the largest counter, which has 64 bits."""
 MIN_RATE, MAX_RATE = 0.1, 10_000.0

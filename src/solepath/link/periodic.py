@@ -26,7 +26,7 @@ from .clock import Clock
 from .counters import SampleTimes
 
 MIN_LOSS_GAP = 1.5
-"""Smallest gap between two arrivals that may be a loss, periods."""
+"""Smallest gap between two arrivals, or distance of two device times (stream.py), that may be a loss, periods."""
 MIN_LATE_PERIODS, MIN_UNSETTLED_LATE_PERIODS = 0.9, 0.75
 """Smallest delay behind its slot at which a packet may belong to a later slot, periods: of a settled and a new fit."""
 MIN_LATE_JITTERS = 5.0

@@ -119,7 +119,11 @@ def ti_sensor(device: str, name: str, service: int, period: int = 3) -> tuple[Ch
 
 def standard_uuid(short: int) -> str:
     """Return the complete UUID of a 16-bit id that the Bluetooth SIG has assigned."""
-    return f"0000{short:04x}-0000-1000-8000-00805f9b34fb"
+    return f"{short:08x}{BASE_UUID}"
+
+
+BASE_UUID = "-0000-1000-8000-00805f9b34fb"
+"""End of every UUID that Bluetooth itself assigns (Bluetooth Core, vol 3 part B, 2.5.1)."""
 
 
 FIRMWARE = Channel("device/firmware", standard_uuid(0x180A), standard_uuid(0x2A26), Access.READ)

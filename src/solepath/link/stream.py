@@ -20,7 +20,7 @@ from .clock import MIN_INCREMENT
 from .counters import PacketPosition, PacketRun, SampleTimes, signed_difference
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
-from .periodic import PeriodicClock
+from .periodic import MIN_LOSS_GAP, PeriodicClock
 
 TICKS_PER_SAMPLE = 100
 """Ticks that stand for one sample of a device that only counts; more than one, as a pause may end between samples."""
@@ -32,8 +32,6 @@ LONG_SILENCE, MIN_DELAY_AFTER_SILENCE, MIN_DELAY_AFTER_CONNECTION = 5.0, 2.5, 0.
 """Silence after which a device may have stopped counting, and delays of the next packet that show that it did, s.
 
 After a new connection, which delivers no old packets, MIN_DELAY_AFTER_CONNECTION is enough, without a silence."""
-MIN_LOSS_GAP = 1.5
-"""Smallest distance of two packets that shows a loss when there are no sequence numbers, in packet intervals."""
 STEADY_PACKETS = 6
 """Number of packets in a row at a steady distance that shows that the rate is wrong."""
 RATE_TOLERANCE = 0.2

@@ -14,19 +14,16 @@ from typing import Any
 from ..events import Event
 from ..link.catalogue import BY_NAME, PROFILES
 from ..link.decoder import MAX_ARRIVAL_TIME, is_address
-from ..link.profile import Profile
+from ..link.profile import BASE_UUID, Profile
 from ..link.setup.device_setup import GattCharacteristic
 from ..types import Packet, Site
+from ..wire.receiver import MAX_NAME_SIZE
 from .host import Host, HostCommand, Observe
 from .session import Session
 
 Message = dict[str, Any]
 
 SITES = {site.value: site for site in Site}
-BASE_UUID = "-0000-1000-8000-00805f9b34fb"
-"""End of every UUID that Bluetooth itself assigns (Bluetooth Core, vol 3 part B, 2.5.1)."""
-MAX_NAME_LENGTH = 248
-"""Longest name of a device, characters (Bluetooth Core, vol 3 part C, 12.1: 248 bytes)."""
 HEX = re.compile("([0-9a-fA-F]{2})*")
 """Bytes as hexadecimal digits."""
 MAX_CHARACTERISTICS = 1000
@@ -232,7 +229,7 @@ KEYS: dict[str, tuple[tuple[type, ...], Callable[[Any], object], str]] = {
     "characteristics": ((list,), lambda rows: len(rows) <= MAX_CHARACTERISTICS, "characteristics are a list"),
     "connection": ((int,), _any, "connection is a whole number"),
     "device": ((str,), lambda device: device and is_address(device), "device is no address of a device"),
-    "name": ((str,), lambda name: len(name) <= MAX_NAME_LENGTH, "name is no name of a device"),
+    "name": ((str,), lambda name: len(name) <= MAX_NAME_SIZE, "name is no name of a device"),
     "packets": ((bool,), _any, "packets is true or false"),
     "reason": ((str,), len, "reason is a sentence"),
     "signal": ((int,), lambda signal: -127 <= signal <= 20, "signal is a whole number of dBm"),

@@ -13,7 +13,7 @@ from construct import Mapping as Named
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields
 from ...wire.sensortag import ON_OFF, PERIOD, hundredths
-from ..driver import FULL_SCALE_COUNTS, Driver, Known, Measured, Reading, scaled
+from ..driver import FULL_SCALE_COUNTS, RANGE_END_COUNTS, Driver, Known, Measured, Reading, scaled
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_sensor
 
 ACC_RANGE = 8.0
@@ -22,8 +22,6 @@ GYRO_SCALE = radians(500.0 / 65536.0)
 """Gyroscope scale, rad/s per count: +-250 degrees/s (TI, CC2650 SensorTag user's guide)."""
 MAG_SCALE = 4912.0 / 32760.0 * 1e-6
 """Magnetometer scale, T per count (InvenSense, MPU-9250 product specification: 4912 uT full scale, 32760 counts)."""
-RANGE_END_COUNTS = 32767
-"""Magnitude of a count at the end of a sensor's range."""
 
 PROFILE = Profile(
     name="cc2650",

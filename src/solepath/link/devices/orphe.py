@@ -13,7 +13,7 @@ from construct import Array, Bytes, Const, ExprValidator, GreedyBytes, Int8ub, I
 from ...types import Foot
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, Hex
-from ..driver import FULL_SCALE_COUNTS, Driver, Known, Measured, Reading, scaled
+from ..driver import FULL_SCALE_COUNTS, RANGE_END_COUNTS, Driver, Known, Measured, Reading, scaled
 from ..profile import FIRMWARE, Access, Channel, Profile, Write
 
 RATE_BY_HEADER = {50: 208.0, 54: 208.0, 55: 208.0, 56: 104.0}
@@ -26,8 +26,6 @@ GYRO_SCALE = radians(35e-6)
 """Gyroscope scale, rad/s per count and per degree/s of full scale.
 
 At 2000 degrees/s full scale a count is 0.070 degrees/s (ST, LSM6DSOX), not 2000 / 32768."""
-RANGE_END_COUNTS = 32767
-"""Magnitude of a count at the end of a sensor's range."""
 MAX_INFO_SIZE = 32
 """Largest size of an INFO value that is accepted, bytes; the maker's tests have 20."""
 
