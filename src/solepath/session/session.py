@@ -14,7 +14,6 @@ from ..body.part import Position, StartGiven
 from ..calibration import Calibration
 from ..events import Event, Placed
 from ..foot.phase import SUPPORT
-from ..foot.tracker import FootTracker
 from ..link.decoder import Decoder, is_address
 from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, shared_copy
@@ -26,6 +25,7 @@ from .state import SessionSettings, SessionState, sort_by_key
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
     from ..floorplan.plan import FloorPlan, Start
+    from ..foot.tracker import FootTracker
     from ..link.driver import Driver
     from ..saving.codec import Json
 

@@ -35,10 +35,8 @@ from ..events import (
     StrideTaken,
     WearerMoved,
 )
-from ..foot.pressure.sole import Sole
 from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.settings import FootSettings
-from ..foot.tracker import FootTracker
 from ..foot.view import FootView
 from ..link.decoder import Decoder
 from ..link.kinds import DeviceKinds
@@ -49,6 +47,7 @@ from ..types.plain import has_floats, number, text, with_floats
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
+    from ..foot.tracker import FootTracker
 
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
@@ -289,12 +288,12 @@ class SessionState:
             moved = self._run_parts(events, view, known_at)
             if moved is not None and self.settings.poses and stride:
                 events.append(moved)
-        if sample.pressure:
+        if sample.pressure and (sole := tracker.sole) is not None:
             if self.settings.pressures:
-                pressed = tracker.sole.make_event(t, known_at, sample.pressure)
+                pressed = sole.make_event(t, known_at, sample.pressure)
                 if pressed is not None:
                     events.append(pressed)
-            tracker.sole.insole.cells = ()
+            sole.insole.cells = ()
         return events
 
     def _feed_limb(self, sample: Sample) -> list[Event]:
@@ -368,22 +367,25 @@ class SessionState:
         """Return the foot's tracker, or a new one, which is not yet added to `feet`."""
         tracker = self.feet.get(foot)
         if tracker is None:
+            from ..foot.tracker import FootTracker  # an app starts without it: sensors take seconds to connect
+
             recipe, calibration = self.settings.recipe, self.settings.calibration
-            settings = FootSettings(self.settings.poses, recipe.needs_pressure, calibration.headings.get(foot))
-            detector, corrector, cues, insole = deepcopy(
-                (recipe.detector, recipe.corrector, recipe.cues, recipe.insole)
+            known = calibration.insole(foot)
+            settings = FootSettings(
+                self.settings.poses,
+                recipe.needs_pressure,
+                calibration.headings.get(foot),
+                recipe.insole.calibrated(known),
+                known.layout,
             )
+            detector, corrector, cues = deepcopy((recipe.detector, recipe.corrector, recipe.cues))
             tracker = FootTracker(
                 foot,
                 _calibrated(detector, calibration, foot),
                 _calibrated(corrector, calibration, foot),
                 settings,
                 cues=_calibrated(cues, calibration, foot),
-                sole=Sole(foot, _calibrated(insole, calibration, foot), settings),
             )
-            layout = calibration.insole(foot).layout
-            if layout is not None:
-                tracker.sole.set_calibrated_layout(layout)
         return tracker
 
     def _add_tracker(self, tracker: FootTracker) -> None:

@@ -73,8 +73,13 @@ TABLE: dict[str, dict[str, str]] = {
         "ShoeSensing": "solepath.papers.shoe_sensing.gated_tilt:ShoeSensing",
         "AnglePerMetre": "solepath.papers.shoe_sensing.walking_state:AnglePerMetre",
     },
-    # classes that a part loads when the first sample needs them
-    "aid": {"Compass": "solepath.body.fuse.compass:Compass"},
+    # classes that are loaded with the first sample that needs them (saving/schema.py)
+    "aid": {
+        "Compass": "solepath.body.fuse.compass:Compass",
+        "FootTracker": "solepath.foot.tracker:FootTracker",
+        "Sole": "solepath.foot.pressure.sole:Sole",
+        "Touch": "solepath.foot.cues.touch:Touch",
+    },
     # classes of links
     "link": {
         "InsoleLink": "solepath.link.devices.insole:InsoleLink",

@@ -13,9 +13,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ...calibration import Calibration, Newtons
-from ...types import Foot, Layout
-from ...types.attrs import define, evolve, field
+from ...calibration import Newtons
+from ...types import Layout
+from ...types.attrs import define, field
 from ...types.vector import TIME_EPSILON
 from ..settings import InsoleSettings
 from ..stance.stance import Load
@@ -120,12 +120,6 @@ class InsoleLoads:
     """The foot was in the air in the last sample."""
     load_risen: bool = field(default=False, init=False)
     """The load has risen again after it had fallen, so that it is known."""
-
-    def calibrated(self, foot: Foot, calibration: Calibration) -> InsoleLoads:
-        """Return a copy with the calibration of this foot's insole."""
-        insole, settings = calibration.insole(foot), self.settings
-        newtons, noise = insole.newtons or settings.newtons, insole.noise or settings.noise
-        return evolve(self, settings=evolve(settings, newtons=newtons, noise=noise))
 
     def set_layout(self, layout: Layout) -> None:
         """Set the layout of the cells."""

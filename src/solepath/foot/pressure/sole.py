@@ -8,7 +8,7 @@ from operator import add
 
 from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Cell, Foot, Layout, Phase, Sample
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, field
 from ..limitations import Limitations
 from ..settings import FootSettings
 from ..stance.stance import Load
@@ -117,8 +117,8 @@ class Sole:
     Failed cells are not used. If the layout is unknown and the recipe needs pressure, the layout is estimated."""
 
     foot: Foot
-    insole: InsoleLoads
     settings: FootSettings = FootSettings()
+    insole: InsoleLoads = field(init=False)
     had_cells: bool = field(default=False, init=False)
     """At least one sample with usable cells was added."""
     health: CellHealth = field(init=False)
@@ -137,15 +137,13 @@ class Sole:
     def __attrs_post_init__(self) -> None:
         self.health = CellHealth(SITE_OF_FOOT[self.foot])
         self.guess = LayoutGuess(self.foot)
+        self.insole = InsoleLoads(self.settings.insole)
+        self.calibrated_layout = self.settings.layout
 
     def set_layout(self, layout: Layout, limitations: Limitations) -> None:
         """Set the layout that the device has sent, or that of a calibration that matches the samples."""
         self.layout_estimated, self.calibrated_layout = False, None
         self._apply_layout(layout, limitations)
-
-    def set_calibrated_layout(self, layout: Layout) -> None:
-        """Set the layout of a calibration; it is used if samples have as many cells."""
-        self.calibrated_layout = layout
 
     def reset(self) -> None:
         """Discard what depends on unbroken samples, because times restart."""
@@ -241,4 +239,4 @@ class Sole:
     def _forget_layout(self) -> None:
         self.layout_estimated, self.highest = False, 0.0
         self.guess = LayoutGuess(self.foot)
-        self.insole = evolve(self.insole)  # a copy with the same settings and nothing learnt
+        self.insole = InsoleLoads(self.settings.insole)
