@@ -12,7 +12,8 @@ from typing import Any, TypeVar
 
 from ..events import Event
 from ..link.catalogue import BY_NAME, PROFILES
-from ..link.decoder import MAX_ARRIVAL_TIME, is_address
+from ..link.decoder import MAX_ARRIVAL_TIME
+from ..link.kinds import is_address
 from ..link.profile import Profile
 from ..link.setup.config import scan_filters, used_services
 from ..link.setup.device_setup import GattCharacteristic

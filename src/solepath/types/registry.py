@@ -76,7 +76,10 @@ TABLE: dict[str, dict[str, str]] = {
     # classes that are loaded with the first sample that needs them (saving/schema.py)
     "aid": {
         "Compass": "solepath.body.fuse.compass:Compass",
+        "Decoder": "solepath.link.decoder:Decoder",
         "FootTracker": "solepath.foot.tracker:FootTracker",
+        "PressureHeight": "solepath.body.activity.pressure_height:PressureHeight",
+        "Recovery": "solepath.foot.navigate.clipping:Recovery",
         "Sole": "solepath.foot.pressure.sole:Sole",
         "Touch": "solepath.foot.cues.touch:Touch",
     },

@@ -21,9 +21,8 @@ from functools import partial
 from math import hypot
 from typing import TYPE_CHECKING, ClassVar, Final
 
-from ...calibration import Calibration
+from ...calibration import Calibration, usual_strides
 from ...events import Defect, DefectFound, PositionReported, SampleGap, StrideTaken
-from ...foot.stride import usual_strides
 from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Phase, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen

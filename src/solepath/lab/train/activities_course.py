@@ -17,9 +17,8 @@ from attrs import frozen
 from ...body.activity.chain import Chances, Shifts
 from ...body.activity.elevator_evidence import BlockForce
 from ...body.activity.foot_blocks import BLOCK_DURATION
-from ...body.activity.hypotheses import BlockEvidence, Hypotheses
+from ...body.activity.hypotheses import NO_EVIDENCE, BlockEvidence, Hypotheses
 from ...body.activity.motion import MotionModel, motion_votes
-from ...body.activity.pressure_height import NO_EVIDENCE
 from ...types import Activity, Foot
 from .activities_net import CLASSES
 from .hugadb import SPAN_GAP, Span
