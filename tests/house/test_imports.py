@@ -202,7 +202,7 @@ ON_USE = {
     "body.fuse.compass": {"cc2650"},
     "body.activity.pressure_height": {"cc2650"},
 }
-"""Devices for which a module is loaded that a new session does not load. That of `orphe` has few cells, and touch.py is for these."""
+"""Devices for which a module is loaded that a new session does not load; `orphe` has few cells."""
 
 
 @pytest.mark.parametrize("device", ["insoles", "cc2650", "orphe"])
