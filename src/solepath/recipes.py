@@ -28,7 +28,7 @@ from .foot.cues.cues import Cues
 from .foot.cues.gait_cues import GaitCues
 from .foot.navigate.corrector import Corrector
 from .foot.navigate.error_state import ErrorStateFilter
-from .foot.pressure.insole import InsoleLoads
+from .foot.settings import InsoleSettings
 from .foot.stance.cycle import Cycle
 from .foot.stance.stance import Detector
 from .types.attrs import evolve, field, frozen
@@ -63,8 +63,8 @@ class Recipe:
     """Corrector, which navigates one foot and limits the drift by stance evidence."""
     cues: Cues = field(factory=GaitCues)
     """Cues, which detect the signs of heel-strike, foot-flat, heel-off and toe-off."""
-    insole: InsoleLoads = field(factory=InsoleLoads)
-    """Part that converts the readings of pressure cells to load."""
+    insole: InsoleSettings = InsoleSettings()
+    """Settings of what converts the readings of pressure cells to load."""
     parts: tuple[Part, ...] = field(factory=usual_parts)
     """Parts of the body, in the order in which they receive events (body/part.py)."""
     place: Part | None = None

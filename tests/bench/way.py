@@ -8,6 +8,7 @@ frame causes no event; frames of the other kind end a stride. Numbers are median
 Then come the modules of solepath that `import solepath; Session(...)` loads: their number, their lines, their syntax
 nodes as `.ci/size` counts them, and the processor time beside that of `import attrs, construct`, of `import solepath`
 alone, whose names are imported when they are first used, and of `solepath --help`. They are medians over new processes.
+The last line adds the first packets of two insoles, which load what a session needs from then on.
 `--calls` lists the functions of a frame of each kind.
 """
 
@@ -36,6 +37,7 @@ OURS = str(Path(solepath.__file__).parent) + "/"
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
 RECIPES = ("default", "kupt-dfpc", "footstep-tracker", "walking-modes", "pressure-contour", "shoe-sensing")
 """The default recipe and one of each paper."""
+FED = "default, after the first packets of two insoles"
 RUNS = 7
 """Number of fresh processes of each kind."""
 
@@ -130,6 +132,11 @@ began = process_time()
 {work}
 print(process_time() - began)
 """
+FIRST_PACKETS = 12
+"""Number of packets after which both insoles have sent their layout and some samples."""
+FEED_STATEMENT = """from solepath import Packet, Session, Site
+session = Session()
+for t, site, channel, data in {packets!r}: session.feed(Packet(t, Site(site), channel, data))"""
 START_STATEMENT = "from solepath import Session, recipes; Session(recipes.by_name({name!r}))"
 MODULES_PROGRAM = """
 import sys
@@ -143,13 +150,15 @@ print("\\n".join(files))
 SIZE = SourceFileLoader("size", str(Path(__file__).resolve().parents[2] / ".ci" / "size")).load_module()
 
 
-def print_loading() -> None:
+def print_loading(packets: tuple[Packet, ...]) -> None:
     """Print the times of each kind of process, run in rotation so that a slower machine slows down all of them."""
+    first = [(packet.t, packet.site.value, packet.channel, packet.data) for packet in packets[:FIRST_PACKETS]]
     works = {
         "attrs, construct": "import attrs, construct",
         "solepath": "import solepath",
         "help": "from solepath.cli import main\ntry: main(['--help'])\nexcept SystemExit: pass",
         **{name: START_STATEMENT.format(name=name) for name in RECIPES},
+        FED: FEED_STATEMENT.format(packets=first),
     }
     times: dict[str, list[float]] = {name: [] for name in works}
     for work in works.values():
@@ -161,7 +170,7 @@ def print_loading() -> None:
     print(f"import attrs, construct: {reference_time * 1e3:.0f} ms")
     print(f"import solepath, before any of its names is used: {median(times['solepath']) * 1e3:.0f} ms")
     print(f"solepath --help: {median(times['help']) * 1e3:.0f} ms")
-    for name in RECIPES:
+    for name in (*RECIPES, FED):
         sources = [
             Path(file).read_text("utf-8")
             for file in run_fresh(MODULES_PROGRAM.format(work=works[name])).split("\n")[:-1]
@@ -179,11 +188,12 @@ def main() -> None:
     parser.add_argument("--calls", action="store_true", help="list the functions of one frame of each kind")
     parser.add_argument("--no-import", action="store_true", help="the way alone")
     options = parser.parse_args()
-    frames_without_events, stride_frames = collect_calls(emulate(ROUTE, radio=CLEAN, seed=1).packets)
+    packets = emulate(ROUTE, radio=CLEAN, seed=1).packets
+    frames_without_events, stride_frames = collect_calls(packets)
     print_calls("a quiet frame", frames_without_events, options.calls)
     print_calls("a frame that ends a stride", stride_frames, options.calls)
     if not options.no_import:
-        print_loading()
+        print_loading(packets)
 
 
 if __name__ == "__main__":

@@ -183,6 +183,42 @@ def test_a_live_session_of_any_device_loads_neither_numpy_nor_bleak_nor_asyncio(
     assert "link.devices.insole" in own and "link.devices.cc2650" not in own, "a device loads when heard"
 
 
+USE_PROGRAM = """
+import json, sys
+from pathlib import Path
+from solepath import Packet, Session, Site
+session = Session()
+loaded = [[*sys.modules]]
+told = json.loads(Path(sys.argv[1]).read_text())
+session.feed([Packet(t, Site(site), channel, bytes.fromhex(data)) for t, site, channel, data in told])
+Session.restore(json.loads(json.dumps(session.snapshot()))).finish()
+loaded.append([*sys.modules])
+print(json.dumps(loaded))
+"""
+ON_USE = {
+    "link.decoder": {"insoles", "cc2650", "orphe"},
+    "foot.tracker": {"insoles", "cc2650", "orphe"},
+    "foot.navigate.clipping": {"insoles", "cc2650", "orphe"},
+    "foot.pressure.sole": {"insoles", "orphe"},
+    "foot.pressure.cell_health": {"insoles", "orphe"},
+    "foot.pressure.insole": {"insoles", "orphe"},
+    "foot.cues.touch": {"orphe"},
+    "body.fuse.compass": {"cc2650"},
+    "body.activity.pressure_height": {"cc2650"},
+}
+"""Devices for which a module is loaded that a new session does not load; `orphe` has few cells."""
+
+
+@pytest.mark.parametrize("device", ["insoles", "cc2650", "orphe"])
+def test_an_app_loads_only_the_parts_that_it_uses(device: str, tmp_path: Path) -> None:
+    file, walked = tmp_path / "packets.json", insoles().packets if device == "insoles" else packets()[device]
+    file.write_text(json.dumps([[p.t, p.site.value, p.channel, p.data.hex()] for p in walked[:600]]))
+    done = subprocess.run([sys.executable, "-c", USE_PROGRAM, str(file)], capture_output=True, text=True, check=True)
+    new, used = [{name.partition(".")[2] for name in loaded} for loaded in json.loads(done.stdout)]
+    assert {name for name in ON_USE if name in new} == set()
+    assert {name for name in ON_USE if name in used} == {name for name, users in ON_USE.items() if device in users}
+
+
 def test_names_and_the_help_of_commands_load_what_they_need_and_no_session() -> None:
     program = "import sys; {}; print(*[name for name in sys.modules if name.partition('.')[0] == 'solepath'])"
     helped = "from solepath.cli import main\ntry: main(['track', '--help'])\nexcept SystemExit: pass\nfinally: print()"
@@ -230,4 +266,4 @@ def test_a_session_loads_little_and_amid_a_walk_nothing_is_imported_and_no_file_
         count, amid = json.loads(done.stdout)
         assert amid == []
         if name == "default" and number == 0:
-            assert count <= 150, "`python tests/bench/way.py` says what importing takes"
+            assert count <= 90, "`python tests/bench/way.py` says what importing takes"

@@ -30,17 +30,17 @@ LOOK_EVERY = 61
 """Number of items after which the state is looked at."""
 
 STAYS = """
-Activities._restart: feet flights strides pressure_height.restart()
-Activities.reset: feet* apart flights.reset() left.feet.restart() pressure_height.restart() right.feet.restart()
+Activities._restart: feet flights strides
+Activities.reset: feet* apart flights.reset() left.feet.restart() right.feet.restart()
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now*
 AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* apart flights.reset()
 BiasFilter.forget: before bias* noise rate
 BiasFilter.reset: before bias* noise rate
-BothFeet._restart: aid common directions distance divergence errors* ground measured_at path placements started
+BothFeet._restart: common compass directions distance divergence errors* ground measured_at path placements started
   tracks* width straight_ways.reset()
-BothFeet.reset: aid* common* directions distance divergence errors measured_at path placements started tracks* width
-  aid.reset() apart straight_ways.reset()
+BothFeet.reset: common* compass* directions distance divergence errors measured_at path placements started tracks* width
+  apart compass.reset() straight_ways.reset()
 Cc2541Link.handle_reconnection: acc_clock calibration firmware gyro_clock
 Cc2541Link.restart_clock: assembler* calibration firmware
 CellHealth.reset: count lively_windows
@@ -82,7 +82,7 @@ MeanOfFeet.reset: apart
 Modes.reset: limb_sensors* pending places* recognition* reference signs touchdowns limb_sensors.reset()
   recognition.reset()
 PossibleMotion.reset: apart
-PressureHeight.restart: blocks compared newest noise walked apart
+PressureHeight.restart: blocks compared newest noise apart
 RateIntegral.clear:
 RateIntegral.restart: instants* t*
 Reassembly.drop: frame_id skipping

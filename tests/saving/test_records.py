@@ -18,7 +18,7 @@ from solepath.recipes import part_class
 from solepath.saving.codec import SnapshotError, load, save
 
 # internal: the packed form of a record that is not a whole session, and the schema from which it is made
-from solepath.saving.nodes import RecordNode
+from solepath.saving.nodes import LateNode, RecordNode
 from solepath.saving.schema import record_of
 from solepath.saving.streams import Lists, Streams, from_bytes, to_bytes
 from solepath.session.packed import Head
@@ -51,6 +51,7 @@ def told(value: Any) -> Any:
 
 def inside(node: Any) -> Iterator[Any]:
     """Yield a node and all nodes in it."""
+    node = node.record if isinstance(node, LateNode) else node
     yield node
     inner = [*getattr(node, "items", ()), getattr(node, "of", None), getattr(node, "key", None)]
     for one in [one for one in inner if one is not None]:

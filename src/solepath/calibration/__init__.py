@@ -10,6 +10,7 @@ from .records import (
     RestNoise,
     SensorCalibration,
     ShoeGeometry,
+    usual_strides,
 )
 
 __all__ = [
@@ -22,4 +23,5 @@ __all__ = [
     "RestNoise",
     "SensorCalibration",
     "ShoeGeometry",
+    "usual_strides",
 ]

@@ -15,6 +15,9 @@ MAX_CELLS = 4096
 MAX_TILT = 0.3
 """Largest error of the scale of a sensor, and largest share of one axis in another."""
 
+USUAL_STRIDE = 0.8
+"""Length from which a stride swings through the whole loop of rotations, m; that of a shorter one is smaller."""
+
 
 class CalibrationError(ValueError):
     """A calibration cannot be read or used; the message is one sentence that says what is wrong."""
@@ -122,6 +125,11 @@ class Limbs:
     """Length from below the ankle to the end of the foot, m."""
     ankle_height: float = field(default=0.068, metadata=LIMB)
     """Height of the ankle above the ground, m."""
+
+
+def usual_strides(length: float) -> float:
+    """Return the number of usual strides as which one of `length` m counts for the drift of the heading, 0 to 1."""
+    return min(1.0, length / USUAL_STRIDE)
 
 
 @frozen

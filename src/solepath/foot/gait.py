@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import hypot
 
-from ..calibration import HeadingCalibration
+from ..calibration import HeadingCalibration, usual_strides
 from ..events import Event
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import define, field
@@ -13,7 +13,7 @@ from .cues.cues import Cues, TimedCue
 from .gap import Infill
 from .navigate.corrector import Corrector
 from .phase import EVENT_OF_PHASE, PHASES, REMAINING_CUES, STRIDE, Cue
-from .stride import SHORTEST_STRIDE, StrideBuilder, usual_strides
+from .stride import SHORTEST_STRIDE, StrideBuilder
 from .template import StrideTemplate
 from .world import Covariance3, PathCovariance, World
 

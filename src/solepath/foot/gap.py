@@ -27,7 +27,7 @@ from ..types.vector import (
     sub,
     turned,
 )
-from .navigate.corrector import LONGEST_BRIDGE, Corrector
+from .navigate.corrector import LONGEST_BRIDGE, LONGEST_FILLED_GAP, Corrector
 from .template import RecordedStride, StrideMoment, StrideTemplate, interpolate_stride, limit_length, unpack_moments
 
 SHORTEST_FILLED_GAP = 0.06
@@ -52,8 +52,6 @@ LARGEST_MISMATCH = 60.0
 """Largest mismatch between foot and template with which a short gap is filled; no unit.
 
 With a larger mismatch before or after the gap, a straight line is the better estimate."""
-LONGEST_FILLED_GAP = 1.5
-"""Longest gap that is filled, s; a longer one may hide several strides."""
 FASTEST_FOOT = 4.0
 """Largest mean speed of a foot over a gap, m/s."""
 UP_VECTOR = (0.0, 0.0, 1.0)

@@ -6,9 +6,7 @@ from math import hypot, inf, isfinite
 from typing import NamedTuple
 
 from ..events import Defect, Rejection, SampleRejected
-from ..types import Quat, Sample, Vec3
-from ..types.attrs import evolve
-from ..types.vector import normalise
+from ..types import Sample, Vec3
 
 ABSURD_ACC = 500.0
 """Limit of each axis of a specific force, m/s^2; no foot sensor measures more."""
@@ -27,9 +25,6 @@ LEAST_TIME = -ABSURD_TIME
 """Lower limit of a time, s."""
 VALID_ACC_SQUARE, VALID_GYRO_SQUARE = ABSURD_ACC**2, ABSURD_GYRO**2
 """Squared norms, (m/s^2)^2 and (rad/s)^2, below which each axis is certainly within its limit."""
-
-SHORTEST_QUAT = 1e-12
-"""Square of the smallest norm of an attitude quaternion that can be normalised."""
 
 LARGEST_COUNT = 32768.0
 """Largest value of a sensor with 16 bits; 16 g are 16,000 milli-g."""
@@ -116,17 +111,6 @@ def _size_of_numbers(cells: tuple[float, ...]) -> float:
         return hypot(*[value for value in cells if value is not None and isfinite(value)])
     except OverflowError:  # an int may be too large for a float
         return inf
-
-
-def with_sound_attitude(sample: Sample, quat: Quat) -> Sample:
-    """Return the sample with its `quat` made a unit quaternion, or without attitude if that has no valid norm."""
-    w, x, y, z = quat
-    square = w * w + x * x + y * y + z * z
-    if 1.0 - 1e-9 < square < 1.0 + 1e-9:
-        return sample
-    if not SHORTEST_QUAT < square < 1.0 / SHORTEST_QUAT:  # also true for nan
-        return evolve(sample, quat=None)
-    return evolve(sample, quat=normalise(quat))
 
 
 def wrong_time(sample: Sample) -> RejectionReason | None:

@@ -8,8 +8,29 @@ docs/accuracy.md; docs/settings.md has the effect of half and of twice each. The
 
 from __future__ import annotations
 
-from ..calibration import HeadingCalibration, Newtons
-from ..types.attrs import frozen
+from ..calibration import HeadingCalibration, InsoleCalibration, Newtons
+from ..types import Layout
+from ..types.attrs import evolve, frozen
+
+
+@frozen
+class InsoleSettings:
+    """The settings of `InsoleLoads`."""
+
+    heel_end: float = 0.33
+    """Front end of the heel area, measured from the heel, as a share of the length of the insole, 0 to 1."""
+    forefoot_start: float = 0.55
+    """Rear end of the forefoot area, measured from the heel, as a share of the length of the insole, 0 to 1."""
+    newtons: Newtons | None = None
+    """Conversion of raw cell values to N; None leaves the values in the unit of the samples."""
+    noise: tuple[float, ...] = ()
+    """Value of each unloaded cell, to be subtracted: N with `newtons`, otherwise in the unit of the samples.
+
+    It is not used for an insole with another number of cells."""
+
+    def calibrated(self, insole: InsoleCalibration) -> InsoleSettings:
+        """Return the settings for an insole that was calibrated."""
+        return evolve(self, newtons=insole.newtons or self.newtons, noise=insole.noise or self.noise)
 
 
 @frozen
@@ -24,6 +45,9 @@ class FootSettings:
     A foot without cells then reports nothing, and an unknown layout of the cells is learnt."""
     heading: HeadingCalibration | None = None
     """Drift of the heading that is removed at the end of every stride; None when it was not calibrated."""
+    insole: InsoleSettings = InsoleSettings()
+    layout: Layout | None = None
+    """Layout of the cells by the calibration; it is used if samples have as many cells."""
 
 
 @frozen
@@ -106,22 +130,6 @@ class ErrorStateSettings:
     """Longest duration of unbroken evidence that the innovation gate rejects, s, whatever the usual stance."""
     level: bool = True
     """Remove height errors of level walking (level.py)."""
-
-
-@frozen
-class InsoleSettings:
-    """The settings of `InsoleLoads`."""
-
-    heel_end: float = 0.33
-    """Front end of the heel area, measured from the heel, as a share of the length of the insole, 0 to 1."""
-    forefoot_start: float = 0.55
-    """Rear end of the forefoot area, measured from the heel, as a share of the length of the insole, 0 to 1."""
-    newtons: Newtons | None = None
-    """Conversion of raw cell values to N; None leaves the values in the unit of the samples."""
-    noise: tuple[float, ...] = ()
-    """Value of each unloaded cell, to be subtracted: N with `newtons`, otherwise in the unit of the samples.
-
-    It is not used for an insole with another number of cells."""
 
 
 @frozen

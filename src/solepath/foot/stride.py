@@ -10,6 +10,7 @@ from ..types.attrs import define, field
 from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
 from .navigate.corrector import Corrector
 from .rhythm import follow
+from .view import FASTEST_RUN
 from .world import World
 
 MOST_COP_POINTS = 32
@@ -18,10 +19,6 @@ MOST_PITCHES = 32
 """Number of samples whose pitch is stored; a toe-off or heel-strike is dated back by fewer samples."""
 LONGEST_SWING = 3.0
 """Longest swing of a single stride, s."""
-FASTEST_RUN = 12.5
-"""Largest mean speed of a stride that is possible, m/s.
-
-It is that of the fastest 20 m of the world record of 100 m, 1.61 s from 60 to 80 m (Berlin 2009), rounded up."""
 CONTACT_PER_SWING = 1.5
 """Usual ratio of the time on the ground to the time of the swing before it: 60 to 40 % of a gait cycle (Perry 1992)."""
 LONGEST_CONTACT = 3.0
@@ -39,14 +36,6 @@ MOTION_GAIN, LARGEST_MOTION_RATIO = 0.2, 1.3
 """Weight of the newest time in the usual one, and the limit of its ratio to the usual one in the average."""
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
-
-USUAL_STRIDE = 0.8
-"""Length from which a stride swings through the whole loop of rotations, m; that of a shorter one is smaller."""
-
-
-def usual_strides(length: float) -> float:
-    """Return the number of usual strides as which one of `length` m counts for the drift of the heading, 0 to 1."""
-    return min(1.0, length / USUAL_STRIDE)
 
 
 @define

@@ -6,11 +6,11 @@ The results are events; `position` is the live position after each sample."""
 from __future__ import annotations
 
 from math import inf, sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..events import Event, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
-from ..types.attrs import define, evolve, field
+from ..types.attrs import MADE_AGAIN, define, evolve, field
 from ..types.vector import ZERO
 from .attitude import Levelling, Rest, WalkScale
 from .cues.cues import Cues, TimedCue
@@ -20,7 +20,6 @@ from .gap import SHORTEST_FILLED_GAP, NoInfill, find_infill
 from .limitations import LACKING_TIME, Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .phase import SWING
-from .pressure.insole import InsoleLoads, Sole
 from .rejection import ABSURD_TIME, rejected, rejection_reason
 from .rhythm import LARGEST_RATIO, LEAST_RATIO
 from .settings import FootSettings
@@ -75,6 +74,10 @@ class Rhythm:
         return True
 
 
+if TYPE_CHECKING:
+    from .pressure.insole import Sole
+
+
 @define
 class FootTracker:
     """Tracks one foot from its samples, which must be in order of time."""
@@ -84,8 +87,8 @@ class FootTracker:
     corrector: Corrector
     settings: FootSettings = FootSettings()
     cues: Cues = field(factory=GaitCues)
-    sole: Sole = field()
-    """Pressure cells of the foot."""
+    sole: Sole | None = field(default=None, init=False, metadata=MADE_AGAIN)
+    """Pressure cells of the foot; None until there are any."""
     t: float | None = field(default=None, init=False)
     """Time of the newest sample, s; None before any."""
     moved_at: float | None = field(default=None, init=False)
@@ -109,9 +112,12 @@ class FootTracker:
         self.gait = Gait(self.foot, self.settings.heading)
         self.limitations = Limitations(self.foot)
 
-    @sole.default
-    def _default_sole(self) -> Sole:
-        return Sole(self.foot, InsoleLoads(), self.settings)
+    def make_sole(self) -> Sole:
+        """Make the sole of a foot whose sensor has pressure cells, if it has none yet; return it."""
+        from .pressure.insole import Sole  # many sensors have no cells
+
+        sole = self.sole = self.sole or Sole(self.foot, self.settings)
+        return sole
 
     @property
     def phase(self) -> Phase:
@@ -147,16 +153,18 @@ class FootTracker:
         self, sample: Sample, known_at: float, happened: bool, with_covariance: bool, other_t: float | None
     ) -> FootView:
         """Return the view after `sample`; if events `happened`, `other_t` is `viewed_at` of the other foot, s."""
-        corrector, gait, cells, rest = self.corrector, self.gait, self.sole.insole.cells, self.rest
+        corrector, gait, rest = self.corrector, self.gait, self.rest
+        insole = None if self.sole is None else self.sole.insole
         after, pressed = None, None
         if happened:
-            layout, error = self.sole.insole.layout, gait.world.rotate_vector(corrector.velocity_error)
+            layout = None if insole is None else insole.layout
+            error = gait.world.rotate_vector(corrector.velocity_error)
             takes_shifts = with_covariance and hasattr(corrector, "shift")
             covariance = gait.covariance(corrector) if with_covariance else None
             attitude, bias = gait.stride.attitude, rest.bias_filter.bias
             after = AfterEvents(attitude, layout, other_t, takes_shifts, covariance, bias, error)
-        if cells:
-            insole, layout = self.sole.insole, self.sole.insole.layout
+        if insole is not None and insole.cells:
+            cells, layout = insole.cells, insole.layout
             newtons = insole.settings.newtons is not None or (layout is not None and layout.scale is not None)
             without_inertial = self.moved_at is None and sample.gyro is None
             centre = insole.centre_of_pressure(cells) if without_inertial else None
@@ -182,11 +190,12 @@ class FootTracker:
 
     def set_layout(self, layout: Layout) -> None:
         """Set the layout of the pressure cells that the device has sent."""
-        self.sole.set_layout(layout, self.limitations)
-        self._set_layouts(layout)
+        sole = self.make_sole()
+        sole.set_layout(layout, self.limitations)
+        self._set_layouts(sole, layout)
 
-    def _set_layouts(self, layout: Layout) -> None:
-        self.sole.layout_changed = False
+    def _set_layouts(self, sole: Sole, layout: Layout) -> None:
+        sole.layout_changed = False
         self.detector.set_layout(layout)
         self.cues.set_layout(layout)
         self.limitations.queue(self.detector.lacking)
@@ -202,10 +211,11 @@ class FootTracker:
         detector: Any = self.detector
         self.detector = evolve(detector)
         self.cues.restart()
-        if self.sole.insole.layout is not None:
-            self._set_layouts(self.sole.insole.layout)
+        if self.sole is not None:
+            if self.sole.insole.layout is not None:
+                self._set_layouts(self.sole, self.sole.insole.layout)
+            self.sole.reset()
         self.levelling = Levelling()
-        self.sole.reset()
         self.rest.reset()
         self.walk_scale.reset()
 
@@ -227,8 +237,11 @@ class FootTracker:
             self.t = t
         if sample.saturated:
             self.gait.stride.mark_degraded(t)
-        load = self._add_cells(sample, known_at, events) if sample.pressure or self.sole.had_cells else None
-        if load is None and self.settings.needs_pressure and not self.sole.had_cells:
+        sole, load = self.sole, None
+        if sample.pressure or (sole is not None and sole.had_cells):
+            sole = sole or self.make_sole()
+            load = self._add_cells(sole, sample, known_at, events)
+        if load is None and self.settings.needs_pressure and (sole is None or not sole.had_cells):
             text = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
             self.limitations.report_lacking(text, t, known_at, events)
             return events
@@ -294,13 +307,13 @@ class FootTracker:
             self._report_motion(t, known_at, events)
         return events
 
-    def _add_cells(self, sample: Sample, known_at: float, events: list[Event]) -> Load | None:
+    def _add_cells(self, sole: Sole, sample: Sample, known_at: float, events: list[Event]) -> Load | None:
         """Add the pressure cells of a sample; return the load, or None while it is not known."""
-        sole, gait = self.sole, self.gait
+        gait = self.gait
         with_centre = self.cues.uses_centre or self.detector.uses_centre
         load = sole.add_sample(sample, known_at, gait.phase, with_centre, self.limitations, events)
         if sole.layout_changed and sole.insole.layout is not None:
-            self._set_layouts(sole.insole.layout)
+            self._set_layouts(sole, sole.insole.layout)
         if load is None or gait.phase is SWING or gait.stride.t_toe_off is not None:
             return load
         if gait.stride.add_load(sole.insole.sum):

@@ -9,6 +9,11 @@ from ..types.attrs import define
 from .navigate.bias import Bias
 from .world import Covariance3
 
+FASTEST_RUN = 12.5
+"""Largest mean speed of a stride that is possible, m/s.
+
+It is that of the fastest 20 m of the world record of 100 m, 1.61 s from 60 to 80 m (Berlin 2009), rounded up."""
+
 
 class PressedCells(NamedTuple):
     """The values of the pressure cells of one sample, calibrated and without noise."""

@@ -22,20 +22,12 @@ from ..events import BatteryLevel, ClockReset, Connected, PacketRejected, Reject
 from ..types import Packet, Site
 from ..types.attrs import NOT_SAVED, define, field, fields
 from ..wire.error import WireError
-from .kinds import BUILT_IN_KINDS, DeviceKinds, DeviceLink, Output
+from .kinds import BUILT_IN_KINDS, DeviceKinds, DeviceLink, Output, is_address
 
 SET_BACK_PACKETS = 20
 """Number of packets in a row with earlier arrivals that shows that the receiver's clock was set back."""
 MAX_ARRIVAL_TIME = 1e11
 """Largest magnitude of an arrival time, s."""
-
-LONGEST_ADDRESS = 256
-"""Largest length of a device's address; those of systems have 17 characters, or 36."""
-
-
-def is_address(device: str) -> bool:
-    """Return whether `device` can be saved as an address: printable text of at most LONGEST_ADDRESS characters."""
-    return len(device) <= LONGEST_ADDRESS and device.isprintable()
 
 
 @define

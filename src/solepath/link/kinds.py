@@ -24,6 +24,14 @@ Output = list[Sample | LinkEvent]
 MAX_PRESSURE_WAIT = 1.0
 """Time without inertial samples after which air pressure no longer waits for a sample, s."""
 
+LONGEST_ADDRESS = 256
+"""Largest length of a device's address; those of systems have 17 characters, or 36."""
+
+
+def is_address(device: str) -> bool:
+    """Return whether `device` can be saved as an address: printable text of at most LONGEST_ADDRESS characters."""
+    return len(device) <= LONGEST_ADDRESS and device.isprintable()
+
 
 class DeviceLink(Protocol):
     """A plain record that turns the values of one device's channels into samples on one clock."""

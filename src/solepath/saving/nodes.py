@@ -340,6 +340,37 @@ class OpenNode:
         return record.read(made, streams)
 
 
+@frozen(eq=False)
+class LateNode:
+    """A record of the class `name`, which is imported only when there is one."""
+
+    name: str
+    made: bool
+    """True as in `RecordNode`."""
+    record_of: Callable[[str, bool], RecordNode] = field(repr=False)
+    """Function that imports the class and returns the schema of its records."""
+
+    @cached_property
+    def record(self) -> RecordNode:
+        """The schema of the record."""
+        return self.record_of(self.name, self.made)
+
+    def __repr__(self) -> str:
+        return repr(self.record)
+
+    def save(self, value: Any) -> Json:
+        return self.record.save(value)
+
+    def load(self, value: Any, classes: Classes) -> Any:
+        return self.record.load(value, classes)
+
+    def write(self, value: Any, lists: Lists) -> None:
+        self.record.write(value, lists)
+
+    def read(self, made: Any, streams: Streams) -> Any:
+        return self.record.read(made, streams)
+
+
 _TEXT = DataNode(str)
 
 
@@ -392,7 +423,7 @@ class RecordNode(GeneratedNode):
         return write, [*read, "return o"], names
 
 
-Node = NumberNode | DataNode | EnumNode | MaybeNode | RowNode | TupleNode | DictNode | OpenNode | RecordNode
+Node = NumberNode | DataNode | EnumNode | MaybeNode | RowNode | TupleNode | DictNode | OpenNode | LateNode | RecordNode
 
 
 def schema_check(*records: RecordNode) -> int:

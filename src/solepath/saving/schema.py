@@ -8,6 +8,9 @@ An annotation that is a Protocol is *open*: the value is a record of any class. 
 and the caller of `load` passes a function that returns the class. A union of records is open too, but has only its own
 classes.
 
+A class in the row "aid" of types/registry.py is imported only when there is a record of it: a module that has such a
+field imports it under `if TYPE_CHECKING`, and where it makes the first one.
+
 Fields that a constructor takes are *settings* and never change; other fields (`init=False`) are *state*. A class with
 state is a *part*. When a session is unpacked, the *holder* of a part (the record that has it in a field) makes the part
 again with the same settings. The packed form of such a part has only its state, and the state of parts in its settings.
@@ -20,6 +23,7 @@ written with all fields: parts that may be absent, and records without state. Tw
 
 from __future__ import annotations
 
+import sys
 import types
 import typing
 from collections import Counter, deque
@@ -31,10 +35,12 @@ from typing import Any
 import attrs
 
 from ..types.attrs import MADE_AGAIN, NOT_SAVED, ROW_SIZE
+from ..types.registry import TABLE, load
 from .nodes import (
     DataNode,
     DictNode,
     EnumNode,
+    LateNode,
     MaybeNode,
     Node,
     NumberNode,
@@ -47,6 +53,14 @@ from .nodes import (
 
 NUMBERS = (float, int, bool)
 """Kinds of numbers, in the order of their streams."""
+
+
+class Late:
+    """Stands in an annotation for a class that may not be imported yet; the subclass has its name."""
+
+
+LATE: dict[str, Any] = {name: type(name, (Late,), {}) for name in TABLE["aid"]}
+"""The subclass for each class in the row."""
 _outer: ContextVar[tuple[type, ...]] = ContextVar("outer", default=())
 """Classes whose fields are being read, the outermost first."""
 
@@ -98,7 +112,7 @@ def has_state(hint: Any) -> bool:
     """Return whether a value with this annotation is a part, or has a part in a setting."""
     if is_record(hint):
         return is_part(hint) or (not _is_frozen(hint) and any([has_state(inner) for _, inner in _fields(hint)]))
-    return is_open(hint) or any([has_state(argument) for argument in typing.get_args(hint)])
+    return is_open(hint) or is_late(hint) or any([has_state(argument) for argument in typing.get_args(hint)])
 
 
 def _is_frozen(cls: Any) -> bool:
@@ -109,6 +123,11 @@ def _is_frozen(cls: Any) -> bool:
 def is_open(cls: Any) -> bool:
     """Return whether `cls` is a Protocol, which as an annotation stands for records of any class."""
     return bool(getattr(cls, "_is_protocol", False))
+
+
+def is_late(hint: Any) -> bool:
+    """Return whether an annotation stands for a class that may not be imported yet."""
+    return isinstance(hint, type) and issubclass(hint, Late)
 
 
 @attrs.frozen
@@ -122,7 +141,8 @@ def _fields(record: Any) -> list[tuple[Any, Any]]:
     arguments: dict[Any, Any] = {}
     for base in (*getattr(cls, "__orig_bases__", ()), record):
         arguments |= zip(getattr(typing.get_origin(base), "__parameters__", ()), typing.get_args(base), strict=False)
-    hints = typing.get_type_hints(cls)
+    own: dict[str, Any] = getattr(sys.modules.get(cls.__module__), "__dict__", {})
+    hints = typing.get_type_hints(cls, localns={name: own.get(name, late) for name, late in LATE.items()})
     return [(one, _substituted(hints[one.name], arguments)) for one in attrs.fields(cls)]
 
 
@@ -154,6 +174,8 @@ def _node(hint: Any, made: bool) -> Node:
         return DataNode(hint)
     if isinstance(hint, EnumMeta):
         return EnumNode(hint, tuple(hint))
+    if is_late(hint):
+        return LateNode(hint.__name__, made, _record_of_late)
     if is_open(hint) or origin in (typing.Union, types.UnionType):
         return _union(hint, made)
     if is_record(hint):
@@ -182,7 +204,11 @@ def _union(hint: Any, made: bool) -> Node:
         node = OpenNode({kind.__name__: kind for kind in kinds}, made, _record_of_value)
     else:
         raise TypeError(f"it could not tell apart {hint!r}")
-    return MaybeNode(node, made) if types.NoneType in typing.get_args(hint) else node
+    return MaybeNode(node, made and not isinstance(node, LateNode)) if types.NoneType in typing.get_args(hint) else node
+
+
+def _record_of_late(name: str, made: bool) -> RecordNode:
+    return _record_of_value(load("aid", name), made)
 
 
 def _record_of_value(cls: type, made: bool) -> RecordNode:

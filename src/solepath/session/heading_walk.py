@@ -15,10 +15,9 @@ from math import atan2, fsum, hypot, pi, remainder, sqrt
 from ..body.fuse.both_feet import BothFeet
 from ..body.fuse.common_error import DRIFT, HEADING_NOISE, TURNING
 from ..body.fuse.position import MeanOfFeet
-from ..calibration import Calibration, CalibrationError, HeadingCalibration
+from ..calibration import Calibration, CalibrationError, HeadingCalibration, usual_strides
 from ..events import Event, StrideTaken
 from ..foot.navigate.bias import BIAS_WANDER, Bias
-from ..foot.stride import usual_strides
 from ..recipes import DEFAULT
 from ..types import Foot, Packet, Sample
 from ..types.attrs import evolve, frozen

@@ -13,7 +13,8 @@ from typing import Any
 
 from ..events import Event
 from ..link.catalogue import BY_NAME, PROFILES
-from ..link.decoder import MAX_ARRIVAL_TIME, is_address
+from ..link.decoder import MAX_ARRIVAL_TIME
+from ..link.kinds import is_address
 from ..link.profile import BASE_UUID, Profile
 from ..link.setup.device_setup import GattCharacteristic
 from ..types import Packet, Site

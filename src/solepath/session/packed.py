@@ -124,9 +124,8 @@ def _read_state(streams: Streams, recipe: Recipe) -> SessionState:
     state: SessionState = STATE.read(_make_initial_state(recipe, head), streams)
     streams.end()
     for foot in state.feet.values():
-        layout = foot.sole.insole.layout
-        if layout is not None:
-            foot.sole.insole.layout = shared(layout)
+        if foot.sole is not None and foot.sole.insole.layout is not None:
+            foot.sole.insole.layout = shared(foot.sole.insole.layout)
     return state
 
 
@@ -140,5 +139,7 @@ def _make_initial_state(recipe: Recipe, head: Head) -> SessionState:
     if state is None:
         state = SessionState(SessionSettings(recipe, head.calibration, head.poses, head.pressures, head.plan))
         state.feet = {foot: state._tracker(foot) for foot in Foot}
+        for tracker in state.feet.values():
+            tracker.make_sole()
         _templates = dict([*_templates.items(), (key, state)][-MAX_TEMPLATES:])
     return state

@@ -14,18 +14,17 @@ from ..body.part import Position, StartGiven
 from ..calibration import Calibration
 from ..events import Event, Placed
 from ..foot.phase import SUPPORT
-from ..foot.tracker import FootTracker
-from ..link.decoder import Decoder, is_address
-from ..link.kinds import DeviceKinds, make_kinds
+from ..link.kinds import DeviceKinds, is_address, make_kinds
 from ..recipes import DEFAULT, Recipe, shared_copy
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from ..types.plain import flag, text
 from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
-from .state import SessionSettings, SessionState, sort_by_key
+from .state import SessionSettings, SessionState
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
     from ..floorplan.plan import FloorPlan, Start
+    from ..foot.tracker import FootTracker
     from ..link.driver import Driver
     from ..saving.codec import Json
 
@@ -134,7 +133,7 @@ class Session:
         state = self._state
         decoder = state.decoders.get(site)
         if decoder is None or not decoder.is_bound_to(device):
-            state.decoders = sort_by_key({**state.decoders, site: Decoder(site, device)}, Site)
+            state.add_decoder(state.make_decoder(site, device))
             state.reset(site)
 
     @property

@@ -35,20 +35,19 @@ from ..events import (
     StrideTaken,
     WearerMoved,
 )
-from ..foot.pressure.insole import Sole
-from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.settings import FootSettings
-from ..foot.tracker import FootTracker
 from ..foot.view import FootView
-from ..link.decoder import Decoder
 from ..link.kinds import DeviceKinds
 from ..recipes import Recipe, part_class
 from ..types import OTHER, Foot, Packet, Sample, Site
 from ..types.attrs import MADE_AGAIN, NOT_SAVED, define, evolve, field, frozen
 from ..types.plain import has_floats, number, text, with_floats
+from ..types.vector import normalise
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
+    from ..foot.tracker import FootTracker
+    from ..link.decoder import Decoder
 
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
@@ -56,6 +55,8 @@ _Calibrated = TypeVar("_Calibrated")
 
 VERSION = 3
 """Version of the state, increased by 1 with every release that changes state or settings; no other can be restored."""
+SHORTEST_QUAT = 1e-12
+"""Square of the smallest norm of an attitude quaternion that can be normalised."""
 
 
 @frozen
@@ -128,7 +129,7 @@ class SessionState:
         if not (texts_plain and packet.t.__class__ is float and data.__class__ is bytes):
             t, channel, device = number("t of a packet", packet.t), text(packet.channel), text(packet.device)
             packet = evolve(packet, t=t, channel=channel, data=bytes(data), device=device)
-        decoder = self.decoders.get(site) or Decoder(site)
+        decoder = self.decoders.get(site) or self.make_decoder(site)
         newest_arrival = decoder.newest_arrival
         items = decoder.feed(packet, kinds)
         if not decoder.used:
@@ -138,7 +139,7 @@ class SessionState:
             self.use_items(site, items, events)
             return events
         if site not in self.decoders:
-            self.decoders = sort_by_key({**self.decoders, site: decoder}, Site)
+            self.add_decoder(decoder)
         for other_site, other_decoder in self.decoders.items():
             if other_site is not site and (other_items := other_decoder.advance(packet.t, kinds)):
                 self.use_items(other_site, other_items, events)
@@ -156,6 +157,16 @@ class SessionState:
                 self.notify(ClockUnsettled(site, until))
         self.use_items(site, items, events)
         return events
+
+    def make_decoder(self, site: Site, device: str = "") -> Decoder:
+        """Return a decoder for the device of a site, which is not yet added to `decoders`."""
+        from ..link.decoder import Decoder  # an app that feeds samples needs none
+
+        return Decoder(site, device)
+
+    def add_decoder(self, decoder: Decoder) -> None:
+        """Add a decoder in the place of the one of its site."""
+        self.decoders = sort_by_key({**self.decoders, decoder.site: decoder}, Site)
 
     def feed_sample(self, sample: Sample) -> list[Event]:
         """Add a sample; raise TypeError for one whose values are no numbers."""
@@ -260,7 +271,7 @@ class SessionState:
     def _use_sample(self, sample: Sample) -> list[Event]:
         """Add a sample of any site and return the events."""
         if sample.quat is not None:
-            sample = with_sound_attitude(sample, sample.quat)
+            sample = _with_sound_attitude(sample)
         foot = sample.site.foot
         if foot is None:
             return self._feed_limb(sample)
@@ -296,16 +307,18 @@ class SessionState:
             moved = self._run_parts(events, view, known_at)
             if moved is not None and self.settings.poses and stride:
                 events.append(moved)
-        if sample.pressure:
+        if sample.pressure and (sole := tracker.sole) is not None:
             if self.settings.pressures:
-                pressed = tracker.sole.make_event(t, known_at, sample.pressure)
+                pressed = sole.make_event(t, known_at, sample.pressure)
                 if pressed is not None:
                     events.append(pressed)
-            tracker.sole.insole.cells = ()
+            sole.insole.cells = ()
         return events
 
     def _feed_limb(self, sample: Sample) -> list[Event]:
         """Pass a sample from above the ankle to the parts that use it."""
+        from ..foot.rejection import rejected, wrong_time  # one recipe alone has a use for such samples
+
         fault = wrong_time(sample)
         if fault is not None:
             return [rejected(sample, fault, None)]
@@ -378,22 +391,25 @@ class SessionState:
         """Return the foot's tracker, or a new one, which is not yet added to `feet`."""
         tracker = self.feet.get(foot)
         if tracker is None:
+            from ..foot.tracker import FootTracker  # an app starts without it: sensors take seconds to connect
+
             recipe, calibration = self.settings.recipe, self.settings.calibration
-            settings = FootSettings(self.settings.poses, recipe.needs_pressure, calibration.headings.get(foot))
-            detector, corrector, cues, insole = deepcopy(
-                (recipe.detector, recipe.corrector, recipe.cues, recipe.insole)
+            known = calibration.insole(foot)
+            settings = FootSettings(
+                self.settings.poses,
+                recipe.needs_pressure,
+                calibration.headings.get(foot),
+                recipe.insole.calibrated(known),
+                known.layout,
             )
+            detector, corrector, cues = deepcopy((recipe.detector, recipe.corrector, recipe.cues))
             tracker = FootTracker(
                 foot,
                 _calibrated(detector, calibration, foot),
                 _calibrated(corrector, calibration, foot),
                 settings,
                 cues=_calibrated(cues, calibration, foot),
-                sole=Sole(foot, _calibrated(insole, calibration, foot), settings),
             )
-            layout = calibration.insole(foot).layout
-            if layout is not None:
-                tracker.sole.set_calibrated_layout(layout)
         return tracker
 
     def _add_tracker(self, tracker: FootTracker) -> None:
@@ -410,3 +426,16 @@ def _calibrated(part: _Calibrated, calibration: Calibration, foot: Foot) -> _Cal
     """Return the part with the foot's calibration, or unchanged if it has no `calibrated`."""
     calibrated = getattr(part, "calibrated", None)
     return part if calibrated is None else calibrated(foot, calibration)
+
+
+def _with_sound_attitude(sample: Sample) -> Sample:
+    """Return the sample with a unit quaternion, or without attitude if its quaternion has no valid norm."""
+    if sample.quat is None:
+        return sample
+    w, x, y, z = sample.quat
+    square = w * w + x * x + y * y + z * z
+    if 1.0 - 1e-9 < square < 1.0 + 1e-9:
+        return sample
+    if not SHORTEST_QUAT < square < 1.0 / SHORTEST_QUAT:  # also true for nan
+        return evolve(sample, quat=None)
+    return evolve(sample, quat=normalise(sample.quat))

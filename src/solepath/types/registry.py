@@ -73,8 +73,16 @@ TABLE: dict[str, dict[str, str]] = {
         "ShoeSensing": "solepath.papers.shoe_sensing.gated_tilt:ShoeSensing",
         "AnglePerMetre": "solepath.papers.shoe_sensing.walking_state:AnglePerMetre",
     },
-    # classes that a part loads when the first sample needs them
-    "aid": {"Compass": "solepath.body.fuse.compass:Compass"},
+    # classes that are loaded with the first sample that needs them (saving/schema.py)
+    "aid": {
+        "Compass": "solepath.body.fuse.compass:Compass",
+        "Decoder": "solepath.link.decoder:Decoder",
+        "FootTracker": "solepath.foot.tracker:FootTracker",
+        "PressureHeight": "solepath.body.activity.pressure_height:PressureHeight",
+        "Recovery": "solepath.foot.navigate.clipping:Recovery",
+        "Sole": "solepath.foot.pressure.insole:Sole",
+        "Touch": "solepath.foot.cues.touch:Touch",
+    },
     # classes of links
     "link": {
         "InsoleLink": "solepath.link.devices.insole:InsoleLink",

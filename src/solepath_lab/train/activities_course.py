@@ -17,9 +17,8 @@ from attrs import frozen
 from solepath.body.activity.chain import Chances, Shifts
 from solepath.body.activity.elevator_evidence import BlockForce
 from solepath.body.activity.foot_blocks import BLOCK_DURATION
-from solepath.body.activity.hypotheses import BlockEvidence, Hypotheses
+from solepath.body.activity.hypotheses import NO_EVIDENCE, BlockEvidence, Hypotheses
 from solepath.body.activity.motion import MotionModel, motion_votes
-from solepath.body.activity.pressure_height import NO_EVIDENCE
 from solepath.types import Activity, Foot
 
 from .activities_net import CLASSES

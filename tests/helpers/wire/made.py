@@ -14,6 +14,7 @@ from solepath.saving.nodes import (
     DataNode,
     DictNode,
     EnumNode,
+    LateNode,
     MaybeNode,
     NumberNode,
     OpenNode,
@@ -79,6 +80,8 @@ class Maker:
                 names = [*known] or (NAMES if self.depth < 9 else ("Cycle", "Turns"))
                 name = self.shape.choice(names)
                 return self.record(record_of(known.get(name) or part_class(name)))
+            case LateNode():
+                return self.record(node.record)
             case RecordNode():
                 return self.record(node)
 

@@ -7,9 +7,9 @@ from math import cos, degrees, pi, radians, sin, sqrt
 from pathlib import Path
 
 import pytest
-from attrs import evolve
 
 from solepath.calibration import Calibration, CalibrationError, InsoleCalibration, Newtons, ShoeGeometry
+from solepath.foot.pressure.insole import InsoleLoads
 from solepath.papers.kupt_dfpc.noise import pressure_noise
 from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT
 from solepath.papers.kupt_dfpc.shoe.fit import MeasuredPosture, fit_shoe, write_measurements
@@ -49,7 +49,7 @@ def test_the_insoles_two_areas_meet_at_the_board_12_5_of_28_5_cm_from_the_heel()
     """Fig. 3: the circuit board, where the sensor is, divides the cells."""
     cells = tuple(Cell(0.01 * k, 0.0) for k in (2, 12, 13, 25))
     for recipe in (KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT):
-        insole = evolve(recipe.insole)
+        insole = InsoleLoads(recipe.insole)
         insole.set_layout(Layout(4, Foot.LEFT, cells, 0.285))
         assert (insole.heel_cells, insole.forefoot_cells) == ((0, 1), (2, 3))
 

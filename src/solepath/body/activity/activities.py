@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from math import floor
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
@@ -28,9 +28,11 @@ from .early import ActivityCue, ActivityReport, BlockSigns, Early, cue_of_stride
 from .elevator_evidence import BlockForce, ElevatorEvidence
 from .flights import Flights, integrated_rise
 from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, FootBlocks
-from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses, activity_at
+from .hypotheses import BLOCKS_BEFORE, NO_EVIDENCE, ActivitySegment, BlockEvidence, Hypotheses, activity_at
 from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
-from .pressure_height import BLOCKS_BEFORE, PressureHeight
+
+if TYPE_CHECKING:
+    from .pressure_height import PressureHeight
 
 SILENT_BLOCKS = 3
 """Number of blocks without samples after which a foot is no longer waited for."""
@@ -66,7 +68,11 @@ class Activities(ActivityPart):
     next_block: int = field(default=0, init=False)
     """Number of the block that is judged next."""
     feet: PerFoot[FootBlocks] = field(factory=lambda: per_foot(FootBlocks), init=False)
-    pressure_height: PressureHeight = field(factory=PressureHeight, init=False)
+    pressure_height: PressureHeight | None = field(default=None, init=False)
+    """Heights by the barometers; None before any reading."""
+    walked: bool = field(default=False, init=False)
+    """Flag: the wearer has taken a stride. Before, no force can have shown that an elevator set off, and a slope of the
+    air pressure alone is no ride."""
     hypotheses: Hypotheses = field(factory=Hypotheses, init=False)
     report: ActivityReport = field(factory=ActivityReport, init=False)
     newest_block: int = field(default=-1, init=False)
@@ -98,7 +104,8 @@ class Activities(ActivityPart):
         if site.foot is None:
             return
         self.feet[site.foot].restart()
-        self.pressure_height.restart(site.foot)
+        if self.pressure_height is not None:
+            self.pressure_height.restart(site.foot)
         self.flights.reset()
         self.strides.clear()
         if all([side.index is None for side in self.feet.values()]):
@@ -114,7 +121,8 @@ class Activities(ActivityPart):
                 self.origin = t
             block_number = (t - self.origin + TIME_EPSILON) / BLOCK_DURATION
             if sample.air_pressure is not None and side.index is not None:
-                self.pressure_height.add(view.foot, floor(block_number), sample.air_pressure)
+                air = self.pressure_height or self._make_pressure_height()
+                air.add(view.foot, floor(block_number), sample.air_pressure)
             if acc is not None:
                 if side.index is None or block_number >= side.index + 1:
                     side.close()
@@ -128,8 +136,15 @@ class Activities(ActivityPart):
                         outputs += self._add_stride(event, floor(block_number))
         for event in events:  # a barometer that contradicts the strides is left out
             if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
-                self.pressure_height.leave_out(event.site.foot)
+                air = self.pressure_height or self._make_pressure_height()
+                air.leave_out(event.site.foot)
         return outputs
+
+    def _make_pressure_height(self) -> PressureHeight:
+        from .pressure_height import PressureHeight  # few sensors have a barometer
+
+        air = self.pressure_height = PressureHeight()
+        return air
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return the final activities, including the last second, because no more samples come."""
@@ -160,14 +175,19 @@ class Activities(ActivityPart):
     def _judge_block(self, index: int) -> bool:
         """Judge one block and return whether it has samples."""
         model, air, features = self._model, self.pressure_height, self._features(index)
+        pressure_scores, before, after = NO_EVIDENCE, None, None
+        if air is not None:
+            if self.walked:
+                pressure_scores = air.score_slope(index, BLOCK_DURATION)
+            before, after = air.height(index - BLOCKS_BEFORE, index - 1), air.height(index, index + WINDOW_REACH)
         self.hypotheses.update(
             BlockEvidence(
                 t=self._time(index),
                 motion_scores=motion_votes(model, features),
                 forces=self._forces(index),
-                pressure_scores=air.score_slope(index, BLOCK_DURATION),
-                before=air.height(index - BLOCKS_BEFORE, index - 1),
-                after=air.height(index, index + WINDOW_REACH),
+                pressure_scores=pressure_scores,
+                before=before,
+                after=after,
             ),
             model.chain,
         )
@@ -217,7 +237,7 @@ class Activities(ActivityPart):
 
     def _add_stride(self, stride: StrideTaken, block: int) -> list[Event]:
         """Keep a stride that ends in a block for `flights`, and return the events by which its slope is reported."""
-        self.pressure_height.walked = True
+        self.walked = True
         self.strides.append(
             evolve(stride, displacement=ZERO, position=ZERO, covariance=NO_COVARIANCE, features=NO_FEATURES)
         )
@@ -236,7 +256,7 @@ class Activities(ActivityPart):
     def _restart(self) -> None:
         self.origin = None
         self.next_block = 0
-        self.pressure_height = PressureHeight()
+        self.pressure_height, self.walked = None, False
         self.hypotheses = Hypotheses()
         self.report, self.newest_block, self.stride_cue = ActivityReport(), -1, None
         self.early = [(NO_ACTIVITY, 1.0)]

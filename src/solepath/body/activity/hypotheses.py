@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import exp, inf, log
+from math import exp, inf, log, sqrt
 from operator import attrgetter
 
 from ...types import Activity
@@ -39,9 +39,55 @@ from .elevator_evidence import (
     ElevatorEvidence,
     RestLevel,
     RestLevels,
+    bell,
 )
 from .foot_blocks import BLOCK_DURATION
-from .pressure_height import Height, ride_evidence, stairs_evidence
+
+Height = tuple[float, float]
+"""A mean height, m above an arbitrary level, and its variance, m^2."""
+NO_EVIDENCE = (0.0,) * len(ACTIVITIES)
+"""Log-likelihood of each state without air pressure."""
+
+# Heights by the air pressure (pressure_height.py), for and against stairs and elevators.
+
+BLOCKS_BEFORE, BLOCKS_AFTER = 3, 2
+"""Numbers of blocks before and after the judged one; the slope is computed over all of them."""
+STAIR_SPEED, STAIR_SPEED_DEVIATION = 0.3, 0.1
+"""Mean vertical speed on stairs and its standard deviation between wearers, m/s: two treads of 0.16 m per second."""
+LEAST_RIDE_HEIGHT = 2.2
+"""Least height of an elevator ride, m: a low storey."""
+DOOR_SHARE = 0.05
+"""Likelihood of any change of pressure, because of a door or a gust, relative to the likeliest one (assumed).
+
+It limits what the height of a whole stretch says to a ratio of 21 to 1."""
+
+
+def stairs_evidence(before: Height | None, after: Height | None, sign: float, duration: float) -> float:
+    """Return the logarithm of the likelihood ratio of stairs to level ground, from the heights before and after.
+
+    `sign` is 1 for stairs up and -1 for down, `duration` that of the stairs, s."""
+    if before is None or after is None:
+        return 0.0
+    gain, variance = after[0] - before[0], after[1] + before[1]
+    residual, total = gain - sign * STAIR_SPEED * duration, variance + (STAIR_SPEED_DEVIATION * duration) ** 2
+    return _log_ratio(sqrt(variance / total) * bell(residual, total), bell(gain, variance))
+
+
+def ride_evidence(before: Height | None, after: Height | None, sign: float) -> float:
+    """Return the logarithm of the likelihood ratio of a ride of any height to none, from the heights around it.
+
+    While a ride is possible, each block asks for it as if the ride ended there. `sign` is 1 for a ride up and -1 for
+    one down."""
+    if before is None or after is None:
+        return 0.0
+    gain, variance = after[0] - before[0], after[1] + before[1]
+    return _log_ratio(bell(max(0.0, LEAST_RIDE_HEIGHT - sign * gain), variance), bell(gain, variance))
+
+
+def _log_ratio(likelihood: float, level: float) -> float:
+    """Return the logarithm of a ratio of likelihoods, in which a share of all changes of pressure are a door's."""
+    return log((likelihood + DOOR_SHARE) / (level + DOOR_SHARE))
+
 
 # Elevator rides: the motion of an elevator, integrated from its acceleration, in one hypothesis.
 #

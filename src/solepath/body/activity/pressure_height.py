@@ -8,13 +8,13 @@ wearer's vertical velocity."""
 from __future__ import annotations
 
 from collections import deque
-from math import fsum, log, sqrt
+from math import fsum, log
 
 from ...types import OTHER, Foot
 from ...types.attrs import define, field
 from ..altitude import height_of, measured_noise
 from .chain import ELEVATOR_CREEPS_DOWN, ELEVATOR_CREEPS_UP, STAND
-from .elevator_evidence import bell
+from .hypotheses import BLOCKS_AFTER, BLOCKS_BEFORE, NO_EVIDENCE, Height
 
 AIR_NOISE = 0.2
 """Standard deviation of the height over a block by doors and wind, m: 2.4 Pa (assumed)."""
@@ -28,8 +28,6 @@ OFFSET_WEIGHT = 0.05
 """Least weight of a difference of both barometers in their offsets: twenty readings, while they drift by 0.01 m/s."""
 MAX_AGE = 3
 """Age of the other barometer's newest reading up to which both are compared, blocks."""
-BLOCKS_BEFORE, BLOCKS_AFTER = 3, 2
-"""Numbers of blocks before and after the judged one; the slope is computed over all of them."""
 MOST_BLOCKS = BLOCKS_BEFORE + BLOCKS_AFTER + 5
 """Number of blocks that are kept: those of a slope, and some that wait until both feet have sent theirs."""
 MIN_SLOPE_SPAN = 1.0
@@ -40,14 +38,6 @@ MAX_SLOPE_PENALTY = 0.6
 """Largest penalty by a slope (natural logarithm).
 
 A door that opens changes five slopes. Together they may say as much as a change over a whole stretch (`DOOR_SHARE`)."""
-STAIR_SPEED, STAIR_SPEED_DEVIATION = 0.3, 0.1
-"""Mean vertical speed on stairs and its standard deviation between wearers, m/s: two treads of 0.16 m per second."""
-LEAST_RIDE_HEIGHT = 2.2
-"""Least height of an elevator ride, m: a low storey."""
-DOOR_SHARE = 0.05
-"""Likelihood of any change of pressure, because of a door or a gust, relative to the likeliest one (assumed).
-
-It limits what the height of a whole stretch says to a ratio of 21 to 1."""
 
 _RIDE_SLOPES = ((0.6, 0.6), (1.3, 0.8), (0.6, 0.6), (0.2, 0.2), (0.1, 0.2))
 _SLOPE_OF_STATE = (
@@ -58,9 +48,6 @@ _SLOPE_OF_STATE = (
 """Mean and standard deviation of the vertical velocity in each state, m/s, positive upwards.
 
 Stairs are climbed at two treads per second; elevators move at 0.5 to 2.5 m/s."""
-NO_EVIDENCE = (0.0,) * len(_SLOPE_OF_STATE)
-Height = tuple[float, float]
-"""A mean height, m above an arbitrary level, and its variance, m^2."""
 
 
 @define
@@ -90,9 +77,6 @@ class PressureHeight:
     """Newest height, m above the first reading."""
     blocks: deque[tuple[int, float, int]] = field(factory=deque)
     """Number, mean height, m, and number of readings of each of the newest blocks, in the order of their numbers."""
-    walked: bool = False
-    """Flag: the wearer has taken a stride. Before, no force can have shown that an elevator set off, and a slope of the
-    air pressure alone is no ride."""
     faulty: list[Foot] = field(factory=list)
     """Feet whose barometers contradict the strides, and are left out."""
 
@@ -168,7 +152,7 @@ class PressureHeight:
             for i, height, count in self.blocks
             if index - BLOCKS_BEFORE <= i <= index + BLOCKS_AFTER
         ]
-        if not self.walked or len(near) < 3 or near[-1][0] - near[0][0] < MIN_SLOPE_SPAN:
+        if len(near) < 3 or near[-1][0] - near[0][0] < MIN_SLOPE_SPAN:
             return NO_EVIDENCE
         weights = fsum([weight for _, _, weight in near])
         middle = fsum([weight * t for t, _, weight in near]) / weights
@@ -183,30 +167,3 @@ class PressureHeight:
         scores[STAND] = max(scores[STAND], scores[ELEVATOR_CREEPS_UP], scores[ELEVATOR_CREEPS_DOWN])
         best = max(scores)
         return tuple([max(SLOPE_WEIGHT * (score - best), -MAX_SLOPE_PENALTY) for score in scores])
-
-
-def stairs_evidence(before: Height | None, after: Height | None, sign: float, duration: float) -> float:
-    """Return the logarithm of the likelihood ratio of stairs to level ground, from the heights before and after.
-
-    `sign` is 1 for stairs up and -1 for down, `duration` that of the stairs, s."""
-    if before is None or after is None:
-        return 0.0
-    gain, variance = after[0] - before[0], after[1] + before[1]
-    residual, total = gain - sign * STAIR_SPEED * duration, variance + (STAIR_SPEED_DEVIATION * duration) ** 2
-    return _log_ratio(sqrt(variance / total) * bell(residual, total), bell(gain, variance))
-
-
-def ride_evidence(before: Height | None, after: Height | None, sign: float) -> float:
-    """Return the logarithm of the likelihood ratio of a ride of any height to none, from the heights around it.
-
-    While a ride is possible, each block asks for it as if the ride ended there. `sign` is 1 for a ride up and -1 for
-    one down."""
-    if before is None or after is None:
-        return 0.0
-    gain, variance = after[0] - before[0], after[1] + before[1]
-    return _log_ratio(bell(max(0.0, LEAST_RIDE_HEIGHT - sign * gain), variance), bell(gain, variance))
-
-
-def _log_ratio(likelihood: float, level: float) -> float:
-    """Return the logarithm of a ratio of likelihoods, in which a share of all changes of pressure are a door's."""
-    return log((likelihood + DOOR_SHARE) / (level + DOOR_SHARE))

@@ -9,8 +9,7 @@ from collections.abc import Sequence
 from math import degrees, radians, sqrt
 
 from ...events import Defect, DefectFound, SampleGap, StrideTaken
-from ...foot.stride import FASTEST_RUN
-from ...foot.view import FootView
+from ...foot.view import FASTEST_RUN, FootView
 from ...types import PerFoot, Site, per_foot
 from ...types.attrs import define, evolve, field
 from ...types.vector import GRAVITY

@@ -19,11 +19,10 @@ from cmath import phase, rect
 from collections.abc import Mapping, Sequence
 from functools import partial
 from math import hypot
-from typing import TYPE_CHECKING, ClassVar, Final, Protocol, cast
+from typing import TYPE_CHECKING, ClassVar, Final
 
-from ...calibration import Calibration
+from ...calibration import Calibration, usual_strides
 from ...events import Defect, DefectFound, PositionReported, SampleGap, StrideTaken
-from ...foot.stride import usual_strides
 from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Phase, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen
@@ -107,12 +106,6 @@ class WalkingDirection:
         return deviation
 
 
-class Aid(Protocol):
-    """Outside help that has rows of its own in the filter of the common errors: the compass.
-
-    It is a protocol, so that its class (types/registry.py) is loaded only when it is needed."""
-
-
 @frozen
 class BothFeetSettings:
     """The settings of `BothFeet`."""
@@ -136,7 +129,7 @@ class BothFeet(MeanOfFeet):
     """Covariance of the errors that both tracks share."""
     straight_ways: StraightWays = field(factory=StraightWays, init=False)
     ground: MovingGround = field(factory=MovingGround, init=False)
-    aid: Aid | None = field(default=None, init=False)
+    compass: Compass | None = field(default=None, init=False)
     """The compass; None until a sample has a magnetic field."""
     measured_at: float = field(default=0.0, init=False)
     """Time of the newest sample that the compass has, s."""
@@ -158,11 +151,6 @@ class BothFeet(MeanOfFeet):
     directions: PerFoot[WalkingDirection] = field(factory=lambda: per_foot(WalkingDirection), init=False)
     placements: PerFoot[tuple[float, Vec3]] = field(factory=lambda: dict.fromkeys(Foot, (0.0, ZERO)), init=False)
     """Turn, rad, and offset, m, of each track when alignment ended; later corrections go to the feet themselves."""
-
-    @property
-    def compass(self) -> Compass | None:
-        """The compass; None until a sample has a magnetic field."""
-        return cast("Compass | None", self.aid)
 
     def calibrated(self, calibration: Calibration) -> BothFeet:
         """Return the part for a wearer whose feet remove a drift that a calibration walk has shown."""
@@ -216,7 +204,7 @@ class BothFeet(MeanOfFeet):
         if compass is None:
             from .compass import Compass
 
-            compass = self.aid = Compass()
+            compass = self.compass = Compass()
         compass.feet[view.foot].add_sample(view, mag)
 
     def _use_position(self, event: PositionReported) -> Sequence[PartOutput]:

@@ -31,8 +31,8 @@ from collections.abc import Mapping, Sequence
 from math import exp, fsum, sqrt
 
 from ...calibration import HeadingCalibration
-from ...foot.gap import LONGEST_FILLED_GAP
 from ...foot.navigate.bias import BIAS_WANDER, FIRST_BIAS, Bias
+from ...foot.navigate.corrector import LONGEST_FILLED_GAP
 from ...types import OTHER, Foot, PerFoot
 from ...types.attrs import define, evolve, field, frozen
 

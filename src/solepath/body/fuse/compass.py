@@ -315,7 +315,7 @@ class Block:
 
 @define
 class Compass:
-    """The field, its disturbance and the iron of the shoes, as rows of the common errors (an `Aid`)."""
+    """The field, its disturbance and the iron of the shoes, as rows of the common errors."""
 
     feet: PerFoot[StanceField] = field(factory=lambda: per_foot(StanceField))
     trust: CompassTrust = field(factory=CompassTrust)

@@ -10,6 +10,9 @@ from ...types import Foot, Layout, Phase, Vec3
 from ..phase import Cue
 from ..stance.stance import Load, Stance
 
+MOST_SINGLE_CELLS = 16
+"""Largest number of cells of an insole whose cells are judged one by one (touch.py)."""
+
 
 class TimedCue(NamedTuple):
     """A cue and its time."""

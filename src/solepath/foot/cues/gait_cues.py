@@ -7,14 +7,17 @@ time of LIFT."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from ...types import Layout, Phase, Vec3
 from ...types.attrs import define, field
 from ..phase import LOADING, PUSH_OFF, STATIONARY, SWING, Cue
 from ..stance.stance import Load, Stance
-from .cues import Cues, TimedCue
+from .cues import MOST_SINGLE_CELLS, Cues, TimedCue
 from .inertial import InertialCues
-from .touch import MOST_SINGLE_CELLS, Touch
+
+if TYPE_CHECKING:
+    from .touch import Touch
 
 CONTACT_LOAD, CLEAR_LOAD = 0.05, 0.03
 """Total loads above which the foot has touched the ground, and below which it has left it (shares of the full load).
@@ -89,14 +92,21 @@ class GaitCues(Cues):
 
     inertial: InertialCues = field(factory=InertialCues, init=False)
     pressure: PressureCues = field(factory=PressureCues, init=False)
-    touch: Touch = field(factory=Touch)
-    """Detector of ground contact for insoles of few cells, a part; each foot has its own copy."""
+    touch: Touch | None = field(default=None, init=False)
+    """Detector of ground contact for an insole of few cells; None until there is one."""
     sagittal: float = field(default=0.0, init=False)
     """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s; 0 if unknown."""
 
     def set_layout(self, layout: Layout) -> None:
         """Set the layout of the pressure cells, which only `touch` uses."""
-        self.touch.set_layout(layout)
+        if len(layout.cells) <= MOST_SINGLE_CELLS:
+            self._make_touch().set_layout(layout)
+
+    def _make_touch(self) -> Touch:
+        from .touch import Touch  # few insoles need it
+
+        touch = self.touch = self.touch or Touch()
+        return touch
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
@@ -111,8 +121,9 @@ class GaitCues(Cues):
         if load is not None:
             pressure_cue = self.pressure.update(t, dt, load, phase)
             if len(load.cells) <= MOST_SINGLE_CELLS:
-                airborne = self.touch.update(t, load, still)
-                if not self.touch.trusted:
+                touch = self.touch or self._make_touch()
+                airborne = touch.update(t, load, still)
+                if not touch.trusted:
                     return () if seen is None else (seen,)
                 pressure_cue = None
                 if airborne is not (phase is Phase.SWING):
@@ -143,4 +154,5 @@ class GaitCues(Cues):
         """Discard what depends on times, because times restart; what was learnt stays."""
         self.inertial = self.inertial.restart()
         self.pressure = PressureCues()
-        self.touch = self.touch.restart()
+        if self.touch is not None:
+            self.touch = self.touch.restart()

@@ -20,9 +20,8 @@ from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import TIME_EPSILON
 from ..pressure.insole import Extremes, centre
 from ..stance.stance import Load
+from .cues import MOST_SINGLE_CELLS
 
-MOST_SINGLE_CELLS = 16
-"""Largest number of cells of an insole whose cells are judged one by one."""
 CELL_LOADED = 0.20
 """Load above which one of few cells is loaded, as a share of its own range in the last 8 to 10 s."""
 CELLS_UNLOADED = 0.10

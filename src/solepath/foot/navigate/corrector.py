@@ -12,6 +12,8 @@ from ..stance.stance import Stance
 
 LONGEST_BRIDGE = 0.25
 """Longest gap that is integrated over, with the rate and force around it, s; in a longer one a foot may turn back."""
+LONGEST_FILLED_GAP = 1.5
+"""Longest gap that is filled (gap.py), s; a longer one may hide several strides."""
 
 
 class Corrector(Protocol):

@@ -12,6 +12,7 @@ stands after all."""
 from __future__ import annotations
 
 from math import inf, sqrt
+from typing import TYPE_CHECKING
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
@@ -20,7 +21,6 @@ from ..phase import STATIONARY
 from ..rhythm import StanceRhythm
 from ..settings import ErrorStateSettings
 from ..stance.stance import Stance
-from .clipping import NO_PEAKS, ClippedPeaks, Recovery
 from .corrector import LONGEST_BRIDGE
 from .covariance import (
     HEIGHT,
@@ -36,6 +36,9 @@ from .covariance import (
 )
 from .level import FLOOR_SIGMA, LevelGround
 from .strapdown import Strapdown
+
+if TYPE_CHECKING:
+    from .clipping import ClippedPeaks, Recovery
 
 REFERENCE_INTERVAL = 0.005
 """Interval between updates to which `Stance.sigma` refers, s; at other intervals the variance is scaled."""
@@ -188,8 +191,8 @@ class ErrorStateFilter(Strapdown):
     """Error of the velocity at the first accepted evidence of the newest stance, m/s; see `Corrector`."""
     rhythm: StanceRhythm = field(factory=StanceRhythm, init=False)
     """Usual durations of stance and swing, for evidence that the gate rejects."""
-    recovery: Recovery = field(factory=Recovery, init=False)
-    """Recovery of the clipped peaks of both sensors."""
+    recovery: Recovery | None = field(default=None, init=False)
+    """Recovery of the clipped peaks of both sensors; None before any sample."""
     interval: IndependentInterval = field(factory=IndependentInterval, init=False)
     """Interval between independent readings, for the noise of what lies between two samples."""
 
@@ -206,9 +209,10 @@ class ErrorStateFilter(Strapdown):
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         gx, gy, gz = gyro
-        rate, last_force, recovery = self.rate or gyro, self.force, self.recovery
+        rate, last_force, recovery = self.rate or gyro, self.force, self.recovery or self._make_recovery()
         dt_before, last_acc, earlier_acc = recovery.earlier_dt, recovery.last_acc, recovery.earlier_acc
-        gyro_peaks = acc_peaks = NO_PEAKS
+        gyro_peaks: ClippedPeaks = ()
+        acc_peaks: ClippedPeaks = ()
         rate_square, (x, y, z) = gx * gx + gy * gy + gz * gz, acc
         gyro_clipping, acc_clipping = recovery.gyro_clipping, recovery.acc_clipping
         if (
@@ -250,14 +254,20 @@ class ErrorStateFilter(Strapdown):
         self.elapsed += dt
         self.time_since_anchor += dt
         if (gyro_peaks or acc_peaks) and settings.recover:
-            self._add_peaks(gyro_peaks, acc_peaks)
+            self._add_peaks(recovery, gyro_peaks, acc_peaks)
 
-    def _add_peaks(self, gyro_peaks: ClippedPeaks, acc_peaks: ClippedPeaks) -> None:
+    def _make_recovery(self) -> Recovery:
+        from .clipping import Recovery  # with the first sample, as the tracker
+
+        recovery = self.recovery = Recovery()
+        return recovery
+
+    def _add_peaks(self, recovery: Recovery, gyro_peaks: ClippedPeaks, acc_peaks: ClippedPeaks) -> None:
         """Correct the state by the clipped peaks of gyroscope and accelerometer."""
         self._propagate()
         state = (self.attitude, self.velocity, self.position, self.uncertainty)
-        state = self.recovery.add_turns(gyro_peaks, state)
-        state = self.recovery.add_velocities(acc_peaks, state)
+        state = recovery.add_turns(gyro_peaks, state)
+        state = recovery.add_velocities(acc_peaks, state)
         self.attitude, self.velocity, self.position, self.uncertainty = state
         self._mark_start()
 
@@ -312,7 +322,8 @@ class ErrorStateFilter(Strapdown):
             self.acc_variance += BRIDGED_VELOCITY_GROWTH * dt
             self.gyro_variance += BRIDGED_ANGLE_GROWTH * dt
             return dt
-        self.recovery.reset()
+        if self.recovery is not None:
+            self.recovery.reset()
         if dt == inf:  # times restart
             self.accepted_at = self.evidence_since = None
             self.rhythm.reset()
@@ -330,7 +341,8 @@ class ErrorStateFilter(Strapdown):
         return 0.0
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
-        self.recovery.reset()
+        if self.recovery is not None:
+            self.recovery.reset()
         self._propagate()
         self.time_since_anchor += dt
         self.attitude, self.velocity, self.position = attitude, velocity, position
@@ -372,7 +384,8 @@ class ErrorStateFilter(Strapdown):
             self.uncertainty = constrain_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 
     def anchor(self) -> tuple[float, ...]:
-        self.recovery.end_stride()
+        if self.recovery is not None:
+            self.recovery.end_stride()
         self._propagate()
         stretch = self.covariance()
         self.time_since_anchor = 0.0

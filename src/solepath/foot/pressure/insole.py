@@ -16,10 +16,10 @@ from itertools import repeat
 from math import fsum
 from operator import add
 
-from ...calibration import Calibration, Newtons
+from ...calibration import Newtons
 from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Cell, Foot, Layout, Phase, Sample
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, field
 from ...types.vector import TIME_EPSILON
 from ..limitations import Limitations
 from ..settings import FootSettings, InsoleSettings
@@ -105,12 +105,6 @@ class InsoleLoads:
     """The foot was in the air in the last sample."""
     load_risen: bool = field(default=False, init=False)
     """The load has risen again after it had fallen, so that it is known."""
-
-    def calibrated(self, foot: Foot, calibration: Calibration) -> InsoleLoads:
-        """Return a copy with the calibration of this foot's insole."""
-        insole, settings = calibration.insole(foot), self.settings
-        newtons, noise = insole.newtons or settings.newtons, insole.noise or settings.noise
-        return evolve(self, settings=evolve(settings, newtons=newtons, noise=noise))
 
     def set_layout(self, layout: Layout) -> None:
         """Set the layout of the cells."""
@@ -336,8 +330,8 @@ class Sole:
     Failed cells are not used. If the layout is unknown and the recipe needs pressure, the layout is estimated."""
 
     foot: Foot
-    insole: InsoleLoads
     settings: FootSettings = FootSettings()
+    insole: InsoleLoads = field(init=False)
     had_cells: bool = field(default=False, init=False)
     """At least one sample with usable cells was added."""
     health: CellHealth = field(init=False)
@@ -356,15 +350,13 @@ class Sole:
     def __attrs_post_init__(self) -> None:
         self.health = CellHealth(SITE_OF_FOOT[self.foot])
         self.guess = LayoutGuess(self.foot)
+        self.insole = InsoleLoads(self.settings.insole)
+        self.calibrated_layout = self.settings.layout
 
     def set_layout(self, layout: Layout, limitations: Limitations) -> None:
         """Set the layout that the device has sent, or that of a calibration that matches the samples."""
         self.layout_estimated, self.calibrated_layout = False, None
         self._apply_layout(layout, limitations)
-
-    def set_calibrated_layout(self, layout: Layout) -> None:
-        """Set the layout of a calibration; it is used if samples have as many cells."""
-        self.calibrated_layout = layout
 
     def reset(self) -> None:
         """Discard what depends on unbroken samples, because times restart."""
@@ -458,4 +450,4 @@ class Sole:
     def _forget_layout(self) -> None:
         self.layout_estimated, self.highest = False, 0.0
         self.guess = LayoutGuess(self.foot)
-        self.insole = evolve(self.insole)  # a copy with the same settings and nothing learnt
+        self.insole = InsoleLoads(self.settings.insole)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from ...foot.cues.touch import Touch, TouchSettings
 from ...foot.navigate.dedrift import LinearDedrift
-from ...foot.pressure.insole import InsoleLoads
 from ...foot.settings import InsoleSettings
 from ...recipes import Recipe, usual_parts
 from ...types.attrs import evolve
@@ -31,7 +30,7 @@ KUPT = Recipe(
     KnownVelocity(),
     SoftSwing(),
     CopCues(),
-    InsoleLoads(InsoleSettings(heel_end=BOARD_SHARE, forefoot_start=BOARD_SHARE)),
+    InsoleSettings(heel_end=BOARD_SHARE, forefoot_start=BOARD_SHARE),
     needs_pressure=True,
 )
 """Velocity known from heel-strike to toe-off, without the fusion of both feet."""
