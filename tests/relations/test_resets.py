@@ -87,12 +87,12 @@ RateIntegral.clear:
 RateIntegral.restart: instants* t*
 Reassembly.drop: frame_id skipping
 Recognition.reset: load_count mean_load soles* apart
-Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing acc_clipping.reset()
+Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing watches acc_clipping.reset()
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
 SensorChecks.reset: apart
-SessionState.reset: decoders feet* height now parts* sampled* unsettled apart left.feet.reset() right.feet.reset()
-SessionState.restart_clock: decoders* feet* height now* parts* sampled* unsettled left.feet.reset() right.feet.reset()
+SessionState.reset: awake* decoders feet* height now parts* unsettled apart left.feet.reset() right.feet.reset()
+SessionState.restart_clock: awake* decoders* feet* height now* parts* unsettled left.feet.reset() right.feet.reset()
 Sides.reset: declared
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
 StanceFinder._restart: duration force t turn

@@ -113,8 +113,9 @@ class SessionState:
         self._find_awake()
 
     def _find_awake(self) -> None:
-        numbered = enumerate(self.parts, 1)
-        self.awake = tuple([(number, part) for number, part in numbered if part.needs_samples and not part.idle])
+        self.awake = tuple(
+            [(number, part) for number, part in enumerate(self.parts, 1) if part.needs_samples and not part.idle]
+        )
 
     def feed_packet(self, packet: Packet, kinds: DeviceKinds) -> list[Event]:
         """Add a packet of one of these kinds of devices; raise TypeError for one of wrong types."""
@@ -175,8 +176,7 @@ class SessionState:
         if not has_floats(sample):
             sample = with_floats(sample)
         events = self._use_sample(sample)
-        rejected = events and any([isinstance(event, SampleRejected) for event in events])
-        if not rejected and (self.now is None or sample.t > self.now):
+        if not (events and isinstance(events[0], SampleRejected)) and (self.now is None or sample.t > self.now):
             self.now = sample.t
         return events
 
@@ -323,7 +323,7 @@ class SessionState:
         if fault is not None:
             return [rejected(sample, fault, None)]
         site, t = sample.site, sample.t
-        known_at = sample.known_at if sample.known_at > t else t
+        known_at = max(t, sample.known_at)
         events: list[Event] = []
         parts = [part for part in self.parts if site in part.sites]
         for part in parts:

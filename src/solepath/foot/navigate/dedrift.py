@@ -58,7 +58,7 @@ class LinearDedrift(Strapdown):
 
     def bridge(self, dt: float) -> float:
         # this corrector has no noise model: the gap only makes the stretch less certain
-        self.length += min(dt, LONGEST_BRIDGE) * 1.0
+        self.length += min(dt, LONGEST_BRIDGE)
         if dt <= LONGEST_BRIDGE:
             return dt
         self.velocity = ZERO
