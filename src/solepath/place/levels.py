@@ -144,16 +144,17 @@ With 2, half a storey of 2.7 m or more contradicts, and an error of 1.5 m does n
 
 def contradicted_height(
     plan: IndexedPlan, ride: LevelReached, particles: list[Particle], known_at: float
-) -> PlanContradicted | None:
-    """Return the event if no lift of the plan makes a ride of this height and direction from a particle's level.
+) -> list[PlanContradicted]:
+    """Return an event if no lift of the plan makes a ride of this height and direction from a particle's level.
 
     If there are no particles, the place is not known, and any level counts."""
     levels = {particle.level for particle in particles}
-    if ride.kind is ConnectorKind.STAIRS or all([landing.kind is not ride.kind for landing in plan.landings]):
-        return None
+    lifts = [landing for landing in plan.landings if landing.kind is ConnectorKind.LIFT]
+    if ride.kind is ConnectorKind.STAIRS or not lifts:
+        return []
     rides: list[tuple[float, float]] = []
-    for entered in plan.landings:
-        if entered.kind is ride.kind and (not levels or entered.level in levels):
+    for entered in lifts:
+        if not levels or entered.level in levels:
             for left, _ in find_exits(plan, entered, ride.up):
                 low, high = rise_between(plan, entered, left)
                 height = 0.5 * (low + high) if ride.height is None else ride.height
@@ -161,7 +162,7 @@ def contradicted_height(
                 rides.append((abs(height - allowed) / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low), allowed))
     deviation, nearest = min(rides, default=(inf, 0.0))
     if deviation <= HEIGHT_RATIO:
-        return None
+        return []
     direction = "up" if ride.up else "down"
     way = direction if ride.height is None else f"{direction} by {ride.height:.1f} m"
     fault = f"the plan has none that goes {direction}{' from there' if levels else ''}"
@@ -172,7 +173,7 @@ def contradicted_height(
         "be at the next landing or where they were"
     )
     off = round(ride.height - nearest, 3) if rides and ride.height is not None else None
-    return PlanContradicted(t=ride.t, known_at=max(ride.t, known_at), what=what, height_off=off)
+    return [PlanContradicted(t=ride.t, known_at=max(ride.t, known_at), what=what, height_off=off)]
 
 
 # Levels whose walls are alike where the wearer is: walls cannot decide between them.
