@@ -67,6 +67,12 @@ def weigh_exits(plan: IndexedPlan, entered: Landing, arrived: LevelReached) -> l
     ]
 
 
+def place_near(plan: IndexedPlan, level: int, place: Point, offset: Point) -> Point:
+    """Return the place at an offset, m, or the place itself if there is a wall between them."""
+    x, y = place[0] + offset[0], place[1] + offset[1]
+    return place if plan.crosses(level, *place, x, y) else (x, y)
+
+
 def leaving(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached, random: int) -> list[Particle]:
     """Return a particle at each possible exit of each one that changes level; the other direction weighs less."""
     exits = {at: weigh_exits(plan, plan.landings[at - 1], arrived) for at in landings_of(changing)}
@@ -76,9 +82,7 @@ def leaving(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached, 
         turn, stretch = TURN_ERROR * eh, 1.0 + STRETCH_ERROR * es
         a, b = stretch * (one.a - one.b * turn), stretch * (one.b + one.a * turn)
         for landing, share in exits[one.landing]:
-            x, y = landing.place[0] + EXIT_ERROR * ex, landing.place[1] + EXIT_ERROR * ey
-            if plan.crosses(landing.level, *landing.place, x, y):
-                x, y = landing.place
+            x, y = place_near(plan, landing.level, landing.place, (EXIT_ERROR * ex, EXIT_ERROR * ey))
             origin = one.origin or landing.connector + 1
             found.append(Particle(x, y, a, b, one.weight * share, landing.level, origin))
     return found

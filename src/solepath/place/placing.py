@@ -42,6 +42,7 @@ from .levels import (
     leaving,
     levels_on_the_way,
     odds_of_reversal,
+    place_near,
     weigh_exits,
 )
 from .particles import (
@@ -283,9 +284,7 @@ class Particles(Part):
         for k in range(count):
             ex, ey, eh, es = self.scatter(k, count)
             turn = 2.0 * pi * (k + 0.5 * eh) / count if heading is None else heading[0] + heading[1] * eh
-            x, y = place[0] + radius * ex, place[1] + radius * ey
-            if plan.crosses(level, *place, x, y):
-                x, y = place
+            x, y = place_near(plan, level, place, (radius * ex, radius * ey))
             stretch = 1.0 + START_STRETCH_ERROR * es
             particles.append(Particle(x, y, stretch * cos(turn), stretch * sin(turn), weight / count, level, origin))
         return particles
