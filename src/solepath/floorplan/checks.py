@@ -145,25 +145,23 @@ def _find_remarks(plan: FloorPlan, has_start: bool) -> Iterator[str]:
         yield "the plan does not say how high its levels lie"
     scale = scale_cells(plan)
     for level in levels:
-        opening = _find_opening(level, len(levels), scale)
         if not level.walls:
             yield f"level {level.id!r}: has no walls"
-        elif opening is not None:
-            yield f"level {level.id!r}: its walls do not close near ({opening[0]:.1f}, {opening[1]:.1f})"
+        for x, y in _find_openings(level, len(levels), scale) if level.walls else ():
+            yield f"level {level.id!r}: its walls do not close near ({x:.1f}, {y:.1f})"
     if not connectors and not has_start:
         yield "the plan has no stairs and no lifts: the place on it is known by a start only"
     for connector in connectors:
         if len(connector.stops) == 1:
             yield f"{connector.label}: stops at level {connector.stops[0].level!r} only"
     joined = {stop.level for connector in connectors if len(connector.stops) > 1 for stop in connector.stops}
-    for level in levels:
-        if connectors and len(levels) > 1 and level.id not in joined:
+    for level in levels if connectors and len(levels) > 1 else ():
+        if level.id not in joined:
             yield f"level {level.id!r}: neither stairs nor a lift lead there"
 
 
-def _find_opening(level: Level, count: int, scale: float) -> Point | None:
-    """Return a place through which one comes in from outside without a door, m; None without one."""
+def _find_openings(level: Level, count: int, scale: float) -> list[Point]:
+    """Return the first place through which one comes in from outside without a door, m, if there is one."""
     enclosure = Enclosure(level, Walls([wall.line for wall in level.walls], 2.0 * scale), count)
     rooms = Rooms(level, (), scale)
-    inside = (place for place in enclosure.outside if rooms.find(*place))
-    return next(inside, None) if level.rooms else enclosure.open_end
+    return [place for place in enclosure.outside if rooms.find(*place)][:1] if level.rooms else enclosure.open_ends[:1]

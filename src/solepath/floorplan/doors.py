@@ -70,15 +70,12 @@ def _cut(wall: Wall, openings: list[tuple[Point, Point]], beside: float) -> Iter
     for opening in openings:
         ends = []
         for x, y in opening:
-            offset, along = ux * (y - ay) - uy * (x - ax), ux * (x - ax) + uy * (y - ay)
-            ends.append(
-                (along, (x, y) if abs(offset) <= _ON_LINE_DISTANCE else (ax + along * ux, ay + along * uy), offset)
-            )
-        (first, start, _), (last, end, _) = sorted(ends)
-        is_beside = all(abs(offset) <= beside for _, _, offset in ends)
-        is_along = last - first >= MIN_COSINE * dist(*opening)
+            offset, along = abs(ux * (y - ay) - uy * (x - ax)), ux * (x - ax) + uy * (y - ay)
+            ends.append((along, (x, y) if offset <= _ON_LINE_DISTANCE else (ax + along * ux, ay + along * uy), offset))
+        (first, start, off), (last, end, far_off) = sorted(ends)
+        is_along = max(off, far_off) <= beside and last - first >= MIN_COSINE * dist(*opening)
         first, last = max(first, 0.0), min(last, length)
-        if is_beside and is_along and last - first >= MIN_PIECE_LENGTH:
+        if is_along and last - first >= MIN_PIECE_LENGTH:
             gaps.append((first, last, start, end))
     cut_to, piece_start = 0.0, wall.start
     for first, last, start, end in sorted(gaps):

@@ -30,7 +30,7 @@ class Enclosure:
 
     `walls` are those of the level, `count` is the number of levels of the plan."""
 
-    __slots__ = ("_barriers", "_bottom", "_enclosed", "_hull", "_left", "_space", "open_end", "outside")
+    __slots__ = ("_barriers", "_bottom", "_enclosed", "_hull", "_left", "_space", "open_ends", "outside")
 
     def __init__(self, level: Level, walls: Walls, count: int) -> None:
         doors = [door.line for door in level.doors if door.start != door.end]
@@ -46,9 +46,9 @@ class Enclosure:
         self._enclosed = {(i, j): True for i in range(columns) for j in range(rows)}
         self.outside = list(self._flood())
         """The points outside, m, in the order in which the flood fill reaches them."""
-        self.open_end = next(self._find_open_ends(lines), None)
-        """End of a wall, door or closing line near the outside and near no other of these, m; None without one."""
-        self._hull = _hull(ends) if self.open_end is not None else []
+        self.open_ends = list(self._find_open_ends(lines))
+        """Ends of walls, doors and closing lines near the outside and near no other of these, m."""
+        self._hull = _hull(ends) if self.open_ends else []
 
     def _point(self, i: int, j: int) -> Point:
         return self._left + i * self._space, self._bottom + j * self._space
@@ -102,8 +102,8 @@ def _find_closing_lines(level: Level, walls: Walls) -> list[Line]:
 
 def _hull(points: list[Point]) -> list[Point]:
     """Return the convex hull, counter-clockwise (Andrew 1979, Information Processing Letters 9)."""
-    hull: list[Point] = []
-    for sequence in (sorted(set(points)), sorted(set(points), reverse=True)):
+    hull, ordered = list[Point](), sorted(set(points))
+    for sequence in (ordered, ordered[::-1]):
         half: list[Point] = []
         for point in sequence:
             while len(half) >= 2 and side(*half[-2], *half[-1], *point) <= 0:

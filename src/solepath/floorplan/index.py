@@ -56,10 +56,10 @@ class IndexedPlan:
         self.plan = plan
         self.fingerprint: int = plan.fingerprint
         self._numbers = {level.id: number for number, level in enumerate(plan.levels)}
-        stops = [(c, one.kind, self._numbers[stop.level], stop)
+        stops = [(c, one.kind, plan.level(stop.level), stop)
                  for c, one in enumerate(plan.connectors) for stop in one.stops]  # fmt: skip
         self.landings = [
-            Landing(index, c, kind, level, plan.levels[level].ordinal, plan.levels[level].elevation, stop.place)
+            Landing(index, c, kind, self._numbers[level.id], level.ordinal, level.elevation, stop.place)
             for index, (c, kind, level, stop) in enumerate(stops, 1)
         ]
         """All landings, connector by connector, from the lowest up."""
@@ -71,8 +71,9 @@ class IndexedPlan:
             densest, x, y = walls.find_densest()
             if densest > MAX_WALLS_NEAR:
                 raise FloorPlanError(f"level {level.id!r}: {densest} walls lie around ({x:.0f}, {y:.0f})")
-        self._rooms = [Rooms(level, [stop.outline for *_, at, stop in stops if at == number], scale)
-                       for number, level in enumerate(plan.levels)]  # fmt: skip
+        self._rooms = [
+            Rooms(level, [stop.outline for *_, stop in stops if stop.level == level.id], scale) for level in plan.levels
+        ]
         self._insides: list[Rooms | Enclosure] = [
             rooms if level.rooms else Enclosure(level, walls, len(plan.levels))
             for level, walls, rooms in zip(plan.levels, self.walls, self._rooms, strict=True)

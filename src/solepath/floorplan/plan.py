@@ -195,11 +195,11 @@ class FloorPlan:
 
         Raises FloorPlanError when there is no such level, or not exactly one stop of that name on it."""
         self.level(level)
-        stops = [(connector.name, stop) for connector in self.connectors for stop in connector.stops]
-        places = [stop.place for named, stop in stops if named == name and stop.level == level]
+        stops = [(one.name, stop.place) for one in self.connectors for stop in one.stops if stop.level == level]
+        places = [place for named, place in stops if named == name]
         if len(places) == 1:
             return places[0]
-        known = ", ".join([repr(named) for named, stop in stops if named and stop.level == level])
+        known = ", ".join([repr(named) for named, _ in stops if named])
         number = "no stairs or lift" if not places else f"{len(places)} stairs or lifts"
         raise FloorPlanError(f"level {level!r} has {number} of the name {name!r}; its names are {known or 'not known'}")
 

@@ -67,6 +67,12 @@ def weigh_exits(plan: IndexedPlan, entered: Landing, arrived: LevelReached) -> l
     ]
 
 
+def place_near(plan: IndexedPlan, level: int, place: Point, offset: Point) -> Point:
+    """Return the place at an offset, m, or the place itself if there is a wall between them."""
+    x, y = place[0] + offset[0], place[1] + offset[1]
+    return place if plan.crosses(level, *place, x, y) else (x, y)
+
+
 def leaving(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached, random: int) -> list[Particle]:
     """Return a particle at each possible exit of each one that changes level; the other direction weighs less."""
     exits = {at: weigh_exits(plan, plan.landings[at - 1], arrived) for at in landings_of(changing)}
@@ -76,9 +82,7 @@ def leaving(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached, 
         turn, stretch = TURN_ERROR * eh, 1.0 + STRETCH_ERROR * es
         a, b = stretch * (one.a - one.b * turn), stretch * (one.b + one.a * turn)
         for landing, share in exits[one.landing]:
-            x, y = landing.place[0] + EXIT_ERROR * ex, landing.place[1] + EXIT_ERROR * ey
-            if plan.crosses(landing.level, *landing.place, x, y):
-                x, y = landing.place
+            x, y = place_near(plan, landing.level, landing.place, (EXIT_ERROR * ex, EXIT_ERROR * ey))
             origin = one.origin or landing.connector + 1
             found.append(Particle(x, y, a, b, one.weight * share, landing.level, origin))
     return found
@@ -144,16 +148,17 @@ With 2, half a storey of 2.7 m or more contradicts, and an error of 1.5 m does n
 
 def contradicted_height(
     plan: IndexedPlan, ride: LevelReached, particles: list[Particle], known_at: float
-) -> PlanContradicted | None:
-    """Return the event if no lift of the plan makes a ride of this height and direction from a particle's level.
+) -> list[PlanContradicted]:
+    """Return an event if no lift of the plan makes a ride of this height and direction from a particle's level.
 
     If there are no particles, the place is not known, and any level counts."""
     levels = {particle.level for particle in particles}
-    if ride.kind is ConnectorKind.STAIRS or all([landing.kind is not ride.kind for landing in plan.landings]):
-        return None
+    lifts = [landing for landing in plan.landings if landing.kind is ConnectorKind.LIFT]
+    if ride.kind is ConnectorKind.STAIRS or not lifts:
+        return []
     rides: list[tuple[float, float]] = []
-    for entered in plan.landings:
-        if entered.kind is ride.kind and (not levels or entered.level in levels):
+    for entered in lifts:
+        if not levels or entered.level in levels:
             for left, _ in find_exits(plan, entered, ride.up):
                 low, high = rise_between(plan, entered, left)
                 height = 0.5 * (low + high) if ride.height is None else ride.height
@@ -161,7 +166,7 @@ def contradicted_height(
                 rides.append((abs(height - allowed) / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low), allowed))
     deviation, nearest = min(rides, default=(inf, 0.0))
     if deviation <= HEIGHT_RATIO:
-        return None
+        return []
     direction = "up" if ride.up else "down"
     way = direction if ride.height is None else f"{direction} by {ride.height:.1f} m"
     fault = f"the plan has none that goes {direction}{' from there' if levels else ''}"
@@ -172,7 +177,7 @@ def contradicted_height(
         "be at the next landing or where they were"
     )
     off = round(ride.height - nearest, 3) if rides and ride.height is not None else None
-    return PlanContradicted(t=ride.t, known_at=max(ride.t, known_at), what=what, height_off=off)
+    return [PlanContradicted(t=ride.t, known_at=max(ride.t, known_at), what=what, height_off=off)]
 
 
 # Levels whose walls are alike where the wearer is: walls cannot decide between them.

@@ -46,6 +46,11 @@ class Particle(NamedTuple):
         """Return the particle at another place, m."""
         return _new(Particle, (x, y, *self[2:]))
 
+    def turned(self, yaw: float) -> Particle:
+        """Return the particle for a track that was turned by `yaw`, rad: its moves in the plan stay as they are."""
+        c, s = cos(yaw), sin(yaw)
+        return self._replace(a=c * self.a + s * self.b, b=c * self.b - s * self.a)
+
     def weighing(self, weight: float) -> Particle:
         """Return the particle with another weight."""
         x, y, a, b, _, level, origin, landing = self
@@ -90,9 +95,8 @@ def stored(particles: list[Particle]) -> list[Particle]:
 
 
 def turned(particles: list[Particle], yaw: float) -> list[Particle]:
-    """Return the particles for a track that was turned by `yaw`, rad: their moves in the plan stay as they are."""
-    c, s = cos(yaw), sin(yaw)
-    return stored([one._replace(a=c * one.a + s * one.b, b=c * one.b - s * one.a) for one in particles])
+    """Return the particles as stored, for a track that was turned by `yaw`, rad."""
+    return stored([one.turned(yaw) for one in particles])
 
 
 def resample(particles: list[Particle], count: int, offset: float = 0.5) -> list[Particle]:
@@ -259,9 +263,8 @@ def after_wrong_turn(plan: IndexedPlan, particles: list[Particle], displacement:
         for j, particle in enumerate(drawn):
             # evenly spaced over the sector of each heading
             turn = 2.0 * pi * (k + (j + 0.5) / len(drawn) - 0.5) / HEADING_COUNT
-            c, s, (x, y), a, b = cos(turn), sin(turn), particle.after((-dx, -dy)), particle.a, particle.b
-            weight = share * particle.weight
-            turned_back.append(particle._replace(x=x, y=y, a=a * c - b * s, b=b * c + a * s, weight=weight))
+            start = particle.at(*particle.after((-dx, -dy))).turned(-turn)
+            turned_back.append(start.weighing(share * particle.weight))
     return moved_freely(plan, turned_back, displacement)
 
 

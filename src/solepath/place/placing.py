@@ -42,6 +42,7 @@ from .levels import (
     leaving,
     levels_on_the_way,
     odds_of_reversal,
+    place_near,
     weigh_exits,
 )
 from .particles import (
@@ -283,9 +284,7 @@ class Particles(Part):
         for k in range(count):
             ex, ey, eh, es = self.scatter(k, count)
             turn = 2.0 * pi * (k + 0.5 * eh) / count if heading is None else heading[0] + heading[1] * eh
-            x, y = place[0] + radius * ex, place[1] + radius * ey
-            if plan.crosses(level, *place, x, y):
-                x, y = place
+            x, y = place_near(plan, level, place, (radius * ex, radius * ey))
             stretch = 1.0 + START_STRETCH_ERROR * es
             particles.append(Particle(x, y, stretch * cos(turn), stretch * sin(turn), weight / count, level, origin))
         return particles
@@ -473,28 +472,27 @@ class Particles(Part):
         particles = self.particles
         return [one for one in particles if not one.landing] or [one._replace(landing=0) for one in particles]
 
-    def _arrive(self, plan: IndexedPlan, arrived: LevelReached, known_at: float) -> list[Event]:
+    def _arrive(self, plan: IndexedPlan, arrived: LevelReached, known_at: float) -> Sequence[Event]:
         """Arrive on another level, and return an event if the plan has no such ride."""
         height = (1.0 if arrived.up else -1.0) * (arrived.height or 0.0)
         if self.unmapped and arrived.kind is ConnectorKind.LIFT and arrived.height is not None:
             height += self.unmapped_height
             whole = evolve(arrived, up=height > 0.0, height=abs(height))
             is_back = abs(height) < HEIGHT_ERROR
-            if is_back or contradicted_height(plan, whole, self.unmapped, known_at) is None:
+            if is_back or not contradicted_height(plan, whole, self.unmapped, known_at):
                 self._come_back(plan, whole, is_back)
                 return []
             self.unmapped_height = height
         wrong = contradicted_height(plan, arrived, self.particles, known_at)
-        if wrong is None:
+        if not wrong:
             self.unmapped = []
-            self._continue_from_exits(plan, arrived)
-            return []
-        if not self.unmapped and arrived.height is not None:
+        elif not self.unmapped and arrived.height is not None:
             riders = [one for one in self.particles if one.landing] or self._entering(plan, self.particles, arrived)
             self.unmapped = stored(riders if len(riders) <= KNOWN_PARTICLES else resample(riders, KNOWN_PARTICLES))
             self.unmapped_height = height
-        self._continue_from_exits(plan, evolve(arrived, certainty=CONTRADICTED_CERTAINTY))
-        return [wrong]
+        certainty = CONTRADICTED_CERTAINTY if wrong else arrived.certainty
+        self._continue_from_exits(plan, evolve(arrived, certainty=certainty))
+        return wrong
 
     def _entering(
         self, plan: IndexedPlan, particles: list[Particle], change: LevelChangePossible | LevelReached

@@ -432,10 +432,9 @@ class References:
             passage.add_direction(connector[1], foot)
 
     def _add_ride(self, event: LiftRidden) -> list[Reference]:
-        is_new = self.ride_end is None or event.t > self.ride_end + SAME_RIDE_TIME
         if self.passage is not None and self.passage.kind is ConnectorKind.LIFT:
             self.passage = None
-        if not is_new:
+        if self.ride_end is not None and event.t <= self.ride_end + SAME_RIDE_TIME:
             return []
         self.ride_end = event.t
         height = None if event.height is None or not isfinite(event.height) else abs(event.height)

@@ -95,9 +95,9 @@ class Feature:
     def _ring(self, line: tuple[Position, ...], to_plan: ToPlan, remark: Callable[[str], None]) -> Ring:
         corners = [point for point, _ in groupby(self.convert_line(line, to_plan))]
         open_by = dist(corners[0], corners[-1]) if corners else 0.0
-        if open_by <= MAX_CLOSING_DISTANCE and len(corners) > 1:
-            corners.pop()
-        if len(corners) > 1 and corners[0] == corners[-1]:
+        if open_by <= MAX_CLOSING_DISTANCE:
+            corners = corners[:-1]
+        if corners and corners[0] == corners[-1]:
             corners.pop()
         if len(corners) < 3:
             self.fail("its outline has fewer than three corners")

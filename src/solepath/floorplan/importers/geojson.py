@@ -154,7 +154,7 @@ class _GeoJsonReader:
             place = find_inner_point(outline)
         elif isinstance(given, list) and len(given) == 2:
             x, y = [parse_number(value, f"{feature.name}: its place") for value in given]
-            place = feature.convert_line([(x, y)], self.to_plan)[0]
+            (place,) = feature.convert_line([(x, y)], self.to_plan)
         else:
             feature.fail("its place is no position")
         key = (feature.kind, feature.text("connector", feature.text("name", "")))

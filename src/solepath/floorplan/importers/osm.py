@@ -83,7 +83,7 @@ def is_door(element: Element) -> bool:
 def is_indoor(element: Element) -> bool:
     """Return whether the element draws something inside a building, on known levels."""
     draws = element.tags.get("indoor") in BORDERS or connector_kind(element) is not None or is_door(element)
-    return draws and ("level" in element.tags or "repeat_on" in element.tags)
+    return draws and not element.tags.keys().isdisjoint(("level", "repeat_on"))
 
 
 def label_of(element: Element) -> str:
@@ -91,13 +91,13 @@ def label_of(element: Element) -> str:
     return element.tags.get("name") or element.tags.get("ref") or ""
 
 
-def parse_length(text: str | None) -> float | None:
-    """Return the length in a text ("0.9", "1.2 m", "90 cm"), m; None for any other text."""
-    match = _LENGTH.fullmatch(text) if text is not None else None
+def parse_length(text: str | None, least: float, most: float) -> float | None:
+    """Return the length from `least` to `most` in a text ("0.9", "1.2 m", "90 cm"), m; None for any other text."""
+    match = _LENGTH.fullmatch(text or "")
     if match is None:
         return None
-    value = float(match[1].replace(",", "."))
-    return value / 100.0 if match[2] == "cm" else value
+    value = float(match[1].replace(",", ".")) / (100.0 if match[2] == "cm" else 1.0)
+    return value if least <= value <= most else None
 
 
 DEFAULT_DOOR_WIDTH = 1.0
@@ -241,8 +241,7 @@ class _OsmReader:
 
     def _connector(self, way: _Drawn, kind: ConnectorKind) -> None:
         element, parts = way.element, self._drawing.parts
-        rise = parse_length(element.tags.get("step:height"))
-        rise = rise if MIN_RISE <= (rise or 0.0) <= MAX_RISE else None
+        rise = parse_length(element.tags.get("step:height"), MIN_RISE, MAX_RISE)
         label, group = label_of(element), element.name
         for rings in self._outlines(way):
             parts += [ConnectorPart(kind, label, level, None, rings, group, rise) for level in way.levels]
@@ -287,8 +286,8 @@ class _OsmReader:
         if kind is not None:
             self._drawing.parts += [ConnectorPart(kind, label, level, place, (), element.name) for level in node.levels]
             return
-        width = parse_length(element.tags.get("width", element.tags.get("door:width"))) or 0.0
-        width = width if MIN_DOOR_WIDTH <= width <= MAX_DOOR_WIDTH else DEFAULT_DOOR_WIDTH
+        text = element.tags.get("width", element.tags.get("door:width"))
+        width = parse_length(text, MIN_DOOR_WIDTH, MAX_DOOR_WIDTH) or DEFAULT_DOOR_WIDTH
         for level in node.levels or sorted(self._neighbours):
             neighbours = [self._places[ref] for ref in self._neighbours.get(level, {}).get(element.id, [])]
             line = door_at(place, neighbours, width)

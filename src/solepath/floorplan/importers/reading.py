@@ -26,6 +26,8 @@ def read_floorplan(path: Path | str, storey: float = DEFAULT_STOREY_HEIGHT) -> F
     then `heights_known` of the plan is False. Raises FloorPlanError, with one line, when it cannot be read or used."""
     try:
         return _check(_read(Path(path), storey))
+    except FileTooLarge as error:
+        raise FloorPlanError(f"{path}: {error}, too large for a floor plan") from None
     except FloorPlanError as error:
         raise FloorPlanError(f"{path}: {error}") from None
     except OSError as error:
@@ -49,15 +51,8 @@ def _read(path: Path, storey: float) -> FloorPlan:
 
     if path.is_dir():
         names = [name for name in imdf.FILES if (path / name).is_file()]
-        return imdf.read_archive({name: _read_bounded(path / name) for name in names}, storey)
-    return _plan(_read_bounded(path), storey)
-
-
-def _read_bounded(path: Path) -> bytes:
-    try:
-        return read_bounded(path, MAX_FILE_SIZE)
-    except FileTooLarge as error:
-        raise FloorPlanError(f"{error}, too large for a floor plan") from None
+        return imdf.read_archive({name: read_bounded(path / name, MAX_FILE_SIZE) for name in names}, storey)
+    return _plan(read_bounded(path, MAX_FILE_SIZE), storey)
 
 
 def _plan(data: bytes, storey: float) -> FloorPlan:
