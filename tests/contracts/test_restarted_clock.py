@@ -9,19 +9,23 @@ from typing import Any
 
 import pytest
 from attrs import evolve
+from transforms import CALIBRATION, WALKING_MODES, WALKS
 from walks import SAMPLE_NAMES, Item, insoles, machines, of, often
 
 from solepath import (
     ClockReset,
+    Limitation,
     PacketRejected,
     PacketsLost,
     Rejection,
     Sample,
+    SampleRejected,
     Session,
     Site,
     StreamResumed,
     StreamStale,
     StrideTaken,
+    recipes,
 )
 
 REBOOT, SET_FORWARD = -1000.0, 5000.0
@@ -69,6 +73,25 @@ def test_every_session_goes_on_the_same_whatever_the_new_clock_shows(name: str) 
             for event in events
         ]
     assert found[REBOOT] == found[SET_FORWARD]
+
+
+@pytest.mark.parametrize("recipe", often(WALKING_MODES))
+def test_the_sensors_above_the_ankles_go_on_with_those_of_the_feet(recipe: str) -> None:
+    walk, restarted = sorted(WALKS["suit"](), key=lambda sample: sample.t), []
+    for by in (REBOOT, SET_FORWARD):
+        session = Session(recipes.by_name(recipe), calibration=CALIBRATION)
+        session.feed([sample for sample in walk if sample.t < 3.0])
+        assert session.now is not None
+        resets = session.restart_clock(session.now + by)
+        assert [event.site for event in of(ClockReset, resets)] == [Site.LEFT_FOOT, Site.RIGHT_FOOT]
+        events = session.feed([shifted(sample, by) for sample in walk if sample.t >= 3.0]) + session.finish()
+        assert of(SampleRejected, events) == []
+        restarted.append([(one.foot, round(one.t - by, 2)) for one in of(StrideTaken, events)])
+        if recipe.startswith("walking-modes"):  # the chain of all seven is not used again until they have stood still
+            unused = of(Limitation, events)[0].what
+            sites = ("pelvis", "left thigh", "right thigh", "left shank", "right shank", "left foot", "right foot")
+            assert unused.startswith(f"the sensor at the {', '.join(sites)} restarted")
+    assert restarted[0] == restarted[1] and len(restarted[0]) >= 5
 
 
 class App:

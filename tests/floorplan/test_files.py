@@ -86,6 +86,55 @@ def test_the_example_of_the_document_is_a_plan() -> None:
     assert find_warnings(plan) == ("lift 'A': stops at level '0' only",)
 
 
+STEPPED = [
+    # what each stop says of flights and rise, and what is known of the connector; None where they disagree
+    ([{"flights": 2, "rise": 0.17}, {"flights": 2, "rise": 0.17}], (2, 0.17)),
+    ([{"flights": 2}, {"rise": 0.17}], (2, 0.17)),
+    ([{"flights": 1}, {}], (1, None)),
+    ([{}, {"rise": 0.17}], (None, 0.17)),
+    ([{}, {}], (None, None)),
+    ([{"flights": 1, "rise": 0.17}, {"flights": 2, "rise": 0.17}], None),
+    ([{"flights": 2, "rise": 0.16}, {"flights": 2, "rise": 0.17}], None),
+    ([{"flights": 2}, {"flights": 2}, {"flights": 1}], None),
+    ([{"rise": 0.17}, {}, {"rise": 0.16}], None),
+]
+"""Stairs by their stops, one on each level."""
+
+
+@pytest.mark.parametrize(("stops", "known"), STEPPED)
+def test_the_stops_of_stairs_agree_on_flights_and_rise_and_one_that_says_nothing_agrees(
+    stops: list[dict[str, float]], known: tuple[int | None, float | None] | None
+) -> None:
+    levels = [{"type": "Feature", "id": str(k), "properties": {"feature": "level", "ordinal": k}, "geometry": None}
+              for k in range(1, len(stops))]  # fmt: skip
+    stairs = [feature("stairs", "Point", [1, 1], level=str(k), name="A", **said) for k, said in enumerate(stops)]
+    other = [feature("stairs", "Point", [5, 5], level=str(k), name="B", flights=3, rise=0.2) for k in range(2)]
+    data = geojson(*levels, *stairs, *other)
+    if known is None:
+        with pytest.raises(FloorPlanError, match="its stops tell different flights or rises"):
+            parse_floorplan(data)
+        return
+    found = [(one.flights, one.rise) for one in parse_floorplan(data).connectors]
+    assert found == [known, (3, 0.2)], "stairs with another name say nothing about these"
+
+
+@pytest.mark.parametrize(("value", "text"), [
+    ("Hall", "Hall"), ("", ""), (None, ""), (7, "7"), (7.0, "7"), (0.5, "0.5"), (-7, "-7"), (999_999_999, "999999999"),
+    (1_000_000_000, None), (-1_000_000_000, None), (1e300, None), (True, None), (["Hall"], None), ({}, None),
+])  # fmt: skip
+@pytest.mark.parametrize("kind", ["door", "lift"])
+def test_a_name_is_a_text_or_a_number_that_can_be_one(kind: str, value: Any, text: str | None) -> None:
+    named = {"door": feature("door", "LineString", [[2, 0], [3, 0]], name=value),
+             "lift": feature("lift", "Point", [1, 1], name=value, connector="a")}[kind]  # fmt: skip
+    data = geojson(feature("wall", "Polygon", [SQUARE]), named)
+    if text is None:
+        with pytest.raises(FloorPlanError, match="feature 2: its name is .*, not a text"):
+            parse_floorplan(data)
+        return
+    plan = parse_floorplan(data)
+    assert [one.name for one in (*plan.levels[0].doors, *plan.connectors)] == [text]
+
+
 def test_a_room_with_a_hole_does_not_hold_what_is_in_the_hole() -> None:
     hole = [[4, 4], [6, 4], [6, 6], [4, 6], [4, 4]]
     plan = IndexedPlan(parse_floorplan(geojson(feature("wall", "Polygon", [SQUARE]),

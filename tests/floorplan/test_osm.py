@@ -105,6 +105,14 @@ def test_repeat_on_puts_one_room_on_many_levels() -> None:
     assert not plan.heights_known
 
 
+@pytest.mark.parametrize("kind", [{"indoor": "room"}, {"highway": "elevator"}, {"highway": "steps", "area": "yes"}])
+def test_what_is_on_levels_by_either_tag_is_part_of_the_plan_and_what_has_neither_is_not(kind: dict[str, str]) -> None:
+    both = house().way(box(2, 2, 4, 4), **kind, level="0;1").plan()
+    assert both == house().way(box(2, 2, 4, 4), **kind, repeat_on="0;1").plan()
+    assert both == house().way(box(2, 2, 4, 4), **kind, level="0", repeat_on="1").plan()
+    assert house().way(box(2, 2, 4, 4), **kind).plan() == house().plan() != both
+
+
 def test_stairs_and_lifts_stop_at_all_their_levels() -> None:
     drawn = Map().way(box(0, 0, 20, 10), indoor="room", level="0-2")
     drawn.way(box(2, 2, 4, 4), highway="elevator", level="0-2", ref="L1")

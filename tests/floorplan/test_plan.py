@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import pytest
 from attrs import evolve
@@ -66,6 +68,77 @@ def test_a_plan_that_cannot_be_used_is_rejected_in_one_line(plan: FloorPlan, mes
     assert find_warnings(plan) == ()
     with pytest.raises(FloorPlanError):
         IndexedPlan(plan)
+
+
+RING = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+WIDE, DOOR, STOP = Wall((0.0, 0.0), (5000.0, 0.0)), Door((1.0, 0.0), (2.0, 0.0)), ConnectorStop("0", (1.0, 1.0))
+
+
+def storeys(count: int, height: float = 3.0) -> FloorPlan:
+    return FloorPlan("", tuple(Level(str(k), "", k, height * k, ()) for k in range(count)))
+
+
+def walled(*drawn: Wall, **more: object) -> FloorPlan:
+    return FloorPlan("", (Level("0", "", 0, 0.0, drawn, **more),))  # type: ignore[arg-type]
+
+
+def anchored(latitude: float, longitude: float = 0.0, bearing: float = 0.0) -> FloorPlan:
+    return evolve(HOUSE, anchor=Anchor(latitude, longitude, bearing))
+
+
+LIMITS: dict[str, tuple[Callable[[Any], FloorPlan], Sequence[float], Sequence[float], str]] = {
+    "levels": (storeys, (1, 1000), (0, 1001), "levels"),
+    "walls": (lambda count: walled(*box(0.0, 0.0, 1.0, 1.0)[:1] * count), (1, 100_000), (100_001,), "100000 walls"),
+    "doors": (
+        lambda count: walled(WIDE, doors=(Door((1.0, 0.0), (2.0, 0.0)),) * count),
+        (0, 100_000),
+        (100_001,),
+        "doors",
+    ),
+    "corners": (lambda count: walled(WIDE, rooms=(RING,) * (count // 4)), (0, 100_000), (100_004,), "corners"),
+    "stops": (
+        lambda count: evolve(HOUSE, connectors=stairs(STOP).connectors * count),
+        (0, 1, 2000),
+        (2001,),
+        "2000 stops",
+    ),
+    "stops of one": (lambda count: stairs(*[STOP] * count), (1,), (0, 2), "stops"),
+    "length, 5 km": (lambda count: walled(*[WIDE] * count), (1, 100), (101,), "505 km"),
+    "ordinal": (lambda number: with_level(ordinal=number), (-100_000, 100_000), (-100_001, 100_001), "ordinal"),
+    "elevation": (
+        lambda z: evolve(storeys(1), levels=(Level("0", "", 0, z, ()),)),
+        (-1e7, 1e7),
+        (-1.1e7, 1.1e7),
+        "elevation",
+    ),
+    "x": (lambda x: walled(Wall((x, 0.0), (x, 5.0))), (-1e7, 1e7), (-1.1e7, 1.1e7, math.inf), " is at "),
+    "y": (lambda y: walled(Wall((0.0, y), (5.0, y))), (-1e7, 1e7), (-1.1e7, 1.1e7, math.inf), " is at "),
+    "width": (lambda x: walled(Wall((0.0, 0.0), (x, 0.1))), (1.0, 5000.0), (0.99, 5000.1), "wide"),
+    "depth": (lambda y: walled(Wall((0.0, 0.0), (0.1, y))), (1.0, 5000.0), (0.99, 5000.1), "wide"),
+    "storey": (lambda height: storeys(2, height), (0.0, 50.0), (-0.1, 50.1), "level"),
+    "corners of a room": (lambda count: walled(WIDE, rooms=(RING[:count],)), (3, 4), (0, 1, 2), "corners"),
+    "corners of an outline": (lambda count: stairs(evolve(STOP, outline=RING[:count])), (0, 3, 4), (1, 2), "corners"),
+    "flights": (lambda count: stairs(STOP, flights=count), (1, 100), (0, -1, 101), "flights"),
+    "rise": (lambda rise: stairs(STOP, rise=rise), (0.02, 0.6), (0.0199, 0.0, -0.2, 0.601), "rise"),
+    "latitude": (anchored, (-89.0, 89.0), (-89.1, 89.1), "latitude"),
+    "longitude": (
+        lambda angle: evolve(HOUSE, anchor=Anchor(0.0, angle)),
+        (-180.0, 180.0),
+        (-180.1, 180.1),
+        "longitude",
+    ),
+    "bearing": (lambda angle: anchored(0.0, 0.0, angle), (-10.0, 10.0), (-10.1, 10.1), "bearing"),
+}
+"""Each row of the limits in protocol/floorplan.md: a plan with it, values within, values beyond, and why not."""
+
+
+@pytest.mark.parametrize("what", LIMITS)
+def test_a_plan_is_usable_up_to_each_limit_and_not_beyond(what: str) -> None:
+    plan_with, within, beyond, why = LIMITS[what]
+    for number in within:
+        assert find_fault(plan_with(number)) is None, number
+    for number in beyond:
+        assert why in (find_fault(plan_with(number)) or ""), number
 
 
 def test_assumed_heights_are_a_warning() -> None:

@@ -73,11 +73,16 @@ def worn(route: Route = LEVEL, field: Vec3 = FIELD) -> tuple[Sample, ...]:
     return tuple(sorted(samples, key=lambda sample: sample.t))
 
 
-WALKS: dict[str, Callable[[], tuple[Sample, ...]]] = {
-    "feet": worn,
-    "stairs": lambda: worn(CLIMBING),
+WALKS: dict[str, Callable[..., tuple[Sample, ...]]] = {
+    "feet": lambda field=FIELD: worn(LEVEL, field),
+    "stairs": lambda field=FIELD: worn(CLIMBING, field),
+    "gaps": lambda field=FIELD: tuple(
+        one for one in worn(LEVEL, field) if not any(start <= one.t < end for start, end in _GAPS[one.site])
+    ),
     "suit": lambda: tuple(evolve(one, t=(t := one.t + _OFFSET[one.site]), known_at=t) for one in suited()),
 }
+_GAPS = {Site.LEFT_FOOT: ((2.95, 3.15), (5.35, 5.7)), Site.RIGHT_FOOT: ((4.4, 4.7), (5.7, 5.85))}
+"""Times between which samples are missing, s: of a swing and of a landing; of a toe-off and of a swing."""
 _OFFSET = {site: 2.0**-9 * k for k, site in enumerate(Site)}
 """Time by which the samples of each site are moved, so that no two are of one time, s."""
 

@@ -422,6 +422,52 @@ def test_a_value_that_is_a_byte_too_short_or_too_long_is_rejected(channel: str) 
         assert reason_of(field, data + b"\0") == "oversized" or "variable" in field.options
 
 
+SIZES = """
+# channel | a valid value; {} is as long as it has to be | its least and its largest size | why not shorter, not longer
+orphe/info | 00 00 000000000000 03 03 {} | 10 32 | truncated malformed
+device/firmware | {} | 1 512 | truncated oversized
+receiver/connected | c4 {} | 1 249 | truncated oversized
+receiver/disconnected | {} | 0 0 | . oversized
+receiver/tick | {} | 0 0 | . oversized
+receiver/restarted | {} | 1 512 | truncated oversized
+receiver/trouble | {} | 1 512 | truncated oversized
+receiver/position | 0000803f 00 {} | 5 5 | truncated oversized
+receiver/position | 0000803f 01 0000000000000000 0000000000000000 {} | 21 21 | truncated oversized
+receiver/position | 0000803f 02 0000000000000000 0000000000000000 {} | 22 85 | truncated oversized
+receiver/position | 0000803f 03 {} | 6 69 | truncated oversized
+insole/frame | 00 {} | 2 512 | truncated oversized
+"""
+
+
+@pytest.mark.parametrize("row", [line for line in SIZES.splitlines() if "{}" in line and line[0] != "#"])
+def test_a_value_of_any_size_is_used_from_the_least_to_the_largest_and_rejected_beyond(row: str) -> None:
+    """A piece of a frame is a value of insole/frame too; what it is a piece of does not come."""
+    channel, value, sizes, reasons = [cell.strip() for cell in row.split(" | ")]
+    start, (least, largest), (short, long) = bytes.fromhex(value[:-2]), map(int, sizes.split()), reasons.split()
+    for size in {least - 1, least, least + 1, (least + largest) // 2, largest - 1, largest, largest + 1}:
+        data = (start + b"1" * 513)[: max(size, 0)]
+        reason = short if size < least else long if size > largest else ""
+        assert size < 0 or reason_of(Field(channel, data, "", "", "", 0, "u8"), data) == reason, size
+
+
+CELLS, NAMED = {0: "", 1: "", 128: "", 129: "malformed"}, {0: "", 1: "", 255: ""}
+"""Why not so many cells, and not so many bytes of a name."""
+
+
+@pytest.mark.parametrize("cells", CELLS)
+def test_an_insole_has_128_cells_at_most_in_its_frames_and_in_what_it_says_of_itself(cells: int) -> None:
+    sensors, packed = bytes(12), bytes((3 * cells + 1) // 2)
+    frame = bytes.fromhex("f510 02 01 0000 00000000 4801 01") + bytes([cells]) + packed + sensors + bytes(2)
+    assert reason_of(Field("insole/frame", frame, "", "", "", 0, "u8"), seal("insole/frame", frame)) == CELLS[cells]
+    for name in NAMED:
+        runs = bytes([cells, 1, 0]) if cells else b""
+        counts = bytes([cells, len(runs) // 3, name])
+        info = bytes.fromhex("f511 00 01 07000000 00800000 4801 0000003c 0000003b 0000403e f00a") + counts
+        info += bytes(3 * cells) + runs + b"1" * name + bytes(2)
+        expected = CELLS[cells] if len(info) <= 512 else "oversized"
+        assert reason_of(Field("insole/info", info, "", "", "", 0, "u8"), seal("insole/info", info)) == expected, name
+
+
 def test_the_table_has_every_bit_of_every_value_of_every_channel() -> None:
     for base in {(one.channel, one.base) for one in FIELDS}:
         spans = sorted((one.at, one.at + one.bits) for one in FIELDS if (one.channel, one.base) == base)

@@ -31,6 +31,7 @@ from views import told
 from solepath import Activity, Event
 from solepath.body.part import StartGiven
 from solepath.floorplan.plan import Start
+from solepath.place.placing import Particles
 
 SURE = 0.99
 """Weight at which a candidate counts as found."""
@@ -182,3 +183,19 @@ def test_a_ride_far_from_the_estimated_place_restarts_the_search(part: Method) -
     true = [c for c in last.candidates if c.level == "0" and dist(c.position[:2], pedestrian.place) <= 1.5]
     assert len(last.candidates) <= 3, "the office looks nearly the same from the other side"
     assert true and true[0].weight > 0.1 and true[0].origin == "lift east"
+
+
+def test_a_wearer_whose_kept_track_begins_after_the_lift_is_not_sought_from_there_again() -> None:
+    """Other events than strides move the wearer too, so that the track that is kept may be that of six strides."""
+    lift = LIFTS["lift west"]
+    for seed in range(5):
+        part, pedestrian, events = Particles(), Pedestrian(seed, "0", lift), list[Event]()
+        part.plan = indexed_office()
+        pedestrian.walk(lift)
+        pedestrian.ride("1")
+        pedestrian.walk(beside(lift), (LEFT, HIGH), (20.0, HIGH))
+        for one in pedestrian.received:
+            for seen in (one, *[FloorEvents([], one.here)] * 3):
+                events += part.follow(indexed_office(), seen.events, seen.here)
+        assert part.place is not None and part.place.level == "1"
+        assert dist(part.place.position[:2], pedestrian.place) < 2.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 
 import pytest
-from snooped import FRAME, Log, data_of, frames, read, start_connection
+from snooped import ACL, COMMAND, EVENT, FRAME, Log, data_of, frames, read, start_connection
 
 from solepath.recording.btsnoop import log as module  # their limits are those of hours
 from solepath.recording.btsnoop import open_btsnoop, values
@@ -70,6 +70,54 @@ def test_the_types_of_a_device_are_limited(tmp_path):
     packets, reports = read(log, tmp_path)
     assert data_of(packets, "insole/frame") == [frames()[0]]
     assert reports == [f"types of more than 500 attributes of a device, left out: {0x800 - 0x100 - 496}"]
+
+
+def drop(log):
+    log.drops += 1
+    log.command(0x1009)
+
+
+NO_HCI = "records that are not HCI"
+FLAWS = {
+    "a notification without a handle": (
+        "PDUs that are not of the attribute protocol",
+        lambda log: log.acl(0x40, b"\x1b\x12", False),
+    ),
+    "no PDU": ("PDUs that are not of the attribute protocol", lambda log: log.acl(0x40, b"", False)),
+    "a long write": ("long writes, which are passed over", lambda log: log.acl(0x40, b"\x16\x17\0\0\0x", True)),
+    "a write that is rejected": (
+        "writes that were rejected",
+        lambda log: log.add_request(0x40, "12170001", "0112170080"),
+    ),
+    "a cut record": (
+        "records that the logger cut short",
+        lambda log: log.record(ACL, b"\x40\x20\x40\0\x3c\0", False, 68),
+    ),
+    "half a header": (NO_HCI, lambda log: log.record(ACL, b"\x40\x20\x04", False)),
+    "a wrong size": (NO_HCI, lambda log: log.record(ACL, b"\x40\x20\x05\0\x01\0\x04\0", False)),
+    "half a command": (NO_HCI, lambda log: log.record(COMMAND, b"\x03", True)),
+    "half an event": (NO_HCI, lambda log: log.record(EVENT, b"\x05\x04\0\x40", False)),
+    "a dropped record": ("records that the logger says it dropped", drop),
+    "another channel": (
+        "packets of channels that are not followed (EATT perhaps)",
+        lambda log: log.acl(0x40, b"x", False, 0x40),
+    ),
+}
+"""What is wrong with a part of a log, how a report calls it, and how it is logged."""
+
+
+@pytest.mark.parametrize("flaw", FLAWS)
+def test_each_part_that_cannot_be_used_is_counted_and_costs_only_itself(tmp_path, flaw):
+    what, add = FLAWS[flaw]
+    for count in (1, 3):
+        log = start_connection(Log())
+        for frame in frames()[:count]:
+            log.notify(0x40, FRAME, frame)
+            add(log)
+        log.notify(0x40, FRAME, frames()[count])
+        packets, reports = read(log, tmp_path)
+        assert data_of(packets, "insole/frame") == [*frames()[: count + 1]]
+        assert reports == [f"{what}: {count}"]
 
 
 @pytest.mark.parametrize("cut", [0, 1, 10, -1])

@@ -118,6 +118,39 @@ WalkScale.reset: drift_deviation force stance_deviation strides
 
 What stays is what was learnt of wearer, device and mounting (axis, bias, scale, layout, tare, usual times); the track,
 what was reported of it, and counts; and values that are set again before they are read, with a field that was reset."""
+STARTS = ("start", "start_stride", "start_swing", "start_block", "_start_span", "end_lift", "forget_corner")
+STARTED = """
+BiasZupt.start: motion_acc
+CommonError.start_stride: covariance estimates foot_biases
+Contact.start: last_load layout swing_time t_end
+Cycle._start_span: highs lows past_high past_low sensor_height shoe
+ErrorStateFilter.start: interval landing_error level recovery rhythm
+FootBlocks.start_block: blocks bottom flat_height strides strike_height top
+GatedTilt.start: velocity_change
+Impact.start_swing: peak_shock_time
+Projection.start: largest_saturated least_saturated
+Rest._start_span: bias bias_filter count grain last scale
+Sagittal.end_lift: forward pitch toe up
+SoftSwing.start: drift_scale drift_time heel_slide heel_strike_error_time interval interval_velocity pivot
+  previous_interval scale_excess toe_off_error_time toe_slide
+StrideBuilder.start_stride: contact_time degraded degraded_until first_pitch flat_pitch next_pitch number pitches
+  t_contact t_mid_stance t_pitch usual_flat_pitch usual_motion
+StrideTemplate.start_stride: age bridged first_position infilled last_stride longest_stride stance_duration straight_on
+  t_flat t_last_flat
+TrackErrorFilter.start: centre degraded_shares
+TurningStrideFilter.forget_corner: straight_turn
+"""
+"""For each class and method that starts something again, the fields that stay: as above, and those of what went on."""
+GIVEN = {
+    "Quat": (0.8, 0.0, 0.0, 0.6),
+    "Vec3": (1.0, 2.0, 3.0),
+    "float": 0.1,
+    "float | None": 0.2,
+    "int": 7,
+    "bool": False,
+    "Foot": Foot.LEFT,
+}
+"""What a method that starts something is given, by the kind of its parameters."""
 ELSEWHERE = {
     "Decoder._restart",
     "PeriodicClock._restart",
@@ -238,10 +271,30 @@ class Seen:
         return [f"{name}*" if name in self.changed else name for name in sorted(self.stays)] + sorted(done)
 
 
+class Started:
+    """What was seen of one method that starts something again: fields that were in use, and those that stay."""
+
+    def __init__(self) -> None:
+        self.dirty: set[str] = set()
+        self.stays: set[str] = set()
+
+    def look(self, record: Any, name: str) -> None:
+        used, new = deepcopy(record), fresh(record)
+        dirty = differing(used, new)
+        if dirty <= self.dirty:
+            return
+        self.dirty |= dirty
+        kinds = [str(one.annotation) for one in inspect.signature(getattr(record, name)).parameters.values()]
+        for one in (used, new):
+            getattr(one, name)(*[GIVEN[kind] for kind in kinds])
+        self.stays |= differing(used, new)
+
+
 @pytest.fixture(scope="module")
-def seen() -> dict[str, Seen]:
-    """Return what was seen of every method, over all walks."""
+def seen() -> tuple[dict[str, Seen], dict[str, Started]]:
+    """Return what was seen of every method that resets, and of every one that starts again, over all walks."""
     found: dict[str, Seen] = defaultdict(Seen)
+    started: dict[str, Started] = defaultdict(Started)
     climbing = Session(recipes.DEFAULT, poses=True), worn(CLIMBING)
     walks = [machines()[f"session, {name}"] for name in WALKS]
     for session, items in (climbing, *((walk.start(), walk.items) for walk in walks)):
@@ -256,17 +309,28 @@ def seen() -> dict[str, Seen]:
                 for name in resets(type(record)):
                     if f"{type(record).__name__}.{name}" not in ELSEWHERE:
                         found[f"{type(record).__name__}.{name}"].look(record, name, state)
-    return found
+                for name in [name for name in STARTS if callable(getattr(type(record), name, None))]:
+                    started[f"{type(record).__name__}.{name}"].look(record, name)
+    return found, started
 
 
-def test_a_part_that_is_reset_is_as_a_fresh_one_but_for_what_the_table_names(seen: dict[str, Seen]) -> None:
+def rows_of(table: str) -> dict[str, list[str]]:
+    """Return the words of each row of a table."""
     rows: dict[str, list[str]] = {}
     row: list[str] = []
-    for word in STAYS.split():
+    for word in table.split():
         row = rows.setdefault(word[:-1], []) if word.endswith(":") else row
         if not word.endswith(":"):
             row.append(word)
-    assert {name: one.row() for name, one in seen.items()} == rows
+    return rows
+
+
+def test_a_part_that_is_reset_is_as_a_fresh_one_but_for_what_the_table_names(seen: Any) -> None:
+    assert {name: one.row() for name, one in seen[0].items()} == rows_of(STAYS)
+
+
+def test_a_part_that_starts_again_is_as_a_fresh_one_that_starts_but_for_what_the_table_names(seen: Any) -> None:
+    assert {name: sorted(one.stays) for name, one in seen[1].items()} == rows_of(STARTED)
 
 
 def test_every_method_that_resets_a_record_is_in_the_table() -> None:

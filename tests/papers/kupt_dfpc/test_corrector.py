@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from math import inf, isinf
 
 import pytest
@@ -67,6 +68,28 @@ def test_the_heel_after_a_swing_is_a_foot_that_rolls_down_over_its_heel() -> Non
     # (4): P_z at 0.315 rad = 0.125 x 0.310 + 0.029 x 0.951 = 0.0663, times 3 rad/s
     assert stances[2].v_ref[0] == pytest.approx(3.0 * 0.0663, rel=0.01)
     assert stances[2].v_ref[2] < 0.0
+
+
+def expected(last: Load | None, before: Load | None, load: Load) -> tuple[Phase | None, bool]:
+    """Return phase and whether the shoe rolls; `last` was the newest load of none or both of the areas."""
+    if load is last:
+        return (Phase.SWING if load is UNLOADED else Phase.STATIONARY), False
+    if last is UNLOADED:  # it lands
+        return Phase.LOADING, load is before is HEEL_LOADED
+    if last is BOTH_LOADED and load is FOREFOOT_LOADED:
+        return Phase.PUSH_OFF, before in (FOREFOOT_LOADED, BOTH_LOADED)
+    return None, False
+
+
+def test_a_shoe_rolls_over_what_bears_it_from_one_sample_to_the_next_and_is_evidence_of_nothing_else() -> None:
+    """A heel that bears after standing, or a forefoot that lands first, rolls over neither end of the shoe."""
+    for loads in product((UNLOADED, HEEL_LOADED, FOREFOOT_LOADED, BOTH_LOADED), repeat=5):
+        stances, last = stances_of(ready_detector(), *[(load, -0.02 * k) for k, load in enumerate(loads)]), None
+        for before, load, stance in zip((None, *loads), loads, stances, strict=False):
+            last = load if load in (UNLOADED, BOTH_LOADED) else last
+            phase, rolls = expected(last, before, load)
+            assert stance.hint is phase and (stance.sigma < inf) is (rolls or load is BOTH_LOADED), loads
+            assert (stance.v_ref != ZERO) is rolls, loads
 
 
 def test_the_wearers_own_shoe_is_taken_from_the_calibration() -> None:
