@@ -199,7 +199,6 @@ ON_USE = {
     "link.decoder": {"insoles", "cc2650", "orphe"},
     "foot.tracker": {"insoles", "cc2650", "orphe"},
     "foot.navigate.clipping": {"insoles", "cc2650", "orphe"},
-    "foot.pressure.sole": {"insoles", "orphe"},
     "foot.pressure.cell_health": {"insoles", "orphe"},
     "foot.pressure.insole": {"insoles", "orphe"},
     "foot.cues.touch": {"orphe"},

@@ -83,11 +83,11 @@ Modes.reset: limb_sensors* pending places* recognition* reference signs touchdow
   recognition.reset()
 PossibleMotion.reset: apart
 PressureHeight.restart: blocks compared newest noise apart
-RateIntegral.clear:
 RateIntegral.restart: instants* t*
 Reassembly.drop: frame_id skipping
 Recognition.reset: load_count mean_load soles* apart
-Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing watches acc_clipping.reset()
+Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing watches
+  acc_clipping.reset()
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
 SensorChecks.reset: apart
@@ -124,7 +124,7 @@ BiasZupt.start: motion_acc
 CommonError.start_stride: covariance estimates foot_biases
 Contact.start: last_load layout swing_time t_end
 Cycle._start_span: highs lows past_high past_low sensor_height shoe
-ErrorStateFilter.start: interval landing_error level recovery rhythm
+ErrorStateFilter.start: interval level recovery rhythm velocity_error
 FootBlocks.start_block: blocks bottom flat_height strides strike_height top
 GatedTilt.start: velocity_change
 Impact.start_swing: peak_shock_time

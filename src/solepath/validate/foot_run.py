@@ -9,7 +9,7 @@ from attrs import field, frozen
 
 from ..events import Event, StrideTaken
 from ..types import Foot
-from ..walk.walk import Walk
+from ..walk.walk import GAIT_EVENTS, Walk
 from .alignment import Floats
 
 
@@ -33,7 +33,7 @@ class FootRun:
             t=np.array([one.t for one in moved], dtype=np.float64),
             positions=np.array([one.position for one in moved], dtype=np.float64).reshape(len(moved), 3),
             strides=tuple(walk.strides[foot]),
-            times=walk.times[foot],
+            times={kind: walk.times[foot][name] for kind, name in GAIT_EVENTS.items()},
         )
 
     @property

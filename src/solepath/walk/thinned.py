@@ -22,7 +22,10 @@ class ThinnedList(Generic[T]):
     last: T | None = field(default=None, init=False)
 
     def add(self, item: T, max_count: int | None) -> None:
-        """Add one item; `items` then holds at most `max_count`, or all where that is None."""
+        """Add one item; `items` then holds at most `max_count`, or all with None. With 0 the item is only counted."""
+        if max_count == 0:
+            self.count += 1
+            return
         if self.count % self.interval == 0:
             if max_count is not None and len(self.items) >= max_count:
                 self.items = self.items[::2]

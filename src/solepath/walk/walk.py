@@ -113,8 +113,9 @@ class Walk:
     """The counts of a session from its start until now, and what it reported.
 
     The session is made with `poses=True`, and with `pressures=True` for the loads of the soles. Of strides, gait
-    cycles, turns and places at most `limit` of each foot are kept, evenly thinned, so that memory is bounded; with None
-    all are kept, as outcomes and scores need them. An event with a number that is not finite is left out."""
+    cycles, turns and places at most `limit` of each foot are kept, evenly thinned, so that memory is bounded. With None
+    all are kept, as outcomes and scores need them; with 0 none, so that a walk that is saved often is small. An event
+    with a number that is not finite is left out."""
 
     limit: int | None = LIMIT
     keeps_all: bool = False
@@ -181,10 +182,10 @@ class Walk:
     """Times of the earliest and the latest event, s."""
     positions: dict[Foot, list[FootMoved]] = field(factory=lambda: {foot: [] for foot in Foot})
     """All live positions of each foot; empty unless `keeps_all`."""
-    times: dict[Foot, dict[type[Event], list[float]]] = field(
-        factory=lambda: {foot: {kind: [] for kind in GAIT_EVENTS} for foot in Foot}
+    times: dict[Foot, dict[str, list[float]]] = field(
+        factory=lambda: {foot: {name: [] for name in GAIT_EVENTS.values()} for foot in Foot}
     )
-    """Times of the final events of GAIT_EVENTS of each foot, s; empty unless `keeps_all`."""
+    """Times of the final events of each foot, s, by their names in GAIT_EVENTS; empty unless `keeps_all`."""
     activities: list[ActivityChanged] = field(factory=list)
     """Activities in the order in which they were reported; empty unless `keeps_all`."""
     silences: Counter[Foot] = field(factory=Counter)
@@ -254,14 +255,16 @@ class Walk:
                     self.positions[foot].append(event)
                 self.sample_span = _extend(self.sample_span, t)
                 last = self.standing[foot].last
-                if event.phase is Phase.STATIONARY and (last is None or not 0.0 <= t - last.t < HEIGHT_INTERVAL):
-                    self.standing[foot].add(event, MAX_POINTS)
+                is_due = last is None or not 0.0 <= t - last.t < HEIGHT_INTERVAL
+                if is_due and event.phase is Phase.STATIONARY:
+                    self.standing[foot].add(event, 0 if self.limit == 0 else MAX_POINTS)
             case FootPressed(t=t, known_at=known_at, foot=foot):
                 link = self.link(SITE_OF_FOOT[foot])
                 link.add_sample(t, known_at)
                 link.has_pressure = True
                 self.sample_span = _extend(self.sample_span, t)
-                self.sole(foot).add_sample(event)
+                if self.limit != 0:
+                    self.sole(foot).add_sample(event)
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
                 self._count_gait_event(event)
             case _:
@@ -293,7 +296,7 @@ class Walk:
             name = GAIT_EVENTS[type(event)]
             self.foot(event.foot).events[name] += 1
             if self.keeps_all:
-                self.times[event.foot][type(event)].append(event.t)
+                self.times[event.foot][name].append(event.t)
             self.latencies[name][round(1e4 * (event.known_at - event.t))] += 1
 
     def _count_event(self, event: Event) -> None:
@@ -309,8 +312,9 @@ class Walk:
                 self.gait.add(event, UNLIMITED_STRIDES)
                 self.recent_gait.add(event)
                 self.cycles[event.foot].add(event, self.limit)
-                self.newest_cycles.append(event)
-                self.sole(event.foot).add_cycle(event)
+                if self.limit != 0:
+                    self.newest_cycles.append(event)
+                    self.sole(event.foot).add_cycle(event)
             case ClockReset(known_at=known_at) if known_at < self.now - SET_BACK_TOLERANCE:
                 self.now = known_at
             case ActivityChanged():
@@ -333,10 +337,10 @@ class Walk:
                 if turn is not None:
                     self.turns[turn] += 1
             case WearerMoved():
-                self.wearer_track.add(event, MAX_POINTS)
+                self.wearer_track.add(event, 0 if self.limit == 0 else MAX_POINTS)
             case Placed() | PlaceLost():
                 self.placed.add(_with_heaviest(event), self.limit)
-            case LayoutKnown(site=site, layout=layout) if site.foot is not None:
+            case LayoutKnown(site=site, layout=layout) if site.foot is not None and self.limit != 0:
                 self.sole(site.foot).layout = layout
             case FootSilent(foot=foot):
                 self.silences[foot] += 1

@@ -84,7 +84,7 @@ class Scene:
     guide: Guide | None = field(default=None, metadata=NOT_SAVED)
     body: LiveBody | None = field(default=None, metadata=NOT_SAVED)
     newtons: tuple[Foot, ...] = ()
-    walk: Walk = field(factory=Walk)
+    walk: Walk = field(factory=lambda: Walk(limit=0))
     feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
     wearer: WearerScene = field(factory=WearerScene, init=False)
     gait_means: SceneGaitMeans = field(factory=SceneGaitMeans, init=False)
