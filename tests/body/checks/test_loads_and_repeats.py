@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from math import hypot
 from statistics import median
 
 import pytest
@@ -83,6 +84,17 @@ def test_it_is_named_which_sensor_repeats_its_values(acc: bool, gyro: bool, word
     assert event.what.startswith(f"{words}: samples come more often than")
     strides = of(StrideTaken, events)
     assert len(strides) > 10 and not any(stride.degraded for stride in strides)
+
+
+@pytest.mark.parametrize(("name", "quantity"), [("accelerometer", "acc"), ("gyroscope", "gyro")])
+def test_one_of_two_sensors_that_says_the_same_while_the_other_moves_is_stuck(name: str, quantity: str) -> None:
+    fastest = max(walk(), key=lambda sample: hypot(*(sample.gyro or ())))
+    stuck = {quantity: getattr(fastest, quantity)}
+    session = Session()
+    events = session.feed([evolve(sample, **stuck) if sample.t >= 5.0 else sample for sample in walk()])
+    found = [one for one in of(DefectFound, events) if one.defect is Defect.REPEATED]
+    text = f"the {name} repeats the same values while the foot moves: it is stuck; restart the sensor"
+    assert found and (found[-1].what, found[-1].spoils) == (text, True)
 
 
 @pytest.mark.parametrize("stuck", Foot)
