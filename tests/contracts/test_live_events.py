@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from attrs import evolve
 from one_foot import SOLE, TARE, above
+from toys import BASE, more
 from walks import LEFT, insoles, of, samples
 
 from solepath import (
@@ -19,6 +20,7 @@ from solepath import (
     Foot,
     FootPressed,
     LayoutKnown,
+    Packet,
     Phase,
     Sample,
     Session,
@@ -30,6 +32,7 @@ from solepath import (
 from solepath.calibration import InsoleCalibration, Newtons
 from solepath.emulate.sensors.insoles import layout
 from solepath.events import LiveEvent
+from solepath.link.driver import Measured, Reading
 
 LIVE_FLAGS = {"poses": True, "pressures": True}
 WITH_LAYOUT = Calibration(insoles={Foot.LEFT: InsoleCalibration(SOLE)})
@@ -113,6 +116,26 @@ def test_the_centre_is_where_the_load_is_and_in_the_air_there_is_none() -> None:
     assert emitted[-3].centre is None
     assert emitted[-2].centre == pytest.approx((0.05, 0.005))
     assert emitted[-1].centre == pytest.approx((0.05 * 0.5 + 0.13 * 0.125 + 0.20 * 0.375, 0.02 * 0.375))
+
+
+@pytest.mark.parametrize("count", [1, 2, 24])
+def test_cells_that_are_more_than_the_layout_of_their_device_has_are_not_shown(count: int) -> None:
+    """The device of an app says where its one cell is, and sends the values of so many."""
+
+    def cells(sent: Any, known: Any) -> Reading:
+        return Reading((Measured(pressure=(*sent.up, *[20.0] * 23)[: sent.count]),))
+
+    driver = evolve(BASE, readers={"toy/data": cells, "toy/more": more})
+    session = Session(profiles=[driver], pressures=True)
+    session.feed(Packet(0.5, LEFT, "toy/more", driver.write("toy/more", {"what": 7, "value": [0.0]})))
+    values = [
+        driver.write("toy/data", {"number": 0, "ticks": 0, "count": count, "up": [load]})
+        for load in (400.0, 0.0, 300.0, 0.0, 400.0)
+    ]
+    events = session.feed([Packet(1.0 + 0.01 * k, LEFT, "toy/data", value) for k, value in enumerate(values)])
+    pressed = of(FootPressed, events + session.finish())
+    assert len(pressed) == (len(values) if count == 1 else 0)
+    assert count > 1 or pressed[-1].centre == (0.1, 0.0)
 
 
 def test_in_a_walk_the_centre_goes_from_heel_to_toe_and_is_absent_while_the_foot_swings() -> None:

@@ -173,6 +173,24 @@ def test_files_of_another_program_give_the_samples_of_both_feet(tmp_path: Path) 
 
 
 @pytest.mark.parametrize(
+    ("old", "new", "fault"),
+    [
+        ("1000.0\t0\t0\t6\t99", "inf\t0\t0\t6\t99", "line 2, acc_left: is inf, not a finite number"),
+        ("6\t99\t0.01", "6\t99\t5", "line 2, latency: time is out of order: 5 s after 0 s and before 0.03 s"),
+    ],
+)
+def test_a_row_that_cannot_be_costs_itself_and_is_named(tmp_path: Path, old: str, new: str, fault: str) -> None:
+    path, reports = by_hand(tmp_path), list[str]()
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+    samples = list(open_source(path, report=reports.append))
+    assert [round(s.t, 6) for s in samples if s.site is LEFT] == [0.0, 0.03]
+    assert len([s for s in samples if s.site is RIGHT]) == 3
+    assert len(reports) == 1 and fault in reports[0] and reports[0].endswith("this row is left out")
+
+
+@pytest.mark.parametrize(
     ("changed", "old", "new", "complaint"),
     [
         ("channels", "z\tACCEL", "w\tACCEL", "L_motion.tsv: acc of LeftFoot has no x, y and z"),

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from plan_files import format_floorplan
 
 from solepath.floorplan.checks import find_warnings
+from solepath.floorplan.geometry import contains, edges
 from solepath.floorplan.importers import reading
 from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
@@ -133,6 +134,26 @@ def test_a_name_is_a_text_or_a_number_that_can_be_one(kind: str, value: Any, tex
         return
     plan = parse_floorplan(data)
     assert [one.name for one in (*plan.levels[0].doors, *plan.connectors)] == [text]
+
+
+SHAPES = {
+    # corners, and where one steps on: the middle of area, or beside it in the wider arm
+    "a square": ([[0, 0], [4, 0], [4, 4], [0, 4]], (2.0, 2.0)),
+    "a triangle": ([[0, 0], [6, 0], [0, 6]], (2.0, 2.0)),
+    "a U with a wide right arm": ([[0, 0], [9, 0], [9, 9], [6, 9], [6, 1], [1, 1], [1, 9], [0, 9]], (7.5, None)),
+    "a U with a wide left arm": ([[0, 0], [9, 0], [9, 9], [8, 9], [8, 1], [3, 1], [3, 9], [0, 9]], (1.5, None)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("clockwise", [False, True])
+def test_one_steps_into_a_cabin_of_any_shape_within_it(shape: str, clockwise: bool) -> None:
+    corners, (x, y) = SHAPES[shape]
+    ring = [[a + 20.0, b - 7.0] for a, b in (corners[::-1] if clockwise else corners)]
+    lift = feature("lift", "Polygon", [[*ring, ring[0]]], name="A")
+    (stop,) = parse_floorplan(geojson(feature("wall", "Polygon", [SQUARE]), lift)).connectors[0].stops
+    assert contains(edges(stop.outline), *stop.place)
+    assert stop.place[0] == pytest.approx(x + 20.0) and (y is None or stop.place[1] == pytest.approx(y - 7.0))
 
 
 def test_a_room_with_a_hole_does_not_hold_what_is_in_the_hole() -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from cmath import rect
 from math import cos, dist, hypot, inf, sin
 
 import pytest
-from floors import HIGH, LOW, RIGHT, Method, Pedestrian, follow, indexed_office, lost, placed
+from attrs import evolve
+from floors import HIGH, LOW, RIGHT, STAIRS, Method, Pedestrian, beside, follow, indexed_office, lost, placed
 from views import told
 
 from solepath import Session, Site
@@ -120,6 +122,30 @@ def test_a_session_on_a_plan_corrects_track_and_place_by_a_position_on_a_level()
         session.here((x, y), level="attic")
     with pytest.raises(ValueError, match="without a floor plan"):
         fed_without_a_plan.here((x, y), level=newest.level)
+
+
+@pytest.mark.parametrize("revised_after", [5, 15, 25])
+def test_a_revision_of_the_track_on_the_way_over_stairs_moves_nobody_either(part: Method, revised_after: int) -> None:
+    """It comes on the first flight, on the second, and before the end of the stairs is reported."""
+    name, level = "stairs south", "1"
+    pedestrian = Pedestrian(6, "0", (20.0, LOW)).known_to(part)
+    part.plan = indexed_office()
+    pedestrian.walk(beside(STAIRS[name]), STAIRS[name])
+    before = len(pedestrian.received)
+    pedestrian.climb(level, name)
+    pedestrian.walk(beside(STAIRS[name]), (20.0, LOW))
+    by, turn, (x, y) = (-9.0, 14.0), 0.7, (0.0, 0.0)
+    for k, one in enumerate(pedestrian.received):
+        here = one.here
+        if k == before + revised_after:
+            told(part, TrackRevised(t=here.t, known_at=here.t, by=by, turn=turn, nodes=()))
+            x, y, _ = here.position
+        if k >= before + revised_after:
+            way = complex(here.position[0] - x, here.position[1] - y) * rect(1.0, turn)
+            position = (x + by[0] + way.real, y + by[1] + way.imag, here.position[2])
+            here = evolve(here, position=position)
+        part.follow(indexed_office(), one.events, here)
+    assert part.place is not None and part.place.level == level and off(part, pedestrian.place) < 1.5
 
 
 def test_whoever_stands_at_a_lift_reports_its_name() -> None:

@@ -189,6 +189,9 @@ def test_a_source_of_samples_counts_them_and_has_a_title(tmp_path):
     assert [(s.t, s.site.foot) for s in source] == [
         (-0.005, Foot.RIGHT), (0.0, Foot.LEFT), (0.005, Foot.RIGHT), (0.01, Foot.LEFT)
     ]  # fmt: skip
+    for size in (79, 80, 81):
+        pair = [Path("x.csv"), Path("y" * (size - 11) + ".csv")]
+        assert label_files(pair) == (f"{pair[0]}, {pair[1]}" if size <= 80 else "x.csv and 1 more")
     names = [Path(f"{letter * 36}.csv") for letter in "abc"]
     assert label_files(names) == f"{names[0]} and 2 more"
     assert label_files([Path("a/x.csv"), Path("b/x.csv")]) == "a/x.csv, b/x.csv"

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from math import hypot
 from statistics import median
 
 import pytest
 from attrs import evolve
-from walks import of
+from walks import both_feet, of
 
 from solepath import Defect, DefectFound, Foot, Sample, Session, Site, StrideTaken
 from solepath.calibration import Calibration, InsoleCalibration, Newtons
@@ -83,3 +84,39 @@ def test_it_is_named_which_sensor_repeats_its_values(acc: bool, gyro: bool, word
     assert event.what.startswith(f"{words}: samples come more often than")
     strides = of(StrideTaken, events)
     assert len(strides) > 10 and not any(stride.degraded for stride in strides)
+
+
+@pytest.mark.parametrize(("name", "quantity"), [("accelerometer", "acc"), ("gyroscope", "gyro")])
+def test_one_of_two_sensors_that_says_the_same_while_the_other_moves_is_stuck(name: str, quantity: str) -> None:
+    fastest = max(walk(), key=lambda sample: hypot(*(sample.gyro or ())))
+    stuck = {quantity: getattr(fastest, quantity)}
+    session = Session()
+    events = session.feed([evolve(sample, **stuck) if sample.t >= 5.0 else sample for sample in walk()])
+    found = [one for one in of(DefectFound, events) if one.defect is Defect.REPEATED]
+    text = f"the {name} repeats the same values while the foot moves: it is stuck; restart the sensor"
+    assert found and (found[-1].what, found[-1].spoils) == (text, True)
+
+
+@pytest.mark.parametrize("stuck", Foot)
+@pytest.mark.parametrize("other_walks", [True, False])
+def test_a_sensor_that_says_the_same_while_three_strides_of_the_other_foot_begin_is_stuck(
+    stuck: Foot, other_walks: bool
+) -> None:
+    """A wearer who stands still may have a sensor without noise, and a foot may stand for one stride of the other."""
+    walked, since = both_feet(WALKER, 50.0, LSM6DSOX), 8.0
+    (last, *_) = [sample for sample in walked if sample.site.foot is stuck and sample.t >= since]
+    session, events = Session(), []
+    for sample in walked:
+        is_same = sample.t >= since and (sample.site.foot is stuck or not other_walks)
+        still = last if sample.site.foot is stuck else evolve(last, acc=(0.0, 0.0, 9.81), gyro=(0.0, 0.0, 0.0))
+        events += session.feed(evolve(sample, acc=still.acc, gyro=still.gyro) if is_same else sample)
+    found = [one for one in of(DefectFound, events) if one.defect is Defect.REPEATED]
+    if not other_walks:
+        assert found == []
+        return
+    (event,) = found
+    assert event.site.foot is stuck and event.spoils
+    assert event.what.startswith("every sample has been the same for ")
+    assert event.what.endswith(" s, while the other foot walks: the sensor is stuck; restart it")
+    began = [one.t_start for one in of(StrideTaken, events) if one.foot is not stuck and one.t <= event.t]
+    assert sum(t_start >= since for t_start in began) in (3, 4), "the first one may begin before it is seen"

@@ -10,7 +10,8 @@ from lake import error, fed, loop, middle, off_by, passing_times
 from walks import samples
 
 from solepath import Session
-from solepath.events import PositionRejected, PositionReported, TrackRevised
+from solepath.body.fuse.walked_path import MOST_NODES, NotedPlace, WalkedPath
+from solepath.events import PositionRejected, PositionReported, TrackNode, TrackRevised
 
 
 @pytest.mark.long
@@ -80,3 +81,20 @@ def test_a_place_without_a_name_or_with_too_long_a_one_is_an_error() -> None:
             session.here(place)
     with pytest.raises(ValueError, match="level"):
         session.here("gate", level="0")
+
+
+def test_the_path_of_a_long_walk_has_few_nodes_and_keeps_its_ends_its_length_and_every_place() -> None:
+    path, strides = WalkedPath(), 3000
+    for k in range(strides):
+        path.add_stride(float(k), complex(k, 0.5 * k), hypot(1.0, 0.5))
+        if k in (40, 41, 700, 2990):
+            path.add_node(TrackNode(float(k), float(k), 0.5 * k))
+            path.places[f"at {k}"] = NotedPlace(k, len(path.nodes) - 1)
+        assert len(path.nodes) <= MOST_NODES + len(path.places)
+    assert path.nodes[0].t == 0.0 and strides - path.nodes[-1].t < 300.0
+    times = [node.t for node in path.nodes]
+    assert times == sorted(times) and len(times) > 15
+    assert {name: path.nodes[one.node].t for name, one in path.places.items()} == {
+        "at 40": 40.0, "at 41": 41.0, "at 700": 700.0, "at 2990": 2990.0
+    }  # fmt: skip
+    assert all((node.x, node.y) == (node.t, 0.5 * node.t) for node in path.nodes)
