@@ -6,9 +6,22 @@ from functools import cache
 from itertools import pairwise
 
 import pytest
-from walks import LEFT, SHORT, insoles, of, samples
+from attrs import evolve
+from walks import LEFT, RIGHT, SHORT, insoles, of, samples
 
-from solepath import Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, StrideTaken, ToeOff
+from solepath import (
+    Foot,
+    FootFlat,
+    FootPressed,
+    HeelOff,
+    HeelStrike,
+    Layout,
+    Sample,
+    Session,
+    StrideTaken,
+    ToeOff,
+    recipes,
+)
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
@@ -87,3 +100,18 @@ def test_heel_and_forefoot_are_distinguished_after_two_stances() -> None:
                 assert learnt.x > 0.55 * estimate.length, cell
             placed += 1
         assert placed > 0.7 * cells
+
+
+def test_where_the_cells_of_another_insole_are_is_learnt_anew() -> None:
+    """Nobody says where the cells of either are; the second one has more of them."""
+    session = Session(recipes.by_name("kupt-dfpc"), pressures=True)
+    for count, address, later in ((24, "C0:FF:EE:00:00:01", 0.0), (35, "C0:FF:EE:00:00:02", 60.0)):
+        for site in (LEFT, RIGHT):
+            session.bind(site, address)
+        worn = [evolve(one, t=one.t + later, known_at=one.t + later) for one in samples(cells=count)]
+        events = session.feed(worn)
+        assert {len(event.values) for event in of(FootPressed, events)} == {count}
+        assert len(of(StrideTaken, events)) >= 6
+        for tracker in session.feet.values():
+            learnt = tracker.sole.insole.layout
+            assert tracker.sole.layout_estimated and learnt is not None and len(learnt.cells) == count
