@@ -186,7 +186,7 @@ def _damages() -> Iterator[Damage]:
 def _columns(piece: WalkingFoot) -> Damaged:
     """Return the finite samples of the foot."""
     (table,) = [table for table in load_samples(piece.path).tables if table.foot is piece.foot]
-    t, acc, gyro = table.t, table.columns["acc"], table.columns["gyro"]
+    t, acc, gyro = np.asarray(table.t), *(np.column_stack(table.columns[key]) for key in ("acc", "gyro"))
     good = np.isfinite(t) & np.isfinite(acc).all(axis=1) & np.isfinite(gyro).all(axis=1)
     return t[good], acc[good], gyro[good]
 

@@ -18,15 +18,15 @@ from pylsl import StreamInfo, StreamInlet, local_clock, proc_clocksync, resolve_
 from pylsl.util import LostError
 from pylsl.util import TimeoutError as LslTimeout
 
-from ...types import Sample, Site, Vec3
-from ..mapping.units import UNITS, factor_of
+from ...types import Sample, Site
+from ..mapping.units import UNITS, unit_of
 
 SEARCH_TIME = 15.0
 """Time of the search for a stream, s; streams of an idle machine answer within 0.1 s, of a busy one in seconds."""
 MAX_CHUNK = 1024
 """Number of samples that are taken from the queue at a time."""
 _LABEL = re.compile(r"(acc|gyr)[a-z]*[^a-z0-9]*([xyz]|[123])$")
-_AXES = {"x": 0, "y": 1, "z": 2, "1": 0, "2": 1, "3": 2}
+_AXES = {"1": "x", "2": "y", "3": "z"}
 
 
 class LslError(Exception):
@@ -85,9 +85,9 @@ class LslInlet:
                 return samples
             known_at = local_clock() - self.offset
             for row, stamp in zip(values, times, strict=True):
-                vectors = {quantity: _vector(row, *column) for quantity, column in self._columns.items()}
+                acc, gyro = (tuple([scale * float(row[k]) for k in numbers]) for numbers, scale in self._columns)
                 t = stamp - self.offset
-                samples.append(Sample(t, self.site, vectors["acc"], vectors["gyro"], known_at=max(t, known_at)))
+                samples.append(Sample(t, self.site, acc, gyro, known_at=max(t, known_at)))
 
     def close(self) -> None:
         """End the reception."""
@@ -99,40 +99,34 @@ def stream_names() -> list[str]:
     return sorted({info.name() for info in resolve_streams() if info.type() not in ("Markers", "Events")})
 
 
-def _vector(row: Sequence[float], numbers: Sequence[int], scale: float) -> Vec3:
-    x, y, z = [scale * float(row[number]) for number in numbers]
-    return x, y, z
-
-
 def _find_columns(
     info: StreamInfo, channels: Sequence[str] | None, units: Mapping[str, str]
-) -> dict[str, tuple[list[int], float]]:
-    """Return the channels x, y and z of each quantity, and the value of its unit in SI units."""
+) -> list[tuple[list[int], float]]:
+    """Return the channels x, y and z of specific force and angular rate, and the value of the unit in SI units."""
     labels = channels if channels is not None else info.get_channel_labels() or []
-    kinds = info.get_channel_types() or []
-    given_units = info.get_channel_units() or []
-    found: dict[str, dict[int, int]] = {"acc": {}, "gyro": {}}
+    kinds, stated = info.get_channel_types() or [], info.get_channel_units() or []
+    found: dict[str, dict[str, int]] = {"acc": {}, "gyro": {}}
     for number, label in enumerate(labels):
-        match = _LABEL.search((label or "").lower()) or _LABEL.search(
-            f"{kinds[number] if kinds else ''} {label}".lower()
-        )
-        if match is not None:
-            found["acc" if match[1] == "acc" else "gyro"].setdefault(_AXES[match[2]], number)
-    columns = {}
+        for text in (label or "", f"{kinds[number] if kinds else ''} {label}"):
+            match = _LABEL.search(text.lower())
+            if match is not None:
+                axis = _AXES.get(match[2], match[2])
+                found["acc" if match[1] == "acc" else "gyro"].setdefault(axis, number)
+                break
+    columns = []
     for quantity, numbers in found.items():
-        if sorted(numbers) != [0, 1, 2]:
+        if set(numbers) != {*"xyz"}:
             texts = ", ".join([label or "-" for label in labels]) or f"{info.channel_count()} without labels"
             raise LslError(f"the stream {info.name()!r} has no {quantity}_x, _y and _z; its channels are: {texts}")
-        stated = [given_units[number] for number in numbers.values()] if given_units else []
-        unit = units.get(quantity) or next((one for one in stated if one), None) or "none"
+        unit = units.get(quantity) or next(filter(None, [stated[k] for k in numbers.values() if stated]), "none")
         factor = _find_factor(quantity, unit, f"{quantity} of the stream {info.name()!r}")
-        columns[quantity] = ([numbers[axis] for axis in range(3)], factor)
+        columns.append(([numbers[axis] for axis in "xyz"], factor))
     return columns
 
 
 def _find_factor(quantity: str, unit: str, whose: str) -> float:
     """Return the value of a unit in SI units; raise LslError, which says whose unit it is, when it is not known."""
-    factor = factor_of(unit, quantity)
-    if factor is None:
+    known = unit_of(unit, quantity)
+    if known is None:
         raise LslError(f"the unit of {whose} is {unit}, not one of {', '.join(UNITS[quantity])}")
-    return factor
+    return UNITS[quantity][known]
