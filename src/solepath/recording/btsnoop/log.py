@@ -21,9 +21,8 @@ from ..errors import RecordingError, Report, printable, warn
 from .att import AttOperation
 from .devices import Handles, LoggedDevice, assign_site, explain_unused, known_devices, name_attributes, with_article
 from .evidence import ValueEvidence
-from .hci import ConnectionChange
 from .records import reject_pipe
-from .values import LoggedValue, ValueListener
+from .values import ConnectionChange, LoggedValue, ValueListener
 
 MOST_ATTRIBUTES = 10_000
 """Largest number of attributes of a log, of all devices, whose values are examined: twenty of each, chosen by hand."""
