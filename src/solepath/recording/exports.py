@@ -1,28 +1,14 @@
-"""Known formats of tables of samples: how a file is recognised by its start, and the mapping with which it is read.
+"""Known formats of tables of samples: those of formats.toml, and this project's own.
 
-| format | what its files are like |
-|---|---|
-| movella-dot | Movella (Xsens) DOT, a file for each sensor. The logger of its SDK writes lines such as "DeviceTag:,". |
-| | Columns are those of the mode (User Manual XD0502P, table 9). SampleTimeFine counts microseconds and starts again |
-| | after 2^32 (4.2.5). FreeAcc is without gravity. MT Manager writes the same names for MTw and MTi in other units |
-| mbientlab | MetaBase of MbientLab, a file for each sensor of each device (DataHandler.java of MetaWear-Android-MetaBase-App |
-| | and sensor-config.js of MetaBase-Hub). `elapsed` starts from 0 in each file, so only `epoch`, `epoc` in MetaBase |
-| | for iOS, is a common clock. Only the name of a file tells what the sensor fusion computed |
-| physilog | Gait Up Physilog, a file for each sensor (HPI-CH/TRIPOD, doi:10.3390/data6090095): lines of groups with rates, |
-| | names, and units. Times of sensors that were synchronised start together |
-| moticon | Moticon OpenGo, both insoles in a file (text_import.py of moticon-rego/moticon-opengo). Axes are right handed in |
-| | both, x to the toe: `solepath check` on the vendor's 8 strides of each foot |
-| ngimu | x-io NGIMU, a folder for each device (xioTechnologies/NGIMU-MATLAB-Import-Logged-Data-Example). All devices count |
-| | from the first time of any (NGIMU-Software-Public, issue 2) |
-| solepath | this project: t,acc_x,acc_y,acc_z,gyro_x,...,pressure_0,... in SI units; acc_x_left or acc_left_x of a foot; |
-| | 0, 1, 2 for x, y, z. Other columns are ignored |
-
-In a file of both feet, a row in which all cells of one foot are blank has no sample of that foot."""
+The names of this project are t,acc_x,acc_y,acc_z,gyro_x,...,pressure_0,... in SI units; acc_x_left or acc_left_x of a
+foot, with 0, 1, 2 for x, y, z. Other columns are ignored."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+import tomllib
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
 from typing import TYPE_CHECKING
 
 from attrs import evolve, field, frozen
@@ -37,19 +23,17 @@ if TYPE_CHECKING:
 class Export:
     """A known format of tables."""
 
-    name: str
-    """Name of the format for --format."""
     mapping: TableMapping = field(factory=TableMapping)
     """Mapping of its columns; a file may lack those of a quantity."""
-    marks: tuple[str, ...] = ()
+    marks: Sequence[str] = ()
     """Names that the header of each file has; the first one is that of the times if none of these is."""
-    start: tuple[str, ...] = ()
+    start: Sequence[str] = ()
     """Texts with one of which a line before the header starts, so that no other name is needed."""
     tag: str = ""
     """Start of the line with the name that the user gave the device, which may hold a foot."""
     flaws: Mapping[str, str] = field(factory=dict)
     """Patterns of lines before the header, with what they say about the worth of the file."""
-    needed: tuple[str, ...] = ()
+    needed: Sequence[str] = ()
     """Quantities that each file has to have."""
     lacks: str = "has no columns {}"
     """Sentence for a file without the columns of a needed quantity."""
@@ -63,7 +47,7 @@ class Export:
     def fits(self, header: SheetLayout) -> bool:
         """Return whether the start of a file is of this format."""
         lines = [line.lstrip('"') for line in header.preamble]
-        if self.start and not any(line.startswith(self.start) for line in lines):
+        if self.start and not any(line.startswith(tuple(self.start)) for line in lines):
             return False
         columns = self.mapping.columns
         has_time = columns["t"][0] in self.marks or match_name(header.names[:1], columns["t"][0])
@@ -145,69 +129,11 @@ def _check_components(key: str, numbers: list[int]) -> None:
         raise ValueError(f"names more than three columns of {key}")
 
 
-OWN = _OwnExport("solepath")
+OWN = _OwnExport()
 """The format with this project's own names."""
-EXPORTS = {
-    export.name: export
-    for export in (
-        Export(
-            "movella-dot",
-            TableMapping.parse(
-                "t=SampleTimeFine,acc=Acc_X,Acc_Y,Acc_Z,gyro=Gyr_X,Gyr_Y,Gyr_Z", "us,deg/s", wrap=2.0**32
-            ),
-            marks=("PacketCounter", "SampleTimeFine"),
-            start=("sep=", "DeviceTag:", "Measurement Mode:"),
-            tag="DeviceTag:",
-            flaws={
-                r"SyncStatus:\s*,?\s*Un-?synced": "the sensor was not synchronised, so the feet have separate clocks"
-            },
-            needed=("acc", "gyro"),
-            lacks="was recorded in a mode without {}",
-            hints={"FreeAcc_X": "; FreeAcc is without gravity, from which no gait can be computed"},
-            repair='record with "Rate quantities", "Custom mode 5", or with acceleration and angular velocity selected',
-        ),
-        Export(
-            "mbientlab",
-            TableMapping.parse(
-                "t=epoc*,acc=x-axis (g),y-axis (g),z-axis (g),gyro=x-axis (deg/s),y-axis (deg/s),z-axis (deg/s)",
-                "ms,g,deg/s",
-            ),
-            marks=("elapsed (s)",),
-            computed="linear.?acceleration|gravity",
-            repair="give the file of the Accelerometer instead",
-        ),
-        Export(
-            "physilog",
-            TableMapping.parse("t=Time,acc=Accel X,Accel Y,Accel Z,gyro=Gyro X,Gyro Y,Gyro Z", "g,deg/s"),
-            start=("Gait Up - Physilog",),
-            needed=("acc", "gyro"),
-            repair="export accelerometer and gyroscope as well",
-        ),
-        Export(
-            "moticon",
-            TableMapping.parse(
-                "t=time,"
-                + ",".join(
-                    f"acc_{foot}={foot} acceleration X*,{foot} acceleration Y*,{foot} acceleration Z*,"
-                    f"gyro_{foot}={foot} angular X*,{foot} angular Y*,{foot} angular Z*,"
-                    f"pressure_{foot}={foot} pressure *"
-                    for foot in ("left", "right")
-                ),
-                "g,deg/s",
-            ),
-            needed=("acc",),
-            lacks="has no columns of acceleration",
-            repair="select acceleration and angular rate for the text export",
-        ),
-        Export(
-            "ngimu",
-            TableMapping.parse(
-                "t=Time (s),acc=Accelerometer X (g),Accelerometer Y (g),Accelerometer Z (g),"
-                "gyro=Gyroscope X (deg/s),Gyroscope Y (deg/s),Gyroscope Z (deg/s)"
-            ),
-            marks=("Time (s)", "Gyroscope X (deg/s)", "Accelerometer X (g)"),
-        ),
-        OWN,
-    )
-}
+EXPORTS: dict[str, Export] = {}
 """Known formats by name (mapping.FORMATS), in the order in which they are tried."""
+for _name, _row in tomllib.loads(files("solepath.recording").joinpath("formats.toml").read_text("utf-8")).items():
+    _declared = {key: _row.pop(key) for key in ("columns", "units", "wrap") if key in _row}
+    EXPORTS[_name] = Export(TableMapping(**_declared), **_row)
+EXPORTS["solepath"] = OWN

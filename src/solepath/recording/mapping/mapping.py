@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+import shlex
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 from math import inf
@@ -129,7 +130,7 @@ class TableMapping:
         """Return what makes these changes: the whole --columns, or the line of `key` in the file of this mapping."""
         if not self.origin:
             columns = {**self.columns, **changes}
-            return f"--columns {shell_word(','.join(f'{k}={join_names(names)}' for k, names in columns.items()))}"
+            return f"--columns {shlex.quote(','.join(f'{k}={join_names(names)}' for k, names in columns.items()))}"
         names = list(changes[key])
         text = ", ".join(f'"{name}"' for name in names)
         return f"in {self.origin}: {key} = {text}" if len(names) == 1 else f"in {self.origin}: {key} = [{text}]"
@@ -174,11 +175,6 @@ def match_name(names: Sequence[str], wanted: str) -> list[NamedColumn]:
 def join_names(names: Iterable[str]) -> str:
     """Return names with commas between them; one that contains a comma or a double quote is in double quotes."""
     return ",".join('"' + name.replace('"', '""') + '"' if re.search('[,"]', name) else name for name in names)
-
-
-def shell_word(text: str) -> str:
-    """Return a text as one word of a command, in quotes if it needs them."""
-    return text if re.fullmatch(r"[\w@%+=:,./^-]+", text, re.ASCII) else "'" + text.replace("'", "'\"'\"'") + "'"
 
 
 def _parse_columns(text: str) -> dict[str, tuple[str, ...]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator, Sequence
 from itertools import islice, pairwise
 from math import isfinite, log, nan
@@ -10,7 +11,7 @@ from pathlib import Path
 from attrs import frozen
 
 from ..errors import RecordingError, printable
-from ..mapping.mapping import KEYS, join_names, shell_word
+from ..mapping.mapping import KEYS, join_names
 from ..mapping.units import GRAVITY, UNITS, unit_of_name
 from ..mapping.words import key_of_name
 from .columns import sensor_of_file
@@ -53,7 +54,7 @@ class Guess:
         text = ",".join(f"{key}={join_names(names)}" for key, names in self.columns.items())
         units = f" --units {','.join(self.units.values())}" if self.units else ""
         rate = " --rate HZ" if self.needs_rate else ""
-        return f"this may fit: --columns {shell_word(text)}{units}{rate}{f' {feet}' if feet else ''}"
+        return f"this may fit: --columns {shlex.quote(text)}{units}{rate}{f' {feet}' if feet else ''}"
 
 
 def guess_mapping(layout: SheetLayout, rows: Iterator[Row]) -> UnknownTable:
