@@ -12,6 +12,7 @@ EVENT_COLUMNS = (
 )  # fmt: skip
 GAIT_EVENTS = {HeelStrike: "heel_strike", FootFlat: "foot_flat", HeelOff: "heel_off", ToeOff: "toe_off"}
 
+
 def event_row(event: Event) -> tuple[float, dict[str, str]] | None:
     """Return the start of an event, s, on the recording's clock, and its row without `onset`; None if it has none."""
     if not event.final:

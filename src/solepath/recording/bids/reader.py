@@ -107,7 +107,7 @@ class _TrackingSystem:
         for quantity, numbers in self._find_columns(point).items():
             units = dict.fromkeys(self.channels[number].get("units", "") for number in numbers)
             known = dict.fromkeys(CELL_UNITS, 1.0) if quantity == "pressure" else UNITS[quantity]
-            factors = {known.get(unit.strip() if quantity == "pressure" else unit_of(unit, quantity)) for unit in units}
+            factors = {known.get(unit_of(unit, quantity) or unit.strip()) for unit in units}
             factor = factors.pop()
             if factors or factor is None:
                 what = f"{quantity} is in {printable(', '.join(units))}, not in one of {', '.join(known)}"
@@ -117,7 +117,9 @@ class _TrackingSystem:
         delay = 0.0 if first is None or self.start is None else self.start - first
         table.t = floats([t + delay for t in self._times(values)])
         inertial = [zip(*table.columns[q], strict=True) for q in ("acc", "gyro") if q in table.columns]
-        table.select([any(not any(map(isnan, vector)) for vector in vectors) for vectors in zip(*inertial, strict=True)])
+        table.select(
+            [any(not any(map(isnan, vector)) for vector in vectors) for vectors in zip(*inertial, strict=True)]
+        )
         return table
 
     def _read_values(self) -> list[array[float]]:

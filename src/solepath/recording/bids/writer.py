@@ -93,7 +93,8 @@ class MotionWriter:
         start = min([columns.t[0] for columns in self._sensors.values()])
         folder = self.root / self.entities.folder
         folder.mkdir(parents=True, exist_ok=True)
-        texts = {self.entities.file("events.json"): _TEXTS.joinpath("events.json").read_text("utf-8")}
+        described = {name: _TEXTS.joinpath(name).read_text("utf-8") for name in ("events.json", "channels.json")}
+        texts = {self.entities.file("events.json"): described["events.json"]}
         names = [self.entities.file("events.tsv")]
         files = FileReplacements()
         try:
@@ -105,7 +106,7 @@ class MotionWriter:
                 columns.write_channels(files.temporary_path(folder / channels))
                 metadata = columns.metadata(self.entities.task, start, version("solepath"))
                 texts[self.entities.file("motion.json", columns.tracksys)] = to_json(metadata)
-                texts[self.entities.file("channels.json", columns.tracksys)] = _TEXTS.joinpath("channels.json").read_text("utf-8")
+                texts[self.entities.file("channels.json", columns.tracksys)] = described["channels.json"]
                 names += [motion, channels]
             files.move_to_targets()
         finally:

@@ -176,7 +176,7 @@ class Conversation:
             for entry in parse_whole(BODIES[opcode], data).entries:
                 self._add(AttOperation.NOTIFIED, entry)
             return
-        (request, asked), self._request = self._request, (0, None)
+        (request, request_body), self._request = self._request, (0, None)
         if not request:
             return  # the request came before the log started
         match opcode, request:
@@ -185,16 +185,16 @@ class Conversation:
                     self.flaws["writes that were rejected"] += 1
                 self._end_read()
             case AttOpcode.MTU_RESPONSE, AttOpcode.MTU_REQUEST:
-                self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, data).mtu, asked.mtu))
+                self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, data).mtu, request_body.mtu))
             case AttOpcode.INFORMATION, AttOpcode.FIND_INFORMATION:
                 for entry in parse_whole(BODIES[opcode], data).entries:
                     self._add_type(entry.handle, entry.type)
             case AttOpcode.VALUES_BY_TYPE, AttOpcode.READ_BY_TYPE:
-                self._add_found(asked.type, parse_whole(BODIES[opcode], data).entries)
+                self._add_found(request_body.type, parse_whole(BODIES[opcode], data).entries)
             case (AttOpcode.VALUE, AttOpcode.READ) | (AttOpcode.BLOB, AttOpcode.READ_BLOB):
-                self._add_read(asked.handle, data, is_first=request == AttOpcode.READ)
+                self._add_read(request_body.handle, data, is_first=request == AttOpcode.READ)
             case AttOpcode.WRITTEN, AttOpcode.WRITE:
-                self._add(AttOperation.WRITTEN, asked)
+                self._add(AttOperation.WRITTEN, request_body)
 
     def _add_found(self, kind: bytes, entries: Any) -> None:
         """Add the types in an answer: those of the characteristics that it declares, or `kind` for its values."""

@@ -213,7 +213,9 @@ class ValueListener:
             self.flaws["pieces of packets whose beginning is missing"] += 1
             return
         pieces += body
-        size, channel = TWO_NUMBERS.parse(bytes(pieces[:HEADER_SIZE])) if len(pieces) >= HEADER_SIZE else (len(pieces), 0)
+        size, channel = (
+            TWO_NUMBERS.parse(bytes(pieces[:HEADER_SIZE])) if len(pieces) >= HEADER_SIZE else (len(pieces), 0)
+        )
         if len(pieces) > HEADER_SIZE + size:
             self._discard_pieces(connection, sent)
         elif len(pieces) == HEADER_SIZE + size:

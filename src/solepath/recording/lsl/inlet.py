@@ -18,7 +18,7 @@ from pylsl import StreamInfo, StreamInlet, local_clock, proc_clocksync, resolve_
 from pylsl.util import LostError
 from pylsl.util import TimeoutError as LslTimeout
 
-from ...types import Sample, Site
+from ...types import Sample, Site, Vec3
 from ..mapping.units import UNITS, unit_of
 
 SEARCH_TIME = 15.0
@@ -85,7 +85,7 @@ class LslInlet:
                 return samples
             known_at = local_clock() - self.offset
             for row, stamp in zip(values, times, strict=True):
-                acc, gyro = (tuple([scale * float(row[k]) for k in numbers]) for numbers, scale in self._columns)
+                acc, gyro = (_vector(row, *columns) for columns in self._columns)
                 t = stamp - self.offset
                 samples.append(Sample(t, self.site, acc, gyro, known_at=max(t, known_at)))
 
@@ -97,6 +97,11 @@ class LslInlet:
 def stream_names() -> list[str]:
     """Return the names of the streams in the network that are not of markers, in alphabetical order."""
     return sorted({info.name() for info in resolve_streams() if info.type() not in ("Markers", "Events")})
+
+
+def _vector(row: Sequence[float], numbers: Sequence[int], scale: float) -> Vec3:
+    x, y, z = [scale * float(row[number]) for number in numbers]
+    return x, y, z
 
 
 def _find_columns(

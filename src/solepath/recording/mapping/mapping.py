@@ -156,9 +156,9 @@ class NamedColumn:
     sign: float = 1.0
 
 
-def match_name(names: Sequence[str], wanted: str) -> list[NamedColumn]:
+def match_name(names: Sequence[str], given: str) -> list[NamedColumn]:
     """Return the columns that a name means: as it is or with a sign, as a number, a pattern, and in any case."""
-    for name, sign in ((wanted, 1.0), (wanted[1:], -1.0))[: 1 + wanted.startswith("-")]:
+    for name, sign in ((given, 1.0), (given[1:], -1.0))[: 1 + given.startswith("-")]:
         exact = [k for k, one in enumerate(names) if one == name]
         if not exact and name.startswith("#") and name[1:].isdecimal() and 0 < int(name[1:]) <= len(names):
             exact = [int(name[1:]) - 1]

@@ -71,8 +71,8 @@ def load_samples(
     problems: list[RecordingError] = []
     feet: list[Foot | None] = list(feet_of_files(paths, mapping.feet))
     only = foot if isinstance(foot, Foot) else None
-    if only is not None:
-        feet = [only] if len(paths) == 1 else feet
+    if isinstance(foot, Foot):
+        feet = [foot] if len(paths) == 1 else feet
     elif foot is not None:
         feet = list(foot)
         if len(feet) != len(paths):
