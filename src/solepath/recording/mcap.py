@@ -37,7 +37,7 @@ from ..link.driver import Driver
 from ..session import Session
 from ..types import SITE_OF_FOOT, Packet, Phase, Sample
 from .errors import RecordingError, os_error_text
-from .packet_writer import open_locked
+from .packet_writer import open_target
 from .packets import FORMAT, VERSION, read_start_time
 from .posed import PosedSession
 
@@ -90,14 +90,8 @@ class McapWriter:
         self._sequences = Counter[int]()
         self._zero_time: int | None = None
         """Time since 1970 at `t` = 0, ns; None until the first packet."""
-        try:
-            file, self._had_content = open_locked(self.path)
-        except OSError as error:
-            raise RecordingError(self.path, os_error_text(error)) from error
+        file, self._had_content = open_target(self.path, "" if replace else "McapWriter")
         self._file = BufferedWriter(file)
-        if self._had_content and not replace:
-            self._file.close()
-            raise RecordingError(self.path, "exists, and is not replaced; McapWriter(..., replace=True) does")
         self._writer = Writer(self._file, chunk_size=CHUNK_SIZE, compression=CompressionType.ZSTD)
         if not self._had_content:
             with self._as_recording_error():

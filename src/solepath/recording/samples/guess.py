@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterator, Sequence
 from itertools import islice, pairwise
 from math import isfinite, log, nan
 from pathlib import Path
 
-from attrs import frozen
-
 from ..errors import RecordingError, printable
-from ..mapping.mapping import KEYS, join_names
+from ..mapping.mapping import KEYS, TableMapping
 from ..mapping.units import GRAVITY, UNITS, unit_of_name
 from ..mapping.words import key_of_name
 from .columns import sensor_of_file
@@ -26,12 +23,17 @@ MAX_ROWS = 20_000
 
 
 class UnknownTable(RecordingError):
-    """Error for a table of no known format, with the options that may fit it; `feet`: the one that names the feet."""
+    """Error for a table of no known format, with the mapping that may fit it; `feet`: the option that names the feet."""
 
-    def __init__(self, path: Path, what: str, where: str, guess: Guess | None, feet: str = "") -> None:
-        example = "t=1,acc=2,3,4,gyro=5,6,7" if "it holds numbers" in what else "t=NAME,acc=X,Y,Z,gyro=X,Y,Z"
-        needed = f"say which columns hold what, as in --columns {example} --units g,deg/s,ms"
-        super().__init__(path, what, where, needed if guess is None else guess.write(feet))
+    def __init__(self, path: Path, what: str, where: str, guess: TableMapping | None, feet: str = "") -> None:
+        if guess is None:
+            example = "t=1,acc=2,3,4,gyro=5,6,7" if "it holds numbers" in what else "t=NAME,acc=X,Y,Z,gyro=X,Y,Z"
+            repair = f"say which columns hold what, as in --columns {example} --units g,deg/s,ms"
+        else:
+            units = guess.write_units("", {}) if guess.units else ""
+            rate = "" if "t" in guess.columns else "--rate HZ"
+            repair = " ".join(filter(None, ("this may fit:", guess.write_columns("", {}), units, rate, feet)))
+        super().__init__(path, what, where, repair)
         self.guess = guess
 
     @property
@@ -39,22 +41,6 @@ class UnknownTable(RecordingError):
         """Quantities that the columns may hold; none if the names of columns say of which foot they are."""
         keys = set() if self.guess is None else {*self.guess.columns}
         return set() if any("_" in key for key in keys) else keys
-
-
-@frozen
-class Guess:
-    """Options that may fit one or more tables."""
-
-    columns: dict[str, tuple[str, ...]]
-    units: dict[str, str]
-    needs_rate: bool
-
-    def write(self, feet: str = "") -> str:
-        """Return the options as they are typed, with that of the `feet`."""
-        text = ",".join(f"{key}={join_names(names)}" for key, names in self.columns.items())
-        units = f" --units {','.join(self.units.values())}" if self.units else ""
-        rate = " --rate HZ" if self.needs_rate else ""
-        return f"this may fit: --columns {shlex.quote(text)}{units}{rate}{f' {feet}' if feet else ''}"
 
 
 def guess_mapping(layout: SheetLayout, rows: Iterator[Row]) -> UnknownTable:
@@ -71,7 +57,7 @@ def guess_mapping(layout: SheetLayout, rows: Iterator[Row]) -> UnknownTable:
     if units.get("t") == "":
         del columns["t"]
     named = {key: tuple(layout.names[k] for k in numbers) for key, numbers in columns.items()}
-    guess = Guess(named, {quantity: unit for quantity, unit in units.items() if unit}, "t" not in columns)
+    guess = TableMapping(named, {quantity: unit for quantity, unit in units.items() if unit})
     return UnknownTable(layout.path, f"is of no known format ({what})", where, guess)
 
 
@@ -79,18 +65,14 @@ def merge_guesses(problems: Sequence[RecordingError], feet: str = "") -> list[Re
     """Return the problems; those of unknown tables offer the same options, unless those of two files contradict.
 
     `feet` is the option that names the feet, "" if it is not needed."""
-    guesses = [one.guess for one in problems if isinstance(one, UnknownTable) and one.guess is not None]
+    unknown = [one for one in problems if isinstance(one, UnknownTable) and one.guess is not None]
+    guesses = [one.guess for one in unknown if one.guess is not None]
     columns = {key: names for guess in guesses for key, names in guess.columns.items()}
     units = {quantity: unit for guess in guesses for quantity, unit in guess.units.items()}
     if any({**columns, **guess.columns} != columns or {**units, **guess.units} != units for guess in guesses):
         return list(problems)
-    merged = Guess({key: columns[key] for key in KEYS if key in columns}, units, any(one.needs_rate for one in guesses))
-    return [
-        UnknownTable(one.path, one.what, one.where, merged, feet)
-        if isinstance(one, UnknownTable) and one.guess
-        else one
-        for one in problems
-    ]
+    merged = TableMapping({key: columns[key] for key in KEYS if key in columns}, units)
+    return [UnknownTable(one.path, one.what, one.where, merged, feet) if one in unknown else one for one in problems]
 
 
 def _guess_columns(layout: SheetLayout, sensor: str) -> dict[str, list[int]]:
