@@ -23,7 +23,7 @@ MAX_ROWS = 20_000
 
 
 class UnknownTable(RecordingError):
-    """Error for a table of no known format, with the mapping that may fit it; `feet`: the option that names the feet."""
+    """Error for a table of no known format, with the mapping that may fit it, and the option of its `feet`."""
 
     def __init__(self, path: Path, what: str, where: str, guess: TableMapping | None, feet: str = "") -> None:
         if guess is None:

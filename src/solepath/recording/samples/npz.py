@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from io import BytesIO
 from math import prod
 from pathlib import Path
-from typing import IO, Any, BinaryIO
+from typing import Any, BinaryIO
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
 
 import numpy as np
@@ -186,28 +186,19 @@ class _Archive:
             if info.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
                 raise ValueError("numpy packs in another way")
             with self._zip_file.open(info) as file:
-                count, dtype = _read_claim(file, info.file_size)
-            if dtype.kind not in NUMBER_KINDS:
-                raise RecordingError(self.path, f"holds {printable(str(dtype), 40)}, not numbers", key)
-            self._values += count * max(1, dtype.itemsize // FLOAT_SIZE)
-            if self._values > MAX_VALUES:
-                raise RecordingError(self.path, f"holds more than {MAX_VALUES:,} numbers")
-            with self._zip_file.open(info) as file:
-                array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
+                version = np.lib.format.read_magic(file)
+                if version not in HEADER_READERS:
+                    raise ValueError("its header has another version")
+                shape, is_fortran, dtype = HEADER_READERS[version](file)
+                count = prod(shape)
+                if not dtype.hasobject and count * dtype.itemsize > info.file_size:
+                    raise ValueError(f"its header claims {count} values, which do not fit into it")
+                if dtype.kind not in NUMBER_KINDS:
+                    raise RecordingError(self.path, f"holds {printable(str(dtype), 40)}, not numbers", key)
+                self._values += count * max(1, dtype.itemsize // FLOAT_SIZE)
+                if self._values > MAX_VALUES:
+                    raise RecordingError(self.path, f"holds more than {MAX_VALUES:,} numbers")
+                data = file.read(count * dtype.itemsize)
+            return np.frombuffer(data, dtype).reshape(shape, order="F" if is_fortran else "C")
         except ARCHIVE_ERRORS as error:
             raise RecordingError(self.path, f"cannot be read ({describe_error(error, 80)})", key) from error
-        return array
-
-
-def _read_claim(file: IO[bytes], size: int) -> tuple[int, np.dtype[Any]]:
-    """Return the number of values that the header of an array claims, and their type, before any is unpacked.
-
-    ValueError when the file is not as large."""
-    version = np.lib.format.read_magic(file)
-    if version not in HEADER_READERS:
-        raise ValueError("its header has another version")
-    shape, _, dtype = HEADER_READERS[version](file)
-    count = prod(shape)
-    if not dtype.hasobject and count * dtype.itemsize > size:
-        raise ValueError(f"its header claims {count} values, which do not fit into it")
-    return count, dtype
