@@ -47,21 +47,21 @@ def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = 
         raise RecordingError(path, "no such file")
     beside = sorted(path.parent.glob(f"*{MOTION_END}"))
     systems = [_TrackingSystem(one) for one in beside if recording_of(one) == recording_of(path)]
-    points = [(system, point) for system in systems for point in system.points]
-    named = [(system, point, side) for system, point in points if (side := foot_of_point(point)) is not None]
-    if not named and len(points) == 1:
-        named = [(*points[0], foot or Foot.RIGHT)]
+    points = [(system, point, foot_of_point(point)) for system in systems for point in system.points]
+    if len(points) == 1:
+        points = [(system, point, side or foot or Foot.RIGHT) for system, point, side in points]
+    named = [(system, point, side) for system, point, side in points if side is not None]
     if not named:
-        found = ", ".join(sorted({point for _, point in points})) or "none"
-        raise RecordingError(path, f"no tracked point with ACCEL or GYRO is a foot; there are: {printable(found)}")
+        found = printable(", ".join(sorted({point for _, point, _ in points})) or "none")
+        raise RecordingError(path, f"no tracked point with ACCEL or GYRO is a foot; there are: {found}")
     for side in Foot:
         same = [point for _, point, other in named if other is side]
         if len(same) > 1:
             where = printable(", ".join(same))
             raise RecordingError(path, f"several tracked points are on the {side.value} foot: {where}")
-    starts = [system.start for system in systems if system.start is not None]
     # without the start of every file, all are taken to start together
-    first = min(starts) if len(starts) == len(systems) else None
+    starts = [nan if system.start is None else system.start for system in systems]
+    first = min(starts) if not any(map(isnan, starts)) else None
     tables = [system.read(point, side, first) for system, point, side in named]
     return use_tables(path, sorted(tables, key=lambda one: one.foot.value), foot, BadRows(path, report, "row"))
 
@@ -77,10 +77,12 @@ def foot_of_point(point: str) -> Foot | None:
 
 @define
 class _TrackingSystem:
-    """One `_motion.tsv` with what its channels say."""
+    """One `_motion.tsv` with what its channels and metadata say."""
 
     path: Path
     channels: list[dict[str, str]] = field(init=False)
+    points: dict[str, dict[str, dict[str, int]]] = field(factory=dict, init=False)
+    """Number of the channel of each component, by quantity, of each tracked point with an inertial sensor."""
     metadata: dict[str, Any] = field(init=False)
     start: float | None = field(init=False)
     """Start of the recording as a count of seconds; None if it is not known."""
@@ -94,29 +96,37 @@ class _TrackingSystem:
         if not self.channels or not all("type" in channel for channel in self.channels):
             raise RecordingError(beside, "describes no channels, each with a type")
         self.metadata, self.start = _inherited(self.path), _start_of(self.path)
-
-    @property
-    def points(self) -> dict[str, None]:
-        """Tracked points with an accelerometer or gyroscope, in the order of their channels."""
-        return {c.get("tracked_point", ""): None for c in self.channels if c["type"] in _QUANTITY_OF_TYPE}
+        points: dict[str, dict[str, dict[str, int]]] = {}
+        for number, channel in enumerate(self.channels):
+            component, name = channel.get("component", "").lower(), channel.get("name", "")
+            quantity = _QUANTITY_OF_TYPE.get(channel["type"], "")
+            if channel["type"] == "MISC" and re.fullmatch(r"pressure_[0-9]+", name):
+                quantity, component = "pressure", name
+            if quantity:
+                points.setdefault(channel.get("tracked_point", ""), {}).setdefault(quantity, {})[component] = number
+        self.points = {point: found for point, found in points.items() if found.keys() & {"acc", "gyro"}}
 
     def read(self, point: str, foot: Foot, first: float | None) -> FootTable:
         """Return the samples of a tracked point; `first` is the start of the earliest file, s."""
         values = self._read_values()
         table = FootTable(self.path, foot, {"t": "latency"}, lines=range(1, len(values[0]) + 1))
-        for quantity, numbers in self._find_columns(point).items():
-            units = dict.fromkeys(self.channels[number].get("units", "") for number in numbers)
+        found = self.points[point]
+        for quantity, numbers in found.items():
+            if quantity != "pressure" and not {*"xyz"} <= numbers.keys():
+                raise RecordingError(self.path, f"{quantity} of {printable(point)} has no x, y and z")
+        for quantity, numbers in found.items():
+            listed = [numbers[one] for one in (numbers if quantity == "pressure" else "xyz")]
+            units = dict.fromkeys([self.channels[number].get("units", "") for number in listed])
             known = dict.fromkeys(CELL_UNITS, 1.0) if quantity == "pressure" else UNITS[quantity]
-            factors = {known.get(unit_of(unit, quantity) or unit.strip()) for unit in units}
-            factor = factors.pop()
-            if factors or factor is None:
+            factor, *others = {known.get(unit_of(unit, quantity) or unit.strip()) for unit in units}
+            if others or factor is None:
                 what = f"{quantity} is in {printable(', '.join(units))}, not in one of {', '.join(known)}"
                 raise RecordingError(self.path, what)
-            table.columns[quantity] = [scaled(values[number], factor) for number in numbers]
+            table.columns[quantity] = [scaled(values[number], factor) for number in listed]
             table.names[quantity] = f"{quantity}_{foot.value}"
         delay = 0.0 if first is None or self.start is None else self.start - first
         table.t = floats([t + delay for t in self._times(values)])
-        inertial = [zip(*table.columns[q], strict=True) for q in ("acc", "gyro") if q in table.columns]
+        inertial = [zip(*table.columns[q], strict=True) for q in ("acc", "gyro") if q in found]
         table.select(
             [any(not any(map(isnan, vector)) for vector in vectors) for vectors in zip(*inertial, strict=True)]
         )
@@ -145,21 +155,6 @@ class _TrackingSystem:
             what = f"has {len(values)} columns, and channels.tsv describes {len(self.channels)}"
             raise RecordingError(self.path, what)
         return values
-
-    def _find_columns(self, point: str) -> dict[str, list[int]]:
-        """Return the columns of each quantity of a tracked point, x, y and z in this order."""
-        found: dict[str, dict[str, int]] = {}
-        for number, channel in enumerate(self.channels):
-            if channel.get("tracked_point") == point:
-                quantity, name = _QUANTITY_OF_TYPE.get(channel["type"]), channel.get("name", "")
-                if quantity is not None:
-                    found.setdefault(quantity, {})[channel.get("component", "").lower()] = number
-                elif channel["type"] == "MISC" and re.fullmatch(r"pressure_[0-9]+", name):
-                    found.setdefault("pressure", {})[name] = number
-        for quantity, numbers in found.items():
-            if quantity != "pressure" and not {*"xyz"} <= numbers.keys():
-                raise RecordingError(self.path, f"{quantity} of {printable(point)} has no x, y and z")
-        return {q: [numbers[one] for one in (numbers if q == "pressure" else "xyz")] for q, numbers in found.items()}
 
     def _times(self, values: Sequence[array[float]]) -> Iterable[float]:
         for number, channel in enumerate(self.channels):

@@ -128,7 +128,7 @@ def _read_book(path: Path) -> Iterator[tuple[int, Cells]]:
         raise RecordingError(path, "needs pandas or polars", repair=install_hint("tables"))
     is_parquet = path.suffix.lower() == ".parquet"
     try:
-        frame = _load_frame(path, library, is_parquet)
+        columns = _load_columns(path, library, is_parquet)
     except ImportError as error:
         what = f"cannot be read by {library}, which lacks {error.name or 'a library'}"
         raise RecordingError(path, what, repair=install_hint("tables")) from error
@@ -136,18 +136,18 @@ def _read_book(path: Path) -> Iterator[tuple[int, Cells]]:
         kind = "Parquet file" if is_parquet else "workbook"
         raise RecordingError(path, f"is no whole {kind} ({describe_error(error)})") from error
     if is_parquet:
-        yield 1, list(map(str, frame.columns))
-    cells = [frame[name].tolist() if library == "pandas" else frame[name].to_list() for name in frame.columns]
-    for number, row in enumerate(zip(*cells, strict=True), 2 if is_parquet else 1):
+        yield 1, list(columns)
+    for number, row in enumerate(zip(*columns.values(), strict=True), 2 if is_parquet else 1):
         yield number, list(row)
 
 
-def _load_frame(path: Path, library: str, is_parquet: bool) -> Any:
+def _load_columns(path: Path, library: str, is_parquet: bool) -> dict[str, list[Any]]:
     if library == "polars":
         import polars
 
-        return polars.read_parquet(path) if is_parquet else polars.read_excel(path, has_header=False)
+        frame = polars.read_parquet(path) if is_parquet else polars.read_excel(path, has_header=False)
+        return {name: frame[name].to_list() for name in frame.columns}
     import pandas
 
     frame = pandas.read_parquet(path) if is_parquet else pandas.read_excel(path, header=None, dtype=object)
-    return frame.astype(object)  # numbers of Python, and times as they are
+    return {str(name): frame[name].astype(object).tolist() for name in frame.columns}
