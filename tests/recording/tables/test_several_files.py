@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from solepath.recording import RecordingError, TableMapping, read_samples
+from solepath.recording.mapping.words import foot_of_text
 from solepath.recording.samples import load_samples
-from solepath.recording.samples.feet import foot_of_text
 from solepath.types import Foot, Sample, Site
 
 

@@ -21,6 +21,7 @@ from ...types import Foot
 from ..bad_rows import BadRows
 from ..errors import RecordingError, Report, os_error_text, printable, warn
 from ..mapping.units import UNITS, unit_of
+from ..mapping.words import foot_of_text
 from ..samples.numbers import scaled
 from ..samples.reader import SampleRecording, use_tables
 from ..samples.table import FootTable, floats
@@ -30,8 +31,8 @@ from .names import MOTION_END, TSV_MISSING, recording_of
 CELL_UNITS = ("N", TSV_MISSING)
 """Units of pressure cells, whose values are taken as they are."""
 _QUANTITY_OF_TYPE = {"ACCEL": "acc", "GYRO": "gyro"}
-_SIDE = re.compile(r"(?:^|[^a-z])(left|right|l|r)(?=[^a-z]|$)|(left|right)")
-_ON_FOOT = re.compile(r"foot|shoe|ankle|heel|toe|insole|instep|calcn|lf\b|rf\b")
+ON_FOOT = re.compile(r"foot|shoe|ankle|heel|toe|insole|instep|calcn|lf\b|rf\b", re.IGNORECASE)
+"""Pattern of the tracked points that are on a foot."""
 
 
 def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> SampleRecording:
@@ -47,7 +48,11 @@ def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = 
         raise RecordingError(path, "no such file")
     beside = sorted(path.parent.glob(f"*{MOTION_END}"))
     systems = [_TrackingSystem(one) for one in beside if recording_of(one) == recording_of(path)]
-    points = [(system, point, foot_of_point(point)) for system in systems for point in system.points]
+    points = [
+        (system, point, foot_of_text(point) if ON_FOOT.search(point) else None)
+        for system in systems
+        for point in system.points
+    ]
     if len(points) == 1:
         points = [(system, point, side or foot or Foot.RIGHT) for system, point, side in points]
     named = [(system, point, side) for system, point, side in points if side is not None]
@@ -64,15 +69,6 @@ def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = 
     first = min(starts) if not any(map(isnan, starts)) else None
     tables = [system.read(point, side, first) for system, point, side in named]
     return use_tables(path, sorted(tables, key=lambda one: one.foot.value), foot, BadRows(path, report, "row"))
-
-
-def foot_of_point(point: str) -> Foot | None:
-    """Return the foot that a tracked point names, such as LeftFoot or r_ankle; None for any other point."""
-    words = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", point).lower()
-    side = _SIDE.search(words)
-    if side is None or not _ON_FOOT.search(words):
-        return None
-    return Foot.LEFT if (side[1] or side[2]).startswith("l") else Foot.RIGHT
 
 
 @define

@@ -11,7 +11,6 @@ and `units`. Time stamps are those of the sender, corrected to this machine's cl
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 
 from pylsl import StreamInfo, StreamInlet, local_clock, proc_clocksync, resolve_byprop, resolve_streams
@@ -20,13 +19,12 @@ from pylsl.util import TimeoutError as LslTimeout
 
 from ...types import Sample, Site, Vec3
 from ..mapping.units import UNITS, unit_of
+from ..mapping.words import key_of_name
 
 SEARCH_TIME = 15.0
 """Time of the search for a stream, s; streams of an idle machine answer within 0.1 s, of a busy one in seconds."""
 MAX_CHUNK = 1024
 """Number of samples that are taken from the queue at a time."""
-_LABEL = re.compile(r"(acc|gyr)[a-z]*[^a-z0-9]*([xyz]|[123])$")
-_AXES = {"1": "x", "2": "y", "3": "z"}
 
 
 class LslError(Exception):
@@ -112,12 +110,9 @@ def _find_columns(
     kinds, stated = info.get_channel_types() or [], info.get_channel_units() or []
     found: dict[str, dict[str, int]] = {"acc": {}, "gyro": {}}
     for number, label in enumerate(labels):
-        for text in (label or "", f"{kinds[number] if kinds else ''} {label}"):
-            match = _LABEL.search(text.lower())
-            if match is not None:
-                axis = _AXES.get(match[2], match[2])
-                found["acc" if match[1] == "acc" else "gyro"].setdefault(axis, number)
-                break
+        meanings = [key_of_name(text) for text in (label or "", f"{kinds[number] if kinds else ''} {label}")]
+        key, axis = next((one for one in meanings if one[1]), ("", ""))
+        found.get(key.partition("_")[0], {}).setdefault(axis, number)
     columns = []
     for quantity, numbers in found.items():
         if set(numbers) != {*"xyz"}:

@@ -18,6 +18,8 @@ QUANTITIES = ("t", "acc", "gyro", "pressure")
 """Quantities that columns may hold: time, specific force, angular rate, and the cells of an insole."""
 MEASURED = QUANTITIES[1:]
 """Quantities that sensors measure."""
+COMPONENTS = {"t": 1, "acc": 3, "gyro": 3}
+"""Number of components of a quantity; an insole may have any number of cells."""
 KEYS = tuple(quantity + suffix for suffix in ("", "_left", "_right") for quantity in QUANTITIES)
 """Keys of columns: a quantity, alone or with the foot whose it is."""
 FORMATS = ("movella-dot", "mbientlab", "physilog", "moticon", "ngimu", "solepath")

@@ -11,14 +11,11 @@ from attrs import define, field
 from ...types import Foot
 from ..errors import RecordingError, printable
 from ..exports import EXPORTS, OWN, Export
-from ..mapping.mapping import MEASURED, QUANTITIES, NamedColumn, TableMapping, match_name
+from ..mapping.mapping import COMPONENTS, MEASURED, QUANTITIES, NamedColumn, TableMapping, match_name
 from ..mapping.units import UNITS, unit_of, unit_of_name
-from .feet import foot_of_text
+from ..mapping.words import foot_of_text
 from .layout import SheetLayout
 from .table import FootTable
-
-NEED = {"acc": 3, "gyro": 3, "t": 1}
-"""Number of columns of a quantity; an insole may have any number of cells."""
 
 
 @define
@@ -165,10 +162,10 @@ def _resolve(found: TableColumns, key: str, quantity: str) -> tuple[NamedColumn,
         columns += matches if "*" in name else matches[:1]
     if missing:
         found.faults.append((key, f"names no column {', '.join(missing)} ({header.list_names()})"))
-    elif quantity in NEED and len(columns) != NEED[quantity]:
+    elif quantity in COMPONENTS and len(columns) != COMPONENTS[quantity]:
         listed = ", ".join(printable(column.name, 40) for column in columns)
-        found.faults.append((key, f"{key} needs {NEED[quantity]} columns, not {len(columns)} ({listed})"))
-        corrected = ["X", "Y", "Z"][: NEED[quantity]]
+        found.faults.append((key, f"{key} needs {COMPONENTS[quantity]} columns, not {len(columns)} ({listed})"))
+        corrected = ["X", "Y", "Z"][: COMPONENTS[quantity]]
     if corrected != list(names):
         found.changes[key] = corrected
     return tuple(columns)

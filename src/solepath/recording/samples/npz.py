@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ...types import Foot
 from ..errors import RecordingError, describe_error, open_file, printable
-from ..mapping.mapping import MEASURED, QUANTITIES, TableMapping
+from ..mapping.mapping import COMPONENTS, MEASURED, QUANTITIES, TableMapping
 from ..mapping.units import DATETIME, UNITS, unit_of
 from .table import MAX_VALUES, FootTable, floats
 
@@ -28,8 +28,6 @@ HEADER_READERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.fo
 """Functions of numpy that read the header of an array, by version; version 3 is for names of columns."""
 NUMBER_KINDS = "biuf"
 """Kinds of numpy types that are numbers: a text or a record may be of any size."""
-WIDTHS = {"acc": 3, "gyro": 3}
-"""Number of components of a quantity; an insole may have any number of cells."""
 FLOAT_SIZE = np.dtype(np.float64).itemsize
 """Size of a number in memory, bytes; a longer one counts as several."""
 
@@ -125,7 +123,7 @@ def _read_table(archive: _Archive, foot: Foot | None, mapping: TableMapping, *, 
         is_assumed=foot is None,
     )
     for quantity, name in names.items():
-        values = _to_floats(archive.path, name, archive.read(name), 0 if quantity == "t" else WIDTHS.get(quantity))
+        values = _to_floats(archive.path, name, archive.read(name), COMPONENTS.get(quantity))
         values = values * UNITS[quantity][units[quantity]] if quantity in units else values
         if quantity == "t":
             table.t, table.is_own = floats(values.tolist()), units.get("t", "s") in ("s", DATETIME)
@@ -139,11 +137,11 @@ def _read_table(archive: _Archive, foot: Foot | None, mapping: TableMapping, *, 
 def _to_floats(path: Path, name: str, value: NDArray[Any], width: int | None) -> NDArray[np.float64]:
     """Return `value` as float64; RecordingError for another type, or for another shape than `width` requires.
 
-    The shape is (n,) for a width of 0, (n, any) for None, and else (n, width)."""
+    The shape is (n,) for a width of 1, (n, any) for None, and else (n, width)."""
     if value.dtype.kind not in "fiu":
         raise RecordingError(path, f"holds {printable(str(value.dtype), 40)}, not numbers", name)
-    expected = "(n,)" if width == 0 else f"(n, {'cells' if width is None else width})"
-    fits = value.ndim == 1 if width == 0 else value.ndim == 2 and value.shape[1] > 0 and width in (None, value.shape[1])
+    expected = "(n,)" if width == 1 else f"(n, {'cells' if width is None else width})"
+    fits = value.ndim == 1 if width == 1 else value.ndim == 2 and value.shape[1] > 0 and width in (None, value.shape[1])
     if not fits:
         raise RecordingError(path, f"has the shape {value.shape} instead of {expected}", name)
     return value.astype(np.float64)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from datetime import UTC, datetime
+from fnmatch import fnmatchcase
 from operator import attrgetter
 from pathlib import Path
 
@@ -14,8 +15,8 @@ from ...types import Foot, Sample
 from ..bad_rows import BadRows
 from ..errors import RecordingError, Report, printable, warn
 from ..mapping.mapping import MEASURED, TableMapping
+from ..mapping.words import foot_of_text
 from .columns import TableColumns, find_columns
-from .feet import feet_of_files
 from .guess import UnknownTable, guess_mapping, merge_guesses
 from .join import join_files
 from .numbers import read_rows
@@ -69,7 +70,7 @@ def load_samples(
             raise RecordingError(path, "is given twice")
     mapping = mapping or TableMapping()
     problems: list[RecordingError] = []
-    feet: list[Foot | None] = list(feet_of_files(paths, mapping.feet))
+    feet: list[Foot | None] = list(_feet_of_files(paths, mapping.feet))
     only = foot if isinstance(foot, Foot) else None
     if isinstance(foot, Foot):
         feet = [foot] if len(paths) == 1 else feet
@@ -115,6 +116,17 @@ def load_samples(
     if not any(map(len, tables)):
         raise RecordingError(paths[0], "holds no samples")
     return SampleRecording(paths[0], tuple(tables), total, start_time)
+
+
+def _feet_of_files(paths: Sequence[Path], patterns: Mapping[str, str]) -> list[Foot | None]:
+    """Return the foot that the name of each file says, or the name of its folder if the files are in different ones."""
+    use_folders = len({path.parent for path in paths}) > 1
+    feet = []
+    for path in paths:
+        matching = [Foot(foot) for foot, pattern in patterns.items() if fnmatchcase(path.name, pattern)]
+        foot = matching[0] if len(matching) == 1 else foot_of_text(path.stem)
+        feet.append(foot_of_text(path.parent.name) if foot is None and use_folders else foot)
+    return feet
 
 
 def _read_file(
