@@ -22,7 +22,6 @@ from ..bad_rows import BadRows
 from ..errors import RecordingError, Report, os_error_text, printable, warn
 from ..mapping.units import UNITS, unit_of
 from ..mapping.words import foot_of_text
-from ..samples.numbers import scaled
 from ..samples.reader import SampleRecording, use_tables
 from ..samples.table import FootTable, floats
 from .columns import read_json, read_table
@@ -113,12 +112,13 @@ class _TrackingSystem:
         for quantity, numbers in found.items():
             listed = [numbers[one] for one in (numbers if quantity == "pressure" else "xyz")]
             units = dict.fromkeys([self.channels[number].get("units", "") for number in listed])
-            known = dict.fromkeys(CELL_UNITS, 1.0) if quantity == "pressure" else UNITS[quantity]
-            factor, *others = {known.get(unit_of(unit, quantity) or unit.strip()) for unit in units}
-            if others or factor is None:
+            known = [*CELL_UNITS] if quantity == "pressure" else [*UNITS[quantity]]
+            spellings = {unit_of(one, quantity) or one.strip() for one in units}
+            if not spellings <= {*known} or (len(spellings) > 1 and quantity != "pressure"):
                 what = f"{quantity} is in {printable(', '.join(units))}, not in one of {', '.join(known)}"
                 raise RecordingError(self.path, what)
-            table.columns[quantity] = [scaled(values[number], factor) for number in listed]
+            unit = known[0] if quantity == "pressure" else spellings.pop()
+            table.set_quantity(quantity, [values[number] for number in listed], unit)
             table.names[quantity] = f"{quantity}_{foot.value}"
         delay = 0.0 if first is None or self.start is None else self.start - first
         table.t = floats([t + delay for t in self._times(values)])

@@ -20,7 +20,7 @@ from ...types import Foot
 from ..errors import RecordingError, describe_error, open_file, printable
 from ..mapping.mapping import COMPONENTS, MEASURED, QUANTITIES, TableMapping
 from ..mapping.units import DATETIME, UNITS, unit_of
-from .table import MAX_VALUES, FootTable, floats
+from .table import MAX_VALUES, FootTable
 
 MAX_PIPED = 256_000_000
 """Largest size of an archive that comes through a pipe, bytes; which is kept whole, as its list is at its end."""
@@ -124,13 +124,11 @@ def _read_table(archive: _Archive, foot: Foot | None, mapping: TableMapping, *, 
     )
     for quantity, name in names.items():
         values = _to_floats(archive.path, name, archive.read(name), COMPONENTS.get(quantity))
-        values = values * UNITS[quantity][units[quantity]] if quantity in units else values
-        if quantity == "t":
-            table.t, table.is_own = floats(values.tolist()), units.get("t", "s") in ("s", DATETIME)
-        elif len(values) != len(table):
+        if quantity != "t" and len(values) != len(table):
             raise RecordingError(archive.path, f"has {len(values)} rows but {names['t']} has {len(table)}", name)
-        else:
-            table.columns[quantity] = list(map(floats, values.T.tolist()))
+        columns = [values.tolist()] if quantity == "t" else values.T.tolist()
+        table.set_quantity(quantity, columns, units.get(quantity, next(iter(UNITS[quantity]))))
+    table.is_own = units.get("t", "s") in ("s", DATETIME)
     return table
 
 

@@ -15,7 +15,7 @@ from ..bad_rows import BadRows
 from ..errors import RecordingError, printable
 from ..exports import OWN
 from ..mapping.mapping import MEASURED, NamedColumn
-from ..mapping.units import DATETIME, UNITS
+from ..mapping.units import DATETIME
 from .columns import TableColumns
 from .layout import COMMA_NUMBER, Cells, is_blank
 from .sheet import Row
@@ -118,24 +118,19 @@ class _FootRows:
         table.lines, t = self.lines, self.values[::width]
         columns = (self.values[k::width] for k in range(1, width))
         for quantity in filter(table.sources.__contains__, MEASURED):
-            factor = UNITS[quantity][table.units[quantity]]
-            table.columns[quantity] = [scaled(next(columns), factor) for _ in table.sources[quantity]]
+            its_columns = [next(columns) for _ in table.sources[quantity]]
+            table.set_quantity(quantity, its_columns, table.units[quantity])
         if unit is None:
-            table.t = floats([number / (found.mapping.rate or 1.0) for number in t])
+            t = floats([number / (found.mapping.rate or 1.0) for number in t])
         else:
             wrap = SECONDS_OF_DAY if unit == DATETIME and t[0] < SECONDS_OF_DAY else found.mapping.wrap
             if wrap is not None:
                 turns = accumulate([b - a < -0.5 * wrap for a, b in pairwise(t)], initial=0)
                 t = floats([number + wrap * turn for number, turn in zip(t, turns, strict=True)])
-            table.t = scaled(t, UNITS["t"][unit])
+        table.set_quantity("t", [t], unit or "s")
         has_own_time = found.mapping.columns.get("t", ("t",))[0].lower() == "t"
         table.is_own = found.export is OWN and has_own_time and unit == "s"
         return table
-
-
-def scaled(values: array[float], factor: float) -> array[float]:
-    """Return the numbers times a factor."""
-    return values if factor == 1.0 else floats([value * factor for value in values])
 
 
 def number_reader(decimal: str) -> Parse:

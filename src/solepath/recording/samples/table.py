@@ -16,6 +16,7 @@ from attrs import define, field
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ..errors import RecordingError
 from ..mapping.mapping import MEASURED, NamedColumn, TableMapping
+from ..mapping.units import UNITS
 
 MAX_VALUES = 100_000_000
 """Largest count of numbers in a file of samples, which take 0.8 GB: three hours of two feet with 16 cells at 200 Hz."""
@@ -68,6 +69,15 @@ class FootTable:
     def interval(self) -> float:
         """Usual time between two samples, s; 0 with fewer than two."""
         return median([b - a for a, b in pairwise(self.t)]) if len(self) > 1 else 0.0
+
+    def set_quantity(self, quantity: str, columns: Iterable[Iterable[float]], unit: str) -> None:
+        """Set the components of a quantity, or the times, from numbers in a unit."""
+        factor = UNITS[quantity][unit]
+        scaled = [floats(column if factor == 1.0 else [value * factor for value in column]) for column in columns]
+        if quantity == "t":
+            (self.t,) = scaled
+        else:
+            self.columns[quantity] = scaled
 
     def locate_value(self, row: int, quantity: str) -> str:
         """Return a text that says where in the file the value of `quantity` in row `row` is."""
