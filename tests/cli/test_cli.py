@@ -40,7 +40,7 @@ def without_numpy(*arguments: object) -> subprocess.CompletedProcess[str]:
 def test_packets_need_no_numpy_and_the_commands_that_do_give_the_line_that_installs_it(demo, folder):
     done = without_numpy("track", folder / "demo.jsonl", "--out", folder / "bare", "--report", folder / "bare.html")
     assert done.returncode == 0 and "strides" in done.stdout and (folder / "bare.html").exists(), done.stderr
-    for arguments in (["demo"], ["track", folder / "walk.csv"]):
+    for arguments in (["demo"], ["track", folder / "walk.npz"]):
         done = without_numpy(*arguments)
         assert (done.returncode, done.stderr) == (2, f"solepath: this needs numpy: {install_hint('arrays')}\n")
 

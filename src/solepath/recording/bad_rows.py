@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import IO, AnyStr
 
@@ -63,9 +64,12 @@ class BadRows:
         if self.count > self.good + MAX_EXCESS:
             self._raise()
 
-    def add_many(self, count: int) -> None:
-        """Count bad rows that are not named, after MAX_NAMED that are."""
-        self.count += count
+    def add_all(self, faults: Sequence[tuple[str, str]], total: int) -> None:
+        """Count these bad rows, each with its place and fault, of so many rows."""
+        for where, what in faults[:MAX_NAMED]:
+            self.add(where, what)
+        self.count += len(faults[MAX_NAMED:])
+        self.good = total - len(faults)
 
     def finish(self) -> None:
         """Report the number of bad rows if not all were named; raise RecordingError if they are more than half."""

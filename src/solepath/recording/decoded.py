@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from attrs import frozen
 
-from ..events import LayoutKnown
+from ..events import Event, LayoutKnown
 from ..link.decoder import Decoder
 from ..link.kinds import DeviceKinds
 from ..types import Foot, Layout, Packet, Sample, Site
@@ -24,22 +24,11 @@ def decode_recording(items: Iterable[Packet | Sample]) -> DecodedRecording:
     """Return the samples decoded from packets, or given as samples; packets that cannot be used are skipped."""
     samples: list[Sample] = []
     layouts: dict[Foot, Layout] = {}
-    decoders: dict[Site, Decoder] = {}
-
-    def add_all(outputs: Iterable[object]) -> None:
-        for output in outputs:
-            if isinstance(output, Sample):
-                samples.append(output)
-            elif isinstance(output, LayoutKnown):
-                layouts[output.layout.foot] = output.layout
-
-    for item in items:
+    for item in _decode(items, lambda packet: True, None):
         if isinstance(item, Sample):
             samples.append(item)
-        else:
-            add_all(decoders.setdefault(item.site, Decoder(item.site)).feed(item))
-    for decoder in decoders.values():
-        add_all(decoder.finish())
+        elif isinstance(item, LayoutKnown):
+            layouts[item.layout.foot] = item.layout
     return DecodedRecording(tuple(samples), layouts)
 
 
@@ -48,15 +37,21 @@ def decode_own(items: Iterable[Packet | Sample], kinds: DeviceKinds) -> Iterator
 
     Packets that cannot be used are skipped."""
     own = {driver.name for driver in kinds.drivers}
+    for item in _decode(items, lambda packet: packet.channel.partition("/")[0] in own, kinds):
+        if isinstance(item, Packet | Sample):
+            yield item
+
+
+def _decode(
+    items: Iterable[Packet | Sample], is_decoded: Callable[[Packet], bool], kinds: DeviceKinds | None
+) -> Iterator[Packet | Sample | Event]:
+    """Yield what the packets say for which `is_decoded` is true, in their place, and all other items."""
     decoders: dict[Site, Decoder] = {}
     for item in items:
-        if isinstance(item, Sample) or item.channel.partition("/")[0] not in own:
+        if isinstance(item, Sample) or not is_decoded(item):
             yield item
-            continue
-        for output in decoders.setdefault(item.site, Decoder(item.site)).feed(item, kinds):
-            if isinstance(output, Sample):
-                yield output
+        else:
+            decoder = decoders.setdefault(item.site, Decoder(item.site))
+            yield from decoder.feed(item) if kinds is None else decoder.feed(item, kinds)
     for decoder in decoders.values():
-        for output in decoder.finish():
-            if isinstance(output, Sample):
-                yield output
+        yield from decoder.finish()

@@ -80,6 +80,12 @@ def os_error_text(error: OSError) -> str:
     return (error.strerror or str(error)).lower()
 
 
+def describe_error(error: BaseException, max_length: int = 120) -> str:
+    """Return the first line of an error of a library, or the name of its kind."""
+    lines = str(error).strip().splitlines()
+    return printable(lines[0] if lines else type(error).__name__, max_length)
+
+
 def _recordings_in(folder: Path) -> str:
     """Return the first files of a folder that may be recordings, by their names, as the end of a sentence."""
     names = sorted(one.name for one in folder.iterdir() if one.suffix.lower() in (".jsonl", *SAMPLE_SUFFIXES))

@@ -18,10 +18,12 @@ from __future__ import annotations
 
 import json
 from base64 import b64encode
-from collections.abc import Iterable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from datetime import UTC, datetime, timedelta
 from importlib.metadata import version
+from importlib.resources import files
 from io import BufferedWriter
 from math import isfinite
 from pathlib import Path
@@ -33,9 +35,9 @@ from ..events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, LiveEvent,
 from ..events.happening import json_ready
 from ..link.driver import Driver
 from ..session import Session
-from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Vec3
+from ..types import SITE_OF_FOOT, Packet, Phase, Sample
 from .errors import RecordingError, os_error_text
-from .packet_writer import open_locked
+from .packet_writer import open_target
 from .packets import FORMAT, VERSION, read_start_time
 from .posed import PosedSession
 
@@ -52,38 +54,7 @@ PHASE_NUMBERS = {phase: number for number, phase in enumerate(Phase)}
 EPOCH, MICROSECOND = datetime(1970, 1, 1, tzinfo=UTC), timedelta(microseconds=1)
 
 
-def _object(**properties: Any) -> dict[str, Any]:
-    return {"type": "object", "properties": properties}
-
-
-NUMBER, TEXT, INTEGER = {"type": "number"}, {"type": "string"}, {"type": "integer"}
-VECTOR = _object(x=NUMBER, y=NUMBER, z=NUMBER)
-SCHEMAS: dict[str, dict[str, Any]] = {
-    "solepath.Packet": _object(t=NUMBER, device=TEXT, data={"type": "string", "contentEncoding": "base64"}),
-    "solepath.Sample": _object(
-        t=NUMBER,
-        acc=VECTOR,
-        gyro=VECTOR,
-        mag=VECTOR,
-        quat=_object(w=NUMBER, x=NUMBER, y=NUMBER, z=NUMBER),
-        pressure=NUMBER,
-        air_pressure=NUMBER,
-        saturated={"type": "boolean"},
-    ),
-    "solepath.Pose": _object(t=NUMBER, position=VECTOR, velocity=VECTOR, phase=TEXT, phase_number=INTEGER),
-    "solepath.Gait": _object(t=NUMBER, event=TEXT),
-    "solepath.Stride": _object(
-        t=NUMBER,
-        number=INTEGER,
-        t_start=NUMBER,
-        stride_length=NUMBER,
-        heading_change=NUMBER,
-        height_change=NUMBER,
-        position=VECTOR,
-        degraded={"type": "boolean"},
-    ),
-    "solepath.Event": _object(t=NUMBER, event=TEXT, foot=TEXT, site=TEXT),
-}
+SCHEMAS: dict[str, Any] = json.loads(files("solepath.recording").joinpath("mcap.json").read_text("utf-8"))
 """JSON schema of each kind of message."""
 
 
@@ -116,17 +87,11 @@ class McapWriter:
         self._session = self._posed.session
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
-        self._sequences: dict[int, int] = {}
+        self._sequences = Counter[int]()
         self._zero_time: int | None = None
         """Time since 1970 at `t` = 0, ns; None until the first packet."""
-        try:
-            file, self._had_content = open_locked(self.path)
-        except OSError as error:
-            raise RecordingError(self.path, os_error_text(error)) from error
+        file, self._had_content = open_target(self.path, "" if replace else "McapWriter")
         self._file = BufferedWriter(file)
-        if self._had_content and not replace:
-            self._file.close()
-            raise RecordingError(self.path, "exists, and is not replaced; McapWriter(..., replace=True) does")
         self._writer = Writer(self._file, chunk_size=CHUNK_SIZE, compression=CompressionType.ZSTD)
         if not self._had_content:
             with self._as_recording_error():
@@ -159,7 +124,7 @@ class McapWriter:
             if topic not in self._channels and len(self._channels) >= MAX_TOPICS:
                 topic = f"/{site}/packets"  # the number of channels in a damaged recording is not limited
             metadata = {"site": site, "channel": _valid_utf8(packet.channel)}
-            self._write_message(topic, "solepath.Packet", packet.t, packet.t, data, metadata)
+            self._write_message(topic, "Packet", packet.t, packet.t, data, metadata)
             self.count += 1
             self._write_results(self._session.feed(packet))
 
@@ -193,55 +158,56 @@ class McapWriter:
             self._write_event(event)
 
     def _write_sample(self, sample: Sample) -> None:
-        data: dict[str, Any] = {"t": sample.t}
-        vectors: dict[str, Vec3 | None] = {"acc": sample.acc, "gyro": sample.gyro, "mag": sample.mag}
-        data |= {name: _to_xyz(vector) for name, vector in vectors.items() if vector is not None}
-        if sample.quat is not None:
-            data["quat"] = dict(zip("wxyz", sample.quat, strict=True))
-        if sample.pressure is not None:
-            data["pressure"] = sum(sample.pressure)
-        if sample.air_pressure is not None:
-            data["air_pressure"] = sample.air_pressure
-        if sample.saturated:
-            data["saturated"] = True
-        self._write_message(f"/{sample.site.value}/samples", "solepath.Sample", sample.t, sample.known_at, data)
+        data = {
+            "t": sample.t,
+            "acc": _named("xyz", sample.acc),
+            "gyro": _named("xyz", sample.gyro),
+            "mag": _named("xyz", sample.mag),
+            "quat": _named("wxyz", sample.quat),
+            "pressure": None if sample.pressure is None else sum(sample.pressure),
+            "air_pressure": sample.air_pressure,
+            "saturated": sample.saturated or None,
+        }
+        present = {key: value for key, value in data.items() if value is not None}
+        self._write_message(f"/{sample.site.value}/samples", "Sample", sample.t, sample.known_at, present)
 
     def _write_event(self, event: Event) -> None:
-        name, data = type(event).__name__, dict[str, Any](t=event.t)
         if not isinstance(event, LiveEvent):
-            self._write_message("/events", "solepath.Event", event.t, event.known_at, event.to_dict())
+            self._write_message("/events", "Event", event.t, event.known_at, event.to_dict())
+        data: dict[str, Any] = {"t": event.t}
         match event:
             case FootMoved(phase=phase):
-                data |= {"position": _to_xyz(event.position), "velocity": _to_xyz(event.velocity)}
+                topic, kind = "pose", "Pose"
+                data |= {"position": _named("xyz", event.position), "velocity": _named("xyz", event.velocity)}
                 data |= {"phase": phase.value, "phase_number": PHASE_NUMBERS[phase]}
-                self._write_message(_make_topic(event.foot, "pose"), "solepath.Pose", event.t, event.known_at, data)
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
-                data["event"] = name
-                self._write_message(_make_topic(event.foot, "gait"), "solepath.Gait", event.t, event.known_at, data)
+                topic, kind, data["event"] = "gait", "Gait", type(event).__name__
             case StrideTaken(final=True):
+                topic, kind = "strides", "Stride"
                 data |= {"number": event.number, "t_start": event.t_start, "stride_length": event.length}
                 data |= {"heading_change": event.heading_change, "height_change": event.height_change}
-                data |= {"position": _to_xyz(event.position), "degraded": event.degraded}
-                self._write_message(
-                    _make_topic(event.foot, "strides"), "solepath.Stride", event.t, event.known_at, data
-                )
+                data |= {"position": _named("xyz", event.position), "degraded": event.degraded}
+            case _:
+                return
+        self._write_message(f"/{SITE_OF_FOOT[event.foot].value}/{topic}", kind, event.t, event.known_at, data)
 
     def _write_message(
-        self, topic: str, schema: str, t: float, known_at: float, data: Any, metadata: dict[str, str] | None = None
+        self, topic: str, kind: str, t: float, known_at: float, data: Any, metadata: dict[str, str] | None = None
     ) -> None:
-        channel = self._channels.get(topic)
-        if channel is None:
-            if schema not in self._schemas:
-                definition = json.dumps({"title": schema} | SCHEMAS[schema]).encode()
-                self._schemas[schema] = self._writer.register_schema(schema, "jsonschema", definition)
-            channel = self._writer.register_channel(topic, "json", self._schemas[schema], metadata or {})
-            self._channels[topic] = channel
-        sequence = self._sequences[channel] = (self._sequences.get(channel, 0) + 1) & 0xFFFF_FFFF
+        if topic not in self._channels:
+            name = f"solepath.{kind}"
+            if name not in self._schemas:
+                definition = json.dumps({"title": name} | SCHEMAS[name]).encode()
+                self._schemas[name] = self._writer.register_schema(name, "jsonschema", definition)
+            self._channels[topic] = self._writer.register_channel(topic, "json", self._schemas[name], metadata or {})
+        channel = self._channels[topic]
+        self._sequences[channel] += 1
         try:
             text = json.dumps(data, allow_nan=False)
         except ValueError:  # a device may send a float that is not finite
             text = json.dumps(json_ready(data))
-        self._writer.add_message(channel, self._to_log_time(t), text.encode(), self._to_log_time(known_at), sequence)
+        times = self._to_log_time(t), self._to_log_time(known_at)
+        self._writer.add_message(channel, times[0], text.encode(), times[1], self._sequences[channel] & 0xFFFF_FFFF)
 
     def _to_log_time(self, t: float) -> int:
         ns = (self._zero_time or 0) + round(max(-MAX_TIME, min(MAX_TIME, t)) * 1e9)
@@ -260,10 +226,6 @@ class McapWriter:
             raise RecordingError(self.path, f"{os_error_text(error)}; {self.count} packets were taken") from error
 
 
-def _make_topic(foot: Foot, topic: str) -> str:
-    return f"/{SITE_OF_FOOT[foot].value}/{topic}"
-
-
 def _find_zero_time(header: Mapping[str, Any], first_t: float) -> int:
     """Return the time since 1970 at `t` = 0, ns, of a recording whose first packet is at `first_t`, s; 0 if unknown."""
     start = read_start_time(header)
@@ -274,8 +236,9 @@ def _find_zero_time(header: Mapping[str, Any], first_t: float) -> int:
     return (moment - EPOCH) // MICROSECOND * 1000 - round(max(-MAX_TIME, min(MAX_TIME, t_start)) * 1e9)
 
 
-def _to_xyz(vector: Vec3) -> dict[str, float]:
-    return {"x": vector[0], "y": vector[1], "z": vector[2]}
+def _named(names: str, values: Sequence[float] | None) -> dict[str, float] | None:
+    """Return the components of a vector or quaternion by their names; None without one."""
+    return None if values is None else dict(zip(names, values, strict=True))
 
 
 def _valid_utf8(text: str) -> str:

@@ -57,13 +57,7 @@ class PacketWriter:
         self._torn = False
         """True when an incomplete line is in the file and could not be removed."""
         self._is_new = not self._path.exists()
-        try:
-            self._file, self._had_content = open_locked(self._path)
-        except OSError as error:
-            raise RecordingError(self._path, os_error_text(error)) from error
-        if self._had_content and not replace:
-            self._file.close()
-            raise RecordingError(self._path, "exists, and is not replaced; PacketWriter(..., replace=True) does")
+        self._file, self._had_content = open_target(self._path, "" if replace else "PacketWriter")
         if not self._had_content:
             try:
                 self._write_header()
@@ -135,9 +129,8 @@ class PacketWriter:
             try:
                 self._file.close()
             except OSError as error:
-                raise RecordingError(
-                    self._path, f"{os_error_text(error)} on closing; the last packets may be missing"
-                ) from error
+                what = f"{os_error_text(error)} on closing; the last packets may be missing"
+                raise RecordingError(self._path, what) from error
 
     def discard(self) -> None:
         """Close the file and leave what was there: the header is removed again, and so is a file that was made for it.
@@ -177,6 +170,20 @@ def _format_line(fields: dict[str, Any]) -> bytes:
     if len(encoded) > LONGEST_LINE:
         raise ValueError(f"a line of {len(encoded)} bytes is too long for a recording")
     return encoded
+
+
+def open_target(path: Path, keeper: str = "") -> tuple[io.FileIO, bool]:
+    """Return the file of a writer, open and locked, and whether it has content; RecordingError when it cannot be used.
+
+    `keeper` is the name of a writer that does not replace a file with content; "" for one that does."""
+    try:
+        file, has_content = open_locked(path)
+    except OSError as error:
+        raise RecordingError(path, os_error_text(error)) from error
+    if has_content and keeper:
+        file.close()
+        raise RecordingError(path, f"exists, and is not replaced; {keeper}(..., replace=True) does")
+    return file, has_content
 
 
 def open_locked(path: Path) -> tuple[io.FileIO, bool]:

@@ -6,6 +6,7 @@ no recording."""
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Iterator, Mapping
 from datetime import UTC, datetime
 from math import isfinite
@@ -98,14 +99,12 @@ def _parse_header(path: Path, lines: Iterator[_Line]) -> dict[str, Any]:
         try:
             fields = _parse_object(line)
             fault = header_fault(fields)
-            if fault is not None:
-                raise _LineError(fault)
         except _NoObjectError as flaw:
             is_log = line.data.startswith(b"btsnoop\0")
             hint = "a btsnoop log has to be a file, for `solepath convert`" if is_log else SAMPLES_HINT
-            raise RecordingError(path, f"{flaw}; {hint}", f"line {line.number}") from None
-        except _LineError as flaw:
-            raise RecordingError(path, str(flaw), f"line {line.number}") from None
+            fault = f"{flaw}; {hint}"
+        if fault is not None:
+            raise RecordingError(path, fault, f"line {line.number}")
         return fields
     raise RecordingError(path, "is empty")
 
@@ -116,15 +115,12 @@ def _parse_packets(path: Path, file: BinaryIO, lines: Iterator[_Line], bad_lines
             where = f"line {line.number}"
             try:
                 packet = _parse_packet(_parse_object(line))
-            except _NoObjectError as flaw:
-                # a line that was cut off lacks its last brace, so it is never an object
-                if not line.is_whole and not line.is_too_long:
-                    bad_lines.report(
-                        f"{printable(str(path))}: {where}: cut off in the middle; everything before it is used"
-                    )
-                    break
-                bad_lines.add(where, str(flaw))
             except _LineError as flaw:
+                # a line that was cut off lacks its last brace, so it is never an object
+                if isinstance(flaw, _NoObjectError) and not line.is_whole and not line.is_too_long:
+                    text = f"{where}: cut off in the middle; everything before it is used"
+                    bad_lines.report(f"{printable(str(path))}: {text}")
+                    break
                 bad_lines.add(where, str(flaw))
             else:
                 bad_lines.add_good()
@@ -202,29 +198,29 @@ def header_fault(header: Mapping[str, Any]) -> str | None:
     return None
 
 
-def _parse_packet(fields: dict[str, Any]) -> Packet:
-    for key in ("t", "site", "channel", "data"):
-        if key not in fields:
-            raise _LineError(f'"{key}" is missing')
-    t, site, channel, data = fields["t"], fields["site"], fields["channel"], fields["data"]
-    if type(t) not in (int, float):
-        raise _LineError(f'"t" is not a number but {_shorten(t)}')
-    if not abs(t) <= float_info.max:
-        raise _LineError('"t" is not a finite number')
-    if not isinstance(site, str) or site not in _SITES:
-        raise _LineError(f'"site" is not one of {", ".join(_SITES)} but {_shorten(site)}')
-    if not isinstance(channel, str):
-        raise _LineError(f'"channel" is not text but {_shorten(channel)}')
-    if not isinstance(data, str) or len(data) % 2 or not _HEX.issuperset(data):
-        raise _LineError(f'"data" is not pairs of hexadecimal digits but {_shorten(data)}')
-    device = fields.get("device", "")
-    if not isinstance(device, str):
-        raise _LineError(f'"device" is not text but {_shorten(device)}')
-    return Packet(t=float(t), site=_SITES[site], channel=channel, data=bytes.fromhex(data), device=device)
-
-
 _SITES = {site.value: site for site in Site}
-_HEX = frozenset("0123456789abcdefABCDEF")
+_PAIRS = re.compile("(?:[0-9a-fA-F]{2})*")
+_RULES: tuple[tuple[str, Callable[[Any], bool], str], ...] = (
+    ("t", lambda value: type(value) in (int, float), "a number"),
+    ("site", lambda value: isinstance(value, str) and value in _SITES, f"one of {', '.join(_SITES)}"),
+    ("channel", lambda value: isinstance(value, str), "text"),
+    ("data", lambda value: isinstance(value, str) and bool(_PAIRS.fullmatch(value)), "pairs of hexadecimal digits"),
+    ("device", lambda value: isinstance(value, str), "text"),
+)
+"""What each key of a packet's line holds."""
+
+
+def _parse_packet(fields: dict[str, Any]) -> Packet:
+    packet = {"device": ""} | fields
+    for key, fits, what in _RULES:
+        if key not in packet:
+            raise _LineError(f'"{key}" is missing')
+        if not fits(packet[key]):
+            raise _LineError(f'"{key}" is not {what} but {_shorten(packet[key])}')
+        if key == "t" and not abs(packet[key]) <= float_info.max:
+            raise _LineError('"t" is not a finite number')
+    t, site, channel, data, device = (packet[key] for key, _, _ in _RULES)
+    return Packet(t=float(t), site=_SITES[site], channel=channel, data=bytes.fromhex(data), device=device)
 
 
 def _shorten(value: Any) -> str:

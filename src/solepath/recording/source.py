@@ -149,7 +149,7 @@ def open_source(
         motion = load_motion(path, only, report=report)
         return Source(path, only, report, len(motion), samples=motion, bad_rows=motion.bad_rows, name=name)
     if mapping is not None or len(paths) > 1 or path.suffix.lower() in SAMPLE_SUFFIXES:
-        from .samples import load_samples  # imports numpy, which packets do not need
+        from .samples import load_samples  # packets do not need it
 
         samples = load_samples(paths, foot, mapping=mapping, report=report)
         header = {} if samples.start_time is None else {"began": samples.start_time.isoformat(), "began_t": 0.0}

@@ -184,11 +184,10 @@ def _damages() -> Iterator[Damage]:
 
 
 def _columns(piece: WalkingFoot) -> Damaged:
-    """Return the finite samples of the foot."""
+    """Return the samples of the foot, which are finite."""
     (table,) = [table for table in load_samples(piece.path).tables if table.foot is piece.foot]
-    t, acc, gyro = table.t, table.columns["acc"], table.columns["gyro"]
-    good = np.isfinite(t) & np.isfinite(acc).all(axis=1) & np.isfinite(gyro).all(axis=1)
-    return t[good], acc[good], gyro[good]
+    acc, gyro = (np.column_stack(table.columns[quantity]) for quantity in ("acc", "gyro"))
+    return np.array(table.t), acc, gyro
 
 
 def _vectors(values: Floats) -> list[Vec3]:

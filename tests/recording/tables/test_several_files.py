@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from solepath.recording import RecordingError, TableMapping, read_samples
+from solepath.recording.mapping.words import foot_of_text
 from solepath.recording.samples import load_samples
-from solepath.recording.samples.feet import foot_of_text
 from solepath.types import Foot, Sample, Site
 
 
@@ -127,9 +127,9 @@ def test_archives_and_tables_of_two_feet_may_be_mixed(tmp_path: Path) -> None:
     np.savez(tmp_path / "right.npz", zeit=1e3 * t, A=np.tile([0.0, 0.0, 1.0], (20, 1)), gx=t, gy=t, gz=-t)
     acc_file(tmp_path / "left.csv", t)
     mapping = TableMapping.parse("t=zeit,acc=A,gyro=gx,-gz,gy", "g,ms")
-    (right,) = load_samples(tmp_path / "right.npz", mapping=mapping).tables
-    assert right.t == pytest.approx(t) and right.columns["acc"][3] == pytest.approx([0.0, 0.0, 9.80665])
-    assert right.columns["gyro"][5] == pytest.approx([t[5], t[5], t[5]])
+    right = list(read_samples(tmp_path / "right.npz", mapping=mapping))
+    assert [sample.t for sample in right] == pytest.approx(t) and right[3].acc == pytest.approx((0.0, 0.0, 9.80665))
+    assert right[5].gyro == pytest.approx((t[5], t[5], t[5])) and {sample.site for sample in right} == {Site.RIGHT_FOOT}
     with pytest.raises(
         RecordingError, match=r"has no key zeiten \(it holds A, gx, gy, gz, zeit\); repair: --columns t=KEY"
     ):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from array import array
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from math import isfinite, nan
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from attrs import define, field
 from ...types import Site
 from ..errors import RecordingError, os_error_text, printable
 from ..posed import PosedSample
-from .names import CHANNEL_TYPES, CHANNELS, FRAMES, SCALAR, TSV_MISSING
+from .names import CHANNEL_TYPES, CHANNELS, SCALAR, TSV_MISSING
 
 _CHANNEL_COLUMNS = ("name", "component", "type", "tracked_point", "units", "reference_frame", "description")
 
@@ -53,11 +53,9 @@ class MotionColumns:
             if value is not None and name not in self._columns:
                 before = [0.0 if name == "saturated" else nan] * row
                 self._columns[name] = [array("d", before) for _ in value]
-        for name, columns in self._columns.items():
-            numbers = values[name] or ()
-            for number, column in enumerate(columns):
-                given = numbers[number] if number < len(numbers) else None
-                column.append(nan if given is None else given)
+            columns = self._columns.get(name, ())
+            for column, number in zip(columns, [*(value or ()), *[nan] * len(columns)], strict=False):
+                column.append(number)
         self.t.append(sample.t)
 
     @property
@@ -117,11 +115,6 @@ class MotionColumns:
                 file.write("\t".join([f"{t - start:.9f}", *texts]) + "\n")
 
 
-def frames_json() -> str:
-    """Return the content of channels.json, which describes the reference frames."""
-    return to_json({"reference_frame": {"Description": "Frame of the values.", "Levels": FRAMES}})
-
-
 def to_json(value: Any) -> str:
     """Return a value as the text of a metadata file."""
     return json.dumps(value, indent=2, allow_nan=False) + "\n"
@@ -142,13 +135,8 @@ def read_json(path: Path) -> dict[str, Any]:
 
 def write_table(path: Path, columns: Sequence[str], rows: Sequence[dict[str, str]]) -> None:
     """Write a table of text cells with a header."""
-    path.write_text("".join(_lines(columns, rows)), encoding="utf-8", newline="\n")
-
-
-def _lines(columns: Sequence[str], rows: Sequence[dict[str, str]]) -> Iterator[str]:
-    yield "\t".join(columns) + "\n"
-    for row in rows:
-        yield "\t".join([row.get(column, TSV_MISSING) for column in columns]) + "\n"
+    lines = [columns, *([row.get(column, TSV_MISSING) for column in columns] for row in rows)]
+    path.write_text("".join(["\t".join(line) + "\n" for line in lines]), encoding="utf-8", newline="\n")
 
 
 def read_table(path: Path) -> list[dict[str, str]]:

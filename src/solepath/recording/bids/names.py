@@ -83,7 +83,7 @@ class ChannelKind:
     """Type of the channels, a keyword of Motion-BIDS."""
     units: str
     frame: str
-    """Reference frame, a key of `FRAMES`; "n/a" for none."""
+    """Reference frame, a level of channels.json; "n/a" for none."""
     components: tuple[str, ...]
     """Components in order; empty if their number is that of the first value."""
     description: str
@@ -106,15 +106,3 @@ CHANNELS = {
 """Quantities in the order of their channels."""
 CHANNEL_TYPES = ("ACCEL", "ANGACCEL", "GYRO", "JNTANG", "LATENCY", "MAGN", "MISC", "ORNT", "POS", "VEL")
 """All types of channels of Motion-BIDS."""
-FRAMES = {
-    "sensor": {"Description": "Axes of the sensor as it is mounted on the shoe, right-handed."},
-    "device": {"Description": "World frame of the device's own estimate; the quaternion turns sensor into it."},
-    "world": {
-        "Description": "x along the first heading, y to the left, z up; the origin is the sensor's first position. The "
-        "quaternion turns sensor coordinates into this frame.",
-        "SpatialAxes": "ALS",
-        "RotationRule": "right-hand",
-        "RotationOrder": TSV_MISSING,
-    },
-}
-"""Reference frames of the channels, as in channels.json."""

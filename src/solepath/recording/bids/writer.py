@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from datetime import timedelta
 from importlib.metadata import version
+from importlib.resources import files as files_of
 from pathlib import Path
 from typing import Any
 
@@ -27,10 +28,12 @@ from ...types import Site
 from ..errors import RecordingError
 from ..packets import read_start_time
 from ..posed import PosedSample
-from .columns import MotionColumns, frames_json, read_json, read_table, to_json, write_table
-from .gait_rows import EVENT_COLUMNS, EVENT_METADATA, event_row
+from .columns import MotionColumns, read_json, read_table, to_json, write_table
+from .gait_rows import EVENT_COLUMNS, event_row
 from .names import BIDS_VERSION, TSV_MISSING, Entities
 
+_TEXTS = files_of(__name__.rpartition(".")[0])
+"""Folder with the files that every dataset has."""
 DESCRIPTION, README, PARTICIPANTS = "dataset_description.json", "README", "participants.tsv"
 _README_TEXT = """\
 {name}
@@ -90,7 +93,8 @@ class MotionWriter:
         start = min([columns.t[0] for columns in self._sensors.values()])
         folder = self.root / self.entities.folder
         folder.mkdir(parents=True, exist_ok=True)
-        texts = {self.entities.file("events.json"): to_json(EVENT_METADATA)}
+        described = {name: _TEXTS.joinpath(name).read_text("utf-8") for name in ("events.json", "channels.json")}
+        texts = {self.entities.file("events.json"): described["events.json"]}
         names = [self.entities.file("events.tsv")]
         files = FileReplacements()
         try:
@@ -102,7 +106,7 @@ class MotionWriter:
                 columns.write_channels(files.temporary_path(folder / channels))
                 metadata = columns.metadata(self.entities.task, start, version("solepath"))
                 texts[self.entities.file("motion.json", columns.tracksys)] = to_json(metadata)
-                texts[self.entities.file("channels.json", columns.tracksys)] = frames_json()
+                texts[self.entities.file("channels.json", columns.tracksys)] = described["channels.json"]
                 names += [motion, channels]
             files.move_to_targets()
         finally:

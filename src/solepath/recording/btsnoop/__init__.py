@@ -5,7 +5,7 @@
         for packet in log:
             writer.write(packet)
 
-records.py reads the file, hci.py decodes connections and L2CAP, att.py decodes attributes, values.py joins the three,
+records.py reads the file, values.py decodes connections and L2CAP, att.py decodes attributes,
 evidence.py and devices.py identify devices and channels, and log.py makes packets."""
 
 from .devices import LoggedDevice

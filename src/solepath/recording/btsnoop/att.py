@@ -18,44 +18,33 @@ from ...wire.fields import LONGEST_VALUE, malformed, parse_whole
 
 
 class AttOpcode(IntEnum):
-    """First byte of a PDU (protocol data unit), as far as it is decoded here."""
+    """First byte of a PDU (protocol data unit), as far as its content is decoded here.
+
+    The PDUs of a client are even, those of a server odd."""
 
     ERROR = 0x01
     MTU_REQUEST = 0x02
     MTU_RESPONSE = 0x03
     FIND_INFORMATION = 0x04
     INFORMATION = 0x05
-    FIND_BY_VALUE = 0x06
     READ_BY_TYPE = 0x08
     VALUES_BY_TYPE = 0x09
     READ = 0x0A
     VALUE = 0x0B
     READ_BLOB = 0x0C
     BLOB = 0x0D
-    READ_SEVERAL = 0x0E
-    READ_BY_GROUP = 0x10
     WRITE = 0x12
     WRITTEN = 0x13
     PREPARE_WRITE = 0x16
-    EXECUTE_WRITE = 0x18
     NOTIFICATION = 0x1B
     INDICATION = 0x1D
     CONFIRMATION = 0x1E
-    READ_SEVERAL_VARIABLE = 0x20
     NOTIFICATIONS = 0x23
     WRITE_COMMAND = 0x52
-    SIGNED_WRITE_COMMAND = 0xD2
 
 
-REQUESTS = frozenset({
-    AttOpcode.MTU_REQUEST, AttOpcode.FIND_INFORMATION, AttOpcode.FIND_BY_VALUE, AttOpcode.READ_BY_TYPE,
-    AttOpcode.READ, AttOpcode.READ_BLOB, AttOpcode.READ_SEVERAL, AttOpcode.READ_BY_GROUP, AttOpcode.WRITE,
-    AttOpcode.PREPARE_WRITE, AttOpcode.EXECUTE_WRITE, AttOpcode.READ_SEVERAL_VARIABLE,
-})  # fmt: skip
-"""PDUs of a client that the server answers; the client waits for the answer before its next request."""
-FROM_CLIENT = REQUESTS | {AttOpcode.WRITE_COMMAND, AttOpcode.CONFIRMATION, AttOpcode.SIGNED_WRITE_COMMAND}
-"""PDUs of a client: requests, and commands and confirmations, which are not answered."""
-
+LAST_REQUEST = 0x20
+"""Last PDU of a client that the server answers; the client waits for the answer before its next request."""
 DECLARATION_TYPE = "00002803-0000-1000-8000-00805f9b34fb"
 """Type of an attribute that declares a characteristic."""
 MOST_TYPES = 500
@@ -64,35 +53,36 @@ SMALLEST_MTU = 23
 """Smallest MTU (size of the largest PDU), which holds until client and server agree on another, bytes."""
 
 PDU = Struct("opcode" / Int8ul, "body" / GreedyBytes)
-ERROR_RESPONSE = Struct("request" / Int8ul, "handle" / Int16ul, "code" / Int8ul, Terminated)
-MTU = Struct("mtu" / Int16ul, Terminated)
-HANDLE = Struct("handle" / Int16ul, Terminated)
 HANDLE_VALUE = Struct("handle" / Int16ul, "value" / GreedyBytes)
-BLOB_REQUEST = Struct("handle" / Int16ul, "offset" / Int16ul, Terminated)
-TYPE_REQUEST = Struct("first" / Int16ul, "last" / Int16ul, "type" / GreedyBytes)
-REQUEST_BODIES: dict[int, Any] = {
+MTU = Struct("mtu" / Int16ul, Terminated)
+BODIES: dict[int, Any] = {
+    AttOpcode.ERROR: Struct("request" / Int8ul, "handle" / Int16ul, "code" / Int8ul, Terminated),
     AttOpcode.MTU_REQUEST: MTU,
-    AttOpcode.READ_BY_TYPE: TYPE_REQUEST,
-    AttOpcode.READ: HANDLE,
-    AttOpcode.READ_BLOB: BLOB_REQUEST,
+    AttOpcode.MTU_RESPONSE: MTU,
+    AttOpcode.INFORMATION: Struct(
+        "format" / Int8ul,
+        "entries"
+        / GreedyRange(Struct("handle" / Int16ul, "type" / Bytes(lambda context: 2 if context._.format == 1 else 16))),
+        Terminated,
+    ),
+    AttOpcode.READ_BY_TYPE: Struct("first" / Int16ul, "last" / Int16ul, "type" / GreedyBytes),
+    AttOpcode.VALUES_BY_TYPE: Struct(
+        "size" / Int8ul,
+        "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Bytes(this._.size - 2))),
+        Terminated,
+    ),
+    AttOpcode.READ: Struct("handle" / Int16ul, Terminated),
+    AttOpcode.READ_BLOB: Struct("handle" / Int16ul, "offset" / Int16ul, Terminated),
     AttOpcode.WRITE: HANDLE_VALUE,
+    AttOpcode.WRITE_COMMAND: HANDLE_VALUE,
+    AttOpcode.NOTIFICATION: HANDLE_VALUE,
+    AttOpcode.INDICATION: HANDLE_VALUE,
+    AttOpcode.NOTIFICATIONS: Struct(
+        "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Prefixed(Int16ul, GreedyBytes))), Terminated
+    ),
 }
-"""Format of the bodies of the requests whose answers are used."""
-
-
-INFORMATION = Struct(
-    "format" / Int8ul,
-    "entries"
-    / GreedyRange(Struct("handle" / Int16ul, "type" / Bytes(lambda context: 2 if context._.format == 1 else 16))),
-    Terminated,
-)
-TYPE_RESPONSE = Struct(
-    "size" / Int8ul, "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Bytes(this._.size - 2))), Terminated
-)
+"""Format of the bodies of the PDUs whose content is used."""
 DECLARATION = Struct("properties" / Int8ul, "handle" / Int16ul, "type" / GreedyBytes)
-SEVERAL_VALUES = Struct(
-    "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Prefixed(Int16ul, GreedyBytes))), Terminated
-)
 
 
 class AttOperation(Enum):
@@ -111,6 +101,11 @@ class AttValue:
     handle: int
     """Handle of the attribute, a number from 1."""
     value: bytes
+
+
+def is_from_client(data: bytes) -> bool:
+    """Return whether a PDU is one that a client sends."""
+    return bool(data) and data[0] % 2 == 0
 
 
 def uuid_text(octets: bytes) -> str:
@@ -132,8 +127,8 @@ class Conversation:
     """Counts of PDUs that could not be decoded, by kind."""
     mtu: int = SMALLEST_MTU
     """Size of the largest PDU that client and server agreed on, bytes."""
-    _request: tuple[int, Any] | None = None
-    """Request that waits for its answer."""
+    _request: tuple[int, Any] = (0, None)
+    """Opcode and body of the request that waits for its answer; 0 for none."""
     _partial_read: AttValue | None = None
     """First part of a value that is read in several requests."""
     _values: list[AttValue] = field(factory=list)
@@ -143,7 +138,7 @@ class Conversation:
         self._values = []
         try:
             pdu = parse_whole(PDU, data)
-            if pdu.opcode in FROM_CLIENT:
+            if is_from_client(data):
                 self._handle_client_pdu(pdu.opcode, pdu.body)
             else:
                 self._handle_server_pdu(pdu.opcode, pdu.body)
@@ -157,81 +152,76 @@ class Conversation:
         self._end_read()
         return self._values
 
-    def _handle_client_pdu(self, opcode: int, body: bytes) -> None:
+    def _add(self, operation: AttOperation, entry: Any) -> None:
+        self._values.append(AttValue(operation, entry.handle, entry.value))
+
+    def _handle_client_pdu(self, opcode: int, data: bytes) -> None:
+        body: Any = parse_whole(BODIES[opcode], data) if opcode in BODIES else None
         if opcode == AttOpcode.WRITE_COMMAND:
-            parsed = parse_whole(HANDLE_VALUE, body)
-            self._values.append(AttValue(AttOperation.WRITTEN, parsed.handle, parsed.value))
+            self._add(AttOperation.WRITTEN, body)
         if opcode == AttOpcode.PREPARE_WRITE:
             self.flaws["long writes, which are passed over"] += 1
-        if opcode not in REQUESTS:
-            return
-        request_body: Any = parse_whole(REQUEST_BODIES[opcode], body) if opcode in REQUEST_BODIES else None
-        partial = self._partial_read
-        continues_read = (
-            opcode == AttOpcode.READ_BLOB
-            and partial is not None
-            and (request_body.handle, request_body.offset) == (partial.handle, len(partial.value))
-        )
-        if not continues_read:
-            self._end_read()
-        self._request = opcode, request_body
+        if opcode <= LAST_REQUEST and opcode != AttOpcode.CONFIRMATION:
+            read = self._partial_read
+            is_rest = read is not None and opcode == AttOpcode.READ_BLOB
+            if read is None or not is_rest or (body.handle, body.offset) != (read.handle, len(read.value)):
+                self._end_read()
+            self._request = opcode, body
 
-    def _handle_server_pdu(self, opcode: int, body: bytes) -> None:
-        match opcode:
-            case AttOpcode.NOTIFICATION | AttOpcode.INDICATION:
-                parsed = parse_whole(HANDLE_VALUE, body)
-                self._values.append(AttValue(AttOperation.NOTIFIED, parsed.handle, parsed.value))
-                return
-            case AttOpcode.NOTIFICATIONS:
-                for parsed in parse_whole(SEVERAL_VALUES, body).entries:
-                    self._values.append(AttValue(AttOperation.NOTIFIED, parsed.handle, parsed.value))
-                return
-        if self._request is None:
+    def _handle_server_pdu(self, opcode: int, data: bytes) -> None:
+        if opcode in (AttOpcode.NOTIFICATION, AttOpcode.INDICATION):
+            self._add(AttOperation.NOTIFIED, parse_whole(BODIES[opcode], data))
+            return
+        if opcode == AttOpcode.NOTIFICATIONS:
+            for entry in parse_whole(BODIES[opcode], data).entries:
+                self._add(AttOperation.NOTIFIED, entry)
+            return
+        (request, request_body), self._request = self._request, (0, None)
+        if not request:
             return  # the request came before the log started
-        request, request_body = self._request
-        self._request = None
         match opcode, request:
             case AttOpcode.ERROR, _:
-                if parse_whole(ERROR_RESPONSE, body).request == AttOpcode.WRITE:
+                if parse_whole(BODIES[opcode], data).request == AttOpcode.WRITE:
                     self.flaws["writes that were rejected"] += 1
                 self._end_read()
             case AttOpcode.MTU_RESPONSE, AttOpcode.MTU_REQUEST:
-                self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, body).mtu, request_body.mtu))
+                self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, data).mtu, request_body.mtu))
             case AttOpcode.INFORMATION, AttOpcode.FIND_INFORMATION:
-                for entry in parse_whole(INFORMATION, body).entries:
-                    self._add_type(entry.handle, uuid_text(entry.type))
+                for entry in parse_whole(BODIES[opcode], data).entries:
+                    self._add_type(entry.handle, entry.type)
             case AttOpcode.VALUES_BY_TYPE, AttOpcode.READ_BY_TYPE:
-                self._add_types(uuid_text(request_body.type), parse_whole(TYPE_RESPONSE, body))
-            case AttOpcode.VALUE, AttOpcode.READ:
-                self._add_read(request_body.handle, body)
-            case AttOpcode.BLOB, AttOpcode.READ_BLOB if self._partial_read is not None:
-                self._add_read(request_body.handle, self._partial_read.value + body, len(body))
+                self._add_found(request_body.type, parse_whole(BODIES[opcode], data).entries)
+            case (AttOpcode.VALUE, AttOpcode.READ) | (AttOpcode.BLOB, AttOpcode.READ_BLOB):
+                self._add_read(request_body.handle, data, is_first=request == AttOpcode.READ)
             case AttOpcode.WRITTEN, AttOpcode.WRITE:
-                self._values.append(AttValue(AttOperation.WRITTEN, request_body.handle, request_body.value))
+                self._add(AttOperation.WRITTEN, request_body)
 
-    def _add_types(self, kind: str, answer: Any) -> None:
+    def _add_found(self, kind: bytes, entries: Any) -> None:
         """Add the types in an answer: those of the characteristics that it declares, or `kind` for its values."""
-        for entry in answer.entries:
-            if kind == DECLARATION_TYPE:
+        is_declaration = uuid_text(kind) == DECLARATION_TYPE
+        for entry in entries:
+            if is_declaration:
                 declared = parse_whole(DECLARATION, entry.value)
-                self._add_type(declared.handle, uuid_text(declared.type))
+                self._add_type(declared.handle, declared.type)
             else:
                 self._add_type(entry.handle, kind)
-                self._values.append(AttValue(AttOperation.READ, entry.handle, entry.value))
+                self._add(AttOperation.READ, entry)
 
-    def _add_type(self, handle: int, kind: str) -> None:
+    def _add_type(self, handle: int, octets: bytes) -> None:
+        kind = uuid_text(octets)
         if handle in self.types or len(self.types) < MOST_TYPES:
             self.types[handle] = kind
         else:
             self.flaws[f"types of more than {MOST_TYPES} attributes of a device, left out"] += 1
 
-    def _add_read(self, handle: int, value: bytes, newest_size: int | None = None) -> None:
-        """Store the value read so far, and end the read unless the last answer filled the MTU.
-
-        `newest_size`: size of the last answer, bytes; None if it was the first."""
+    def _add_read(self, handle: int, data: bytes, *, is_first: bool) -> None:
+        """Store the value read so far, and end the read unless the answer filled the MTU."""
+        read = self._partial_read
+        if not is_first and read is None:
+            return
+        value = data if is_first or read is None else read.value + data
         self._partial_read = AttValue(AttOperation.READ, handle, value)
-        size = len(value) if newest_size is None else newest_size
-        if size < self.mtu - 1 or len(value) >= LONGEST_VALUE:
+        if len(data) < self.mtu - 1 or len(value) >= LONGEST_VALUE:
             self._end_read()
 
     def _end_read(self) -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
+from functools import cached_property
 
 from attrs import define, field, frozen
 
@@ -29,7 +31,7 @@ A characteristic may be one channel when it is read and another when it is writt
 notification or writing may be read as well."""
 
 
-@frozen
+@frozen(slots=False)
 class KnownDevices:
     """The devices that are looked for in a log."""
 
@@ -38,33 +40,28 @@ class KnownDevices:
     drivers: Mapping[str, Driver]
     """Drivers of those that are declared, by name."""
 
-    @property
-    def channels(self) -> tuple[Channel, ...]:
-        """Channels of all of them."""
-        return tuple(channel for profile in self.profiles for channel in profile.channels)
+    @cached_property
+    def channels(self) -> dict[str, list[Channel]]:
+        """All channels of the characteristic to which each channel belongs, by its name."""
+        return {
+            channel.name: [one for one in profile.channels if one.characteristic == channel.characteristic]
+            for profile in reversed(self.profiles)
+            for channel in profile.channels
+        }
 
     @property
     def channel_names(self) -> frozenset[str]:
         """Names of all channels."""
-        return frozenset(channel.name for channel in self.channels)
-
-    def characteristic_of(self, name: str) -> list[Channel]:
-        """Return the channels of the characteristic to which the channel of this name belongs."""
-        profile = next(profile for profile in self.profiles if name in profile.channel_by_name)
-        return [
-            channel for channel in profile.channels if channel.characteristic == profile.channel(name).characteristic
-        ]
+        return frozenset(self.channels)
 
     def find_profile(self, uuids: set[str]) -> Profile | None:
         """Return the profile with the most channels in `uuids`, at least one of them a stream; the first of several."""
-        best_profile, most_matches = None, 0
-        for profile in self.profiles:
-            matches = sum(channel.characteristic in uuids for channel in profile.channels)
-            if matches > most_matches and any(
-                profile.channel(name).characteristic in uuids for name in profile.streams
-            ):
-                best_profile, most_matches = profile, matches
-        return best_profile
+
+        def count(profile: Profile) -> int:
+            return sum(channel.characteristic in uuids for channel in profile.channels)  # whole numbers
+
+        found = [p for p in self.profiles if any(p.channel(name).characteristic in uuids for name in p.streams)]
+        return max(found, key=count, default=None)
 
 
 def known_devices(own: Iterable[Driver] = ()) -> KnownDevices:
@@ -87,6 +84,8 @@ class LoggedDevice:
     """Site of the device; None if unknown."""
     profile: Profile | None = None
     """Profile of the device; None if the log does not hold its discovery, or for an unknown device."""
+    types: Mapping[int, str] = field(factory=dict)
+    """Discovered UUIDs by attribute handle."""
     channels: dict[tuple[int, AttOperation], str] = field(factory=dict)
     """Channel names by attribute handle and operation."""
     evidence_by_handle: dict[int, ValueEvidence] = field(factory=dict)
@@ -95,75 +94,65 @@ class LoggedDevice:
     @property
     def count(self) -> int:
         """Number of notified values on known channels."""
-        return sum(
-            evidence.count
-            for handle, evidence in self.evidence_by_handle.items()
-            if (handle, AttOperation.NOTIFIED) in self.channels
-        )
+        notified = [handle for handle, operation in self.channels if operation is AttOperation.NOTIFIED]
+        return sum([self.evidence_by_handle[handle].count for handle in notified])
+
+    @property
+    def noun(self) -> str:
+        """Kind of the device, with its indefinite article."""
+        name = "device" if self.profile is None else self.profile.name
+        return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
 
-def name_attributes(
-    device: LoggedDevice, known: KnownDevices, types: Mapping[int, str], handles: Handles
-) -> set[tuple[str, int]]:
+def name_attributes(device: LoggedDevice, known: KnownDevices, handles: Handles) -> set[tuple[str, int]]:
     """Set the device's profile and channels from `handles`, discovery and values, and return the used `handles`.
 
     An entry of `handles` is not used if it contradicts the device's profile or a discovered channel. An entry for any
     device is not used for an attribute that was discovered with another type."""
-    device.profile = known.find_profile(set(types.values()))
-    used_handles: set[tuple[str, int]] = set()
+    device.profile = known.find_profile(set(device.types.values()))
+    used: set[tuple[str, int]] = set()
     for handle, evidence in device.evidence_by_handle.items():
-        channel_name = None
-        for hint in ((device.address.upper(), handle), ("", handle)):
-            if hint in handles and _is_compatible(handles[hint], hint, device, known, types):
-                channel_name = channel_name or handles[hint]
-                used_handles.add(hint)
-        if channel_name is None and handle not in types:
-            channel_name = evidence.channel
-        if channel_name is not None:
-            channels = known.characteristic_of(channel_name)
-        elif device.profile is not None:
-            channels = [channel for channel in device.profile.channels if channel.characteristic == types.get(handle)]
+        hints = [hint for hint in ((device.address.upper(), handle), ("", handle)) if hint in handles]
+        fitting = [hint for hint in hints if _is_compatible(handles[hint], hint, device, known)]
+        used.update(fitting)
+        named = handles[fitting[0]] if fitting else evidence.channel if handle not in device.types else None
+        if named is not None:
+            channels = known.channels[named]
         else:
-            channels = []
-        for operation in AttOperation:
-            accesses = ACCESS_BY_OPERATION[operation]
-            name = next((channel.name for access in accesses for channel in channels if channel.access is access), None)
-            if name is not None:
-                device.channels[handle, operation] = name
-    return used_handles
+            uuid, own = device.types.get(handle), () if device.profile is None else device.profile.channels
+            channels = [channel for channel in own if channel.characteristic == uuid]
+        for operation, accesses in ACCESS_BY_OPERATION.items():
+            names = [channel.name for access in accesses for channel in channels if channel.access is access]
+            if names:
+                device.channels[handle, operation] = names[0]
+    return used
 
 
-def _is_compatible(
-    channel_name: str, hint: tuple[str, int], device: LoggedDevice, known: KnownDevices, types: Mapping[int, str]
-) -> bool:
+def _is_compatible(channel: str, hint: tuple[str, int], device: LoggedDevice, known: KnownDevices) -> bool:
     """Return whether the attribute's discovery, if any, allows that it is the channel of this name."""
     address, handle = hint
-    if device.profile is not None and channel_name not in device.profile.channel_by_name:
+    if device.profile is not None and channel not in device.profile.channel_by_name:
         return False
-    characteristics = {channel.characteristic for channel in known.characteristic_of(channel_name)}
-    uuid = types.get(handle)
-    known_uuids = {channel.characteristic for channel in known.channels}
-    return uuid is None or uuid in characteristics or (address != "" and uuid not in known_uuids)
+    uuid = device.types.get(handle)
+    if uuid is None or uuid == known.channels[channel][0].characteristic:
+        return True
+    return address != "" and all(uuid != channels[0].characteristic for channels in known.channels.values())
 
 
-def explain_unused(
-    hint: tuple[str, int], channel: str, devices: Mapping[str, LoggedDevice], types: Mapping[str, Mapping[int, str]]
-) -> str:
+def explain_unused(hint: tuple[str, int], channel: str, devices: Mapping[str, LoggedDevice]) -> str:
     """Return one sentence on why an entry of `handles` is not used."""
     address, handle = hint
-    logged_devices = [device for device in devices.values() if address in ("", device.address.upper())]
-    if not logged_devices:
+    logged = [device for device in devices.values() if address in ("", device.address.upper())]
+    if not logged:
         return f"holds no device {address}, whose {handle:#06x} was said to be {channel}"
-    devices_with_handle = [device for device in logged_devices if handle in device.evidence_by_handle]
-    if not devices_with_handle:
-        of = f" of {logged_devices[0].address}" if address else ""
+    device = next((device for device in logged if handle in device.evidence_by_handle), None)
+    if device is None:
+        of = f" of {logged[0].address}" if address else ""
         return f"holds no value of an attribute {handle:#06x}{of}, which was said to be {channel}"
-    device = devices_with_handle[0]
-    uuid = types.get(device.address, {}).get(handle)
-    kind = f"is of {with_article(device.profile.name)}" if device.profile is not None else f"is {uuid}"
-    channel_names = sorted({name for (number, _), name in device.channels.items() if number == handle})
-    if uuid is not None and channel_names:
-        kind = f"is {' and '.join(channel_names)}"
+    names = sorted({name for (number, _), name in device.channels.items() if number == handle})
+    kind = f"is {device.types.get(handle)}" if device.profile is None else f"is of {device.noun}"
+    if handle in device.types and names:
+        kind = f"is {' and '.join(names)}"
     return f"{handle:#06x} of {device.address} {kind}, as its discovery says, not {channel}"
 
 
@@ -181,14 +170,7 @@ def _read_foot(channel: str, operation: AttOperation, evidence: ValueEvidence, k
     if channel in ("insole/frame", "insole/info"):
         return evidence.foot
     driver = known.drivers.get(channel.partition("/")[0])
-    if operation is not AttOperation.READ or driver is None or channel not in driver.readers or evidence.read is None:
-        return None
-    try:
-        return driver.read(channel, evidence.read, {}).foot
-    except WireError:
-        return None
-
-
-def with_article(noun: str) -> str:
-    """Return the noun with its indefinite article."""
-    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
+    if operation is AttOperation.READ and driver and channel in driver.readers and evidence.read is not None:
+        with suppress(WireError):
+            return driver.read(channel, evidence.read, {}).foot
+    return None

@@ -6,7 +6,7 @@ log. The second reading makes the packets, so that an hour of a phone's log need
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from functools import partial
 from pathlib import Path
@@ -19,9 +19,8 @@ from ...types import Packet, Site
 from ...wire.receiver import ConnectionFrame, build_connected
 from ..errors import RecordingError, Report, printable, warn
 from .att import AttOperation
-from .devices import Handles, LoggedDevice, assign_site, explain_unused, known_devices, name_attributes, with_article
+from .devices import Handles, LoggedDevice, assign_site, explain_unused, known_devices, name_attributes
 from .evidence import ValueEvidence
-from .hci import ConnectionChange
 from .records import reject_pipe
 from .values import LoggedValue, ValueListener
 
@@ -56,19 +55,15 @@ class BtsnoopLog:
     def __iter__(self) -> Iterator[Packet]:
         listener = ValueListener(self.path, lambda _: None)  # flaws were reported by open_btsnoop
         for item in listener.listen(partial(setattr, self, "done")):
-            match item:
-                case LoggedValue():
-                    device, data = self.devices.get(item.device), item.att_value.value
-                    channel = (
-                        None
-                        if device is None
-                        else device.channels.get((item.att_value.handle, item.att_value.operation))
-                    )
-                case ConnectionChange():
-                    device = self.devices.get(item.connection.peer)
-                    # the log does not show how the host found the device, so name and signal are unknown
-                    channel = "receiver/connected" if item.connected else "receiver/disconnected"
-                    data = build_connected(ConnectionFrame("", None)) if item.connected else b""
+            if isinstance(item, LoggedValue):
+                device, data = self.devices.get(item.device), item.att_value.value
+                key = item.att_value.handle, item.att_value.operation
+                channel = None if device is None else device.channels.get(key)
+            else:
+                device = self.devices.get(item.connection.peer)
+                # the log does not show how the host found the device, so name and signal are unknown
+                channel = "receiver/connected" if item.connected else "receiver/disconnected"
+                data = build_connected(ConnectionFrame("", None)) if item.connected else b""
             if device is not None and device.site is not None and channel is not None:
                 yield Packet((item.t - self.started_at) / 1e6, device.site, channel, data, device.address)
 
@@ -94,7 +89,6 @@ def open_btsnoop(
     for channel in handles.values():
         if channel not in known.channel_names:
             raise ValueError(f"no device has a channel {channel!r}")
-    site_by_address = {device.upper(): site for device, site in (sites or {}).items()}
     listener, devices, started_at = ValueListener(path, report), dict[str, LoggedDevice](), None
     damage: RecordingError | None = None
     try:
@@ -106,21 +100,22 @@ def open_btsnoop(
         damage = error  # iterating the result raises it again, after the packets before it
     used_handles: set[tuple[str, int]] = set()
     for device in devices.values():
-        used_handles |= name_attributes(device, known, listener.types.get(device.address, {}), handles)
-        assign_site(device, known, site_by_address)
-    omissions = list(_describe_omissions(list(devices.values()), listener.types))
+        device.types = listener.types.get(device.address, {})
+        used_handles |= name_attributes(device, known, handles)
+        assign_site(device, known, {address.upper(): site for address, site in (sites or {}).items()})
+    omissions = list(_describe_omissions(list(devices.values())))
     omissions += [f"{what}: {count}" for what, count in listener.flaws.items()]
     usable = any(device.site is not None and device.count for device in devices.values())
     if damage is not None and not usable:
         raise damage
     for hint in [hint for hint in handles if hint not in used_handles]:
-        raise RecordingError(path, explain_unused(hint, handles[hint], devices, listener.types))
+        raise RecordingError(path, explain_unused(hint, handles[hint], devices))
     if not usable:
         raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *omissions[:5]]))
-    unknown = [address for address in sites or {} if address.upper() not in map(str.upper, devices)]
-    if unknown:
-        there = ", ".join(device.address for device in devices.values() if device.channels)
-        raise RecordingError(path, f"holds no device {unknown[0]} that could be used; there is {there}")
+    for address in sites or {}:
+        if address.upper() not in map(str.upper, devices):
+            there = ", ".join([device.address for device in devices.values() if device.channels])
+            raise RecordingError(path, f"holds no device {address} that could be used; there is {there}")
     for sentence in omissions:
         report(f"{printable(str(path))}: {sentence}")
     return BtsnoopLog(path, devices, started_at or 0, path.stat().st_size)
@@ -128,39 +123,35 @@ def open_btsnoop(
 
 def _add_evidence(devices: dict[str, LoggedDevice], value: LoggedValue, flaws: Counter[str]) -> None:
     """Add a value to what is known of its attribute, if it is one of the first MOST_ATTRIBUTES."""
-    device = devices.get(value.device)
-    if device is None:
-        device = devices[value.device] = LoggedDevice(value.device)
-    evidence = device.evidence_by_handle.get(value.att_value.handle)
-    if evidence is None:
-        if sum(len(one.evidence_by_handle) for one in devices.values()) >= MOST_ATTRIBUTES:
+    device = devices.setdefault(value.device, LoggedDevice(value.device))
+    handle = value.att_value.handle
+    if handle not in device.evidence_by_handle:
+        if sum([len(one.evidence_by_handle) for one in devices.values()]) >= MOST_ATTRIBUTES:
             flaws[f"values of more than {MOST_ATTRIBUTES:,} attributes, left out"] += 1
             return
-        evidence = device.evidence_by_handle[value.att_value.handle] = ValueEvidence()
-    evidence.add_value(value.att_value.operation, value.att_value.value)
+        device.evidence_by_handle[handle] = ValueEvidence()
+    device.evidence_by_handle[handle].add_value(value.att_value.operation, value.att_value.value)
 
 
-def _describe_omissions(devices: list[LoggedDevice], types: Mapping[str, Mapping[int, str]]) -> Iterator[str]:
+def _describe_omissions(devices: Sequence[LoggedDevice]) -> Iterator[str]:
     """Yield one sentence about each thing that gives no packets, or packets that a session rejects."""
-    other_count = 0
+    others = 0
     for device in devices:
-        known = types.get(device.address, {})
         address = device.address or "the host itself"
         unnamed = {
-            handle: evidence
-            for handle, evidence in device.evidence_by_handle.items()
-            if evidence.count and (handle, AttOperation.NOTIFIED) not in device.channels and handle not in known
+            handle: one
+            for handle, one in device.evidence_by_handle.items()
+            if one.count and (handle, AttOperation.NOTIFIED) not in device.channels and handle not in device.types
         }
         if unnamed:
-            count = sum(evidence.count for evidence in unnamed.values())
-            handles = _describe_handles(unnamed)
-            yield f"{_count_text(count, 'value')} of {address} left out: no discovery says what is {handles}"
+            values = _count_text(sum([one.count for one in unnamed.values()]), "value")
+            yield f"{values} of {address} left out: no discovery says what is {_describe_handles(unnamed)}"
         if device.site is None and device.count:
-            kind = "a device" if device.profile is None else with_article(device.profile.name)
-            yield f"{_count_text(device.count, 'value')} of {address}, {kind}, left out: nobody says where it was worn"
-        other_count += not device.channels and any(handle in known for handle in device.evidence_by_handle)
-    if other_count:
-        yield f"{_count_text(other_count, 'other device')} left out"
+            values = _count_text(device.count, "value")
+            yield f"{values} of {address}, {device.noun}, left out: nobody says where it was worn"
+        others += not device.channels and any(handle in device.types for handle in device.evidence_by_handle)
+    if others:
+        yield f"{_count_text(others, 'other device')} left out"
     for site in Site:
         there = [device.address for device in devices if device.site is site and device.count]
         if len(there) > 1:

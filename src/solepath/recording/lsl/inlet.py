@@ -11,7 +11,6 @@ and `units`. Time stamps are those of the sender, corrected to this machine's cl
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 
 from pylsl import StreamInfo, StreamInlet, local_clock, proc_clocksync, resolve_byprop, resolve_streams
@@ -19,14 +18,13 @@ from pylsl.util import LostError
 from pylsl.util import TimeoutError as LslTimeout
 
 from ...types import Sample, Site, Vec3
-from ..mapping.units import UNITS, factor_of
+from ..mapping.units import UNITS, unit_of
+from ..mapping.words import key_of_name
 
 SEARCH_TIME = 15.0
 """Time of the search for a stream, s; streams of an idle machine answer within 0.1 s, of a busy one in seconds."""
 MAX_CHUNK = 1024
 """Number of samples that are taken from the queue at a time."""
-_LABEL = re.compile(r"(acc|gyr)[a-z]*[^a-z0-9]*([xyz]|[123])$")
-_AXES = {"x": 0, "y": 1, "z": 2, "1": 0, "2": 1, "3": 2}
 
 
 class LslError(Exception):
@@ -85,9 +83,9 @@ class LslInlet:
                 return samples
             known_at = local_clock() - self.offset
             for row, stamp in zip(values, times, strict=True):
-                vectors = {quantity: _vector(row, *column) for quantity, column in self._columns.items()}
+                acc, gyro = (_vector(row, *columns) for columns in self._columns)
                 t = stamp - self.offset
-                samples.append(Sample(t, self.site, vectors["acc"], vectors["gyro"], known_at=max(t, known_at)))
+                samples.append(Sample(t, self.site, acc, gyro, known_at=max(t, known_at)))
 
     def close(self) -> None:
         """End the reception."""
@@ -106,33 +104,29 @@ def _vector(row: Sequence[float], numbers: Sequence[int], scale: float) -> Vec3:
 
 def _find_columns(
     info: StreamInfo, channels: Sequence[str] | None, units: Mapping[str, str]
-) -> dict[str, tuple[list[int], float]]:
-    """Return the channels x, y and z of each quantity, and the value of its unit in SI units."""
+) -> list[tuple[list[int], float]]:
+    """Return the channels x, y and z of specific force and angular rate, and the value of the unit in SI units."""
     labels = channels if channels is not None else info.get_channel_labels() or []
-    kinds = info.get_channel_types() or []
-    given_units = info.get_channel_units() or []
-    found: dict[str, dict[int, int]] = {"acc": {}, "gyro": {}}
+    kinds, stated = info.get_channel_types() or [], info.get_channel_units() or []
+    found: dict[str, dict[str, int]] = {"acc": {}, "gyro": {}}
     for number, label in enumerate(labels):
-        match = _LABEL.search((label or "").lower()) or _LABEL.search(
-            f"{kinds[number] if kinds else ''} {label}".lower()
-        )
-        if match is not None:
-            found["acc" if match[1] == "acc" else "gyro"].setdefault(_AXES[match[2]], number)
-    columns = {}
+        meanings = [key_of_name(text) for text in (label or "", f"{kinds[number] if kinds else ''} {label}")]
+        key, axis = next((one for one in meanings if one[1]), ("", ""))
+        found.get(key.partition("_")[0], {}).setdefault(axis, number)
+    columns = []
     for quantity, numbers in found.items():
-        if sorted(numbers) != [0, 1, 2]:
+        if set(numbers) != {*"xyz"}:
             texts = ", ".join([label or "-" for label in labels]) or f"{info.channel_count()} without labels"
             raise LslError(f"the stream {info.name()!r} has no {quantity}_x, _y and _z; its channels are: {texts}")
-        stated = [given_units[number] for number in numbers.values()] if given_units else []
-        unit = units.get(quantity) or next((one for one in stated if one), None) or "none"
+        unit = units.get(quantity) or next(filter(None, [stated[k] for k in numbers.values() if stated]), "none")
         factor = _find_factor(quantity, unit, f"{quantity} of the stream {info.name()!r}")
-        columns[quantity] = ([numbers[axis] for axis in range(3)], factor)
+        columns.append(([numbers[axis] for axis in "xyz"], factor))
     return columns
 
 
 def _find_factor(quantity: str, unit: str, whose: str) -> float:
     """Return the value of a unit in SI units; raise LslError, which says whose unit it is, when it is not known."""
-    factor = factor_of(unit, quantity)
-    if factor is None:
+    known = unit_of(unit, quantity)
+    if known is None:
         raise LslError(f"the unit of {whose} is {unit}, not one of {', '.join(UNITS[quantity])}")
-    return factor
+    return UNITS[quantity][known]

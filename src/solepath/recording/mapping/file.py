@@ -11,8 +11,10 @@ from .mapping import TableMapping
 
 MAX_SIZE = 1_000_000
 """Largest size of a file with a mapping, bytes."""
-TEXTS, TABLES = ("rate", "wrap", "separator", "decimal", "header", "format"), ("columns", "units", "feet")
-"""Keys of a mapping whose values are single, and whose values are tables of their own."""
+TABLES = ("columns", "units", "feet")
+"""Keys of a mapping whose values are tables of their own."""
+KEYS = ("rate", "wrap", "separator", "decimal", "header", "format", *TABLES)
+"""Keys of a mapping."""
 
 
 def read_mapping(path: Path | str) -> TableMapping:
@@ -28,26 +30,23 @@ def read_mapping(path: Path | str) -> TableMapping:
         values: dict[str, Any] = tomllib.loads(data.decode("utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise RecordingError(path, f"is not TOML ({error})") from None
-    problems = []
-    for key in values.keys() - {*TEXTS, *TABLES}:
-        known = ", ".join((*TEXTS, *TABLES))
-        problems.append(RecordingError(path, f"{key} is no key of a mapping", repair=f"the keys are {known}"))
+    problems = [
+        RecordingError(path, f"{key} is no key of a mapping", repair=f"the keys are {', '.join(KEYS)}")
+        for key in values.keys() - {*KEYS}
+    ]
     for key in TABLES:
-        if key in values and not isinstance(values[key], dict):
+        if not isinstance(values.get(key, {}), dict):
             problems.append(RecordingError(path, "is a value", key, f"write [{key}] in a line of its own"))
             del values[key]
-    used = {key: value for key, value in values.items() if key in (*TEXTS, *TABLES)}
-    for key, names in used.get("columns", {}).items():
+    for key, names in values.get("columns", {}).items():
         listed = names if isinstance(names, list) else [names]
         # columns of a table without names have numbers
         fits = all(isinstance(name, str) or type(name) is int for name in listed)
-        used["columns"][key] = [str(name) for name in listed] if fits else ()
+        values["columns"][key] = list(map(str, listed)) if fits else ()
     try:
-        mapping = TableMapping(**used, origin=path.name)
+        mapping = TableMapping(**{key: values[key] for key in KEYS if key in values}, origin=path.name)
     except ValueError as error:
-        raise RecordingError.of(
-            [*problems, *(RecordingError(path, line) for line in str(error).splitlines())]
-        ) from None
+        problems += [RecordingError(path, line) for line in str(error).splitlines()]
     if problems:
         raise RecordingError.of(problems)
     return mapping

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterable, Mapping
+import shlex
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fnmatch import fnmatchcase
 from math import inf
 from typing import Any
 
@@ -16,6 +18,8 @@ QUANTITIES = ("t", "acc", "gyro", "pressure")
 """Quantities that columns may hold: time, specific force, angular rate, and the cells of an insole."""
 MEASURED = QUANTITIES[1:]
 """Quantities that sensors measure."""
+COMPONENTS = {"t": 1, "acc": 3, "gyro": 3}
+"""Number of components of a quantity; an insole may have any number of cells."""
 KEYS = tuple(quantity + suffix for suffix in ("", "_left", "_right") for quantity in QUANTITIES)
 """Keys of columns: a quantity, alone or with the foot whose it is."""
 FORMATS = ("movella-dot", "mbientlab", "physilog", "moticon", "ngimu", "solepath")
@@ -58,44 +62,42 @@ class TableMapping:
     """Name of the file that holds this mapping; "" for options of a command, and for a known format."""
 
     def __attrs_post_init__(self) -> None:
-        if faults := self.faults():
-            raise ValueError("\n".join(faults.values()))
+        if faults := [*self._name_faults(), *self._value_faults()]:
+            raise ValueError("\n".join(faults))
 
-    def faults(self) -> dict[str, str]:
-        """Return what is wrong with the values, by the key of each."""
-        found = {}
+    def _name_faults(self) -> Iterator[str]:
+        """Yield what is wrong with columns and units."""
         for key, names in self.columns.items():
-            quantity = key.split("_")[0]
             if key not in KEYS:
-                found[f"columns.{key}"] = f"{key} is none of {', '.join(KEYS)}"
+                yield f"{key} is none of {', '.join(KEYS)}"
             elif not names or not all(isinstance(name, str) and name for name in names):
-                found[f"columns.{key}"] = f"{key} has no names of columns"
-            elif quantity == "t" and len(names) != 1:
-                found[f"columns.{key}"] = f"{key} is one column, not {len(names)}"
+                yield f"{key} has no names of columns"
+            elif key.startswith("t") and len(names) != 1:
+                yield f"{key} is one column, not {len(names)}"
         for quantity, unit in self.units.items():
             known = find_unit(unit) if isinstance(unit, str) else None
             if quantity not in UNITS:
-                found[f"units.{quantity}"] = f"{quantity} is none of {', '.join(UNITS)}"
+                yield f"{quantity} is none of {', '.join(UNITS)}"
             elif known is None or known[0] != quantity:
-                found[f"units.{quantity}"] = f"{unit!r} is no unit of {quantity}: {', '.join(UNITS[quantity])}"
+                yield f"{unit!r} is no unit of {quantity}: {', '.join(UNITS[quantity])}"
+
+    def _value_faults(self) -> Iterator[str]:
+        """Yield what is wrong with the other values."""
         for key in ("rate", "wrap"):
             value = getattr(self, key)
-            if value is not None and (
-                isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value < inf
-            ):
-                found[key] = f"{key} is {value!r}, not a number above 0"
+            if value is not None and (type(value) not in (int, float) or not 0.0 < value < inf):
+                yield f"{key} is {value!r}, not a number above 0"
         if self.separator is not None and self.separator not in SEPARATORS:
-            found["separator"] = f"separator is {self.separator!r}, not one of comma, semicolon, tab, bar, blank"
+            yield f"separator is {self.separator!r}, not one of comma, semicolon, tab, bar, blank"
         if self.decimal not in (None, ".", ","):
-            found["decimal"] = f'decimal is {self.decimal!r}, not "." or ","'
+            yield f'decimal is {self.decimal!r}, not "." or ","'
         if self.header is not None and (type(self.header) is not int or self.header < 0):
-            found["header"] = f"header is {self.header!r}, not the number of a line"
+            yield f"header is {self.header!r}, not the number of a line"
         if self.format and self.format not in FORMATS:
-            found["format"] = f"{self.format} is none of the known formats {', '.join(FORMATS)}"
+            yield f"{self.format} is none of the known formats {', '.join(FORMATS)}"
         for foot, pattern in self.feet.items():
             if foot not in ("left", "right") or not isinstance(pattern, str):
-                found[f"feet.{foot}"] = f"{foot} is not left or right, with a pattern of names of files"
-        return found
+                yield f"{foot} is not left or right, with a pattern of names of files"
 
     @classmethod
     def parse(cls, columns: str = "", units: str = "", **more: Any) -> TableMapping:
@@ -130,7 +132,7 @@ class TableMapping:
         """Return what makes these changes: the whole --columns, or the line of `key` in the file of this mapping."""
         if not self.origin:
             columns = {**self.columns, **changes}
-            return f"--columns {shell_word(','.join(f'{k}={join_names(names)}' for k, names in columns.items()))}"
+            return f"--columns {shlex.quote(','.join(f'{k}={join_names(names)}' for k, names in columns.items()))}"
         names = list(changes[key])
         text = ", ".join(f'"{name}"' for name in names)
         return f"in {self.origin}: {key} = {text}" if len(names) == 1 else f"in {self.origin}: {key} = [{text}]"
@@ -146,14 +148,35 @@ class TableMapping:
         return f"in {self.origin}: {key} = {value}" if self.origin else f"--{key} {value}"
 
 
+@frozen
+class NamedColumn:
+    """A column of a table, and the sign with which its numbers count."""
+
+    index: int
+    """Number of the column, counted from 0."""
+    name: str
+    sign: float = 1.0
+
+
+def match_name(names: Sequence[str], given: str) -> list[NamedColumn]:
+    """Return the columns that a name means: as it is or with a sign, as a number, a pattern, and in any case."""
+    for name, sign in ((given, 1.0), (given[1:], -1.0))[: 1 + given.startswith("-")]:
+        exact = [k for k, one in enumerate(names) if one == name]
+        if not exact and name.startswith("#") and name[1:].isdecimal() and 0 < int(name[1:]) <= len(names):
+            exact = [int(name[1:]) - 1]
+        if not exact and "*" in name:
+            pattern = name.lower().replace("[", "[[]")
+            exact = [k for k, one in enumerate(names) if fnmatchcase(one.lower(), pattern)]
+        if not exact:
+            exact = [k for k, one in enumerate(names) if one.lower() == name.strip().lower()]
+        if exact:
+            return [NamedColumn(k, names[k], sign) for k in exact]
+    return []
+
+
 def join_names(names: Iterable[str]) -> str:
     """Return names with commas between them; one that contains a comma or a double quote is in double quotes."""
     return ",".join('"' + name.replace('"', '""') + '"' if re.search('[,"]', name) else name for name in names)
-
-
-def shell_word(text: str) -> str:
-    """Return a text as one word of a command, in quotes if it needs them."""
-    return text if re.fullmatch(r"[\w@%+=:,./^-]+", text, re.ASCII) else "'" + text.replace("'", "'\"'\"'") + "'"
 
 
 def _parse_columns(text: str) -> dict[str, tuple[str, ...]]:

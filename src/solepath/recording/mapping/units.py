@@ -44,14 +44,13 @@ def find_unit(text: str) -> tuple[str, str] | None:
     return None
 
 
-def factor_of(unit: str, quantity: str) -> float | None:
-    """Return the value of a unit of a quantity in SI units; None for any other text."""
-    found = find_unit(unit)
-    return UNITS[quantity][found[1]] if found is not None and found[0] == quantity else None
+def unit_of(text: str, quantity: str) -> str | None:
+    """Return the usual spelling of a unit of a quantity; None for any other text."""
+    found = find_unit(text)
+    return found[1] if found is not None and found[0] == quantity else None
 
 
 def unit_of_name(name: str, quantity: str) -> str | None:
     """Return the unit of a quantity that the name of a column holds in brackets; None without one."""
     match = IN_BRACKETS.search(name)
-    found = None if match is None else find_unit(match[1])
-    return found[1] if found is not None and found[0] == quantity else None
+    return None if match is None else unit_of(match[1], quantity)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
-from attrs import field, frozen
+from attrs import frozen
 
 from ..bad_rows import LONGEST_LINE
+from ..errors import printable
 from ..mapping.mapping import SEPARATORS, TableMapping
 from ..mapping.units import find_unit
 
@@ -25,8 +27,9 @@ Cells = list[Any]
 
 @frozen
 class SheetLayout:
-    """SheetLayout of a table; its rows of numbers start at line `first`."""
+    """Start of a table; its rows of numbers start at line `first`."""
 
+    path: Path
     names: tuple[str, ...]
     """Names of the columns, without blanks around them; 1, 2, 3 in a table without a header."""
     header: int
@@ -39,7 +42,17 @@ class SheetLayout:
     """Lines before the header."""
     units: tuple[str, ...] = ()
     """Cells of the line of units below the header; none without such a line."""
-    split: Callable[[str], Cells] = field(default=str.split, eq=False)
+
+    def locate(self) -> str:
+        """Return the text that says where the names are; "" for a table without them."""
+        return f"line {self.header}" if self.header else ""
+
+    def list_names(self) -> str:
+        """Return what there is instead of a column that is missing."""
+        names = [name for name in self.names if name]
+        if all(name.replace(".", "").replace("-", "").isdecimal() for name in names):
+            return "it holds numbers: is the line with the names missing?"
+        return f"it names {printable(', '.join(names), 80)}"
 
 
 def splitter(separator: str) -> Callable[[str], Cells]:
@@ -60,36 +73,33 @@ def splitter(separator: str) -> Callable[[str], Cells]:
     return split
 
 
-def is_number(cell: Any) -> bool:
-    """Return whether a cell holds a number, with a decimal point or comma."""
-    if not isinstance(cell, str):
-        return isinstance(cell, int | float) and not isinstance(cell, bool)
-    text = cell.strip()
-    return bool(NUMBER.fullmatch(text) or COMMA_NUMBER.fullmatch(text))
+def is_number(text: str) -> bool:
+    """Return whether the text of a cell is a number, with a decimal point or comma."""
+    return bool(NUMBER.fullmatch(text.strip()) or COMMA_NUMBER.fullmatch(text.strip()))
 
 
-def count_numbers(cells: Sequence[Any]) -> int:
+def count_numbers(texts: Sequence[str]) -> int:
     """Return the number of numbers in a row that consists of them, for half of its cells or more; otherwise 0."""
-    filled = [cell for cell in cells if _text(cell)]
+    filled = [text for text in texts if text.strip()]
     count = sum(map(is_number, filled))  # whole numbers
     return count if count >= 2 and 2 * count >= len(filled) else 0
 
 
-def find_layout(lines: Sequence[tuple[int, str]], mapping: TableMapping) -> SheetLayout:
+def find_layout(path: Path, lines: Sequence[tuple[int, str]], mapping: TableMapping) -> SheetLayout:
     """Return the layout of a text file from its first lines, with their numbers; `mapping` may state parts of it.
 
     ValueError when a line that is stated is not there."""
     if mapping.separator is not None:
         separator = SEPARATORS[mapping.separator]
     else:
-        separator = max(",;\t|", key=lambda sep: _count_rows(lines, sep))
-        if not _count_rows(lines, separator)[0] and _count_rows(lines, " ")[0]:
-            separator = " "  # the last resort: texts within cells have blanks, too
-        elif not _count_rows(lines, separator)[0]:
-            separator = max(",;\t", key=lambda sep: max((text.count(sep) for _, text in lines), default=0))
+        # blanks are the last resort: texts within cells have blanks, too
+        counts = {one: _count_rows(lines, one) for one in ",;\t| "}
+        separator = max(",;\t|", key=counts.__getitem__)
+        if not counts[separator][0]:
+            most_common = max(",;\t", key=lambda one: max((text.count(one) for _, text in lines), default=0))
+            separator = " " if counts[" "][0] else most_common
     split = splitter(separator)
-    rows = [(number, _cut(split, text)) for number, text in lines]
-    return find_header(rows, mapping, separator, split)
+    return find_header(path, [(number, _cut(split, text)) for number, text in lines], mapping, separator)
 
 
 def _cut(split: Callable[[str], Cells], text: str) -> Cells:
@@ -107,75 +117,65 @@ def _count_rows(lines: Sequence[tuple[int, str]], separator: str) -> tuple[int, 
 
 
 def find_header(
-    rows: Sequence[tuple[int, Cells]],
-    mapping: TableMapping,
-    separator: str = ",",
-    split: Callable[[str], Cells] = str.split,
+    path: Path, rows: Sequence[tuple[int, Cells]], mapping: TableMapping, separator: str = ","
 ) -> SheetLayout:
     """Return the layout of a table from its first rows, with their numbers."""
-    filled = [(number, cells) for number, cells in rows if any(_text(cell) for cell in cells)]
-    start = next((k for k, (_, cells) in enumerate(filled) if count_numbers(cells)), None)
-    if mapping.header:
+    filled = [(number, texts) for number, cells in rows if any(texts := list(map(_text, cells)))]
+    start = next((k for k, (_, texts) in enumerate(filled) if count_numbers(texts)), None)
+    named = 0 if start is None else _find_names(filled, start)
+    if mapping.header is not None:
         named = next((k for k, (number, _) in enumerate(filled) if number == mapping.header), None)
-        if named is None:
+        if named is None and mapping.header:
             raise ValueError(f"has no names in line {mapping.header}")
-    elif mapping.header == 0:
-        named = None
-    elif start is None:
-        named = 0
-    else:
-        named = _find_names(filled, start)
+    below = start or 0 if named is None else named + 1
     if named is None:
-        width = max((len(cells) for _, cells in filled[start or 0 :]), default=0)
+        header, width = 0, max((len(texts) for _, texts in filled[below:]), default=0)
         names = tuple(str(k + 1) for k in range(width))
-        header, below = 0, start or 0
     else:
-        header, names = filled[named][0], tuple(_text(cell) for cell in filled[named][1])
-        names = (names[0].lstrip("# "), *names[1:])  # a header may be a comment
-        below = named + 1
+        header, (first, *rest) = filled[named]
+        names = (first.lstrip("# "), *rest)  # a header may be a comment
     units: tuple[str, ...] = ()
     if below < len(filled) and _is_line_of_units(filled[below][1]):
-        units, below = tuple(_text(cell) for cell in filled[below][1]), below + 1
-    numbers = filled[below:] if below < len(filled) else []
-    first = numbers[0][0] if numbers else (filled[-1][0] + 1 if filled else 1)
-    has_commas = separator != "," and any(
-        isinstance(cell, str) and COMMA_NUMBER.fullmatch(cell.strip()) for _, cells in numbers for cell in cells
-    )
+        units, below = tuple(filled[below][1]), below + 1
+    end = filled[-1][0] + 1 if filled else 1
+    has_commas = separator != "," and any(COMMA_NUMBER.fullmatch(text) for _, texts in filled[below:] for text in texts)
     return SheetLayout(
+        path,
         names,
         header,
-        first,
+        filled[below][0] if below < len(filled) else end,
         separator,
         mapping.decimal or ("," if has_commas else "."),
-        tuple(separator.join(map(_text, cells)) for _, cells in filled[:named]),
+        tuple(separator.join(texts) for _, texts in filled[:named]),
         units,
-        split,
     )
 
 
-def _find_names(filled: Sequence[tuple[int, Cells]], start: int) -> int | None:
+def _find_names(filled: Sequence[tuple[int, list[str]]], start: int) -> int | None:
     """Return the index of the row with the names above the first row of numbers; None if there is none as wide."""
-    width = _width(filled[start][1])
     above = start - 1
     if above > 0 and _is_line_of_units(filled[above][1]):
         above -= 1
-    if above < 0:
-        return None
-    names = _width(filled[above][1])
+    width = _width(filled[above][1]) if above >= 0 else 0
     # rows of an export may lack their last cells, or have a cell more than there are names
-    return above if names > 1 and (names >= width - 1 or above == 0) else None
+    return above if width > 1 and (width >= _width(filled[start][1]) - 1 or above == 0) else None
 
 
-def _width(cells: Cells) -> int:
-    return max((k + 1 for k, cell in enumerate(cells) if _text(cell)), default=0)
+def _width(texts: Sequence[str]) -> int:
+    return max(k + 1 for k, text in enumerate(texts) if text)
 
 
-def _is_line_of_units(cells: Cells) -> bool:
+def _is_line_of_units(cells: Sequence[str]) -> bool:
     """Return whether a row names units: all in brackets, or two or more known ones and nothing else."""
-    texts = [text for cell in cells if (text := _text(cell))]
+    texts = list(filter(None, cells))
     known = [find_unit(text) is not None or re.fullmatch(r"[\[(].*[\])]|-", text) is not None for text in texts]
-    return len(texts) > 1 and all(known) and not any(is_number(text) for text in texts)
+    return len(texts) > 1 and all(known) and not any(map(is_number, texts))
 
 
 def _text(cell: Any) -> str:
-    return cell.strip() if isinstance(cell, str) else "" if cell is None or cell != cell else str(cell)
+    return "" if is_blank(cell) else str(cell).strip()
+
+
+def is_blank(cell: Any) -> bool:
+    """Return whether a cell of a text file or a workbook has no content."""
+    return not cell.strip() if isinstance(cell, str) else cell is None or cell != cell

@@ -10,17 +10,17 @@ from contextlib import contextmanager
 from io import BytesIO
 from math import prod
 from pathlib import Path
-from typing import IO, Any, BinaryIO
+from typing import Any, BinaryIO
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...types import Foot
-from ..errors import RecordingError, open_file, printable
-from ..mapping.mapping import TableMapping
-from ..mapping.units import UNITS, find_unit
-from .table import MAX_VALUES, QUANTITIES, Floats, FootTable, to_floats
+from ..errors import RecordingError, describe_error, open_file, printable
+from ..mapping.mapping import COMPONENTS, MEASURED, QUANTITIES, TableMapping
+from ..mapping.units import DATETIME, UNITS, unit_of
+from .table import MAX_VALUES, FootTable
 
 MAX_PIPED = 256_000_000
 """Largest size of an archive that comes through a pipe, bytes; which is kept whole, as its list is at its end."""
@@ -48,28 +48,24 @@ ARCHIVE_ERRORS = (
 """Exceptions that numpy raises for a damaged archive."""
 
 
-def read_npz(path: Path, one_foot: Foot | None, mapping: TableMapping | None = None) -> list[FootTable]:
+def read_npz(path: Path, one_foot: Foot | None, mapping: TableMapping) -> list[FootTable]:
     """Return the tables of the feet in the file, of which only the shapes are checked.
 
     `one_foot`: foot of a file whose keys name no foot, None if it is not known. `mapping`: keys and units, where they
     are not this project's own; a key holds all components of a quantity, or one of them. RecordingError as for
     `read_arrays`."""
-    mapping = mapping or TableMapping()
     with _open_archive(path) as archive:
         archive.rename(mapping)
-        tables = _read_tables(path, archive, one_foot)
-    for table in tables:
-        table.mapping = mapping
-        for quantity, unit in mapping.units.items():
-            known = find_unit(unit)
-            factor = 1.0 if known is None else UNITS[quantity][known[1]]
-            table.units[quantity] = unit if known is None else known[1]
-            if quantity == "t":
-                table.t = table.t * factor
-                table.is_own = table.is_own and factor == 1.0
-            elif quantity in table.columns:
-                table.columns[quantity] = table.columns[quantity] * factor
-    return tables
+        named = [foot for foot in Foot if any(f"{q}_{foot.value}" in archive.keys for q in MEASURED)]
+        bare = [q for q in MEASURED if q in archive.keys]
+        if bare and named:
+            named_key = next(key for q in MEASURED if (key := f"{q}_{named[0].value}") in archive.keys)
+            raise RecordingError(path, f"holds both {bare[0]} and {named_key}: is it of one foot or of two?")
+        if not bare and not named:
+            text = f"has no key acc or pressure, nor acc_left or acc_right (it holds {archive.list_keys()})"
+            raise RecordingError(path, text, repair="--columns t=KEY,acc=KEY,gyro=KEY")
+        feet = named or (one_foot,)
+        return [_read_table(archive, foot, mapping, is_named=not bare) for foot in feet]
 
 
 def read_arrays(path: Path, is_used: Callable[[str], bool]) -> dict[str, NDArray[Any]]:
@@ -99,52 +95,61 @@ def _open_archive(path: Path) -> Iterator[_Archive]:
             archive = _Archive(path, ZipFile(stream))
         except ARCHIVE_ERRORS as error:
             raise RecordingError(
-                path, f"is not a whole .npz archive ({_describe_error(error)}); was it cut off?"
+                path, f"is not a whole .npz archive ({describe_error(error, 80)}); was it cut off?"
             ) from error
         yield archive
 
 
-def _read_tables(path: Path, archive: _Archive, one_foot: Foot | None) -> list[FootTable]:
-    keys_found = set(archive.keys)
-    feet = [foot for foot in Foot if any(f"{q}_{foot.value}" in keys_found for q in QUANTITIES)]
-    bare_keys = [q for q in QUANTITIES if q in keys_found]
-    if bare_keys and feet:
-        named_key = next(q for q in QUANTITIES if f"{q}_{feet[0].value}" in keys_found)
-        example_keys = f"{bare_keys[0]} and {named_key}_{feet[0].value}"
-        raise RecordingError(path, f"holds both {example_keys}: is it of one foot or of two?")
-    if bare_keys:
-        return [_read_table(path, archive, one_foot, "")]
-    if feet:
-        return [_read_table(path, archive, foot, f"_{foot.value}") for foot in feet]
-    text = f"has no key acc or pressure, nor acc_left or acc_right (it holds {archive.list_keys()})"
-    raise RecordingError(path, text, repair="--columns t=KEY,acc=KEY,gyro=KEY")
-
-
-def _read_table(path: Path, archive: _Archive, foot: Foot | None, suffix: str) -> FootTable:
+def _read_table(archive: _Archive, foot: Foot | None, mapping: TableMapping, *, is_named: bool) -> FootTable:
+    suffix = f"_{foot.value}" if is_named and foot is not None else ""
     names = {q: q + suffix for q in QUANTITIES if q + suffix in archive.keys}
-    time_key = "t" + suffix if "t" + suffix in archive.keys else "t"
-    missing = [] if time_key in archive.keys else [("t", f'"t"{suffix and f" and no key {time_key + suffix}"}')]
+    missing = []
+    if "t" not in names and "t" not in archive.keys:
+        missing.append(("t", f'"t"{suffix and f" and no key t{suffix}"}'))
     if "gyro" in names and "acc" not in names:
         missing.append(("acc", f"acc{suffix}"))
     if missing:
         text = f"has no key {' and no key '.join(name for _, name in missing)} (it holds {archive.list_keys()})"
-        raise RecordingError(path, text, repair=f"--columns {','.join(f'{key}=KEY' for key, _ in missing)}")
-    t = to_floats(path, time_key, archive.read(time_key), 0)
-    columns: dict[str, Floats] = {}
+        raise RecordingError(archive.path, text, repair=f"--columns {','.join(f'{key}=KEY' for key, _ in missing)}")
+    names = {"t": "t", **names}
+    units = {q: unit_of(unit, q) or unit for q, unit in mapping.units.items()}
+    table = FootTable(
+        archive.path,
+        foot or Foot.RIGHT,
+        names,
+        units=units,
+        mapping=mapping,
+        is_named=is_named,
+        is_assumed=foot is None,
+    )
     for quantity, name in names.items():
-        array = to_floats(path, name, archive.read(name), None if quantity == "pressure" else 3)
-        if len(array) != len(t):
-            raise RecordingError(path, f"has {len(array)} rows but {time_key} has {len(t)}", name)
-        columns[quantity] = array
-    names = {"t": time_key, **names}
-    return FootTable(path, foot or Foot.RIGHT, names, t, columns, is_assumed=foot is None, is_named=bool(suffix))
+        values = _to_floats(archive.path, name, archive.read(name), COMPONENTS.get(quantity))
+        if quantity != "t" and len(values) != len(table):
+            raise RecordingError(archive.path, f"has {len(values)} rows but {names['t']} has {len(table)}", name)
+        columns = [values.tolist()] if quantity == "t" else values.T.tolist()
+        table.set_quantity(quantity, columns, units.get(quantity, next(iter(UNITS[quantity]))))
+    table.is_own = units.get("t", "s") in ("s", DATETIME)
+    return table
+
+
+def _to_floats(path: Path, name: str, value: NDArray[Any], width: int | None) -> NDArray[np.float64]:
+    """Return `value` as float64; RecordingError for another type, or for another shape than `width` requires.
+
+    The shape is (n,) for a width of 1, (n, any) for None, and else (n, width)."""
+    if value.dtype.kind not in "fiu":
+        raise RecordingError(path, f"holds {printable(str(value.dtype), 40)}, not numbers", name)
+    expected = "(n,)" if width == 1 else f"(n, {'cells' if width is None else width})"
+    fits = value.ndim == 1 if width == 1 else value.ndim == 2 and value.shape[1] > 0 and width in (None, value.shape[1])
+    if not fits:
+        raise RecordingError(path, f"has the shape {value.shape} instead of {expected}", name)
+    return value.astype(np.float64)
 
 
 class _Archive:
     """The arrays of an archive by key, of which at most MAX_VALUES numbers are read in all."""
 
     def __init__(self, path: Path, zip_file: ZipFile) -> None:
-        self._path, self._zip_file, self._values = path, zip_file, 0
+        self.path, self._zip_file, self._values = path, zip_file, 0
         self.keys = {info.filename.removesuffix(".npy"): info for info in zip_file.infolist()}
         self._parts: dict[str, tuple[str, ...]] = {}
 
@@ -158,7 +163,7 @@ class _Archive:
         if missing:
             text = f"has no key {printable(', '.join(missing), 80)} (it holds {self.list_keys()})"
             key, names = next((key, names) for key, names in mapping.columns.items() if set(names) & set(missing))
-            raise RecordingError(self._path, text, repair=mapping.write_columns(key, {key: ["KEY"] * len(names)}))
+            raise RecordingError(self.path, text, repair=mapping.write_columns(key, {key: ["KEY"] * len(names)}))
         for key, names in mapping.columns.items():
             if names != (key,):
                 self._parts[key], self.keys[key] = names, self.keys[names[0].lstrip("-")]
@@ -177,32 +182,19 @@ class _Archive:
             if info.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
                 raise ValueError("numpy packs in another way")
             with self._zip_file.open(info) as file:
-                count, dtype = _read_claim(file, info.file_size)
-            if dtype.kind not in NUMBER_KINDS:
-                raise RecordingError(self._path, f"holds {printable(str(dtype), 40)}, not numbers", key)
-            self._values += count * max(1, dtype.itemsize // FLOAT_SIZE)
-            if self._values > MAX_VALUES:
-                raise RecordingError(self._path, f"holds more than {MAX_VALUES:,} numbers")
-            with self._zip_file.open(info) as file:
-                array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
+                version = np.lib.format.read_magic(file)
+                if version not in HEADER_READERS:
+                    raise ValueError("its header has another version")
+                shape, is_fortran, dtype = HEADER_READERS[version](file)
+                count = prod(shape)
+                if not dtype.hasobject and count * dtype.itemsize > info.file_size:
+                    raise ValueError(f"its header claims {count} values, which do not fit into it")
+                if dtype.kind not in NUMBER_KINDS:
+                    raise RecordingError(self.path, f"holds {printable(str(dtype), 40)}, not numbers", key)
+                self._values += count * max(1, dtype.itemsize // FLOAT_SIZE)
+                if self._values > MAX_VALUES:
+                    raise RecordingError(self.path, f"holds more than {MAX_VALUES:,} numbers")
+                data = file.read(count * dtype.itemsize)
+            return np.frombuffer(data, dtype).reshape(shape, order="F" if is_fortran else "C")
         except ARCHIVE_ERRORS as error:
-            raise RecordingError(self._path, f"cannot be read ({_describe_error(error)})", key) from error
-        return array
-
-
-def _read_claim(file: IO[bytes], size: int) -> tuple[int, np.dtype[Any]]:
-    """Return the number of values that the header of an array claims, and their type, before any is unpacked.
-
-    ValueError when the file is not as large."""
-    version = np.lib.format.read_magic(file)
-    if version not in HEADER_READERS:
-        raise ValueError("its header has another version")
-    shape, _, dtype = HEADER_READERS[version](file)
-    count = prod(shape)
-    if not dtype.hasobject and count * dtype.itemsize > size:
-        raise ValueError(f"its header claims {count} values, which do not fit into it")
-    return count, dtype
-
-
-def _describe_error(error: BaseException) -> str:
-    return printable(str(error).splitlines()[0] if str(error) else type(error).__name__, 80)
+            raise RecordingError(self.path, f"cannot be read ({describe_error(error, 80)})", key) from error

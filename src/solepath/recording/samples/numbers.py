@@ -6,68 +6,64 @@ import re
 from array import array
 from collections.abc import Callable, Iterator
 from datetime import UTC, datetime, time
-from pathlib import Path
+from itertools import accumulate, pairwise
 from typing import Any
 
-import numpy as np
 from attrs import define, field
 
-from ...types import Foot
 from ..bad_rows import BadRows
 from ..errors import RecordingError, printable
 from ..exports import OWN
-from ..mapping.mapping import MEASURED
-from ..mapping.units import DATETIME, UNITS
-from .columns import FootColumns, TableColumns
-from .layout import COMMA_NUMBER, Cells, SheetLayout
+from ..mapping.mapping import MEASURED, NamedColumn
+from ..mapping.units import DATETIME
+from .columns import TableColumns
+from .layout import COMMA_NUMBER, Cells, is_blank
 from .sheet import Row
-from .table import MAX_VALUES, FootTable
+from .table import MAX_VALUES, FootTable, floats
 
 SECONDS_OF_DAY = 86400.0
 """Length of a day, s: times without a date start again from 0 after it."""
+Parse = Callable[[Any], float]
+"""A function from a cell to its number; ValueError or TypeError for a cell that is none."""
 
 
-def read_rows(
-    path: Path, layout: SheetLayout, rows: Iterator[Row], found: TableColumns, bad_rows: BadRows
-) -> list[FootTable]:
+def read_rows(rows: Iterator[Row], found: TableColumns, bad_rows: BadRows) -> list[FootTable]:
     """Return the tables of the feet, without the rows that are none of numbers, which `bad_rows` gets.
 
     An incomplete last line is reported and left out. It is not detected if only digits of its last column are missing,
     because the row is then complete."""
-    number_of = number_reader(layout.decimal)
-    feet = [_FootRows(columns, number_of) for columns in found.feet]
-    width = max((k + 1 for k, name in enumerate(layout.names) if name), default=0)
+    header = found.header
+    feet = [_FootRows(table, number_reader(header.decimal), len(found.feet) == 1) for table in found.feet]
+    width = max((k + 1 for k, name in enumerate(header.names) if name), default=0)
     for count, row in enumerate(rows):
         try:
             if row.cells is None:
                 raise ValueError(row.fault)
-            cells = _fit(row.cells, len(layout.names), width)
-            parsed = [foot.parse(cells, count, is_only=len(feet) == 1) for foot in feet]
+            cells = _fit(row.cells, len(header.names), width)
+            parsed = [foot.parse(cells, float(count)) for foot in feet]
         except ValueError as error:
             if row.is_whole:
                 bad_rows.add(f"line {row.number}", str(error))
                 continue
             text = f"line {row.number}: cut off in the middle; everything before it is used"
-            bad_rows.report(f"{printable(str(path))}: {text}")
+            bad_rows.report(f"{printable(str(header.path))}: {text}")
             break
         bad_rows.good += 1
         for foot, numbers in zip(feet, parsed, strict=True):
             if numbers is not None:
                 foot.values.extend(numbers)
                 foot.lines.append(row.number)
-        if sum(len(foot.values) for foot in feet) > MAX_VALUES:  # whole numbers
-            raise RecordingError(path, f"holds more than {MAX_VALUES:,} numbers")
-    is_own = found.export is OWN and found.time_is_own
-    return [foot.to_table(path, found, is_own=is_own) for foot in feet if len(foot.lines)]
+        if sum([len(foot.values) for foot in feet]) > MAX_VALUES:
+            raise RecordingError(header.path, f"holds more than {MAX_VALUES:,} numbers")
+    return [foot.fill(found) for foot in feet if foot.lines]
 
 
 def _fit(cells: Cells, count: int, width: int) -> Cells:
     """Return the cells of a row with those that are blank and beyond the names left out."""
-    if len(cells) == count:
-        return cells
-    filled = max((k + 1 for k, cell in enumerate(cells) if not _is_blank(cell)), default=0)
-    if filled > count or len(cells) < width:
-        raise ValueError(f"has {len(cells)} columns instead of {count}")
+    if len(cells) != count:
+        filled = max((k + 1 for k, cell in enumerate(cells) if not is_blank(cell)), default=0)
+        if filled > count or len(cells) < width:
+            raise ValueError(f"has {len(cells)} columns instead of {count}")
     return cells
 
 
@@ -75,89 +71,69 @@ def _fit(cells: Cells, count: int, width: int) -> Cells:
 class _FootRows:
     """The numbers of one foot, row by row."""
 
-    columns: FootColumns
-    number_of: Callable[[Any], float]
-    values: array[float] = field(factory=lambda: array("d"))
+    table: FootTable
+    parse_number: Parse
+    is_only: bool
+    """Flag: the table has no other foot."""
+    values: array[float] = field(factory=floats)
     lines: array[int] = field(factory=lambda: array("q"))
-    order: list[tuple[int, str, float]] = field(init=False)
-    """Number, name and sign of each column of numbers, in the order of the quantities."""
-    time_of: Callable[[Any], float] | None = None
+    sources: list[NamedColumn] = field(init=False)
+    """Columns of sensors, in the order of their quantities."""
+    parse_time: Parse | None = None
     """Function from a cell to its time, in the unit of the column; None before the first row."""
 
-    @order.default
-    def _find_order(self) -> list[tuple[int, str, float]]:
-        its = self.columns.columns
-        return [(c.index, c.name, -1.0 if c.is_reversed else 1.0) for q in MEASURED for c in its.get(q, ())]
+    @sources.default
+    def _list_sources(self) -> list[NamedColumn]:
+        return [column for quantity in MEASURED for column in self.table.sources.get(quantity, ())]
 
-    def parse(self, cells: Cells, count: int, *, is_only: bool) -> list[float] | None:
+    def parse(self, cells: Cells, count: float) -> list[float] | None:
         """Return the numbers of a row, its time first; None for a foot all of whose cells are blank.
 
         ValueError for a row with another fault."""
-        if not is_only and all(_is_blank(cells[index]) for index, _, _ in self.order):
+        if not self.is_only and all(is_blank(cells[column.index]) for column in self.sources):
             return None
-        numbers = [self._time(cells) if "t" in self.columns.columns else float(count)]
-        for index, name, sign in self.order:
+        numbers = [self._time(cells) if "t" in self.table.sources else count]
+        for column in self.sources:
             try:
-                numbers.append(sign * self.number_of(cells[index]))
+                numbers.append(column.sign * self.parse_number(cells[column.index]))
             except (ValueError, TypeError, IndexError):
-                raise ValueError(f"{name} is {_describe(cells, index)}, not a number") from None
+                raise ValueError(f"{column.name} is {_describe(cells, column.index)}, not a number") from None
         return numbers
 
     def _time(self, cells: Cells) -> float:
-        (column,) = self.columns.columns["t"]
+        (column,), units = self.table.sources["t"], self.table.units
         cell = cells[column.index] if column.index < len(cells) else None
-        if self.time_of is None:
-            is_text = self.columns.units["t"] == DATETIME or is_datetime(cell, self.number_of)
-            self.time_of = read_datetime if is_text else self.number_of
-            if is_text:
-                self.columns.units["t"] = DATETIME
+        if self.parse_time is None:
+            is_text = units["t"] == DATETIME or is_datetime(cell, self.parse_number)
+            units["t"], self.parse_time = (DATETIME, read_datetime) if is_text else (units["t"], self.parse_number)
         try:
-            return self.time_of(cell)
+            return self.parse_time(cell)
         except (ValueError, TypeError):
-            kind = "a time" if self.time_of is read_datetime else "a number"
+            kind = "a time" if self.parse_time is read_datetime else "a number"
             raise ValueError(f"{column.name} is {_describe(cells, column.index)}, not {kind}") from None
 
-    def to_table(self, path: Path, found: TableColumns, *, is_own: bool) -> FootTable:
-        """Return the rows as a table, in SI units; `is_own`: the column of times has this project's name."""
-        columns, units = self.columns.columns, self.columns.units
-        rows = np.frombuffer(self.values, dtype=np.float64).reshape(len(self.lines), 1 + len(self.order))
-        t = rows[:, 0]
-        if "t" not in columns:
-            t = t / (found.mapping.rate or 1.0)
+    def fill(self, found: TableColumns) -> FootTable:
+        """Return the table with the rows, in SI units."""
+        table, unit, width = self.table, self.table.units.get("t"), 1 + len(self.sources)
+        table.lines, t = self.lines, self.values[::width]
+        columns = (self.values[k::width] for k in range(1, width))
+        for quantity in filter(table.sources.__contains__, MEASURED):
+            its_columns = [next(columns) for _ in table.sources[quantity]]
+            table.set_quantity(quantity, its_columns, table.units[quantity])
+        if unit is None:
+            t = floats([number / (found.mapping.rate or 1.0) for number in t])
         else:
-            wrap = SECONDS_OF_DAY if units["t"] == DATETIME and t[0] < SECONDS_OF_DAY else found.mapping.wrap
+            wrap = SECONDS_OF_DAY if unit == DATETIME and t[0] < SECONDS_OF_DAY else found.mapping.wrap
             if wrap is not None:
-                with np.errstate(invalid="ignore"):
-                    t = t + wrap * np.cumsum(np.concatenate([[0.0], np.diff(t) < -0.5 * wrap]))
-            t = t * UNITS["t"][units["t"]]
-        quantities, start = {}, 1
-        for quantity in MEASURED:
-            width = len(columns.get(quantity, ()))
-            if width:
-                factor = UNITS[quantity][units[quantity]]
-                part = rows[:, start : start + width]
-                with np.errstate(over="ignore"):  # a value that is infinite then is reported with its line
-                    quantities[quantity] = part if factor == 1.0 else part * factor
-                start += width
-        names = {"t": self.columns.names["t"], **{quantity: self.columns.names[quantity] for quantity in quantities}}
-        signed = {q: tuple(("-" if c.is_reversed else "") + c.name for c in columns[q]) for q in quantities}
-        return FootTable(
-            path,
-            self.columns.foot or Foot.RIGHT,
-            names,
-            t,
-            quantities,
-            np.frombuffer(self.lines, dtype=np.int64),
-            is_assumed=self.columns.foot is None,
-            is_named=self.columns.is_named,
-            units=dict(units),
-            signed=signed,
-            mapping=found.given,
-            is_own=is_own and units["t"] == "s",
-        )
+                turns = accumulate([b - a < -0.5 * wrap for a, b in pairwise(t)], initial=0)
+                t = floats([number + wrap * turn for number, turn in zip(t, turns, strict=True)])
+        table.set_quantity("t", [t], unit or "s")
+        has_own_time = found.mapping.columns.get("t", ("t",))[0].lower() == "t"
+        table.is_own = found.export is OWN and has_own_time and unit == "s"
+        return table
 
 
-def number_reader(decimal: str) -> Callable[[Any], float]:
+def number_reader(decimal: str) -> Parse:
     """Return the function from a cell to its number, with this decimal mark."""
     if decimal == ".":
         return float
@@ -175,16 +151,12 @@ def number_reader(decimal: str) -> Callable[[Any], float]:
     return read
 
 
-def _is_blank(cell: Any) -> bool:
-    return not cell.strip() if isinstance(cell, str) else cell is None or cell != cell
-
-
 def _describe(cells: Cells, index: int) -> str:
     cell = cells[index] if index < len(cells) else None
-    return "blank" if _is_blank(cell) else f'"{printable(str(cell), 20)}"'
+    return "blank" if is_blank(cell) else f'"{printable(str(cell), 20)}"'
 
 
-def is_datetime(cell: Any, number_of: Callable[[Any], float]) -> bool:
+def is_datetime(cell: Any, number_of: Parse) -> bool:
     """Return whether a cell is no number but a time of day, with or without a date."""
     if not isinstance(cell, str):
         return isinstance(cell, datetime)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import ceil
 
 from ..errors import UnusableValues
 from ..mapping.units import DATETIME, GRAVITY, UNITS
-from .table import Floats, FootTable
+from .table import FootTable, lengths, median
 
 MEDIAN_ACC_RANGE = (3.0, 30.0)
 """Allowed range of the median |acc| of a foot, m/s^2; standing, walking and running have 9.4 to 20."""
+TOP = 0.99
+"""Share of the angular rates that a limit holds for: a knock may be faster."""
 MAX_GYRO = 40.0
 """Largest allowed 99th percentile of |gyro|, rad/s.
 
@@ -28,85 +32,91 @@ NEAR = 0.2
 NO_GRAVITY = 0.3
 """Specific force at rest below which gravity was removed, m/s^2 or g: nothing else is so small in any unit."""
 
+Fault = tuple[str, str, str, str]
+"""Quantity, its fault, unit that repairs it ("" if none does), and another action that does."""
+
 
 def find_wrong_units(table: FootTable) -> list[UnusableValues]:
     """Return an error for each quantity whose unit is certainly not SI; a wrong unit can give a plausible track."""
-    faults = {**_check_times(table), **_check_acc(table), **_check_gyro(table)}
-    units = {quantity: unit for quantity, (_, unit, _) in faults.items() if unit}
-    errors = []
-    for quantity, (what, unit, action) in faults.items():
-        repair = table.mapping.write_units(quantity, units) + action if unit else action
-        errors.append(UnusableValues(table.path, what, table.names[quantity], repair))
-    return errors
+    faults = [*_check_times(table), *_check_acc(table), *_check_gyro(table)]
+    units = {quantity: unit for quantity, _, unit, _ in faults if unit}
+    return [
+        UnusableValues(
+            table.path,
+            what,
+            table.names[quantity],
+            (table.mapping.write_units(quantity, units) if unit else "") + action,
+        )
+        for quantity, what, unit, action in faults
+    ]
 
 
-Fault = tuple[str, str, str]
-"""Fault of a quantity, unit that repairs it ("" if none does), and another action that does."""
-
-
-def _check_times(table: FootTable) -> dict[str, Fault]:
-    if len(table) <= 2:
-        return {}
-    intervals = np.diff(table.t)
-    interval = float(np.median(intervals))
-    if MIN_INTERVAL <= interval <= MAX_INTERVAL:
-        return {}
-    raw = interval / UNITS["t"][table.units.get("t", "s")]
+def usual_unit(interval: float) -> str:
+    """Return the unit in which this is a usual time between samples; "" if there is none."""
     low, high = USUAL_INTERVAL
-    fitting = [unit for unit, factor in UNITS["t"].items() if unit != DATETIME and low <= raw * factor <= high]
-    is_count = raw == 1.0 and bool(np.all(intervals == intervals[0]))
-    action = f" or, for sample numbers, {table.mapping.write_setting('rate', 'HZ')}" if is_count else ""
-    what = f"the median time between samples is {interval:.3g} s: {_explain_times(table.t, interval)}"
-    return {"t": (what, fitting[0] if fitting else "", action)}
+    fitting = [one for one, factor in UNITS["t"].items() if one != DATETIME and low <= interval * factor <= high]
+    return fitting[0] if fitting else ""
 
 
-def _check_acc(table: FootTable) -> dict[str, Fault]:
-    if "acc" not in table.columns:
-        return {}
-    lengths = _vector_lengths(table.columns["acc"])
-    median = float(np.median(lengths))
-    low, high = MEDIAN_ACC_RANGE
-    if low <= median <= high:
-        return {}
-    kind, unit, action = _explain_acc(table, lengths)
-    what = f"the median of |acc| is {median:.3g} m/s^2, not 9.8: this looks like {kind}"
-    return {"acc": (what, unit, action)}
+def percentile(values: Sequence[float], share: float) -> float:
+    """Return the number that this share of the values does not exceed, between two of them by a straight line."""
+    ordered, place = sorted(values), share * (len(values) - 1)
+    low, high = ordered[int(place)], ordered[min(int(place) + 1, len(values) - 1)]
+    return low + (high - low) * (place % 1.0)
 
 
-def _check_gyro(table: FootTable) -> dict[str, Fault]:
-    if "gyro" not in table.columns:
-        return {}
-    top = float(np.percentile(_vector_lengths(table.columns["gyro"]), 99.0, method="higher"))
-    if top <= MAX_GYRO:
-        return {}
-    is_degrees = top < MAX_DEGREES
-    unit = "deg/s" if is_degrees else "thousandths of a degree a second, or raw counts"
-    what = f"|gyro| reaches {top:.3g} rad/s, faster than a foot turns: this looks like {unit}"
-    return {"gyro": (what, "deg/s" if is_degrees else "mdeg/s", "")}
+def _check_times(table: FootTable) -> Iterator[Fault]:
+    interval = table.interval
+    if len(table) > 2 and not MIN_INTERVAL <= interval <= MAX_INTERVAL:
+        raw = interval / UNITS["t"][table.units.get("t", "s")]
+        is_count = raw == 1.0 and len({b - a for a, b in pairwise(table.t)}) == 1
+        action = f" or, for sample numbers, {table.mapping.write_setting('rate', 'HZ')}" if is_count else ""
+        what = f"the median time between samples is {interval:.3g} s: {_explain_times(table.t, interval)}"
+        yield "t", what, usual_unit(raw), action
 
 
-def _explain_times(t: Floats, median: float) -> str:
+def _check_acc(table: FootTable) -> Iterator[Fault]:
+    forces = lengths(table.columns.get("acc", ((), (), ())))
+    middle = median(forces) if forces else GRAVITY
+    if not MEDIAN_ACC_RANGE[0] <= middle <= MEDIAN_ACC_RANGE[1]:
+        kind, unit, action = _explain_acc(table, forces)
+        yield "acc", f"the median of |acc| is {middle:.3g} m/s^2, not 9.8: this looks like {kind}", unit, action
+
+
+def _check_gyro(table: FootTable) -> Iterator[Fault]:
+    rates = sorted(lengths(table.columns.get("gyro", ((), (), ()))))
+    top = rates[ceil(TOP * (len(rates) - 1))] if rates else 0.0
+    if top > MAX_GYRO:
+        is_degrees = top < MAX_DEGREES
+        unit = "deg/s" if is_degrees else "thousandths of a degree a second, or raw counts"
+        what = f"|gyro| reaches {top:.3g} rad/s, faster than a foot turns: this looks like {unit}"
+        yield "gyro", what, "deg/s" if is_degrees else "mdeg/s", ""
+
+
+def _explain_times(t: Sequence[float], middle: float) -> str:
     """Return what times, s, look like whose intervals have a median that cannot be right, s."""
-    if median > MAX_INTERVAL:
+    if middle > MAX_INTERVAL:
         return "this looks like milliseconds or sample numbers"
-    starts = np.flatnonzero(np.diff(t) >= MIN_INTERVAL) + 1
-    if len(starts):
-        count, span = int(starts[-1]), float(t[starts[-1]] - t[0])
+    starts = [row for row, (a, b) in enumerate(pairwise(t), 1) if b - a >= MIN_INTERVAL]
+    repeats = "times repeat" if middle == 0.0 else ""
+    if starts:
+        count, span = starts[-1], t[starts[-1]] - t[0]
         if MIN_INTERVAL <= span / count <= MAX_INTERVAL:
             return (
-                f"{'times repeat: ' if median == 0.0 else ''}samples come in bursts of about {count / len(starts):.0f},"
+                f"{repeats and f'{repeats}: '}samples come in bursts of about {count / len(starts):.0f},"
                 f" one burst each {span / len(starts):.3g} s, as with the time at which their packet came; give each"
                 f" sample its own time, about {span / count:.3g} s after the one before"
             )
-    return "times repeat" if median == 0.0 else "these are not seconds"
+    return repeats or "these are not seconds"
 
 
-def _explain_acc(table: FootTable, lengths: Floats) -> Fault:
+def _explain_acc(table: FootTable, forces: Sequence[float]) -> tuple[str, str, str]:
     """Return what specific force looks like whose median cannot be right, and what repairs it."""
-    rest = float(np.median(lengths))
+    rest = median(forces)
     if "gyro" in table.columns:
-        rates = _vector_lengths(table.columns["gyro"])
-        rest = float(np.median(lengths[rates <= np.quantile(rates, SHARE_AT_REST)]))
+        rates = lengths(table.columns["gyro"])
+        limit = percentile(rates, SHARE_AT_REST)
+        rest = median([force for force, rate in zip(forces, rates, strict=True) if rate <= limit])
     raw = rest / UNITS["acc"][table.units.get("acc", "m/s^2")]
     for unit, factor in UNITS["acc"].items():
         if abs(raw * factor - GRAVITY) < NEAR * GRAVITY:
@@ -115,8 +125,3 @@ def _explain_acc(table: FootTable, lengths: Floats) -> Fault:
         text = "no specific force at all (gravity removed?)"
         return text, "", "give the columns that the accelerometer measured, with gravity"
     return "raw counts" if rest > GRAVITY else "another unit, or gravity removed", "", ""
-
-
-def _vector_lengths(vectors: Floats) -> Floats:
-    with np.errstate(over="ignore"):  # an infinite length fails the checks as well
-        return np.asarray(np.sqrt(np.sum(vectors * vectors, axis=1)), dtype=np.float64)

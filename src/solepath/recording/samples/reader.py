@@ -3,32 +3,31 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence
 from datetime import UTC, datetime
+from fnmatch import fnmatchcase
 from operator import attrgetter
 from pathlib import Path
 
-import numpy as np
 from attrs import frozen
 
 from ...types import Foot, Sample
-from ..bad_rows import MAX_NAMED, BadRows
+from ..bad_rows import BadRows
 from ..errors import RecordingError, Report, printable, warn
 from ..mapping.mapping import MEASURED, TableMapping
+from ..mapping.words import foot_of_text
 from .columns import TableColumns, find_columns
-from .feet import feet_of_files
 from .guess import UnknownTable, guess_mapping, merge_guesses
 from .join import join_files
-from .npz import read_npz
 from .numbers import read_rows
 from .plausible import find_wrong_units
 from .sheet import open_sheet
-from .table import FootTable, remove_bad_rows
+from .table import FootTable, floats, remove_bad_rows
 
 SINCE_1970 = 1e8
 """Time above which times of another format are counted from 1970, s: no recording lasts three years."""
-EPOCH_DIGITS = 6
-"""Decimal places of times since 1970 that a number in s can hold: 0.24 us is its resolution."""
+EPOCH_TICKS = 1e6
+"""Parts of a second that times since 1970 can hold: 0.24 us is the resolution of such a number."""
 
 
 @frozen
@@ -71,7 +70,8 @@ def load_samples(
             raise RecordingError(path, "is given twice")
     mapping = mapping or TableMapping()
     problems: list[RecordingError] = []
-    feet: list[Foot | None] = list(feet_of_files(paths, mapping.feet))
+    feet: list[Foot | None] = list(_feet_of_files(paths, mapping.feet))
+    only = foot if isinstance(foot, Foot) else None
     if isinstance(foot, Foot):
         feet = [foot] if len(paths) == 1 else feet
     elif foot is not None:
@@ -86,31 +86,29 @@ def load_samples(
         bad_rows = BadRows(path, report, "row")
         try:
             own = _read_file(path, its_foot, mapping, bad_rows, headers, is_alone=len(paths) == 1)
-            used = own if not isinstance(foot, Foot) else [table for table in own if table.foot is foot]
-            if used:
-                _remove_bad_rows(used, bad_rows)
+            used = [table for table in own if only in (None, table.foot)]
+            _remove_bad_rows(used, bad_rows)
             tables += used
         except RecordingError as error:
             problems += error.problems
             if its_foot is None and isinstance(error, UnknownTable) and error.quantities:
                 unnamed[path] = error.quantities
         total.count, total.good = total.count + bad_rows.count, total.good + bad_rows.good
+    for table in tables:
+        if table.is_assumed:
+            unnamed[table.path] = unnamed.get(table.path, set()) | {*table.columns}
     found_keys = {key for found in headers for key in found.found_keys}
     for found in headers:
         own_problems = found.list_problems(found.elsewhere & found_keys)
         problems += own_problems or (found.list_problems() if found.is_empty else [])
-    if not tables and not problems and isinstance(foot, Foot):
-        problems.append(RecordingError(paths[0], f"holds nothing of the {foot.value} foot"))
-    for table in tables:
-        if table.is_assumed:
-            unnamed[table.path] = unnamed.get(table.path, set()) | {*table.columns}
-    for found in headers:
-        if any(one.foot is None for one in found.feet):
+        if any(table.is_assumed for table in found.feet):
             unnamed.setdefault(found.header.path, found.quantities)
+    if not tables and not problems and only is not None:
+        problems.append(RecordingError(paths[0], f"holds nothing of the {only.value} foot"))
     example = _name_feet(paths, unnamed, problems)
     for table in tables:
         problems += find_wrong_units(table)
-    start_time = _count_from_start(tables)
+    start_time = _count_from_start([table for table in tables if len(table)])
     if not problems:
         tables = join_files(tables, problems)
     if problems:
@@ -118,6 +116,17 @@ def load_samples(
     if not any(map(len, tables)):
         raise RecordingError(paths[0], "holds no samples")
     return SampleRecording(paths[0], tuple(tables), total, start_time)
+
+
+def _feet_of_files(paths: Sequence[Path], patterns: Mapping[str, str]) -> list[Foot | None]:
+    """Return the foot that the name of each file says, or the name of its folder if the files are in different ones."""
+    use_folders = len({path.parent for path in paths}) > 1
+    feet = []
+    for path in paths:
+        matching = [Foot(foot) for foot, pattern in patterns.items() if fnmatchcase(path.name, pattern)]
+        foot = matching[0] if len(matching) == 1 else foot_of_text(path.stem)
+        feet.append(foot_of_text(path.parent.name) if foot is None and use_folders else foot)
+    return feet
 
 
 def _read_file(
@@ -133,17 +142,19 @@ def _read_file(
 
     There are none for a sheet whose columns have faults, which `headers` then holds."""
     if path.suffix.lower() == ".npz":
+        from .npz import read_npz  # imports numpy, which text does not need
+
         tables = read_npz(path, foot, mapping)
     else:
         with open_sheet(path, mapping) as (layout, rows):
-            found = find_columns(path, layout, mapping, foot, is_alone=is_alone)
+            found = find_columns(layout, mapping, foot, is_alone=is_alone)
             if not found.feet and not found.faults:
-                raise guess_mapping(path, layout, rows)
+                raise guess_mapping(layout, rows)
             headers.append(found)
             if found.is_empty or found.list_problems(found.elsewhere):
                 return []
-            tables = read_rows(path, layout, rows, found, bad_rows)
-        for flaw in [] if found.export is None else found.export.flaws(found.header):
+            tables = read_rows(rows, found, bad_rows)
+        for flaw in [] if found.export is None else found.export.list_flaws(layout):
             bad_rows.report(f"{printable(str(path))}: {flaw}")
     if not tables:
         bad_rows.finish()
@@ -151,33 +162,30 @@ def _read_file(
     return tables
 
 
-def _name_feet(paths: Sequence[Path], unnamed: Mapping[Path, Set[str]], problems: list[RecordingError]) -> str:
+def _name_feet(paths: Sequence[Path], unnamed: dict[Path, set[str]], problems: list[RecordingError]) -> str:
     """Add a problem for files that do not say which foot they are of, if they cannot all be of one foot.
 
     `unnamed` has the quantities of each such file. The option that names the feet is returned; "" if none is needed."""
     quantities = [quantity for its_quantities in unnamed.values() for quantity in its_quantities & set(MEASURED)]
     if not unnamed or len(paths) == 1 or (len(unnamed) == len(paths) and len(set(quantities)) == len(quantities)):
         return ""
-    feet = [Foot.LEFT, Foot.RIGHT]
-    option = f"--foot {','.join(feet[k * 2 // len(paths)].value for k in range(len(paths)))}"
-    in_python = ", ".join(f"Foot.{feet[k * 2 // len(paths)].name}" for k in range(len(paths)))
+    feet = [[*Foot][k * 2 // len(paths)] for k in range(len(paths))]
+    option = f"--foot {','.join([foot.value for foot in feet])}"
+    in_python = ", ".join([f"Foot.{foot.name}" for foot in feet])
     repair = f"name the feet in the order of the files: {option}, or in Python read_samples(files, [{in_python}])"
-    for path in paths:
-        if path in unnamed:
-            problems.append(RecordingError(path, "nothing says of which foot it is", repair=repair))
+    problems += [
+        RecordingError(path, "nothing says of which foot it is", repair=repair) for path in paths if path in unnamed
+    ]
     return option
 
 
-def _count_from_start(tables: list[FootTable]) -> datetime | None:
+def _count_from_start(tables: Sequence[FootTable]) -> datetime | None:
     """Subtract the first time of all from times since 1970, and return that moment; None for any other times."""
-    filled = [table for table in tables if len(table)]
-    if not filled or any(table.is_own for table in filled):
+    start = min((table.t[0] for table in tables), default=0.0)
+    if any(table.is_own for table in tables) or not start > SINCE_1970:
         return None
-    start = min(float(table.t[0]) for table in filled)
-    if not start > SINCE_1970:
-        return None
-    for table in filled:
-        table.t = np.round(table.t - start, EPOCH_DIGITS)
+    for table in tables:
+        table.t = floats([round((t - start) * EPOCH_TICKS) / EPOCH_TICKS for t in table.t])
     try:
         return datetime.fromtimestamp(start, UTC)
     except (OverflowError, OSError, ValueError):
@@ -198,12 +206,8 @@ def use_tables(path: Path, tables: Sequence[FootTable], foot: Foot | None, bad_r
 
 def _remove_bad_rows(tables: Sequence[FootTable], bad_rows: BadRows) -> None:
     """Remove the rows that cannot be used from the tables and report them, a row of both feet once."""
-    total = max(map(len, tables))
-    faults = [remove_bad_rows(table) for table in tables]
-    numbers = np.unique(np.concatenate([fault.numbers for fault in faults]))
-    named = {number: (where, what) for fault in faults for number, where, what in fault.named}
-    for number in sorted(named)[:MAX_NAMED]:
-        bad_rows.add(*named[number])
-    bad_rows.add_many(len(numbers) - min(len(named), MAX_NAMED))
-    bad_rows.good = total - len(numbers)
-    bad_rows.finish()
+    if tables:
+        total = max(map(len, tables))
+        faults = {number: (where, what) for table in tables for number, where, what in remove_bad_rows(table)}
+        bad_rows.add_all([faults[number] for number in sorted(faults)], total)
+        bad_rows.finish()

@@ -10,12 +10,14 @@ from math import hypot
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...types import Foot
 from ..errors import RecordingError
 from .reader import SampleRecording
-from .table import Floats, FootTable
+from .table import FootTable
 
+Floats = NDArray[np.float64]
 MAX_OFFSET = 2.0
 """Largest offset that is looked for, s."""
 INTERVAL = 0.005
@@ -76,7 +78,7 @@ def _smoothed(table: FootTable) -> tuple[Floats, Floats]:
     Before the first sample and after the last one it is taken to be that of these samples: with zeros there, both feet
     would share a jump at the ends of the recording, whatever their clocks."""
     times = np.arange(table.t[0], table.t[-1], INTERVAL)
-    magnitude = np.interp(times, table.t, np.linalg.norm(table.columns["acc"], axis=1))
+    magnitude = np.interp(times, table.t, np.linalg.norm(table.columns["acc"], axis=0))
     window = np.hanning(round(WIDTH / INTERVAL) + 1)
     padded = np.pad(magnitude, len(window) // 2, mode="edge")
     return times, np.convolve(padded, window / window.sum(), "valid")

@@ -18,7 +18,7 @@ from attrs import frozen
 
 from ...types.extras import install_hint
 from ..bad_rows import LONGEST_LINE, MAX_SKIPPED, skip_line
-from ..errors import RecordingError, open_file, printable
+from ..errors import RecordingError, describe_error, open_file
 from ..mapping.mapping import TableMapping
 from .layout import HEAD_LINES, Cells, SheetLayout, find_header, find_layout, splitter
 
@@ -60,7 +60,10 @@ def open_sheet(path: Path, mapping: TableMapping) -> Iterator[tuple[SheetLayout,
     with TextIOWrapper(file, encoding=encoding, errors="replace") as text:
         lines = _read_lines(path, text)
         head = list(islice(lines, HEAD_LINES))
-        _check_head(path, head)
+        if not any(line.strip() for _, line in head):
+            raise RecordingError(path, "is empty")
+        if len(head[0][1]) > LONGEST_LINE:
+            raise RecordingError(path, f"is longer than {LONGEST_LINE} characters", "line 1")
         layout = _layout_of(path, find_layout, head, mapping)
         yield layout, _cut_rows(chain(head, lines), layout)
 
@@ -78,23 +81,13 @@ def _encoding_of(start: bytes) -> str:
 
 def _layout_of(path: Path, find: Any, rows: list[Any], mapping: TableMapping) -> SheetLayout:
     try:
-        layout: SheetLayout = find(rows, mapping)
+        layout: SheetLayout = find(path, rows, mapping)
     except ValueError as error:
-        repair = (
-            f"header = N, for the line with the names, in {mapping.origin or 'the mapping'}" if mapping.header else ""
-        )
+        repair = f"header = N, for the line with the names, in {mapping.origin or 'the mapping'}"
         raise RecordingError(path, str(error), repair=repair) from None
     if not layout.names:
         raise RecordingError(path, "is empty")
     return layout
-
-
-def _check_head(path: Path, head: list[tuple[int, str]]) -> None:
-    if not any(text.strip() for _, text in head):
-        raise RecordingError(path, "is empty")
-    number, text = head[0]
-    if len(text) > LONGEST_LINE:
-        raise RecordingError(path, f"is longer than {LONGEST_LINE} characters", f"line {number}")
 
 
 def _cut_rows(lines: Iterable[tuple[int, str]], layout: SheetLayout) -> Iterator[Row]:
@@ -135,29 +128,26 @@ def _read_book(path: Path) -> Iterator[tuple[int, Cells]]:
         raise RecordingError(path, "needs pandas or polars", repair=install_hint("tables"))
     is_parquet = path.suffix.lower() == ".parquet"
     try:
-        columns = _columns_of_pandas(path, is_parquet) if library == "pandas" else _columns_of_polars(path, is_parquet)
+        columns = _load_columns(path, library, is_parquet)
     except ImportError as error:
         what = f"cannot be read by {library}, which lacks {error.name or 'a library'}"
         raise RecordingError(path, what, repair=install_hint("tables")) from error
     except Exception as error:  # the libraries raise errors of many kinds for a damaged file
-        what = printable(str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__, 120)
         kind = "Parquet file" if is_parquet else "workbook"
-        raise RecordingError(path, f"is no whole {kind} ({what})") from error
+        raise RecordingError(path, f"is no whole {kind} ({describe_error(error)})") from error
     if is_parquet:
-        yield 1, [name for name, _ in columns]
-    for number, cells in enumerate(zip(*(values for _, values in columns), strict=True), 2 if is_parquet else 1):
-        yield number, list(cells)
+        yield 1, list(columns)
+    for number, row in enumerate(zip(*columns.values(), strict=True), 2 if is_parquet else 1):
+        yield number, list(row)
 
 
-def _columns_of_pandas(path: Path, is_parquet: bool) -> list[tuple[str, list[Any]]]:
+def _load_columns(path: Path, library: str, is_parquet: bool) -> dict[str, list[Any]]:
+    if library == "polars":
+        import polars
+
+        frame = polars.read_parquet(path) if is_parquet else polars.read_excel(path, has_header=False)
+        return {name: frame[name].to_list() for name in frame.columns}
     import pandas
 
     frame = pandas.read_parquet(path) if is_parquet else pandas.read_excel(path, header=None, dtype=object)
-    return [(str(name), frame[name].astype(object).tolist()) for name in frame.columns]
-
-
-def _columns_of_polars(path: Path, is_parquet: bool) -> list[tuple[str, list[Any]]]:
-    import polars
-
-    frame = polars.read_parquet(path) if is_parquet else polars.read_excel(path, has_header=False)
-    return [(name, frame[name].to_list()) for name in frame.columns]
+    return {str(name): frame[name].astype(object).tolist() for name in frame.columns}

@@ -49,7 +49,7 @@ class OpenedPlan:
 
 
 def kind_of(path: Path) -> str:
-    """Return "recording", "plan" or "calibration" for a file; raise RecordingError for samples, which need numpy."""
+    """Return "recording", "plan" or "calibration" for a file; raise RecordingError for samples."""
     if path.suffix.lower() in SAMPLE_SUFFIXES:
         raise RecordingError(path, "holds samples; this page opens recordings of packets (.jsonl), not samples")
     with path.open("rb") as file:
