@@ -53,7 +53,7 @@ if __name__ == "__main__":  # `solepath track FILE --driver own_device.py` loads
             continue  # three packets are lost
         for event in session.feed(Packet(true.t + 0.01, Site.LEFT_FOOT, "shoe/motion", data)):
             match event:
-                case StrideTaken(t=t, length=length, degraded=degraded):
-                    print(f"{t:6.2f} s  stride of {length:.2f} m{', with a gap in it' if degraded else ''}")
+                case StrideTaken(t=t, length=length, longest_gap=gap):
+                    print(f"{t:6.2f} s  stride of {length:.2f} m{', with a gap in it' if gap else ''}")
                 case PacketsLost(t=t, count=count):
                     print(f"{t:6.2f} s  {count} packets lost")

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         Disconnected,
         Event,
         FeetSwapped,
+        Flaw,
         FlightClimbed,
         FootFlat,
         FootMoved,
@@ -120,7 +121,7 @@ def _find(name: str) -> object:
 __all__ = [
     "Activity", "ActivityChanged", "BatteryLevel", "Calibration", "CalibrationError", "Candidate", "Cell",
     "CellFault", "CellsFailed", "ClockReset", "Connected", "Defect", "DefectFound", "Disconnected", "Event",
-    "FeetSwapped", "Figure", "FlightClimbed", "FloorPlan", "FloorPlanError", "Foot", "FootFlat", "FootMoved",
+    "FeetSwapped", "Figure", "Flaw", "FlightClimbed", "FloorPlan", "FloorPlanError", "Foot", "FootFlat", "FootMoved",
     "FootPressed", "FootResumed", "FootSilent", "GaitCycleMeasured", "GaitParameters", "HeelOff", "HeelStrike",
     "IndexedPlan", "InsoleNeverUnloads", "ItemError", "KeysChanged", "Layout", "LayoutKnown", "LiftRidden",
     "Limitation", "LinkTrouble", "Packet", "PacketRejected", "PacketsDropped", "PacketsLost", "Phase", "PlaceLost",

@@ -11,7 +11,7 @@ from solepath.cli.common.parser import Parser
 from solepath.cli.completion import COMPLETING, complete
 from solepath.cli.main import guarded
 
-from .damage import clocks, sensors
+from .damage import clocks, losses, sensors
 from .emulated import by_hand, evidence, north, reliability, runs
 from .evaluate import command as evaluate
 from .evaluate import sensitivity
@@ -20,7 +20,10 @@ from .train import activities, footstep_activity, turns
 
 COMMANDS = (evaluate, reproduce, sensitivity)
 GROUPS: dict[str, tuple[str, tuple[ModuleType, ...]]] = {
-    "damage": ("damage recordings on purpose: what is noticed, and what is reported of whole ones", (sensors, clocks)),
+    "damage": (
+        "damage recordings on purpose: what is noticed, and what is reported of whole ones",
+        (sensors, clocks, losses),
+    ),
     "emulated": ("tables of emulated wearers", (evidence, reliability, north, runs, by_hand)),
     "train": ("learn the parameters of a part again", (activities, turns, footstep_activity)),
 }

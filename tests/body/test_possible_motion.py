@@ -14,7 +14,7 @@ from solepath import Session
 from solepath.body.checks.motion import PossibleMotion, impossible_motion
 from solepath.body.part import Replacement
 from solepath.emulate.routes.route import Route
-from solepath.events import Defect, DefectFound, StrideTaken
+from solepath.events import Defect, DefectFound, Flaw, StrideTaken
 from solepath.types import Sample
 
 WALK = Route().stand(2.0).walk(25.0, 1.3).stop(1.0)
@@ -29,7 +29,7 @@ def walk() -> tuple[Sample, ...]:
 def stride() -> StrideTaken:
     """Return a stride of a real pace: 1 s, of which the foot is in the air from 0.6 to 0.9 s."""
     (event, *_) = [one for one in of(StrideTaken, Session().feed(walk())) if one.foot is LEFT.foot]
-    return evolve(event, t_start=0.0, t=1.0, t_end=1.0, known_at=1.0, t_toe_off=0.6, t_heel_strike=0.9, degraded=False)
+    return evolve(event, t_start=0.0, t=1.0, t_end=1.0, known_at=1.0, t_toe_off=0.6, t_heel_strike=0.9, flaws=())
 
 
 def changed(speed: float = 1.3, **features: Any) -> StrideTaken:
@@ -52,7 +52,7 @@ def test_a_stride_of_four_metres_a_second_is_a_run_with_flight_but_no_walk(
 
 
 def test_a_stride_of_six_metres_is_impossible_and_reported_even_if_it_is_degraded() -> None:
-    part, merged = PossibleMotion(), evolve(changed(6.0), t_end=4.0, t=4.0, known_at=4.0, degraded=True)
+    part, merged = PossibleMotion(), evolve(changed(6.0), t_end=4.0, t=4.0, known_at=4.0, flaws=(Flaw.TWO_STRIDES,))
     (found,) = told(part, merged)
     assert isinstance(found, DefectFound) and "a length of 6 m" in found.what and not found.spoils
     (found,) = told(part, merged)
@@ -65,7 +65,7 @@ def test_one_impossible_stride_is_degraded_and_reported_and_the_others_stay_as_t
     assert [told(part, changed()) for _ in range(6)] == [[]] * 6
     wrong = changed(rise=1.5)
     replacement, found = told(part, wrong)
-    assert replacement == Replacement(wrong, evolve(wrong, degraded=True))
+    assert replacement == Replacement(wrong, evolve(wrong, flaws=(Flaw.IMPOSSIBLE,)))
     assert isinstance(found, DefectFound) and found.defect is Defect.IMPOSSIBLE_MOTION and not found.spoils
     assert told(part, changed()) == []
     assert [type(output) for output in told(part, wrong)] == [Replacement], "it is reported once"

@@ -75,7 +75,7 @@ def test_steps_and_track_are_tables_of_the_same_walk(tracked):
     steps, track = rows_in(out / "strides.csv"), rows_in(out / "track.csv")
     assert list(steps[0]) == [
         "foot", "t_start_s", "t_end_s", "x_m", "y_m", "z_m", "stride_length_m", "heading_change_deg", "height_change_m",
-        "degraded",
+        "degraded", "missing", "longest_gap_s", "length_sigma_m", "flaws",
     ]  # fmt: skip
     assert list(track[0]) == ["t_s", "foot", "x_m", "y_m", "z_m", "phase"]
     assert {row["phase"] for row in track} == {"LOADING", "STATIONARY", "PUSH_OFF", "SWING"}
@@ -100,9 +100,11 @@ def test_every_column_of_strides_equals_the_events(tracked, events_of):
         assert (float(row["t_start_s"]), float(row["t_end_s"])) == (step.t_start, step.t_end)
         x, y, z = step.position
         lengths = {"x_m": x, "y_m": y, "z_m": z, "stride_length_m": step.length, "height_change_m": step.height_change}
+        lengths |= {"missing": step.missing, "longest_gap_s": step.longest_gap, "length_sigma_m": step.length_sigma}
+        assert row["flaws"] == " ".join(flaw.name.lower() for flaw in step.flaws)
         for column, value in (lengths | {"heading_change_deg": degrees(step.heading_change)}).items():
             assert float(row[column]) == pytest.approx(value, abs=1e-6), column
-    assert any(step.degraded for step in taken)
+    assert any(0.0 < step.missing < 0.5 and step.longest_gap > 0.0 for step in taken)
 
 
 def test_events_of_the_link_name_the_foot_too(tracked, events_of):
@@ -119,8 +121,9 @@ def test_a_recording_of_one_foot_is_of_the_foot_that_is_named(one_foot, tmp_path
         result = run("track", one_foot, *arguments, "--out", tmp_path)
         assert result.returncode == 0
         assert {row["foot"] for row in rows_in(tmp_path / "track.csv")} == {foot}
-        # nothing is missing of these samples; of the packets above something is in every step
-        assert {(row["foot"], row["degraded"]) for row in rows_in(tmp_path / "strides.csv")} == {(foot, "0")}
+        rows = rows_in(tmp_path / "strides.csv")
+        found = {(row["foot"], row["degraded"], float(row["missing"]), row["flaws"]) for row in rows}
+        assert found == {(foot, "0", 0.0, "")}
 
 
 def test_the_times_written_are_the_recordings_own(one_foot, tmp_path):

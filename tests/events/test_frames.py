@@ -10,14 +10,14 @@ import pytest
 from strides import stride
 
 from solepath import HeelStrike, Packet, StrideTaken, to_frame
-from solepath.events import StrideFeatures
+from solepath.events import Flaw, StrideFeatures
 from solepath.events.happening import BaseEvent
 from solepath.types import Foot, Sample, Site
 from solepath.types.attrs import frozen
 from solepath.types.extras import install_hint
 
 STRIDE = stride(
-    Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.5, 0.0), degraded=True,
+    Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.5, 0.0), flaws=(Flaw.GAP,),
     features=StrideFeatures(0.125, 4.0, 1.0, cop=((0.25, 0.0), (0.5, 0.0))),
 )  # fmt: skip
 STRIKE = HeelStrike(t=1.75, known_at=1.8125, foot=Foot.RIGHT)

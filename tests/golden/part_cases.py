@@ -15,7 +15,7 @@ from cases import STARTS, building, posed
 from changes import LEFT, RIGHT, draws
 from corpus import Case, given, kept, plain
 
-from solepath import Calibration, DefectFound, SampleGap, Session, Site, WearerMoved, recipes
+from solepath import Calibration, DefectFound, Flaw, SampleGap, Session, Site, StrideTaken, WearerMoved, recipes
 from solepath.body.part import ClockUnsettled, LayoutReported, Notice, Part, PartInput, StartGiven
 from solepath.events import Defect
 from solepath.foot.view import FootView
@@ -62,7 +62,10 @@ def meddled(event: Any, draw: float) -> list[Any]:
     if draw < 0.22:
         return [event, evolve(event, t=event.t + 0.02)]
     changes: dict[str, Any] = {}
-    for field in ("inferred", "degraded") if draw < 0.4 else ("length", "displacement", "position", "height_change"):
+    if draw < 0.4 and isinstance(event, StrideTaken):
+        changes["flaws"] = () if event.flaws else (Flaw.GAP,)
+    names = ("length", "displacement", "position", "height_change")
+    for field in ("inferred", "degraded")[: 2 - isinstance(event, StrideTaken)] if draw < 0.4 else names:
         value = getattr(event, field, None)
         if isinstance(value, bool):
             changes[field] = not value

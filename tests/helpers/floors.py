@@ -17,6 +17,7 @@ from solepath import (
     Activity,
     ActivityChanged,
     Event,
+    Flaw,
     FlightClimbed,
     Foot,
     LiftRidden,
@@ -237,7 +238,8 @@ def stepped(
     return StrideTaken(
         t=t, known_at=t + 0.04, foot=foot, number=number, t_start=t - 1.0, t_end=t, displacement=(stride, 0.0, 0.0),
         position=position, length=stride, heading_change=0.0, height_change=0.0,
-        covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4), t_toe_off=t - 0.6, t_heel_strike=t - 0.1, degraded=degraded,
+        covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4), t_toe_off=t - 0.6, t_heel_strike=t - 0.1,
+        flaws=(Flaw.GAP,) * degraded,
         features=StrideFeatures(0.1, 3.0, 1.0, None, (), None),
     )  # fmt: skip
 

@@ -6,6 +6,7 @@ from strides import stride
 from solepath.events import (
     Defect,
     DefectFound,
+    Flaw,
     HeelStrike,
     Limitation,
     PacketRejected,
@@ -19,7 +20,7 @@ from solepath.types import Foot, Packet, Sample, Site
 from solepath.walk.walk import Walk
 
 STRIDE = stride(
-    Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.0, 0.0), degraded=True,
+    Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.0, 0.0), flaws=(Flaw.GAP,),
     covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4),
 )  # fmt: skip
 

@@ -18,7 +18,7 @@ from .defect import (
     FootSilent,
     InsoleNeverUnloads,
 )
-from .foot import FootFlat, HeelOff, HeelStrike, StrideFeatures, StrideTaken, ToeOff
+from .foot import Flaw, FootFlat, HeelOff, HeelStrike, StrideFeatures, StrideTaken, ToeOff
 from .gait_cycle import GaitCycleMeasured
 from .link import (
     BatteryLevel,
@@ -45,7 +45,8 @@ from .place import Candidate, Placed, PlaceLost, PlanContradicted
 
 __all__ = [
     "ActivityChanged", "ActivityEvent", "BatteryLevel", "BodyEvent", "Candidate", "CellFault", "CellsFailed",
-    "ClockReset", "Connected", "Defect", "DefectFound", "Disconnected", "Event", "FeetSwapped", "FlightClimbed",
+    "ClockReset", "Connected", "Defect", "DefectFound", "Disconnected", "Event", "FeetSwapped", "Flaw",
+    "FlightClimbed",
     "FootFlat", "FootResumed", "FootMoved", "FootPressed", "FootSilent", "GaitEvent", "HeelOff", "HeelStrike",
     "InsoleNeverUnloads", "KeysChanged", "LayoutKnown", "LiftRidden", "Limitation", "LinkEvent", "LinkTrouble",
     "LiveEvent", "PacketRejected", "PacketsDropped", "PacketsLost", "PlaceEvent", "PlaceLost", "Placed",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from enum import Enum
+
 from ..types import Foot, Vec3
 from ..types.attrs import frozen
 from .happening import BaseEvent
@@ -74,6 +76,21 @@ class StrideFeatures:
     """Height of the stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
 
 
+class Flaw(Enum):
+    """What makes a stride wrong."""
+
+    GAP = "gap"
+    """Samples are missing for longer than 60 ms, so that the motion had to be guessed."""
+    RANGE = "range"
+    """Values are at the end of the sensor's range, so that peaks are cut off."""
+    TWO_STRIDES = "two strides"
+    """It is two strides, because no stance was found between them, or longer than a stride can be."""
+    IMPOSSIBLE = "impossible"
+    """It has a speed, length, height or angle that no person has."""
+    DEFECT = "defect"
+    """A defect of the data spoils it (DefectFound)."""
+
+
 @frozen(kw_only=True)
 class StrideTaken(BaseEvent):
     """One stride: a foot went from a foot-flat to its next foot-flat.
@@ -109,7 +126,19 @@ class StrideTaken(BaseEvent):
     """Time of this foot's toe-off within the stride, s; None when none was detected."""
     t_heel_strike: float | None = None
     """Time of this foot's heel-strike within the stride, s; None when none was detected."""
-    degraded: bool = False
-    """True when samples of the stride are missing or saturated, a stance was missed, or a defect spoils the data."""
+    missing: float = 0.0
+    """Share of the stride's samples that are missing, 0 to 1."""
+    longest_gap: float = 0.0
+    """Time from one sample to the next in the longest gap of the stride, s; 0 without a gap."""
+    length_sigma: float = 0.0
+    """Standard deviation of `length`, m, with what its gaps add; 0 where the recipe's corrector keeps no covariance."""
+    flaws: tuple[Flaw, ...] = ()
+    """What makes the stride wrong rather than less sure. A gap that is bridged well, as most lost packets, is none.
+    `degraded` is whether there are any."""
     features: StrideFeatures
     """Further measurements of the stride."""
+
+    @property
+    def degraded(self) -> bool:
+        """True when there are flaws."""
+        return bool(self.flaws)

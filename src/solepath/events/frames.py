@@ -18,9 +18,10 @@ from .happening import FIRST_KEYS, BaseEvent, json_ready
 
 _NAMES = {
     "s": "t known_at t_start t_end t_toe_off t_heel_strike revises stride_time stance_time swing_time step_time "
-    "initial_double_support terminal_double_support single_support offset offset_sigma duration silent_for seconds",
-    "m": "height stride_length own_length distance position by sigma compensation displacement length height_change "
-    "features_clearance features_rise features_cop clearance rise centre spread height_off "
+    "initial_double_support terminal_double_support single_support offset offset_sigma duration silent_for seconds "
+    "longest_gap double_support",
+    "m": "height stride_length length_sigma own_length distance position by sigma compensation displacement length "
+    "height_change features_clearance features_rise features_cop clearance rise centre spread height_off "
     "layout_length legs",
     "m^2": "covariance",
     "m/s": "error_index features_peak_speed features_error_index speed velocity",
@@ -73,11 +74,12 @@ def to_frame(
     columns of that class, also without a single row. `library` is "pandas", "polars" or "arrow"; a frame of "arrow" is
     a Table of pyarrow, which any library with the Arrow PyCapsule interface reads without a copy.
 
-    The columns are the fields, in SI units, in the order of their first occurrence; an event has its class's name in
-    the column `event`. A vector has one column for each component (position_x, position_y, position_z, m), and a record
-    within an event one for each field (features_clearance, m). Any other tuple is one column of lists. A value that a
-    record does not have is missing in its row. Four columns are not named as their fields, because another event has a
-    value of another kind or unit in a field of that name: level_name, phase_name, turn_name and offset_sigma.
+    The columns are the fields and what follows from them, in SI units, in the order of their first occurrence; an event
+    has its class's name in the column `event`. A vector has one column for each component (position_x, position_y,
+    position_z, m), and a record within an event one for each field (features_clearance, m). Any other tuple is one
+    column of lists. A value that a record does not have is missing in its row. Four columns are not named as their
+    fields, because another event has a value of another kind or unit in a field of that name: level_name, phase_name,
+    turn_name and offset_sigma.
 
     Units are in `frame.attrs["units"]` of pandas, by column, and in the metadata "unit" of a field of Arrow. Polars has
     no place for them. ImportError when the library is not installed."""
@@ -182,6 +184,7 @@ def _columns_of(cls: Any) -> list[tuple[str, Form, str | None, Path]]:
         raise TypeError(f"to_frame takes events and samples, not {getattr(cls, '__name__', cls)}")
     found = [*_fields_of(cls, cls.__name__, "", ())]
     if issubclass(cls, BaseEvent):
+        found += _derived_of(cls)
         found.append(("event", TEXT, None, ("__class__", "__name__")))
     names = [one.name for one in fields(cls)]
     if "site" in names and "foot" not in names:
@@ -204,6 +207,15 @@ def _fields_of(cls: Any, owner: str, prefix: str, path: Path) -> Iterator[tuple[
                 yield f"{name}_{axis}".rstrip("_"), Form(float), unit, (*inner, place)
         else:
             yield name, _form(hint), unit, inner
+
+
+def _derived_of(cls: type[BaseEvent]) -> Iterator[tuple[str, Form, str | None, Path]]:
+    """Yield the columns of what an event derives from its fields: its properties, of the kinds that a column has."""
+    properties = {name: one for base in cls.__mro__ for name, one in vars(base).items() if isinstance(one, property)}
+    for name, one in properties.items():
+        form = _form(get_type_hints(one.fget).get("return", object))
+        if form.kind in WHOLE:
+            yield name, form, UNITS.get(name), (name,)
 
 
 def _without_none(hint: Any) -> Any:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import hypot, sqrt
 
-from ..events import StrideFeatures, StrideTaken
+from ..events import Flaw, StrideFeatures, StrideTaken
 from ..types import Foot, Quat, Vec3
 from ..types.attrs import define, field
 from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
-from .navigate.corrector import Corrector
+from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .rhythm import follow
 from .view import FASTEST_RUN
-from .world import World
+from .world import Covariance3, World
 
 MOST_COP_POINTS = 32
 """Largest number of centre-of-pressure points that are stored of a stride."""
@@ -34,6 +34,10 @@ Two swings and a stance take more than twice that time. On recordings without da
 """
 MOTION_GAIN, LARGEST_MOTION_RATIO = 0.2, 1.3
 """Weight of the newest time in the usual one, and the limit of its ratio to the usual one in the average."""
+LONGEST_HARMLESS_GAP = 0.06
+"""Longest gap that is no flaw, s: with shorter ones lengths err as without any (`solepath-lab damage losses`)."""
+GUESSED_SPEED_SIGMA = 1.0
+"""Standard deviation of the speed of a foot in a gap that no motion bridges, m/s (`solepath-lab damage losses`)."""
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
 
@@ -55,10 +59,18 @@ class StrideBuilder:
     """Time of toe-off, s; None before it."""
     t_heel_strike: float | None = None
     """Time of heel-strike, s; None before it."""
-    degraded: bool = False
-    """Samples of the stride are missing or saturated, or a defect spoils them."""
-    degraded_until: float | None = None
-    """Time up to which samples cannot be trusted, s; None at first."""
+    flawed_until: dict[Flaw, float] = field(factory=dict)
+    """Time up to which samples have each flaw, s."""
+    flaws: tuple[Flaw, ...] = ()
+    """Flaws of the samples of the stride."""
+    newest_gap: Vec3 = ZERO
+    """Last sample before the newest gap, first one after it, and the usual interval, s; zeros before any gap."""
+    missing_time: float = 0.0
+    """Time for which samples of the stride are missing, s."""
+    longest_gap: float = 0.0
+    """Longest time from one sample of the stride to the next across a gap, s."""
+    guessed_time: float = 0.0
+    """Square root of the sum of the squared times of the gaps that the corrector does not bridge, s."""
     peak_height: float = 0.0
     """Largest height of the sensor in the stride, navigation frame, m."""
     peak_speed: float = 0.0
@@ -121,8 +133,12 @@ class StrideBuilder:
             self.flat_pitch -= self.pitch
         self.t_heel_off = self.t_toe_off = self.t_heel_strike = None
         self.toe_off_pitch = self.heel_strike_pitch = None
-        # the foot-flat may be dated back into a gap; the rest of the gap then degrades the new stride
-        self.degraded = self.degraded_until is not None and t < self.degraded_until
+        # the foot-flat may be dated back into a gap; the rest of the gap then belongs to the new stride
+        self.flaws = tuple([flaw for flaw, until in self.flawed_until.items() if t < until])
+        t_last, t_next, interval = self.newest_gap
+        self.longest_gap = max(0.0, t_next - max(t_last, t))
+        self.missing_time = max(0.0, min(self.longest_gap, t_next - t_last - interval))
+        self.guessed_time = 0.0
         self.peak_height = position[2]
         self.peak_speed = self.pitch = self.pitch_low = self.pitch_high = 0.0
         self.load_sum = 0.0
@@ -131,16 +147,27 @@ class StrideBuilder:
         self.cop_interval = 1
         self.cop_skipped = 0
 
-    def mark_degraded(self, until: float) -> None:
-        """Mark that samples up to `until`, s, cannot be trusted."""
-        self.degraded = True
-        if self.degraded_until is None or until > self.degraded_until:
-            self.degraded_until = until
+    def mark_flawed(self, flaw: Flaw, until: float) -> None:
+        """Mark that samples up to `until`, s, have a flaw."""
+        if flaw not in self.flaws:
+            self.flaws = (*self.flaws, flaw)
+        self.flawed_until[flaw] = max(until, self.flawed_until.get(flaw, until))
+
+    def add_gap(self, t_last: float, t: float, interval: float) -> None:
+        """Add a gap from the sample at `t_last` to that at `t`, s, of a sensor that measures every `interval` s."""
+        duration = t - t_last
+        self.newest_gap = (t_last, t, interval)
+        self.missing_time += max(0.0, duration - interval)
+        self.longest_gap = max(self.longest_gap, duration)
+        if duration > LONGEST_HARMLESS_GAP:
+            self.mark_flawed(Flaw.GAP, t)
+        if duration > LONGEST_BRIDGE:
+            self.guessed_time = hypot(self.guessed_time, duration)
 
     def cut(self) -> None:
         """Discard the stride, because times restart: its start and its end would be times of two clocks."""
-        self.degraded = True
-        self.t_start = self.t_contact = self.degraded_until = None
+        self.t_start = self.t_contact = None
+        self.flawed_until, self.newest_gap = {}, ZERO
 
     def add_motion(self, t: float, dt: float, height: float, speed: float, sagittal: float, still: bool) -> None:
         """Add one sample: height in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown).
@@ -165,7 +192,7 @@ class StrideBuilder:
                 self.flat_pitch = pitch
 
     def add_toe_off(self, t: float, interval: float) -> None:
-        """Set the toe-off at `t`, s; `interval` is the usual interval between samples, s."""
+        """Set the toe-off at `t`, s; `interval` is the usual interval between samples, s; zeros before any."""
         self.t_toe_off = t
         self.toe_off_pitch = self._pitch_at(t, interval)
         if self.t_contact is not None and 0.0 < t - self.t_contact < LONGEST_CONTACT and self.toe_off_pitch is not None:
@@ -175,7 +202,7 @@ class StrideBuilder:
         self.t_contact = None
 
     def add_heel_strike(self, t: float, interval: float) -> None:
-        """Set the heel-strike at `t`, s; `interval` is the usual interval between samples, s."""
+        """Set the heel-strike at `t`, s; `interval` is the usual interval between samples, s; zeros before any."""
         self.t_heel_strike = t
         self.heel_strike_pitch = self._pitch_at(t, interval)
 
@@ -234,7 +261,12 @@ class StrideBuilder:
         if hypot(length, dz) < SHORTEST_STRIDE and abs(turn) < LEAST_STRIDE_TURN:
             return None
         self.number += 1
-        merged = self._has_merged(t)
+        flaws, merged = self.flaws, self._has_merged(t)
+        if merged or t - self.t_toe_off > LONGEST_SWING:
+            flaws = (*flaws, Flaw.TWO_STRIDES)
+        if length > FASTEST_RUN * (t - self.t_start):
+            flaws = (*flaws, Flaw.IMPOSSIBLE)
+        covariance = world.rotate_covariance(corrector.covariance()[:6])
         return StrideTaken(
             t=t,
             known_at=known_at,
@@ -247,13 +279,13 @@ class StrideBuilder:
             length=length,
             heading_change=turn,
             height_change=dz,
-            covariance=world.rotate_covariance(corrector.covariance()[:6]),
+            covariance=covariance,
             t_toe_off=self.t_toe_off,
             t_heel_strike=self.t_heel_strike,
-            degraded=self.degraded
-            or merged
-            or t - self.t_toe_off > LONGEST_SWING
-            or length > FASTEST_RUN * (t - self.t_start),
+            missing=min(1.0, self.missing_time / (t - self.t_start)) if t > self.t_start else 0.0,
+            longest_gap=self.longest_gap,
+            length_sigma=self._length_sigma(displacement, covariance),
+            flaws=flaws,
             features=StrideFeatures(
                 clearance=self.peak_height - max(corrector.position[2], self.start[2]),
                 peak_speed=self.peak_speed,
@@ -267,10 +299,18 @@ class StrideBuilder:
             ),
         )
 
+    def _length_sigma(self, displacement: Vec3, covariance: Covariance3) -> float:
+        """Return the standard deviation of the stride's horizontal length, m."""
+        (x, y, _), (xx, xy, _, yy, _, _) = displacement, covariance
+        square = x * x + y * y
+        along = (x * x * xx + 2.0 * x * y * xy + y * y * yy) / square if square > 0.0 else 0.5 * (xx + yy)
+        guessed = GUESSED_SPEED_SIGMA * self.guessed_time
+        return sqrt(max(0.0, along) + guessed * guessed)
+
     def _has_merged(self, t: float) -> bool:
         """Return whether the stride that ends at `t`, s, covers two strides, and learn the usual time of one."""
         usual = self.usual_motion
         motion = usual if self.t_heel_off is None else t - self.t_heel_off
-        if not self.degraded:  # also of a merged one, so that a wearer who walks ever slower is learnt
+        if not self.flaws:  # also of a merged one, so that a wearer who walks ever slower is learnt
             self.usual_motion = follow(usual, motion, MOTION_GAIN, largest=LARGEST_MOTION_RATIO)
         return motion > MERGED_RATIO * usual

@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
-from ..events import Event, FootMoved, SampleGap
+from ..events import Event, Flaw, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import MADE_AGAIN, define, evolve, field
 from ..types.vector import ZERO
@@ -175,9 +175,9 @@ class FootTracker:
             rest.bias, rest.grain if rest.count else 0.0, pressed, after,
         )  # fmt: skip
 
-    def mark_degraded(self) -> None:
-        """Mark all strides as degraded from now until `reset`, because a defect of the data was found."""
-        self.gait.stride.mark_degraded(ABSURD_TIME)
+    def mark_defect(self) -> None:
+        """Mark all strides as flawed from now until `reset`, because a defect of the data was found."""
+        self.gait.stride.mark_flawed(Flaw.DEFECT, ABSURD_TIME)
 
     def shift(self, yaw: float, by: Vec3) -> None:
         """Turn the foot by `yaw` rad and move it by `by` m, world frame, from now on.
@@ -236,7 +236,7 @@ class FootTracker:
         if self.t is None or t > self.t:
             self.t = t
         if sample.saturated:
-            self.gait.stride.mark_degraded(t)
+            self.gait.stride.mark_flawed(Flaw.RANGE, t)
         sole, load = self.sole, None
         if sample.pressure or (sole is not None and sole.had_cells):
             sole = sole or self.make_sole()
@@ -330,7 +330,7 @@ class FootTracker:
         events.append(SampleGap(t=t_last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=duration))
         corrector, gait = self.corrector, self.gait
         template = gait.template
-        gait.stride.mark_degraded(t)
+        gait.stride.add_gap(t_last, t, self.rhythm.usual_interval or 0.0)
         if duration > LONGEST_BRIDGE:
             self.rest.end_rest()
             self.levelling = Levelling()

@@ -368,7 +368,7 @@ class SessionState:
                 events[:] = [item.by if event is item.event else event for event in events]
             else:
                 if isinstance(item, DefectFound) and item.spoils and item.site.foot in self.feet:
-                    self.feet[item.site.foot].mark_degraded()
+                    self.feet[item.site.foot].mark_defect()
                 events.append(item)
 
     def _make_moved(self, known_at: float) -> WearerMoved | None:

@@ -24,7 +24,7 @@ PLACES_FILE, PLAN_FILE = "places.csv", "plan.svg"
 TRACK_COLUMNS = ("t_s", "foot", "x_m", "y_m", "z_m", "phase")
 STRIDE_COLUMNS = (
     "foot", "t_start_s", "t_end_s", "x_m", "y_m", "z_m", "stride_length_m", "heading_change_deg", "height_change_m",
-    "degraded",
+    "degraded", "missing", "longest_gap_s", "length_sigma_m", "flaws",
 )  # fmt: skip
 CYCLE_TIME_FIELDS = ("t_start", "t_toe_off", "t")
 CYCLE_MEASURE_FIELDS = (
@@ -78,7 +78,10 @@ def _stride_row(event: StrideTaken) -> list[str]:
     x, y, z = event.position
     lengths = (x, y, z, event.length, degrees(event.heading_change), event.height_change)
     numbers = [f"{value:.6f}" for value in lengths]
-    return [event.foot.value, repr(event.t_start), repr(event.t_end), *numbers, str(int(event.degraded))]
+    sureness = [f"{value:.6f}" for value in (event.missing, event.longest_gap, event.length_sigma)]
+    flaws = " ".join([flaw.name.lower() for flaw in event.flaws])
+    row = [event.foot.value, repr(event.t_start), repr(event.t_end), *numbers]
+    return [*row, str(int(event.degraded)), *sureness, flaws]
 
 
 def _cycle_row(event: GaitCycleMeasured) -> list[str]:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from strides import stride
 
 from solepath.body.activity.flights import Flights
-from solepath.events import FlightClimbed, StrideTaken
+from solepath.events import Flaw, FlightClimbed, StrideTaken
 from solepath.types import Foot
 
 RISER = 0.16
@@ -17,7 +17,7 @@ FEET = (Foot.LEFT, Foot.RIGHT)
 
 
 def stride_of(foot: Foot, t: float, height: float, degraded: bool = False) -> StrideTaken:
-    return stride(foot, t, (0.6, 0.0, height), degraded=degraded)
+    return stride(foot, t, (0.6, 0.0, height), flaws=(Flaw.GAP,) * degraded)
 
 
 def flights_of(risers: list[int], *, feet: tuple[Foot, ...] = FEET, last: bool = True) -> list[FlightClimbed]:

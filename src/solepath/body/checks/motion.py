@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import degrees, radians, sqrt
 
-from ...events import Defect, DefectFound, SampleGap, StrideTaken
+from ...events import Defect, DefectFound, Flaw, SampleGap, StrideTaken
 from ...foot.view import FASTEST_RUN, FootView
 from ...types import PerFoot, Site, per_foot
 from ...types.attrs import define, evolve, field
@@ -112,7 +112,7 @@ class PossibleMotion(Part):
             text += ADVICE
         output: list[PartOutput] = []
         if motion is not None and not event.degraded:
-            output.append(Replacement(event, evolve(event, degraded=True)))
+            output.append(Replacement(event, evolve(event, flaws=(*event.flaws, Flaw.IMPOSSIBLE))))
         if is_new:
             record.one_reported = True
             finding = Finding(Defect.IMPOSSIBLE_MOTION, text, spoils=several)

@@ -69,10 +69,11 @@ SPEED_PER_TILT = 2.0
 It is 0.12 m/s in mid-stance and 0.4 m/s at any other moment."""
 
 
-BRIDGED_VELOCITY_GROWTH, BRIDGED_ANGLE_GROWTH = 4.0, 0.25
-"""Growth of the variance in a bridged gap: velocity, (m/s)^2/s, and angle, rad^2/s.
+BRIDGED_VELOCITY, BRIDGED_ANGLE = 30.0, 15.0
+"""Standard deviation of velocity, m/s^3, and angle, rad/s^2, after a bridged gap, for each square of its duration.
 
-A foot accelerates by some 10 m/s^2 and turns by some rad/s."""
+Force and rate are integrated as if they changed steadily in a gap, so that its error grows with the square: a gap of
+20 ms adds 0.01 m/s, one of 60 ms 0.1 m/s. The table of `solepath-lab damage losses` shows how far that holds."""
 GAP_SPEED, GAP_TILT = 1.0, 0.2
 """Standard deviation of velocity, m/s, and tilt, rad, after a gap that was not bridged."""
 GAP_WALKING_SPEED, LONGEST_GAP_WALK = 1.5, 2.0
@@ -85,6 +86,8 @@ GAP_RISE_RATIO = 0.04
 A foot moves a fifth as far up or down as along the ground."""
 INFILL_POSITION_VARIANCE = 0.0025
 """Variance of each axis of the position after infill, m^2: that of 5 cm, because strides differ by some per cent."""
+INFILL_SPEED_SIGMA = 1.0
+"""Standard deviation of the mean speed in a filled gap, m/s (`solepath-lab damage losses`)."""
 HEADING_DRIFT = 0.004
 """Growth of the heading error, rad/sqrt(s): half a degree in the first four seconds, two degrees in a minute.
 
@@ -319,8 +322,9 @@ class ErrorStateFilter(Strapdown):
 
     def bridge(self, dt: float) -> float:
         if dt <= LONGEST_BRIDGE:
-            self.acc_variance += BRIDGED_VELOCITY_GROWTH * dt
-            self.gyro_variance += BRIDGED_ANGLE_GROWTH * dt
+            velocity, angle = BRIDGED_VELOCITY * dt * dt, BRIDGED_ANGLE * dt * dt
+            self.acc_variance += velocity * velocity
+            self.gyro_variance += angle * angle
             return dt
         if self.recovery is not None:
             self.recovery.reset()
@@ -348,9 +352,10 @@ class ErrorStateFilter(Strapdown):
         self.attitude, self.velocity, self.position = attitude, velocity, position
         self.force = self.rate = None
         self._mark_start()
+        distance = INFILL_SPEED_SIGMA * dt
         self.uncertainty = inflate(
             self.uncertainty,
-            position=INFILL_POSITION_VARIANCE,
+            position=INFILL_POSITION_VARIANCE + distance * distance,
             height=INFILL_POSITION_VARIANCE,
             velocity=INFILL_VELOCITY_SIGMA * INFILL_VELOCITY_SIGMA,
             tilt=INFILL_TILT_SIGMA * INFILL_TILT_SIGMA,

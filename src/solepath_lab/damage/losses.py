@@ -1,0 +1,115 @@
+"""Losses cut into recordings: how far lengths of strides err, how sure the session is, and which it calls flawed.
+
+    solepath-lab damage losses DIR [--processes N]
+
+prints the table of docs/checks.md as Markdown. DIR holds recorded data, of which the walks filmed by a motion-capture
+lab are used (pyshoe_vicon): the marker gives the true length between the two foot-flats of every stride that is found,
+whatever was lost. Losses are drawn from the recording's name: single samples at random, and bursts 1.5 to 4 s apart."""
+
+from __future__ import annotations
+
+import random
+from argparse import Namespace
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from attrs import frozen
+
+from solepath import Flaw, Sample, Session, StrideTaken
+from solepath.recording.samples import load_samples
+from solepath.validate.alignment import at_times
+
+from ..evaluate.run import truth_of
+from ..options import add_command, add_folder, add_processes
+from ..processes import run_jobs
+
+DATA_SET = "pyshoe_vicon"
+SHARES = (0.0, 0.03, 0.1)
+"""Shares of single samples that are lost."""
+BURSTS = (0.05, 0.1, 0.2, 0.4, 0.8)
+"""Durations of the bursts that are lost, s."""
+BETWEEN_BURSTS = (1.5, 4.0)
+"""Shortest and longest time between two bursts, s."""
+HEADER = (
+    "| lost | strides | missing % | mean error m | within 1 sigma % | within 2 sigma % | with flaws % |"
+    " error with flaws m | without m |"
+)
+
+
+@frozen
+class ScoredStride:
+    """One stride of a damaged recording; lengths are in m."""
+
+    loss: str
+    """What was lost, in words."""
+    missing: float
+    error: float
+    """Magnitude of the error of its length."""
+    sigma: float
+    flaws: tuple[Flaw, ...]
+
+
+def damaged(samples: Sequence[Sample], seed: str) -> Iterator[tuple[str, list[Sample]]]:
+    """Yield what is lost, in words, and the samples that remain."""
+    for share in SHARES:
+        drawn = random.Random(f"{seed} {share}")
+        yield f"{100.0 * share:g} % of the samples", [one for one in samples if drawn.random() >= share]
+    for duration in BURSTS:
+        drawn = random.Random(f"{seed} {duration}")
+        start, kept = samples[0].t + drawn.uniform(*BETWEEN_BURSTS), list[Sample]()
+        for one in samples:
+            if one.t >= start + duration:
+                start = one.t + drawn.uniform(*BETWEEN_BURSTS)
+            if one.t < start:
+                kept.append(one)
+        yield f"bursts of {1e3 * duration:g} ms", kept
+
+
+def examine(path: Path) -> list[ScoredStride]:
+    """Return the strides of a recording with each kind of loss."""
+    truth, samples = truth_of(path), list(load_samples(path))
+    scored = []
+    for loss, kept in damaged(samples, path.stem):
+        session = Session()
+        events = [event for sample in kept for event in session.feed(sample)] + session.finish()
+        for stride in events:
+            if isinstance(stride, StrideTaken) and stride.final:
+                ends = np.array([stride.t_start, stride.t_end])
+                start, end = at_times(truth["t"], truth["gt_pos"], ends)
+                error = abs(stride.length - float(np.linalg.norm((end - start)[:2])))
+                scored.append(ScoredStride(loss, stride.missing, error, stride.length_sigma, stride.flaws))
+    return scored
+
+
+def table(strides: Sequence[ScoredStride]) -> list[str]:
+    """Return the lines of the table: a row for each kind of loss, and one for all."""
+    lines = [HEADER, f"|---|{'---:|' * (HEADER.count('|') - 2)}"]
+    for loss in [*dict.fromkeys(one.loss for one in strides), "all"]:
+        of_loss = [one for one in strides if loss in (one.loss, "all")]
+        flawed = [one.error for one in of_loss if one.flaws]
+        sound = [one.error for one in of_loss if not one.flaws]
+        missing = float(np.mean([one.missing for one in of_loss]))
+        within = [float(np.mean([one.error <= factor * one.sigma for one in of_loss])) for factor in (1.0, 2.0)]
+        percents = [f"{100.0 * share:.1f}" for share in (missing, *within, len(flawed) / len(of_loss))]
+        means = [f"{np.mean(errors):.3f}" if errors else "-" for errors in ([*flawed, *sound], flawed, sound)]
+        row = (loss, str(len(of_loss)), percents[0], means[0], *percents[1:], *means[1:])
+        lines.append(f"| {' | '.join(row)} |")
+    return lines
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
+    command = add_command(commands, "losses", "lengths of strides with samples cut out", __doc__ or "")
+    add_folder(command)
+    add_processes(command)
+    command.set_defaults(run=run)
+
+
+def run(options: Namespace) -> int:
+    """Print the table; return the exit status."""
+    paths = sorted((options.dir / DATA_SET).glob("*.npz"))
+    found = run_jobs(examine, paths, processes=options.processes)
+    print("\n".join(table([stride for strides in found for stride in strides])))
+    return 0
