@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from ..events import Defect, Rejection, SampleRejected
 from ..types import Sample, Vec3
+from ..types.records import MAX_TIME
 
 ABSURD_ACC = 500.0
 """Limit of each axis of a specific force, m/s^2; no foot sensor measures more."""
@@ -14,15 +15,11 @@ ABSURD_GYRO = 100.0
 """Limit of each axis of an angular rate, rad/s; no foot sensor measures more."""
 ABSURD_PRESSURE = 1e7
 """Limit of the root of the sum of squares over all cells, and so of each cell, N or counts; no insole measures more."""
-ABSURD_TIME = 1e11
-"""Limit of a time, s, positive or negative."""
 SHORTEST_STEP = 1e-6
 """Shortest time from one sample to the next, s: no sensor of a foot sends a million a second.
 
 The filters divide by powers of the step, which have no value as a float if it is much shorter."""
 
-LEAST_TIME = -ABSURD_TIME
-"""Lower limit of a time, s."""
 VALID_ACC_SQUARE, VALID_GYRO_SQUARE = ABSURD_ACC**2, ABSURD_GYRO**2
 """Squared norms, (m/s^2)^2 and (rad/s)^2, below which each axis is certainly within its limit."""
 
@@ -47,8 +44,8 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
     t: float = sample.t
     known_at: float = sample.known_at
     if (
-        not LEAST_TIME <= t <= ABSURD_TIME
-        or not LEAST_TIME <= known_at <= ABSURD_TIME
+        not -MAX_TIME <= t <= MAX_TIME
+        or not -MAX_TIME <= known_at <= MAX_TIME
         or (newest is not None and t - newest < SHORTEST_STEP)
     ):
         return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
@@ -116,7 +113,7 @@ def _size_of_numbers(cells: tuple[float, ...]) -> float:
 def wrong_time(sample: Sample) -> RejectionReason | None:
     """Return the reason why a time of `sample` is invalid, whatever came before; None when both are valid."""
     for t in (sample.t, sample.known_at):
-        if not LEAST_TIME <= t <= ABSURD_TIME:
+        if not -MAX_TIME <= t <= MAX_TIME:
             if t != t or abs(t) == inf:
                 return RejectionReason(Rejection.NOT_FINITE, "time is not a number")
             detail = f"time of {_format_number(t)} s"
@@ -131,9 +128,9 @@ def rejected(sample: Sample, rejection: RejectionReason, newest: float | None) -
     """Return the event for a rejected sample; `newest`, s, replaces an invalid time."""
     reason, detail, defect = rejection
     t, known_at = sample.t, sample.known_at
-    if not LEAST_TIME <= t <= ABSURD_TIME:
+    if not -MAX_TIME <= t <= MAX_TIME:
         t = 0.0 if newest is None else newest
-    if not t <= known_at <= ABSURD_TIME:
+    if not t <= known_at <= MAX_TIME:
         known_at = t
     return SampleRejected(t=t, known_at=known_at, site=sample.site, reason=reason, detail=detail, defect=defect)
 

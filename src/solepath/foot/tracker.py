@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ..events import Event, Flaw, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import MADE_AGAIN, define, evolve, field
+from ..types.records import MAX_TIME
 from ..types.vector import ZERO
 from .attitude import Levelling, Rest, WalkScale
 from .cues.cues import Cues, TimedCue
@@ -20,7 +21,7 @@ from .gap import SHORTEST_FILLED_GAP, NoInfill, find_infill
 from .limitations import LACKING_TIME, Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .phase import SWING
-from .rejection import ABSURD_TIME, rejected, rejection_reason
+from .rejection import rejected, rejection_reason
 from .rhythm import LARGEST_RATIO, LEAST_RATIO
 from .settings import FootSettings
 from .stance.stance import Detector, Load, Stance
@@ -177,7 +178,7 @@ class FootTracker:
 
     def mark_defect(self) -> None:
         """Mark all strides as flawed from now until `reset`, because a defect of the data was found."""
-        self.gait.stride.mark_flawed(Flaw.DEFECT, ABSURD_TIME)
+        self.gait.stride.mark_flawed(Flaw.DEFECT, MAX_TIME)
 
     def shift(self, yaw: float, by: Vec3) -> None:
         """Turn the foot by `yaw` rad and move it by `by` m, world frame, from now on.

@@ -21,13 +21,12 @@ from math import isfinite
 from ..events import BatteryLevel, ClockReset, Connected, PacketRejected, Rejection, StreamResumed, StreamStale
 from ..types import Packet, Site
 from ..types.attrs import NOT_SAVED, define, field, fields
+from ..types.records import MAX_TIME
 from ..wire.error import WireError
 from .kinds import BUILT_IN_KINDS, DeviceKinds, DeviceLink, Output, is_address
 
 SET_BACK_PACKETS = 20
 """Number of packets in a row with earlier arrivals that shows that the receiver's clock was set back."""
-MAX_ARRIVAL_TIME = 1e11
-"""Largest magnitude of an arrival time, s."""
 
 
 @define
@@ -62,7 +61,7 @@ class Decoder:
         """Return the samples and events of one packet, in the order in which they become known."""
         self.used = False
         try:
-            if packet.device != self.device or packet.site is not self.site or not abs(packet.t) <= MAX_ARRIVAL_TIME:
+            if packet.device != self.device or packet.site is not self.site or not abs(packet.t) <= MAX_TIME:
                 self._check(packet)
             if self.newest_arrival is None or packet.t >= self.newest_arrival:
                 return self._use_packet(packet, kinds)
@@ -78,7 +77,7 @@ class Decoder:
         """Raise WireError for a packet of another site or device, or at an impossible time."""
         if not isfinite(packet.t):
             raise WireError(Rejection.NOT_FINITE, f"arrival time {packet.t}")
-        if not -MAX_ARRIVAL_TIME <= packet.t <= MAX_ARRIVAL_TIME:
+        if not -MAX_TIME <= packet.t <= MAX_TIME:
             raise WireError(Rejection.ABSURD, f"arrival time {packet.t:g} s")
         if packet.site is not self.site:
             raise WireError(Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
@@ -191,7 +190,7 @@ class Decoder:
 
     def _reject(self, packet: Packet, reason: Rejection, detail: str) -> Output:
         newest, t = self.newest_arrival, packet.t
-        if not -MAX_ARRIVAL_TIME <= t <= MAX_ARRIVAL_TIME:
+        if not -MAX_TIME <= t <= MAX_TIME:
             t = 0.0 if newest is None else newest
         known_at = t if newest is None else max(t, newest)
         return [

@@ -36,6 +36,7 @@ from ..events.happening import json_ready
 from ..link.driver import Driver
 from ..session import Session
 from ..types import SITE_OF_FOOT, Packet, Phase, Sample
+from ..types.records import MAX_TIME
 from .errors import RecordingError, os_error_text
 from .packet_writer import open_target
 from .packets import FORMAT, VERSION, read_start_time
@@ -45,8 +46,6 @@ CHUNK_SIZE = 8192
 """Size of a chunk before compression, bytes; a file that was cut off loses one chunk, about 1 s of two insoles."""
 MAX_TOPICS = 1000
 """Largest number of topics; packets of further channels have one topic per site."""
-MAX_TIME = 1e11
-"""Largest magnitude of a time that a session accepts, s (decoder.MAX_ARRIVAL_TIME)."""
 MAX_LOG_TIME = 2**63 - 1
 """Largest log time, ns; a log time has 64 bits without sign, but viewers accept only the lower half."""
 PHASE_NUMBERS = {phase: number for number, phase in enumerate(Phase)}

@@ -13,11 +13,11 @@ from typing import Any
 
 from ..events import Event
 from ..link.catalogue import BY_NAME, PROFILES
-from ..link.decoder import MAX_ARRIVAL_TIME
 from ..link.kinds import is_address
 from ..link.profile import BASE_UUID, Profile
 from ..link.setup.device_setup import GattCharacteristic
 from ..types import Packet, Site
+from ..types.records import MAX_TIME
 from ..wire.receiver import MAX_NAME_SIZE
 from .host import Host, HostCommand, Observe
 from .session import Session
@@ -235,7 +235,7 @@ KEYS: dict[str, tuple[tuple[type, ...], Callable[[Any], object], str]] = {
     "reason": ((str,), len, "reason is a sentence"),
     "signal": ((int,), lambda signal: -127 <= signal <= 20, "signal is a whole number of dBm"),
     "state": ((str,), _any, "state is the text of a message saved"),
-    "t": ((int, float), lambda t: abs(t) <= MAX_ARRIVAL_TIME, "t is a time in s"),
+    "t": ((int, float), lambda t: abs(t) <= MAX_TIME, "t is a time in s"),
     "value": ((str,), HEX.fullmatch, "a value is a text of hexadecimal digits"),
     "values": ((list,), _any, "values are a list"),
 }

@@ -42,6 +42,7 @@ from ..recipes import Recipe, part_class
 from ..types import OTHER, Foot, Packet, Sample, Site
 from ..types.attrs import MADE_AGAIN, NOT_SAVED, define, evolve, field, frozen
 from ..types.plain import has_floats, number, text, with_floats
+from ..types.records import MAX_TIME
 from ..types.vector import normalise
 
 if TYPE_CHECKING:
@@ -317,18 +318,20 @@ class SessionState:
 
     def _feed_limb(self, sample: Sample) -> list[Event]:
         """Pass a sample from above the ankle to the parts that use it."""
-        from ..foot.rejection import rejected, wrong_time  # one recipe alone has a use for such samples
-
-        fault = wrong_time(sample)
-        if fault is not None:
-            return [rejected(sample, fault, None)]
         site, t = sample.site, sample.t
+        if not (abs(t) <= MAX_TIME and abs(sample.known_at) <= MAX_TIME):  # also true for nan
+            from ..foot.rejection import rejected, wrong_time
+
+            if (fault := wrong_time(sample)) is not None:
+                return [rejected(sample, fault, None)]
         known_at = max(t, sample.known_at)
         events: list[Event] = []
         parts = [part for part in self.parts if site in part.sites]
         for part in parts:
+            was_idle = part.idle
             self._apply(part.feed((LimbSampled(sample),), None), events)
-            self._find_awake()
+            if part.idle is not was_idle:
+                self._find_awake()
         if not parts and site not in self.unused:
             self.unused.append(site)
             text = f"recipe {self.settings.recipe.name} has no use for a sensor at the {site.value}"

@@ -10,6 +10,9 @@ from typing import Any, SupportsIndex, TypeVar
 
 from .attrs import field, frozen
 
+MAX_TIME = 1e11
+"""Largest magnitude of a time of a packet, sample or event, s: three thousand years."""
+
 Vec3 = tuple[float, float, float]
 """Vector (x, y, z), in the frame that the docstring of the field or argument names."""
 

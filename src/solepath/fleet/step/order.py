@@ -14,7 +14,7 @@ from attrs import define, field, frozen
 
 from ...types import Packet, Site
 from ..events import SentRejection
-from .sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_DETAIL_LENGTH, MAX_NAME_LENGTH, MAX_TIME, End, Tick
+from .sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_DETAIL_LENGTH, MAX_NAME_LENGTH, End, Tick
 from .unused import NumberSpan, StrayRows, UnusedNumbers
 
 MAX_HELD_BYTES = 65_536

@@ -18,8 +18,6 @@ MAX_NAME_LENGTH = 256
 """Longest name of a channel, address of a device and, in tables and lines, name of a wearer, characters."""
 MAX_DETAIL_LENGTH = 200
 """Longest text that describes an error, characters."""
-MAX_TIME = 1e11
-"""Largest absolute value of a valid time, s."""
 
 
 @frozen
