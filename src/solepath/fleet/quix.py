@@ -20,14 +20,10 @@ from quixstreams.models.serializers.simple_types import BytesDeserializer
 
 from ..events.fleet import SentRejected, SentRejection
 from .fleet import Fleet
-from .rows import event_row, read_line
+from .rows import event_row, read_message
 from .step.keyed import Keyed
 from .step.sent import MAX_NAME_LENGTH, NumberedEvent, Sent, Unreadable
 
-MAX_LINES = 4096
-"""Largest number of lines in one message.
-
-A message with more is rejected as a whole, since every line that cannot be read is reported."""
 UNKEYED = "unkeyed/"
 """Prefix of the wearer's name in events about messages whose key is no wearer's name.
 
@@ -68,7 +64,7 @@ class _GaitStep:
         if wearer is None:  # without a state: its key in the changelog would be this key, however long
             context = message_context()
             return [event_row(NumberedEvent(f"{UNKEYED}{context.partition}", context.offset, _NO_KEY))]
-        events, new_state = self._step(wearer, state.get_bytes("state"), _parse_message(wearer, value))
+        events, new_state = self._step(wearer, state.get_bytes("state"), read_message(wearer, value))
         state.set_bytes("state", new_state)
         return [event_row(event) for event in events]
 
@@ -93,13 +89,3 @@ def _parse_wearer(key: Any) -> str | None:
     except UnicodeDecodeError:
         return None
     return name if isinstance(name, str) and 0 < len(name) <= MAX_NAME_LENGTH and not name.startswith(UNKEYED) else None
-
-
-def _parse_message(wearer: str, value: Any) -> list[Sent | Unreadable]:
-    lines = [line for line in value.split(b"\n") if line.strip()] if isinstance(value, bytes) else []
-    if not 0 < len(lines) <= MAX_LINES:
-        return [Unreadable(wearer, f"a message of {len(lines)} lines; 1 to {MAX_LINES} can be read")]
-    sent = [read_line(line) for line in lines]
-    # without a number, so it takes no place in this wearer's order
-    mismatched = Unreadable(wearer, "a line of another wearer than its message")
-    return [row if row.wearer in (wearer, "") else mismatched for row in sent]

@@ -5,7 +5,7 @@ protocol/fleet.md describes every column."""
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from enum import Enum
 from functools import cache
 from operator import index
@@ -30,6 +30,10 @@ _PACKAGE = __name__.partition(".")[0]
 _SITES = {site.value: site for site in Site}
 MAX_LINE_LENGTH = 65_536
 """Longest line without its line feed, bytes."""
+MAX_LINES = 4096
+"""Largest number of lines in one message.
+
+A message with more is rejected as a whole, since every line that cannot be read is reported."""
 
 
 class _RowFlaw(Exception):
@@ -155,14 +159,15 @@ def read_line(line: Any) -> Sent | Unreadable:
     return read_sent(row)
 
 
-def read_lines(lines: Iterable[Any]) -> list[tuple[str, list[Sent | Unreadable]]]:
-    """Return the items in some lines as a list for each wearer, in the order of the lines; never raise.
+def read_message(wearer: str, value: Any) -> list[Sent | Unreadable]:
+    """Return the items in a message of `wearer`, the lines of bytes, or Unreadable with the reason; never raise.
 
-    An engine passes one list at a lower cost than its items, above all to another process."""
-    items: dict[str, list[Sent | Unreadable]] = {}
-    for item in map(read_line, lines):
-        items.setdefault(item.wearer, []).append(item)
-    return list(items.items())
+    A line of another wearer is Unreadable without a number, so that it takes no place in the order of this one."""
+    lines = [line for line in value.split(b"\n") if line.strip()] if isinstance(value, bytes | bytearray) else []
+    if not 0 < len(lines) <= MAX_LINES:
+        return [Unreadable(wearer, f"a message of {len(lines)} lines; 1 to {MAX_LINES} can be read")]
+    mismatched = Unreadable(wearer, "a line of another wearer than its message")
+    return [item if item.wearer in (wearer, "") else mismatched for item in map(read_line, lines)]
 
 
 def _parse_object(line: Any) -> dict[str, Any]:
