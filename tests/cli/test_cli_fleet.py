@@ -91,7 +91,7 @@ def test_repeated_changed_or_missing_events_are_differences() -> None:
         "anna, event 1 (HeelStrike at 1.0 s) is missing",
         "anna, event 1 (HeelStrike at 2.0 s) is there, and should not be",
     ]
-    assert compare.compare_sessions([], {}, [{**one, "number": 2}])[0] == "anna has event 2 where event 0 is due"
+    assert compare.compare_sessions([], {}, [{**one, "number": 2}]) == ["anna has event 2 where event 0 is due"]
 
 
 @needs_spark

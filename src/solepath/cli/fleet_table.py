@@ -43,7 +43,7 @@ def result_table(stage: DemoStage) -> str:
 
 def figures(stage: DemoStage) -> dict[str, Any]:
     """Return the figures of all runs for programs, in s, bytes and samples/s."""
-    plan, batches = stage.plan, len(stage.times)
+    plan = stage.plan
     rate = stage.samples / stage.session_seconds
     return {
         "wearers": plan.wearers,
@@ -55,8 +55,8 @@ def figures(stage: DemoStage) -> dict[str, Any]:
         "engine": {
             "rate": stage.rate,
             "whole": stage.whole,
-            "batches": batches,
-            "batch": (stage.times[-1] - stage.times[0]) / (batches - 1) if batches > 1 else None,
+            "batches": len(stage.times),
+            "batch": stage.batch,
             "events": len(stage.events),
         },
         "sessions": {"seconds": stage.session_seconds, "rate": rate},

@@ -87,8 +87,6 @@ def _read_payload(row: Mapping[str, Any]) -> Packet | Tick | End:
 
 def _read_name(row: Mapping[str, Any], key: str) -> str:
     value = row.get(key)
-    if type(value) is str and len(value) <= MAX_NAME_LENGTH and value.isascii():
-        return value  # a fast path for nearly all values
     if not isinstance(value, str):
         raise _RowFlaw(f"{key} is no text but a {type(value).__name__}")
     if len(value) > MAX_NAME_LENGTH:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, get_args
 
@@ -58,32 +59,26 @@ def differences(expected: Iterable[Row], found: Iterable[Row]) -> list[str]:
 def compare_sessions(
     wearers: Iterable[DemoWearer], sessions: Mapping[str, Iterable[Event]], found: Iterable[Row]
 ) -> list[str]:
-    """Return how events of the fleet differ from those of sessions and from what the fleet itself must emit."""
-    expected = list[Row]()
-    counts = Counter[str]()
-    lines = list[str]()
+    """Return how events of the fleet differ from those of sessions and from what the fleet itself must emit.
+
+    The events of the sessions are numbered again without those of the fleet."""
+    expected, actual, counts = list[Row](), list[Row](), Counter[str]()
     for wearer in wearers:
-        events = sessions[wearer.name]
-        expected += [event_row(NumberedEvent(wearer.name, number, event)) for number, event in enumerate(events)]
-        for event, run, number, why in wearer.sending.remarks:
-            expected.append(_remark(wearer.name, event, None if run is None else wearer.run + run, number, why))
-    session_counts, actual = Counter[str](), list[Row]()
-    for row in found:
-        name = row["wearer"]
-        if row["number"] != counts[name] and not lines:
-            lines.append(f"{printable(name)} has event {row['number']} where event {counts[name]} is due")
-        counts[name] += 1
-        if row["event"] not in _FLEET_EVENTS:
-            actual.append({**row, "number": session_counts[name]})
-            session_counts[name] += 1
-            continue
-        fields = json.loads(row["fields"])
-        number = fields.get("first", fields.get("number"))
-        why = fields["count"] if "first" in fields else fields.get("reason", fields.get("detail", ""))
-        actual.append(_remark(name, row["event"], fields.get("run"), number, why))
-    return [*lines, *differences(expected, actual)]
+        events = enumerate(sessions[wearer.name])
+        expected += [event_row(NumberedEvent(wearer.name, number, event)) for number, event in events]
+        expected += [_remark(wearer.name, event) for event in wearer.sending.remarks]
+    for name, rows in groupby(found, key=itemgetter("wearer")):
+        for number, row in enumerate(rows):
+            if row["number"] != number:
+                return [f"{printable(name)} has event {row['number']} where event {number} is due"]
+            if row["event"] in _FLEET_EVENTS:
+                actual.append(_remark(name, row["event"]))
+            else:
+                actual.append({**row, "number": counts[name]})
+                counts[name] += 1
+    return differences(expected, actual)
 
 
-def _remark(wearer: str, event: str, run: int | None, number: int | None, why: str | int) -> Row:
-    """Return an event of the fleet about a row with this run and number, as a row for `differences`."""
-    return {"wearer": wearer, "number": number, "event": event, "t": None, "run": run, "why": why}
+def _remark(wearer: str, event: str) -> Row:
+    """Return an event of the fleet itself as a row for `differences`."""
+    return {"wearer": wearer, "number": None, "event": event, "t": None}

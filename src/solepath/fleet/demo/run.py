@@ -23,7 +23,6 @@ from ...recording import printable
 from ...session import Session
 from ...types import Packet
 from ..jvm import java_environment
-from ..step.sent import Tick
 from .compare import Row, compare_sessions, differences, read_events
 from .job import CHECKPOINT, EVENTS, PLAN, SENT
 from .wearers import DemoPlan, DemoWearer, make_wearers
@@ -106,10 +105,6 @@ class EngineRun:
         paths = (self.directory / CHECKPOINT / "commits").glob("[0-9]*")
         return [path.stat().st_mtime for path in sorted(paths, key=lambda path: int(path.name))]
 
-    def begun(self) -> int:
-        """Return the number of batches that have begun."""
-        return len(list((self.directory / CHECKPOINT / "offsets").glob("[0-9]*")))
-
     def kill(self, batches: int, delay: float) -> Kill | None:
         """Kill the job `delay` s after so many batches are finished; return None if it ended before."""
         with self.started():
@@ -118,8 +113,9 @@ class EngineRun:
                     return None
             if self.ended(delay):
                 return None
-            finished, begun = len(self.batch_times()), self.begun()
-            return Kill(time(), finished, begun > finished)
+            begun = [*(self.directory / CHECKPOINT / "offsets").glob("[0-9]*")]
+            finished = len(self.batch_times())
+            return Kill(time(), finished, len(begun) > finished)
 
 
 @define
@@ -150,10 +146,12 @@ class DemoStage:
     @property
     def rate(self) -> float:
         """Samples/s through the job after its first batch, in which Spark still starts."""
-        rows = [sum(map(len, wearer.sending.bundles)) for wearer in self.wearers]
-        first = sum(len(wearer.sending.bundles[0]) for wearer in self.wearers)
-        seconds = self.times[-1] - self.times[0]
-        return self.samples * (1.0 - first / sum(rows)) / seconds if seconds > 0.0 else 0.0
+        return self.samples / len(self.times) / self.batch if self.batch else 0.0
+
+    @property
+    def batch(self) -> float:
+        """Mean duration of a batch after the first, s."""
+        return (self.times[-1] - self.times[0]) / max(len(self.times) - 1, 1)
 
     @property
     def events_directory(self) -> Path:
@@ -180,10 +178,7 @@ class DemoStage:
             inputs, session, events = wearer.inputs(), Session(recipe), list[Event]()
             started_at = process_time()
             for payload in inputs:
-                if isinstance(payload, Packet):
-                    events += session.feed(payload)
-                else:
-                    events += session.advance(payload.t) if isinstance(payload, Tick) else session.finish()
+                events += session.feed(payload) if isinstance(payload, Packet) else session.finish()
             self.session_seconds += process_time() - started_at
             self.sessions[wearer.name] = events
 
@@ -200,11 +195,11 @@ class DemoStage:
 
         A kill comes after a random batch, in the middle of the next, or when the job starts again. Raises RunFailed."""
         rng, run = Random(f"kills {self.plan.seed}"), EngineRun(self.at / "killed", job)
-        batches, batch = len(self.times), (self.times[-1] - self.times[0]) / max(len(self.times) - 1, 1)
+        batches = len(self.times)
         done, marks = 0, list[Kill]()
         for after in sorted(rng.randint(1, max(batches - 2, 1)) for _ in range(kills)):
-            starting = self.whole - batches * batch if after <= done else 0.0
-            kill = run.kill(after, rng.uniform(0.0, starting + batch))
+            starting = self.whole - batches * self.batch if after <= done else 0.0
+            kill = run.kill(after, rng.uniform(0.0, starting + self.batch))
             if kill is None:
                 break
             marks.append(kill)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from math import pi
 from operator import itemgetter
 from random import Random
@@ -17,12 +17,11 @@ from ...emulate.sensors.device import Device
 from ...emulate.sensors.insole_device import Insole
 from ...emulate.sensors.sensortags import CC2541, CC2650
 from ...emulate.walk import emulate
-from ...events.fleet import SentRejection
 from ...link.decoder import Decoder
 from ...link.kinds import make_kinds
 from ...types import Packet, Sample, Site
 from ..rows import sent_line
-from ..step.sent import MAX_DATA_LENGTH, End, Sent, Tick
+from ..step.sent import MAX_DATA_LENGTH, End, Sent
 
 POOR_RADIO = Radio(loss=0.02, duplicate=0.005, corrupt=0.005, truncate=0.005, latency=0.01, jitter=0.03)
 """A poor radio connection: of a hundred notifications two never arrive, and one is damaged."""
@@ -32,7 +31,6 @@ DEVICES: dict[str, Device] = {
     "insoles": Insole(cells=48),
     "insoles in fragments": Insole(cells=24, rate=50.0, mtu=23),
     "insoles with broken cells": Insole(cells=35, batch=4, quaternion=True, broken=((5, 0), (6, 4095))),
-    "insoles out of reach": Insole(cells=48, rate=50.0),
     "CC2650": CC2650(presses=(2.0,)),
     "CC2541": CC2541(rate=20.0),
     "insoles of 96 cells": Insole(cells=96),
@@ -41,10 +39,6 @@ DEVICES: dict[str, Device] = {
 LARGE_INSOLES = "insoles of 96 cells"
 """Name of the walk of which the demonstration has no wearer, since it would take half its time."""
 DEMO_WALKS = tuple(name for name in DEVICES if name != LARGE_INSOLES)
-SILENT_WALK, SILENCE_SHARES = "insoles out of reach", (0.5, 0.65)
-"""Walk in which no packet arrives for some time; start and end of the silence as shares of its duration."""
-TICK_INTERVAL = 0.25
-"""Time without a packet after which a phone sends the time, s."""
 LATE_SHARE, MAX_DELAY_ROWS = 0.02, 100
 """Share of the rows that come late, and the largest number of rows that overtake one; less than the fleet's window."""
 REPEATED_SHARE, MAX_REPEAT_ROWS = 0.02, 400
@@ -58,7 +52,7 @@ POISON_EVERY, GAP_EVERY = 97, 10
 FIRST_RUN = 1_790_000_000_000
 """Time at which the first phone was started, ms since 1970; it is the number of a run."""
 
-Payload = Packet | Tick | End
+Payload = Packet | End
 Row = dict[str, Any]
 """A row of a faulty phone: the columns of protocol/fleet.md with any values."""
 Item = tuple[int, int, Payload | Row]
@@ -85,12 +79,12 @@ class Sending:
     """The rows of a phone, which many wearers share.
 
     `bundles` holds the items in the order of arrival, one bundle for each second. `ordered` holds the session's input
-    in the right order. `remarks` holds the events that the fleet itself must emit: class, index of the run, number and
-    reason or count. `samples` is the number of samples in the packets."""
+    in the right order. `remarks` holds the names of the events that the fleet itself must emit. `samples` is the number
+    of samples in the packets."""
 
     bundles: tuple[tuple[Item, ...], ...]
     ordered: tuple[Payload, ...]
-    remarks: tuple[tuple[str, int | None, int | None, str | int], ...]
+    remarks: tuple[str, ...]
     samples: int
 
 
@@ -145,16 +139,12 @@ def walk(name: str, seconds: float, seed: int) -> list[Packet]:
         route = route.walk(6.0, WALKING_SPEED).turn(pi / 2, radius=1.5)
         length += 6.0 + 1.5 * pi / 2
     worn = {site: DEVICES[name] for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
-    received = [p for p in emulate(route, devices=worn, radio=POOR_RADIO, seed=seed).packets if p.t < seconds]
-    if name == SILENT_WALK:
-        start, end = (share * seconds for share in SILENCE_SHARES)
-        received = [packet for packet in received if not start <= packet.t < end]
-    return received
+    return [p for p in emulate(route, devices=worn, radio=POOR_RADIO, seed=seed).packets if p.t < seconds]
 
 
 def make_sending(packets: Sequence[Packet], rng: Random, *, runs: int = 1, ends: bool = False) -> Sending:
     """Return the Sending of a walk; `runs` is the number of times that the phone's app was started during the walk."""
-    received = [*_add_ticks(packets), *([End()] if ends else [])]
+    received: list[Payload] = [*packets, *([End()] if ends else [])]
     cuts = [len(received) * k // runs for k in range(runs + 1)]
     arrived: list[Item] = []
     for run in range(runs):
@@ -166,32 +156,28 @@ def make_gap(packets: Sequence[Packet], rng: Random) -> Sending | None:
     """Return the Sending of a walk that loses LOST_ROWS consecutive rows; one of them comes after it was given up.
 
     Returns None when the walk has too few rows for that."""
-    received = list(_add_ticks(packets))
-    first = len(received) // 8
+    first = len(packets) // 8
     end = first + LOST_ROWS
-    bundles = _make_bundles(_disturb([(0, n, what) for n, what in enumerate(received) if not first <= n < end], rng))
+    bundles = _make_bundles(_disturb([(0, n, what) for n, what in enumerate(packets) if not first <= n < end], rng))
     # the engine may use the rows of a bundle in any order, so the late row comes in a later bundle
     if sum(map(len, bundles[:-1])) < end + TOO_LATE_ROWS:
         return None
     late = rng.randrange(first, end)
-    bundles = (*bundles[:-1], (*bundles[-1], (0, late, received[late])))
-    remarks = (("NumbersMissing", 0, first, LOST_ROWS), ("SentRejected", 0, late, SentRejection.LATE.value))
-    ordered = (*received[:first], *received[end:])
-    return Sending(bundles, ordered, remarks, _count_samples(ordered))
+    bundles = (*bundles[:-1], (*bundles[-1], (0, late, packets[late])))
+    ordered = (*packets[:first], *packets[end:])
+    return Sending(bundles, ordered, ("NumbersMissing", "SentRejected"), _count_samples(ordered))
 
 
 def make_poison(packets: Sequence[Packet], rng: Random) -> Sending:
     """Return a Sending of a walk with random bytes in many packets, and with invalid rows."""
-    received, items, remarks, number = list[Payload](), list[Item](), list[Any](), 0
+    received, items, invalid, number = list[Payload](), list[Item](), 0, 0
     for packet in packets:
         draw = rng.random()
         if draw < INVALID_ROW_SHARE:
             row = _make_bad_row(packet, number, rng)
-            is_numbered = row["number"] == number  # other rows have no place in the order
-            place = (0, number) if is_numbered else (None, None)
-            remarks.append(("SentRejected", *place, SentRejection.UNREADABLE.value))
             items.append((0, number, row))
-            number += is_numbered
+            invalid += 1
+            number += row["number"] == number  # other rows have no place in the order
             continue
         if draw < CHANGED_SHARE:
             data = rng.randbytes(rng.choice((0, 1, 20, 244, MAX_DATA_LENGTH)))
@@ -200,31 +186,17 @@ def make_poison(packets: Sequence[Packet], rng: Random) -> Sending:
         received.append(packet)
         items.append((0, number, packet))
         number += 1
-    return Sending(_make_bundles(items), tuple(received), tuple(remarks), _count_samples(received))
+    return Sending(_make_bundles(items), tuple(received), ("SentRejected",) * invalid, _count_samples(received))
 
 
 def _make_bad_row(packet: Packet, number: int, rng: Random) -> Row:
     row: Row = {"t": packet.t, "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
     faults: tuple[Row, ...] = (
         {"site": "tail"},
-        {"data": None},
-        {"t": "noon"},
         {"data": bytes(MAX_DATA_LENGTH + 1).hex()},
-        {"number": -1},
         {"number": None, "channel": 7},
     )
     return {"number": number, **row, **rng.choice(faults)}
-
-
-def _add_ticks(packets: Sequence[Packet]) -> Iterator[Payload]:
-    """Yield the packets, and a Tick every TICK_INTERVAL while no packet arrives."""
-    now = packets[0].t if packets else 0.0
-    for packet in packets:
-        while packet.t - now > 2 * TICK_INTERVAL:
-            now += TICK_INTERVAL
-            yield Tick(now)
-        now = max(now, packet.t)
-        yield packet
 
 
 def _disturb(sent: Iterable[Item], rng: Random) -> list[Item]:
@@ -243,7 +215,7 @@ def _make_bundles(items: Iterable[Item]) -> tuple[tuple[Item, ...], ...]:
     bundles: list[list[Item]] = [[]]
     for item in items:
         payload = item[2]
-        t = payload.t if isinstance(payload, Packet | Tick) else 0.0
+        t = payload.t if isinstance(payload, Packet) else 0.0
         while t >= len(bundles):
             bundles.append([])
         bundles[-1].append(item)

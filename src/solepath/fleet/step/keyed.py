@@ -10,7 +10,7 @@ from ...events.fleet import FleetEvent, NumbersMissing, SentRejected, SentReject
 from ...saving.codec import SnapshotError
 from ...session import Session
 from ...types import Packet
-from .order import MissingNumbers, RejectedItem, RowOrder, check_payload, is_valid
+from .order import MissingNumbers, RejectedItem, RowOrder, check_payload
 from .sent import MAX_COUNT, MAX_DETAIL_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
 from .sessions import Sessions
 from .state import StateError, StateHead, StateRest, read_head, read_rest, write_state
@@ -69,11 +69,7 @@ class Keyed:
         if self._pending is not None and self._has_numbers:
             self._emit_pending(emitted)
         for item in sent:
-            if type(item) is Sent and self._is_next_packet(item):
-                self._order.pass_next()
-                self._use(item.what, emitted)
-            else:
-                self._use_in_order(item, emitted)
+            self._use_in_order(item, emitted)
         return emitted
 
     def state(self) -> bytes:
@@ -119,23 +115,6 @@ class Keyed:
             self._pending = (WearerFailed, _describe(error))
         if self._pending is not None:
             self._opened_state = state
-
-    def _is_next_packet(self, sent: Sent) -> bool:
-        """Return whether this is a valid packet in its turn and no held row follows, as for nearly all rows."""
-        order, payload = self._order, sent.what
-        return (
-            type(sent.number) is int
-            and sent.number == order.next_number
-            and type(sent.run) is int
-            and sent.run == order.run
-            and not (order.held_rows and order.may_release_after_next())
-            and not order.ended
-            and sent.number <= MAX_COUNT
-            and type(sent.wearer) is str
-            and sent.wearer == self._wearer
-            and type(payload) is Packet
-            and is_valid(payload)
-        )
 
     def _use_in_order(self, item: object, emitted: list[NumberedEvent]) -> None:
         """Check a row, put it in order, and use the rows whose turn has come."""
