@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import os
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 from statistics import median
 from time import process_time
@@ -23,13 +24,13 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
 from solepath.fleet.demo.run import DemoStage, EngineRun
-from solepath.fleet.demo.wearers import DEMO_WALKS, LARGE_INSOLES, DemoPlan
+from solepath.fleet.demo.wearers import LARGE_INSOLES, DemoPlan
 from solepath.show.tables.table import number, percent, table
 
 ROWS = (
-    "samples", "session, us a sample", "job, us a sample", "of that the Python processes, %",
-    "session, of the yardstick", "job, of the yardstick", "live wearers a core: session", "live wearers a core: job",
-    "cores for 1000 live wearers: job", "s a batch", "processors busy, %",
+    "samples", "session, us a sample", "job, us a sample", "session, of the yardstick", "job, of the yardstick",
+    "live wearers a core: session", "live wearers a core: job", "cores for 1000 live wearers: job", "s a batch",
+    "processors busy, %",
 )  # fmt: skip
 SAMPLE_RATE = 2 * 100.0
 """Samples of both feet a second, Hz."""
@@ -37,12 +38,11 @@ WARM_UP = 2
 """Number of batches before the time is taken: Java compiles its code in them."""
 TICK = os.sysconf("SC_CLK_TCK")
 NOTE = """\
-Each wearer sends {seconds} s of {walk}, a second at a time over a poor
-radio; each batch of Spark holds a second of all wearers. One in 97 sends random bytes, one in ten loses rows. us:
-processor time, microseconds. Session: without an engine, one wearer after the other. Job: Java and all Python processes
-of Spark after the first {warm_up} batches, with sessions, lines of JSON, states, checkpoint and files. Live wearers a
-core: both feet at 100 Hz in real time, on a core that does nothing else. Busy: share of the time in which the
-processes had the processors that they may use."""
+Each wearer sends {seconds} s of walking with two insoles of 96 cells, a second at a time over a poor radio; each batch of
+Spark holds a second of all wearers. One in 97 sends random bytes, one in ten loses rows. us: processor time,
+microseconds. Session: without an engine, one wearer after the other. Job: Java and all Python processes of Spark after
+the first {warm_up} batches, with sessions, lines of JSON, states, checkpoint and files. Live wearers a core: both feet at
+100 Hz in real time, on a core that does nothing else. Busy: share of the time in which the job had its processors."""
 
 
 def time_yardstick() -> float:
@@ -59,42 +59,28 @@ def time_yardstick() -> float:
     return 1e6 * median(times) / len(samples)
 
 
-class Clock:
-    """The processor time of all processes of a job, s: Java's and Python's."""
-
-    def __init__(self, session: int) -> None:
-        self._session, self._times = session, dict[int, tuple[str, float]]()
-
-    def read(self) -> dict[str, float]:
-        """Return the time by program, with that of processes that have ended."""
-        for path in Path("/proc").glob("[0-9]*/stat"):
-            try:
-                name, _, rest = path.read_text().rpartition(")")
-            except OSError:
-                continue
-            words = rest.split()
-            if int(words[3]) == self._session:
-                self._times[int(path.parent.name)] = name.partition("(")[2], (int(words[11]) + int(words[12])) / TICK
-        totals: dict[str, float] = {"java": 0.0, "python": 0.0}
-        for name, seconds in self._times.values():
-            totals["java" if "java" in name else "python"] += seconds
-        return totals
+def read_times(session: int) -> dict[int, float]:
+    """Return the processor time of each process of a session so far, s: Java's and Python's."""
+    times = {}
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):  # it has ended in the meantime
+            words = path.read_text().rpartition(")")[2].split()
+            if int(words[3]) == session:
+                times[int(path.parent.name)] = (int(words[11]) + int(words[12])) / TICK
+    return times
 
 
-def time_job(stage: DemoStage) -> tuple[dict[str, float], float, list[float]]:
-    """Run the job; return the processor time after the warm-up by program, s, the duration of it, s, and all batches'
-    times."""
+def time_job(stage: DemoStage) -> tuple[float, float, int]:
+    """Run the job; return the processor time and the duration after the warm-up, s, and the number of batches in it."""
     run = EngineRun(stage.at / "uninterrupted")
-    start: dict[str, float] = {}
-    with run.started():
-        assert run.child is not None
-        clock = Clock(run.child.pid)
-        while not run.ended(0.05):
-            now, batches = clock.read(), len(run.batch_times())
-            if batches >= WARM_UP and not start:
-                start = now
-    times = run.batch_times()
-    return {name: seconds - start[name] for name, seconds in now.items()}, times[-1] - times[WARM_UP - 1], times
+    start, now = 0.0, dict[int, float]()
+    with run.started() as child:
+        while not run.ended(child, 0.05):
+            now |= read_times(child.pid)
+            if len(run.batch_times()) >= WARM_UP and not start:
+                start = sum(now.values())
+    times = run.batch_times()[WARM_UP - 1 :]
+    return sum(now.values()) - start, times[-1] - times[0], len(times) - 1
 
 
 def measure(plan: DemoPlan) -> list[str]:
@@ -104,22 +90,19 @@ def measure(plan: DemoPlan) -> list[str]:
         stage = DemoStage(Path(directory), plan)
         stage.prepare()
         stage.run_sessions()
-        cpu, duration, times = time_job(stage)
+        cpu, duration, batches = time_job(stage)
         bundles = [bundle for wearer in stage.wearers for bundle in enumerate(wearer.sending.bundles)]
         share = sum(len(rows) for n, rows in bundles if n >= WARM_UP) / sum(len(rows) for _, rows in bundles)
     yardstick_times.append(time_yardstick())
-    session = 1e6 * stage.session_seconds / stage.samples
-    job, yardstick = 1e6 * sum(cpu.values()) / (share * stage.samples), median(yardstick_times)
-    is_live = list(plan.walks) == [LARGE_INSOLES]
+    times = [1e6 * stage.session_seconds / stage.samples, 1e6 * cpu / (share * stage.samples)]
     return [
         str(stage.samples),
-        *[number(time, 1) for time in (session, job)],
-        percent(cpu["python"] / sum(cpu.values()), 0),
-        *[number(time / yardstick, 2) for time in (session, job)],
-        *[number(1e6 / SAMPLE_RATE / time if is_live else None, 0) for time in (session, job)],
-        number(1000.0 * SAMPLE_RATE * job / 1e6 if is_live else None, 0),
-        number(duration / (len(times) - WARM_UP), 2),
-        percent(sum(cpu.values()) / duration / plan.processes, 0),
+        *[number(time, 1) for time in times],
+        *[number(time / median(yardstick_times), 2) for time in times],
+        *[number(1e6 / SAMPLE_RATE / time, 0) for time in times],
+        number(1000.0 * SAMPLE_RATE * times[-1] / 1e6, 0),
+        number(duration / batches, 2),
+        percent(cpu / duration / plan.processes, 0),
     ]
 
 
@@ -129,16 +112,15 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=8.0, help="of walking")
     parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--recipe", default="default")
-    parser.add_argument("--walks", choices=("96", "demo"), default="96", help="96 cells, or the six of fleet-demo")
     options = parser.parse_args()
-    walks = (LARGE_INSOLES,) if options.walks == "96" else DEMO_WALKS
-    plans = [DemoPlan(n, options.seconds, 1, options.recipe, options.processes, walks) for n in options.sizes]
+    plans = [
+        DemoPlan(n, options.seconds, 1, options.recipe, options.processes, (LARGE_INSOLES,)) for n in options.sizes
+    ]
     columns = [measure(plan) for plan in plans]
     rows = [[name, *cells] for name, *cells in zip(ROWS, *columns, strict=True)]
     print(f"{machine()}, {form()} modules, Python processes of Spark: {options.processes}\n")
     print(f"{table(('wearers', *map(str, options.sizes)), rows)}\n")
-    walk = "walking with two insoles of 96 cells" if options.walks == "96" else "one of the six walks of the demo"
-    print(NOTE.format(seconds=f"{options.seconds:g}", walk=walk, warm_up=WARM_UP))
+    print(NOTE.format(seconds=f"{options.seconds:g}", warm_up=WARM_UP))
 
 
 if __name__ == "__main__":

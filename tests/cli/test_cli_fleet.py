@@ -16,10 +16,8 @@ from time import sleep
 
 import pytest
 from commands import run, run_failing
-from here import HELPERS
 from sparks import lacking
 
-from solepath.cli.fleet_table import figures
 from solepath.types.extras import install_hint
 
 needs_spark = pytest.mark.skipif(lacking() is not None, reason=lacking() or "")
@@ -45,24 +43,6 @@ def test_a_killed_fleet_emits_the_same_events_as_one_that_is_not(tmp_path: Path)
 
 
 @needs_spark
-@pytest.mark.long
-def test_a_state_that_is_changed_between_two_batches_is_detected(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from solepath.fleet.demo.run import DemoStage
-    from solepath.fleet.demo.wearers import DemoPlan
-
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(HELPERS / "fleet"), os.environ.get("PYTHONPATH", "")]))
-    stage = DemoStage(tmp_path, DemoPlan(4, 4.0))
-    stage.prepare()
-    stage.run_sessions()
-    assert stage.uninterrupted() == []
-    differences = stage.killed(0, (str(HELPERS / "fleet" / "mutating_job.py"),))
-    assert differences and all(line.startswith(("w00000, ", "and ")) for line in differences)
-    assert figures(stage)["engine"]["batches"] == len(stage.times) > 3
-
-
-@needs_spark
 @pytest.mark.soak
 def test_ctrl_c_leaves_no_files_and_no_processes(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "solepath", "fleet-demo", "--wearers", "12", "--out", str(tmp_path / "out")]
@@ -77,21 +57,6 @@ def test_ctrl_c_leaves_no_files_and_no_processes(tmp_path: Path) -> None:
     assert not [*tmp_path.glob("solepath-*")] and not (tmp_path / "out").exists()
     everything = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
     assert str(tmp_path) not in everything
-
-
-def test_repeated_changed_or_missing_events_are_differences() -> None:
-    compare = pytest.importorskip("solepath.fleet.demo.compare", reason="pyarrow is not installed (extra spark)")
-    one = {"wearer": "anna", "number": 0, "event": "HeelStrike", "t": 1.0}
-    other, later = {**one, "number": 1}, {**one, "number": 1, "t": 2.0}
-    assert compare.differences([one, other], [other, one]) == []
-    assert compare.differences([one, other], [one, one, other]) == [
-        "anna, event 0 (HeelStrike at 1.0 s) is there too often"
-    ]
-    assert compare.differences([one, other], [later, one]) == [
-        "anna, event 1 (HeelStrike at 1.0 s) is missing",
-        "anna, event 1 (HeelStrike at 2.0 s) is there, and should not be",
-    ]
-    assert compare.compare_sessions([], {}, [{**one, "number": 2}]) == ["anna has event 2 where event 0 is due"]
 
 
 @needs_spark

@@ -71,7 +71,6 @@ def run(options: argparse.Namespace) -> int:
     """Run the demo; return the exit status."""
     result_file = None if options.json is None else OutputFile(options.json, FLEET_FIGURES)
     _check(options, result_file)
-    from ..fleet.demo.compare import UnreadableEvents
     from ..fleet.demo.run import DemoStage, RunFailed
     from ..fleet.demo.wearers import DemoPlan
     from .common.loop import stop_signals_raise
@@ -83,7 +82,7 @@ def run(options: argparse.Namespace) -> int:
         stage = DemoStage(Path(directory).resolve(), plan)
         try:
             differences = run_all(stage, options.kills)
-        except (RunFailed, UnreadableEvents) as error:
+        except RunFailed as error:
             raise Failure(str(error)) from None
         print(f"\n{result_table(stage)}")
         if result_file is not None:
@@ -151,7 +150,7 @@ def _copy_events(stage: DemoStage, out: Path) -> None:
 
     events_directory = out / "events"
     events_directory.mkdir(parents=True)
-    for path in committed(stage.events_directory):
+    for path in committed(stage.at / "uninterrupted" / "events"):
         shutil.copy(path, events_directory)
     files = f"{events_directory}/*.parquet".replace("'", "''")
     query = f"FROM '{files}' SELECT event, count(*) AS count GROUP BY event ORDER BY count DESC"

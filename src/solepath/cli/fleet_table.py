@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 def kill_line(stage: DemoStage, run: int, kill: Kill, down: float) -> str:
     """Return a line about a kill."""
     place = f"after {kill.batches} of {len(stage.times)} batches"
-    interrupted = ", in the middle of the next, which runs again" if kill.interrupted else ""
-    return f"kill {run}: {place}{interrupted}; the next batch ends {down:.1f} s later"
+    rest = ", in the middle of the next, which runs again" if kill.is_in_batch else ""
+    return f"kill {run}: {place}{rest}; the next batch ends {down:.1f} s later"
 
 
 def result_table(stage: DemoStage) -> str:
@@ -34,7 +34,7 @@ def result_table(stage: DemoStage) -> str:
         ["s a batch", number(engine["batch"], 2)],
         ["events", str(engine["events"])],
         ["kills", str(len(kills))],
-        ["of them in the middle of a batch", str(sum(kill["interrupted"] for kill in kills))],
+        ["of them in the middle of a batch", str(sum(kill["is_in_batch"] for kill in kills))],
         ["s until the next batch was done: mean", number(sum(downs) / len(downs) if downs else None, 1)],
         ["s until the next batch was done: most", number(max(downs, default=None), 1)],
     ]

@@ -38,8 +38,8 @@ def gait(frame: StreamingDataFrame, fleet: Fleet) -> StreamingDataFrame:
 
     `frame` is of a topic of bytes whose key is the wearer's name in UTF-8, 1 to 256 characters. A message holds one or
     more whole lines of `sent_line`; more lines cost less per line. A message that cannot be read, or has no such key,
-    is reported as an event. The state of a wearer (Fleet.step) is one value in the frame's store. Raises ValueError when
-    the topic's values are not left as bytes, since a value that is not JSON would stop the application."""
+    is reported as an event. The state of a wearer (Fleet.step) is one value in the frame's store. Raises ValueError
+    when the topic's values are not left as bytes, since a value that is not JSON would stop the application."""
     for topic in frame.topics:
         if not isinstance(getattr(topic, "_value_deserializer", None), BytesDeserializer):
             raise ValueError(f'topic {topic.name!r} must be made with value_deserializer="bytes"')

@@ -3,7 +3,8 @@
     events = gait(rows, Fleet())          # streaming DataFrames: of SENT_SCHEMA in, of EVENT_SCHEMA out
     events.writeStream.format("parquet").option("checkpointLocation", checkpoint).start(directory)
 
-Needs the extra `spark`, Java 17 or later (jvm.py), and a session that was configured with STORE. examples/spark_gait.py is a whole job.
+Needs the extra `spark`, Java 17 or later (jvm.py), and a session that was configured with STORE.
+examples/spark_gait.py is a whole job.
 
 A micro-batch reads and writes a wearer's state once, and its events are available when it ends. A batch that Spark
 repeats after a crash emits the same events with the same identities (NumberedEvent). A killed task may leave files in

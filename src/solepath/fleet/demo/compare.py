@@ -9,7 +9,6 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any, get_args
 
-import pyarrow as pa
 from pyarrow import parquet
 
 from ...events import Event
@@ -26,32 +25,23 @@ Row = dict[str, Any]
 _FLEET_EVENTS = {kind.__name__ for kind in get_args(FleetEvent)}
 
 
-class UnreadableEvents(Exception):
-    """Raised with one sentence when events cannot be read."""
-
-
 def read_events(directory: Path) -> list[Row]:
-    """Return the events in the finished files of a run, by wearer and number. Raises UnreadableEvents."""
-    rows: list[Row] = []
-    for path in committed(directory):
-        try:
-            rows += parquet.read_table(path, partitioning=None).to_pylist()
-        except (pa.ArrowInvalid, OSError) as error:
-            raise UnreadableEvents(f"{printable(str(path))} cannot be read: {printable(str(error))}") from None
-    return sorted(rows, key=lambda row: (row["wearer"], row["number"]))
+    """Return the events in the finished files of a run, by wearer and number."""
+    rows = [row for path in committed(directory) for row in parquet.read_table(path, partitioning=None).to_pylist()]
+    return sorted(rows, key=itemgetter("wearer", "number"))
 
 
 def differences(expected: Iterable[Row], found: Iterable[Row]) -> list[str]:
     """Return the first few differences between two lists of rows, a sentence each; [] for equal multisets."""
-    wanted, there = (Counter(tuple(row.values()) for row in rows) for rows in (expected, found))
-    changes = [(row, "is missing") for row in (wanted - there).elements()]
+    expected_counts, found_counts = (Counter(tuple(row.values()) for row in rows) for rows in (expected, found))
+    changes = [(row, "is missing") for row in (expected_counts - found_counts).elements()]
     changes += [
-        (row, "is there too often" if row in wanted else "is there, and should not be") for row in there - wanted
+        (row, "is there too often" if row in expected_counts else "is there, and should not be")
+        for row in found_counts - expected_counts
     ]
-    lines = [
+    lines = sorted(
         f"{wearer}, event {number} ({event} at {t} s) {fault}" for (wearer, number, event, t, *_), fault in changes
-    ]
-    lines.sort()
+    )
     remainder = [f"and {len(lines) - MAX_REPORTED} more"] if len(lines) > MAX_REPORTED else []
     return [*map(printable, lines[:MAX_REPORTED]), *remainder]
 

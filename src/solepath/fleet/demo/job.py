@@ -11,6 +11,7 @@ import sys
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from pyspark.sql import SparkSession
 
@@ -20,22 +21,19 @@ from ..spark import STORE, gait
 
 EVENTS, CHECKPOINT, SENT, PLAN = "events", "checkpoint", "sent", "plan.json"
 """Directories of a run, and directory and file of a stage."""
-SETTINGS: dict[str, bool | float | int | str | None] = {
-    "spark.driver.bindAddress": "127.0.0.1",
-    "spark.driver.host": "127.0.0.1",
+SETTINGS: dict[str, Any] = {
     "spark.ui.enabled": "false",
-    "spark.ui.showConsoleProgress": "false",
     "spark.sql.streaming.minBatchesToRetain": "10000",  # kills are reported by the times of all batches
 }
 
 
 def main(run: str, fleet: Callable[[], Fleet] | None = None) -> None:
-    """Run the job, or continue it from its checkpoint, to the end of all files; `fleet` makes another than the plan's."""
+    """Run the job, or continue it from its checkpoint, to the end of all files; `fleet` makes another than the plan."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
     directory = Path(run)
-    plan = json.loads((directory.parent / PLAN).read_text(encoding="utf-8"))
+    plan = json.loads((directory.parent / PLAN).read_text())
     processes = plan["processes"]
-    session = SparkSession.builder.master(f"local[{processes}]").config(map=SETTINGS | STORE)
+    session = SparkSession.builder.master(f"local[{processes}]").config(map={**SETTINGS, **STORE})
     spark = session.config("spark.sql.shuffle.partitions", processes).getOrCreate()
     spark.sparkContext.setLogLevel("ERROR")
     source = spark.readStream.schema("key string, value binary").option("maxFilesPerTrigger", 1)
@@ -46,8 +44,7 @@ def main(run: str, fleet: Callable[[], Fleet] | None = None) -> None:
 
 def _end_with_parent() -> None:
     """End this process when its parent ends in any way, which closes the pipe to our stdin; Spark ends with us."""
-    while os.read(0, 1):
-        pass
+    os.read(0, 1)
     os._exit(1)
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from random import Random
-from time import monotonic, process_time, sleep, time
+from time import monotonic, process_time, time
 
 import pyarrow as pa
 from attrs import asdict, define, field, frozen
@@ -25,7 +25,7 @@ from ...types import Packet
 from ..jvm import java_environment
 from .compare import Row, compare_sessions, differences, read_events
 from .job import CHECKPOINT, EVENTS, PLAN, SENT
-from .wearers import DemoPlan, DemoWearer, make_wearers
+from .wearers import DemoPlan, DemoWearer, count_samples, make_wearers
 
 CHECK_INTERVAL = 0.02
 """Interval between two looks at a running job, s."""
@@ -40,30 +40,30 @@ class RunFailed(Exception):
 class Kill:
     """A kill of all processes of a job; `when` is its time, s, system's clock.
 
-    `batches` were finished by then; `interrupted` is True if one had begun and was not finished."""
+    `batches` were finished by then; `is_in_batch` is True if one more had started."""
 
     when: float
     batches: int
-    interrupted: bool
+    is_in_batch: bool
 
 
-@define
+@frozen
 class EngineRun:
     """A job in a `directory` of a stage: its processes, batches and events."""
 
     directory: Path
     job: tuple[str, ...] = JOB
-    child: subprocess.Popen[bytes] | None = None
 
     @contextmanager
-    def started(self) -> Iterator[None]:
+    def started(self) -> Iterator[subprocess.Popen[bytes]]:
         """Start the job, or continue it from its checkpoint; at the end kill its processes, as `kill -9` does."""
         self.directory.mkdir(exist_ok=True)
         package = str(Path(__file__).parents[3])
-        path = os.pathsep.join([package, *filter(None, [os.environ.get("PYTHONPATH")])])
+        path = os.pathsep.join([package, os.environ.get("PYTHONPATH", "")])
         place = {"PYTHONPATH": path, "PYSPARK_PYTHON": sys.executable, "SPARK_LOCAL_IP": "127.0.0.1"}
-        with (self.directory / "log").open("ab") as log:
-            self.child = subprocess.Popen(
+        with (
+            (self.directory / "log").open("ab") as log,
+            subprocess.Popen(
                 [sys.executable, *self.job, str(self.directory)],
                 stdin=subprocess.PIPE,
                 stdout=log,
@@ -71,34 +71,30 @@ class EngineRun:
                 cwd=self.directory,
                 env={**os.environ, **java_environment(), **place},
                 start_new_session=True,
-            )
-        try:
-            yield
-        finally:
-            # Python and Java; the workers of Java end when it has ended
-            with suppress(ProcessLookupError):
-                os.killpg(self.child.pid, signal.SIGKILL)
-            self.child.wait()
-            assert self.child.stdin is not None
-            self.child.stdin.close()
+            ) as child,
+        ):
+            try:
+                yield child
+            finally:
+                # Python and Java; the workers of Java end when it has ended
+                with suppress(ProcessLookupError):
+                    os.killpg(child.pid, signal.SIGKILL)
 
-    def ended(self, patience: float) -> bool:
-        """Return whether the job ended within `patience` s. Raises RunFailed if it failed."""
-        assert self.child is not None
+    def ended(self, child: subprocess.Popen[bytes], patience: float | None) -> bool:
+        """Return whether the job ended within `patience` s, or ever. Raises RunFailed if it failed."""
         try:
-            status = self.child.wait(patience)
+            status = child.wait(patience)
         except subprocess.TimeoutExpired:
             return False
         if status:
-            lines = (self.directory / "log").read_text(encoding="utf-8", errors="replace").strip().splitlines()
-            raise RunFailed(f"the job ended with status {status}: {printable((lines or ['it said nothing'])[-1])}")
+            lines = (self.directory / "log").read_text().splitlines() or [""]
+            raise RunFailed(f"the job ended with status {status}: {printable(lines[-1])}")
         return True
 
     def finish(self) -> None:
         """Start or continue the job and wait for its end. Raises RunFailed."""
-        with self.started():
-            while not self.ended(1.0):
-                pass
+        with self.started() as child:
+            self.ended(child, None)
 
     def batch_times(self) -> list[float]:
         """Return the time at which each finished batch ended, s, system's clock."""
@@ -107,15 +103,15 @@ class EngineRun:
 
     def kill(self, batches: int, delay: float) -> Kill | None:
         """Kill the job `delay` s after so many batches are finished; return None if it ended before."""
-        with self.started():
+        with self.started() as child:
             while len(self.batch_times()) < batches:
-                if self.ended(CHECK_INTERVAL):
+                if self.ended(child, CHECK_INTERVAL):
                     return None
-            if self.ended(delay):
+            if self.ended(child, delay):
                 return None
-            begun = [*(self.directory / CHECKPOINT / "offsets").glob("[0-9]*")]
+            started_batches = [*(self.directory / CHECKPOINT / "offsets").glob("[0-9]*")]
             finished = len(self.batch_times())
-            return Kill(time(), finished, len(begun) > finished)
+            return Kill(time(), finished, len(started_batches) > finished)
 
 
 @define
@@ -141,7 +137,7 @@ class DemoStage:
     @property
     def samples(self) -> int:
         """Number of samples that all wearers send."""
-        return sum(wearer.sending.samples for wearer in self.wearers)
+        return sum(count_samples(wearer.sending) for wearer in self.wearers)
 
     @property
     def rate(self) -> float:
@@ -152,11 +148,6 @@ class DemoStage:
     def batch(self) -> float:
         """Mean duration of a batch after the first, s."""
         return (self.times[-1] - self.times[0]) / max(len(self.times) - 1, 1)
-
-    @property
-    def events_directory(self) -> Path:
-        """Directory with the events of the uninterrupted run."""
-        return self.at / "uninterrupted" / EVENTS
 
     def prepare(self) -> None:
         """Emulate the walks, and write what all wearers send in each second as a file."""
@@ -169,7 +160,7 @@ class DemoStage:
             schema = pa.schema([("key", pa.string()), ("value", pa.binary())])
             parquet.write_table(pa.Table.from_pylist(rows, schema), path)
             os.utime(path, (1.7e9 + number, 1.7e9 + number))  # Spark takes files by the time of their last change
-        (self.at / PLAN).write_text(json.dumps(asdict(self.plan)), encoding="utf-8")
+        (self.at / PLAN).write_text(json.dumps(asdict(self.plan)))
 
     def run_sessions(self) -> None:
         """Run a session for each wearer, without an engine."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
-from math import pi
+from functools import cache
+from math import ceil, pi
 from operator import itemgetter
 from random import Random
 from typing import Any
@@ -18,7 +19,6 @@ from ...emulate.sensors.insole_device import Insole
 from ...emulate.sensors.sensortags import CC2541, CC2650
 from ...emulate.walk import emulate
 from ...link.decoder import Decoder
-from ...link.kinds import make_kinds
 from ...types import Packet, Sample, Site
 from ..rows import sent_line
 from ..step.sent import MAX_DATA_LENGTH, End, Sent
@@ -79,13 +79,11 @@ class Sending:
     """The rows of a phone, which many wearers share.
 
     `bundles` holds the items in the order of arrival, one bundle for each second. `ordered` holds the session's input
-    in the right order. `remarks` holds the names of the events that the fleet itself must emit. `samples` is the number
-    of samples in the packets."""
+    in the right order. `remarks` holds the names of the events that the fleet itself must emit."""
 
     bundles: tuple[tuple[Item, ...], ...]
     ordered: tuple[Payload, ...]
-    remarks: tuple[str, ...]
-    samples: int
+    remarks: tuple[str, ...] = ()
 
 
 @frozen
@@ -134,10 +132,9 @@ def make_wearers(plan: DemoPlan) -> list[DemoWearer]:
 
 def walk(name: str, seconds: float, seed: int) -> list[Packet]:
     """Return the packets, in arrival order, of the first `seconds` of a walk in laps that starts with standing."""
-    route, length = Route().stand(1.0), 0.0
-    while length < WALKING_SPEED * seconds:
+    route = Route().stand(1.0)
+    for _ in range(ceil(WALKING_SPEED * seconds / (6.0 + 1.5 * pi / 2))):
         route = route.walk(6.0, WALKING_SPEED).turn(pi / 2, radius=1.5)
-        length += 6.0 + 1.5 * pi / 2
     worn = {site: DEVICES[name] for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
     return [p for p in emulate(route, devices=worn, radio=POOR_RADIO, seed=seed).packets if p.t < seconds]
 
@@ -149,7 +146,7 @@ def make_sending(packets: Sequence[Packet], rng: Random, *, runs: int = 1, ends:
     arrived: list[Item] = []
     for run in range(runs):
         arrived += _disturb([(run, n, what) for n, what in enumerate(received[cuts[run] : cuts[run + 1]])], rng)
-    return Sending(_make_bundles(arrived), tuple(received), (), _count_samples(received))
+    return Sending(_make_bundles(arrived), tuple(received))
 
 
 def make_gap(packets: Sequence[Packet], rng: Random) -> Sending | None:
@@ -165,38 +162,24 @@ def make_gap(packets: Sequence[Packet], rng: Random) -> Sending | None:
     late = rng.randrange(first, end)
     bundles = (*bundles[:-1], (*bundles[-1], (0, late, packets[late])))
     ordered = (*packets[:first], *packets[end:])
-    return Sending(bundles, ordered, ("NumbersMissing", "SentRejected"), _count_samples(ordered))
+    return Sending(bundles, ordered, ("NumbersMissing", "SentRejected"))
 
 
 def make_poison(packets: Sequence[Packet], rng: Random) -> Sending:
     """Return a Sending of a walk with random bytes in many packets, and with invalid rows."""
-    received, items, invalid, number = list[Payload](), list[Item](), 0, 0
-    for packet in packets:
+    received, items = list[Payload](), list[Item]()
+    for number, packet in enumerate(packets):
         draw = rng.random()
         if draw < INVALID_ROW_SHARE:
-            row = _make_bad_row(packet, number, rng)
-            items.append((0, number, row))
-            invalid += 1
-            number += row["number"] == number  # other rows have no place in the order
+            items.append((0, number, {"number": number, "t": packet.t, "site": "tail", "channel": packet.channel}))
             continue
         if draw < CHANGED_SHARE:
             data = rng.randbytes(rng.choice((0, 1, 20, 244, MAX_DATA_LENGTH)))
-            channel = rng.choice((packet.channel, "insole/frame", "\N{SKULL}"))
-            packet = Packet(packet.t, rng.choice(list(Site)), channel, data)
+            packet = Packet(packet.t, rng.choice(list(Site)), rng.choice((packet.channel, "\N{SKULL}")), data)
         received.append(packet)
         items.append((0, number, packet))
-        number += 1
-    return Sending(_make_bundles(items), tuple(received), ("SentRejected",) * invalid, _count_samples(received))
-
-
-def _make_bad_row(packet: Packet, number: int, rng: Random) -> Row:
-    row: Row = {"t": packet.t, "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
-    faults: tuple[Row, ...] = (
-        {"site": "tail"},
-        {"data": bytes(MAX_DATA_LENGTH + 1).hex()},
-        {"number": None, "channel": 7},
-    )
-    return {"number": number, **row, **rng.choice(faults)}
+    remarks = ("SentRejected",) * (len(packets) - len(received))
+    return Sending(_make_bundles(items), tuple(received), remarks)
 
 
 def _disturb(sent: Iterable[Item], rng: Random) -> list[Item]:
@@ -222,11 +205,10 @@ def _make_bundles(items: Iterable[Item]) -> tuple[tuple[Item, ...], ...]:
     return tuple(map(tuple, bundles))
 
 
-def _count_samples(payloads: Iterable[Payload]) -> int:
+@cache
+def count_samples(sending: Sending) -> int:
     """Return the number of samples that links make of the packets."""
-    kinds, links, count = make_kinds(()), dict[Site, Decoder](), 0
-    for packet in payloads:
-        if isinstance(packet, Packet):
-            link = links.setdefault(packet.site, Decoder(packet.site))
-            count += sum(isinstance(item, Sample) for item in link.feed(packet, kinds))
-    return count + sum(isinstance(item, Sample) for link in links.values() for item in link.finish())
+    links = {site: Decoder(site) for site in Site}
+    outputs = [links[packet.site].feed(packet) for packet in sending.ordered if isinstance(packet, Packet)]
+    outputs += [link.finish() for link in links.values()]
+    return sum(isinstance(item, Sample) for output in outputs for item in output)

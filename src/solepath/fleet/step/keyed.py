@@ -151,7 +151,7 @@ class Keyed:
             return self._event(SentRejected, reason=SentRejection.UNREADABLE, detail=detail[:MAX_DETAIL_LENGTH])
         if not isinstance(item, Sent):
             detail = f"a {type(item).__name__}, not a Sent"
-        elif not isinstance(item.wearer, str) or item.wearer != self._wearer:
+        elif item.wearer != self._wearer:
             detail = "of another wearer"
         elif not _is_count(item.run) or not _is_count(item.number):
             detail = "run and number are whole numbers from 0 to 2**53 - 1"
