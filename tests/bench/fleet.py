@@ -38,11 +38,11 @@ WARM_UP = 2
 """Number of batches before the time is taken: Java compiles its code in them."""
 TICK = os.sysconf("SC_CLK_TCK")
 NOTE = """\
-Each wearer sends {seconds} s of walking with two insoles of 96 cells, a second at a time over a poor radio; each batch of
-Spark holds a second of all wearers. One in 97 sends random bytes, one in ten loses rows. us: processor time,
+Each wearer sends {seconds} s of walking with two insoles of 96 cells, a second at a time over a poor radio; each batch
+of Spark holds a second of all wearers. One in 97 sends random bytes, one in ten loses rows. us: processor time,
 microseconds. Session: without an engine, one wearer after the other. Job: Java and all Python processes of Spark after
-the first {warm_up} batches, with sessions, lines of JSON, states, checkpoint and files. Live wearers a core: both feet at
-100 Hz in real time, on a core that does nothing else. Busy: share of the time in which the job had its processors."""
+the first {warm_up} batches, with sessions, lines of JSON, states, checkpoint and files. Live wearers a core: both feet
+at 100 Hz in real time, on a core that does nothing else. Busy: share of the time in which the job had a processor."""
 
 
 def time_yardstick() -> float:
