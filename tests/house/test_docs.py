@@ -16,12 +16,14 @@ from here import EXAMPLES, PROTOCOL
 from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same, run_page
 from recordings import recorded
 from snooped import insoles_log
+from sparks import needed
 from walks import insoles
 
 from solepath import LiftRidden
 from solepath.cli.main import parser
 from solepath.emulate import Route
 from solepath.fleet import Sent, sent_line
+from solepath.fleet.spark_files import committed
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.show.output import STRIDE_COLUMNS, TRACK_COLUMNS
 from solepath.types import Foot
@@ -77,16 +79,16 @@ def test_a_session_with_a_floor_plan_reports_the_place(here):
 
 
 def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(here):
-    pytest.importorskip("bytewax", reason="bytewax has no release for this Python")
-    testing, parquet = import_module("bytewax.testing"), import_module("pyarrow.parquet")
+    needed()
+    parquet = import_module("pyarrow.parquet")
     walk = insoles(Route().stand(2).walk(3).stop(1))
     recorded(here / "walk.jsonl", walk.packets)
     (here / "sent").mkdir()
     lines = [sent_line(Sent("w-17", number, packet)) for number, packet in enumerate(walk.packets)]
     (here / "sent" / "w-17.jsonl").write_bytes(b"".join(lines))
     (emitted, _), names = run_page("docs/fleet.md")
-    testing.run_main(names["flow"])
-    rows = parquet.read_table(here / "events").to_pylist()
+    names["spark"].stop()
+    rows = [row for path in committed(here / "events") for row in parquet.read_table(path).to_pylist()]
     assert sorted((row["wearer"], row["number"], row["event"]) for row in rows) == sorted(
         (wearer, int(number), event) for wearer, number, event in map(str.split, emitted.splitlines())
     )

@@ -1,4 +1,4 @@
-"""`solepath fleet-demo`: runs emulated wearers in a stream engine that is killed, and measures the cost of both.
+"""`solepath fleet-demo`: runs emulated wearers on Spark, which is killed, and compares the events.
 
 The durations below were chosen by hand; other values were not tried."""
 
@@ -7,11 +7,8 @@ from __future__ import annotations
 import argparse
 import os
 import shutil
-import sys
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
@@ -21,13 +18,13 @@ from .common.files import FLEET_FIGURES, OutputFile, add_force, check_outputs, c
 from .common.inputs import add_recipe_name
 
 if TYPE_CHECKING:
-    from ..fleet.demo.stage import DemoStage
+    from ..fleet.demo.run import DemoStage
 
 DIFFERENCE_STATUS = 1
 """Exit status when the events of two runs differ."""
 MAX_WALK_TIME = 3600.0
 """Longest walk that an option may request, s."""
-DEFAULT_TOTAL_TIME, MIN_DEFAULT_TIME, MAX_DEFAULT_TIME = 1200.0, 4.0, 20.0
+DEFAULT_TOTAL_TIME, MIN_DEFAULT_TIME, MAX_DEFAULT_TIME = 1200.0, 6.0, 20.0
 """Default walking time of all wearers together, and the least and the greatest default of each wearer, s."""
 
 
@@ -36,11 +33,11 @@ def add_to(commands: Any) -> None:
     command: argparse.ArgumentParser = commands.add_parser(
         "fleet-demo",
         help="many emulated wearers through a stream engine that is killed",
-        description="Emulated wearers, whose packets come late, twice and out of order, walk through the stream engine "
-        "bytewax, which keeps the state of their sessions. Its processes are killed at random moments (kill -9) and "
-        "started again, and each time the events must equal those of an uninterrupted run, and those of sessions "
-        "without an engine. Exit status 1 when they do not.",
-        epilog="example: solepath fleet-demo --wearers 1000 --kills 10 --out fleet",
+        description="Emulated wearers, whose packets come late, twice and out of order, walk through Spark Structured "
+        "Streaming on this machine, which keeps the state of their sessions. Its processes are killed at random "
+        "moments (kill -9) and started again. The events must equal those of an uninterrupted run, and those of "
+        "sessions without an engine. Exit status 1 when they do not.",
+        epilog="example: solepath fleet-demo --wearers 40 --kills 3 --out fleet",
     )
     command.add_argument(
         "--wearers", metavar="N", type=parse_count, default=100, help="how many wearers (default: 100)"
@@ -62,14 +59,11 @@ def add_to(commands: Any) -> None:
         metavar="P",
         type=parse_count,
         default=min(2, os.cpu_count() or 1),
-        help="processes of the engine (default: 2, where there are two processors)",
+        help="Python processes of Spark (default: 2, where there are two processors)",
     )
     command.add_argument("--out", metavar="DIR", type=Path, help="leave the events there, as Parquet in DIR/events")
     command.add_argument("--json", metavar="FILE", type=Path, help="write the figures as JSON too")
     add_force(command)
-    command.add_argument(
-        "--keep", action="store_true", help="keep all that the runs wrote: recovery stores, logs, events"
-    )
     command.set_defaults(run=run)
 
 
@@ -77,70 +71,51 @@ def run(options: argparse.Namespace) -> int:
     """Run the demo; return the exit status."""
     result_file = None if options.json is None else OutputFile(options.json, FLEET_FIGURES)
     _check(options, result_file)
-    from ..fleet.demo.compare import UnreadableEvents
-    from ..fleet.demo.run import RunFailed
-    from ..fleet.demo.stage import DemoStage
+    from ..fleet.demo.run import DemoStage, RunFailed
     from ..fleet.demo.wearers import DemoPlan
     from .common.loop import stop_signals_raise
     from .fleet_table import figures, result_table
 
     seconds = options.seconds or min(max(DEFAULT_TOTAL_TIME / options.wearers, MIN_DEFAULT_TIME), MAX_DEFAULT_TIME)
     plan = DemoPlan(options.wearers, seconds, options.seed, options.recipe, options.processes)
-    with stop_signals_raise(), _directory(options) as directory:
-        stage = DemoStage(directory, plan)
+    with stop_signals_raise(), TemporaryDirectory(prefix="solepath-fleet-") as directory:
+        stage = DemoStage(Path(directory).resolve(), plan)
         try:
-            differences = run_all(stage, options.kills, keep=options.keep)
-        except (RunFailed, UnreadableEvents) as error:
+            differences = run_all(stage, options.kills)
+        except RunFailed as error:
             raise Failure(str(error)) from None
         print(f"\n{result_table(stage)}")
         if result_file is not None:
             write_json(result_file, {**figures(stage), "differences": differences})
         if options.out is not None:
             _copy_events(stage, options.out)
-        return verdict(differences, [outcome.differences for outcome in stage.outcomes])
+    if differences:
+        print("\n".join(["", "The events differ.", *differences]))
+    return DIFFERENCE_STATUS if differences else 0
 
 
-def run_all(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
-    """Do all runs, print each as it ends, and return how the uninterrupted run differs from one without an engine."""
-    from .fleet_table import kill_lines, recovery_line
+def run_all(stage: DemoStage, kills: int) -> list[str]:
+    """Do all runs, print each as it ends, and return how their events differ."""
+    from .fleet_table import kill_line
 
     plan = stage.plan
     stage.prepare()
-    print(
-        f"{_counted(plan.wearers, 'wearer walks', 'wearers walk')} {plan.seconds:g} s: {sum(stage.samples)} samples; "
-        f"{_counted(stage.gapped, 'loses', 'lose')} some rows for ever, "
-        f"{_counted(stage.poisoned, 'sends', 'send')} random bytes"
-    )
+    print(f"{plan.wearers} wearers, each walks {plan.seconds:g} s: {stage.samples} samples", flush=True)
     stage.run_sessions()
-    engine = stage.uninterrupted()
+    print(f"sessions without an engine: {stage.session_seconds:.1f} s of processor time", flush=True)
+    differences = [f"sessions without an engine: {line}" for line in stage.uninterrupted()]
+    same = "other" if differences else "the same"
     print(
-        f"uninterrupted: {engine.total_duration:.1f} s, {engine.events} events in {engine.files} files, a snapshot "
-        f"every {engine.snapshot_interval:.2g} s",
+        f"uninterrupted: {stage.whole:.1f} s, {len(stage.times)} batches, {len(stage.events)} events: {same} events",
         flush=True,
     )
-    differences = stage.compare()
-    print(f"sessions without an engine: {'other' if differences else 'the same'} events", flush=True)
-    for number, outcome in enumerate(stage.killed(kills, keep=keep), 1):
-        for line in kill_lines(engine, number, outcome):
-            print(line, flush=True)
-    print(recovery_line(stage.outcomes))
+    if kills:
+        killed = stage.killed(kills)
+        for number, (kill, down) in enumerate(stage.kills, 1):
+            print(kill_line(stage, number, kill, down))
+        print(f"killed {len(stage.kills)} times: {'other' if killed else 'the same'} events", flush=True)
+        differences += [f"killed run: {line}" for line in killed]
     return differences
-
-
-def _counted(count: int, singular: str, plural: str) -> str:
-    return f"{count} {singular if count == 1 else plural}"
-
-
-def verdict(without_engine: list[str], killed: list[list[str]]) -> int:
-    """Return the exit status, and print the differences if it is not 0.
-
-    `without_engine` are the differences of sessions without an engine, `killed` those of each killed run, all from
-    the uninterrupted run."""
-    lines = [f"sessions without an engine: {line}" for line in without_engine]
-    lines += [f"killed run {number}: {line}" for number, run_lines in enumerate(killed, 1) for line in run_lines]
-    if lines:
-        print("\n".join(["", "The events differ from those of the uninterrupted run.", *lines]))
-    return DIFFERENCE_STATUS if lines else 0
 
 
 def _check(options: argparse.Namespace, result_file: OutputFile | None) -> None:
@@ -150,11 +125,16 @@ def _check(options: argparse.Namespace, result_file: OutputFile | None) -> None:
         raise Failure(f"--seconds {options.seconds:g}: {MAX_WALK_TIME:g} is the most")
     if options.seconds is not None and options.seconds < 1.0:
         raise Failure(f"--seconds {options.seconds:g}: a walk takes at least 1")
-    if options.processes > options.wearers:
-        raise Failure(f"--processes {options.processes}: more than there are wearers, {options.wearers}")
-    if not (is_installed("bytewax") and is_installed("pyarrow")):
-        where = "" if sys.version_info < (3, 13) else " on Python 3.11 or 3.12, the last that bytewax has a release for"
-        raise Failure(f"the fleet needs bytewax and pyarrow: {install_hint('bytewax')}{where}")
+    if not is_installed("pyspark"):
+        raise Failure(f"the fleet needs Spark: {install_hint('spark')}")
+    from ..fleet.jvm import NoJava, java_environment
+
+    try:
+        java_environment()
+    except NoJava as error:
+        raise Failure(str(error)) from None
+    if not hasattr(os, "killpg"):
+        raise Failure("fleet-demo kills groups of processes, which this system does not have: use Linux or macOS")
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
         raise Failure(f"{options.out} is there already, and not an empty directory")
     if result_file is not None:
@@ -162,34 +142,16 @@ def _check(options: argparse.Namespace, result_file: OutputFile | None) -> None:
         check_writable(result_file.path, made=options.out)
 
 
-@contextmanager
-def _directory(options: argparse.Namespace) -> Iterator[Path]:
-    """Yield the directory of the runs, DIR/runs or a temporary one; without --keep it is removed at the end."""
-    is_new = options.out is not None and not options.out.exists()
-    if options.out is not None:
-        options.out.mkdir(parents=True, exist_ok=True)
-        directory = options.out.resolve() / "runs"
-        directory.mkdir()
-    else:
-        directory = Path(tempfile.mkdtemp(prefix="solepath-fleet-")).resolve()
-    try:
-        yield directory
-    finally:
-        if options.keep:
-            print(f"what the runs wrote is in {directory}")
-        else:
-            shutil.rmtree(directory, ignore_errors=True)
-            if is_new:
-                with suppress(OSError):  # a directory that is not empty stays
-                    directory.parent.rmdir()
-
-
 def _copy_events(stage: DemoStage, out: Path) -> None:
     """Copy the events of the uninterrupted run to `out`, and print a command that shows them."""
     from shlex import quote
 
+    from ..fleet.spark_files import committed
+
     events_directory = out / "events"
-    shutil.copytree(stage.events, events_directory)
+    events_directory.mkdir(parents=True)
+    for path in committed(stage.at / "uninterrupted" / "events"):
+        shutil.copy(path, events_directory)
     files = f"{events_directory}/*.parquet".replace("'", "''")
     query = f"FROM '{files}' SELECT event, count(*) AS count GROUP BY event ORDER BY count DESC"
     print(f"\nThe events are in {printable(str(events_directory))}. To look at them (pip install duckdb):")

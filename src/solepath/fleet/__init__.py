@@ -7,7 +7,7 @@ protocol/fleet.md describes the rows that a phone sends, the order in which they
 
 from .events import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
 from .fleet import Fleet
-from .rows import EVENT_COLUMNS, SENT_COLUMNS, event_row, read_line, read_lines, read_sent, sent_line, sent_row
+from .rows import EVENT_COLUMNS, SENT_COLUMNS, event_row, read_line, read_message, read_sent, sent_line, sent_row
 from .step.keyed import Keyed
 from .step.once import Once
 from .step.sent import End, NumberedEvent, Sent, Tick, Unreadable
@@ -30,7 +30,7 @@ __all__ = [
     "Unreadable",
     "WearerFailed",
     "read_line",
-    "read_lines",
+    "read_message",
     "read_sent",
     "sent_line",
     "sent_row",

@@ -14,20 +14,16 @@ from __future__ import annotations
 
 from typing import Any
 
+from attrs import frozen
 from quixstreams import State, message_context
 from quixstreams.dataframe import StreamingDataFrame
 from quixstreams.models.serializers.simple_types import BytesDeserializer
 
 from .events import SentRejected, SentRejection
 from .fleet import Fleet
-from .rows import event_row, read_line
-from .step.keyed import Keyed
-from .step.sent import MAX_NAME_LENGTH, NumberedEvent, Sent, Unreadable
+from .rows import event_row, read_message
+from .step.sent import MAX_NAME_LENGTH, NumberedEvent
 
-MAX_LINES = 4096
-"""Largest number of lines in one message.
-
-A message with more is rejected as a whole, since every line that cannot be read is reported."""
 UNKEYED = "unkeyed/"
 """Prefix of the wearer's name in events about messages whose key is no wearer's name.
 
@@ -37,54 +33,34 @@ _NO_KEY = SentRejected(
 )
 
 
-def gait(frame: StreamingDataFrame, fleet: Fleet, keep: int = 256) -> StreamingDataFrame:
+def gait(frame: StreamingDataFrame, fleet: Fleet) -> StreamingDataFrame:
     """Return the events of a fleet's sessions for the rows that phones sent, one message (`event_row`) for each event.
 
     `frame` is of a topic of bytes whose key is the wearer's name in UTF-8, 1 to 256 characters. A message holds one or
     more whole lines of `sent_line`; more lines cost less per line. A message that cannot be read, or has no such key,
-    is reported as an event. The state of a wearer (Fleet.step) is one value in the frame's store. `keep` is the number
-    of wearers whose sessions also stay in memory, for speed; it changes no event. Raises ValueError when the topic's
-    values are not left as bytes, since a value that is not JSON would stop the application."""
+    is reported as an event. The state of a wearer (Fleet.step) is one value in the frame's store. Raises ValueError
+    when the topic's values are not left as bytes, since a value that is not JSON would stop the application."""
     for topic in frame.topics:
         if not isinstance(getattr(topic, "_value_deserializer", None), BytesDeserializer):
             raise ValueError(f'topic {topic.name!r} must be made with value_deserializer="bytes"')
-    events = frame.apply(_GaitStep(fleet, keep), stateful=True, expand=True, metadata=True)
+    events = frame.apply(_GaitStep(fleet), stateful=True, expand=True, metadata=True)
     return events.set_headers(lambda *_: [])  # the headers of the input may be as long as a message can be
 
 
+@frozen
 class _GaitStep:
-    """The stateful step; it also keeps the sessions of some wearers in memory.
+    """The stateful step."""
 
-    A session in memory is used only while the store holds the state that it returned: another process may have had the
-    partition in the meantime, or messages may be repeated."""
-
-    def __init__(self, fleet: Fleet, keep: int) -> None:
-        self._fleet, self._max_kept = fleet, keep
-        self._kept: dict[str, tuple[bytes, Keyed]] = {}
-        """Sessions by wearer, the most recently used last."""
+    fleet: Fleet
 
     def __call__(self, value: Any, key: Any, _t: int, _headers: Any, state: State[str, bytes]) -> list[dict[str, Any]]:
         wearer = _parse_wearer(key)
         if wearer is None:  # without a state: its key in the changelog would be this key, however long
             context = message_context()
             return [event_row(NumberedEvent(f"{UNKEYED}{context.partition}", context.offset, _NO_KEY))]
-        events, new_state = self._step(wearer, state.get_bytes("state"), _parse_message(wearer, value))
+        new_state, events = self.fleet.step(wearer, state.get_bytes("state"), read_message(wearer, value))
         state.set_bytes("state", new_state)
         return [event_row(event) for event in events]
-
-    def _step(
-        self, wearer: str, old_state: bytes | None, sent: list[Sent | Unreadable]
-    ) -> tuple[list[NumberedEvent], bytes]:
-        kept_state, keyed = self._kept.pop(wearer, (None, None))
-        if keyed is None or kept_state != old_state:
-            keyed = self._fleet.open(wearer, old_state)
-        events = keyed.feed(sent)
-        new_state = keyed.state()
-        if self._max_kept > 0:
-            self._kept[wearer] = (new_state, keyed)
-            if len(self._kept) > self._max_kept:
-                del self._kept[next(iter(self._kept))]
-        return events, new_state
 
 
 def _parse_wearer(key: Any) -> str | None:
@@ -93,13 +69,3 @@ def _parse_wearer(key: Any) -> str | None:
     except UnicodeDecodeError:
         return None
     return name if isinstance(name, str) and 0 < len(name) <= MAX_NAME_LENGTH and not name.startswith(UNKEYED) else None
-
-
-def _parse_message(wearer: str, value: Any) -> list[Sent | Unreadable]:
-    lines = [line for line in value.split(b"\n") if line.strip()] if isinstance(value, bytes) else []
-    if not 0 < len(lines) <= MAX_LINES:
-        return [Unreadable(wearer, f"a message of {len(lines)} lines; 1 to {MAX_LINES} can be read")]
-    sent = [read_line(line) for line in lines]
-    # without a number, so it takes no place in this wearer's order
-    mismatched = Unreadable(wearer, "a line of another wearer than its message")
-    return [row if row.wearer in (wearer, "") else mismatched for row in sent]

@@ -5,15 +5,11 @@ protocol/fleet.md describes every column."""
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
-from enum import Enum
-from functools import cache
+from collections.abc import Mapping
 from operator import index
-from typing import Any
+from typing import Any, SupportsIndex
 
-from ..events.happening import FIRST_KEYS, BaseEvent, json_ready
 from ..types import Packet, Site
-from ..types.attrs import fields
 from .step.sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_NAME_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
 
 SENT_COLUMNS: Mapping[str, type] = {
@@ -26,10 +22,13 @@ EVENT_COLUMNS: Mapping[str, type] = {
 }  # fmt: skip
 """Columns of `event_row` with their types; t, known_at and foot may be None."""
 
-_PACKAGE = __name__.partition(".")[0]
 _SITES = {site.value: site for site in Site}
 MAX_LINE_LENGTH = 65_536
 """Longest line without its line feed, bytes."""
+MAX_LINES = 4096
+"""Largest number of lines in one message.
+
+A message with more is rejected as a whole, since every line that cannot be read is reported."""
 
 
 class _RowFlaw(Exception):
@@ -83,8 +82,6 @@ def _read_payload(row: Mapping[str, Any]) -> Packet | Tick | End:
 
 def _read_name(row: Mapping[str, Any], key: str) -> str:
     value = row.get(key)
-    if type(value) is str and len(value) <= MAX_NAME_LENGTH and value.isascii():
-        return value  # a fast path for nearly all values
     if not isinstance(value, str):
         raise _RowFlaw(f"{key} is no text but a {type(value).__name__}")
     if len(value) > MAX_NAME_LENGTH:
@@ -100,19 +97,11 @@ def _read_count(row: Mapping[str, Any], key: str, default: int | None) -> int:
     value = row.get(key)
     if value is None and default is not None:
         return default
-    if type(value) is not int:
-        try:
-            value = index(_reject_bool(value))
-        except TypeError:
-            raise _RowFlaw(f"{key} is no whole number but a {type(value).__name__}") from None
+    if isinstance(value, bool) or not isinstance(value, SupportsIndex):
+        raise _RowFlaw(f"{key} is no whole number but a {type(value).__name__}")
+    value = index(value)
     if not 0 <= value <= MAX_COUNT:
         raise _RowFlaw(f"{key} is not from 0 to 2**53 - 1")
-    return value
-
-
-def _reject_bool(value: Any) -> Any:
-    if isinstance(value, bool):
-        raise TypeError
     return value
 
 
@@ -155,14 +144,15 @@ def read_line(line: Any) -> Sent | Unreadable:
     return read_sent(row)
 
 
-def read_lines(lines: Iterable[Any]) -> list[tuple[str, list[Sent | Unreadable]]]:
-    """Return the items in some lines as a list for each wearer, in the order of the lines; never raise.
+def read_message(wearer: str, value: Any) -> list[Sent | Unreadable]:
+    """Return the items in a message of `wearer`, the lines of bytes, or Unreadable with the reason; never raise.
 
-    An engine passes one list at a lower cost than its items, above all to another process."""
-    items: dict[str, list[Sent | Unreadable]] = {}
-    for item in map(read_line, lines):
-        items.setdefault(item.wearer, []).append(item)
-    return list(items.items())
+    A line of another wearer is Unreadable without a number, so that it takes no place in the order of this one."""
+    lines = [line for line in value.split(b"\n") if line.strip()] if isinstance(value, bytes | bytearray) else []
+    if not 0 < len(lines) <= MAX_LINES:
+        return [Unreadable(wearer, f"a message of {len(lines)} lines; 1 to {MAX_LINES} can be read")]
+    mismatched = Unreadable(wearer, "a line of another wearer than its message")
+    return [item if item.wearer in (wearer, "") else mismatched for item in map(read_line, lines)]
 
 
 def _parse_object(line: Any) -> dict[str, Any]:
@@ -187,46 +177,12 @@ _DECODER = json.JSONDecoder(parse_constant=_reject_constant)
 _ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
 
 
-def _write_special(value: Any) -> Any:
-    """Return a value that JSON does not have as `json_ready` does, its own values unchanged."""
-    if isinstance(value, Enum | bytes):
-        return json_ready(value)
-    return {one.name: getattr(value, one.name) for one in fields(type(value))}
-
-
-_FIELDS_ENCODER = json.JSONEncoder(allow_nan=False, default=_write_special)
-
-
 def event_row(numbered: NumberedEvent) -> dict[str, Any]:
     r"""Return an event as a row with the columns of EVENT_COLUMNS.
 
     `fields` holds the other fields of the event as JSON, with the names of events.jsonl. An unpaired surrogate in the
     wearer's name is written `\\ud800`, since a table holds UTF-8."""
-    event: BaseEvent = numbered.event
-    wearer = numbered.wearer
-    if not wearer.isascii():
-        wearer = wearer.encode("utf-8", "backslashreplace").decode()
-    kind: type = type(event)
-    other_values = {name: getattr(event, name) for name in _other_names(kind)}
-    if kind.__module__.partition(".")[0] != _PACKAGE:  # an app's event may have mappings, of whose keys JSON differs
-        other_values = json_ready(other_values)
-    times = {"t": json_ready(event.t), "known_at": json_ready(event.known_at)}
-    columns = {"event": kind.__name__, **times, "final": event.final, "foot": _foot_name(event)}
-    try:
-        others = _FIELDS_ENCODER.encode(other_values)
-    except ValueError:  # a number that is not finite
-        others = _FIELDS_ENCODER.encode(json_ready(other_values))
-    return {"wearer": wearer, "number": numbered.number, **columns, "fields": others}
-
-
-def _foot_name(event: BaseEvent) -> str | None:
-    """Return the foot of an event, or that of its site; None for an event that has none."""
-    site = getattr(event, "site", None)
-    foot = getattr(event, "foot", site.foot if isinstance(site, Site) else None)
-    return None if foot is None else json_ready(foot)
-
-
-@cache
-def _other_names(kind: type) -> list[str]:
-    """Return the names of the fields of an event that have no column."""
-    return [one.name for one in fields(kind) if one.name not in FIRST_KEYS]
+    record = numbered.event.to_dict()
+    columns = {name: record.pop(name, None) for name in EVENT_COLUMNS if name not in ("wearer", "number", "fields")}
+    wearer = numbered.wearer.encode("utf-8", "backslashreplace").decode()
+    return {"wearer": wearer, "number": numbered.number, **columns, "fields": json.dumps(record)}

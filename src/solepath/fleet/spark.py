@@ -3,7 +3,8 @@
     events = gait(rows, Fleet())          # streaming DataFrames: of SENT_SCHEMA in, of EVENT_SCHEMA out
     events.writeStream.format("parquet").option("checkpointLocation", checkpoint).start(directory)
 
-Needs the extra `spark`, Java 17, and a session that was configured with STORE. examples/spark_gait.py is a whole job.
+Needs the extra `spark`, Java 17 or later (jvm.py), and a session that was configured with STORE.
+examples/spark_gait.py is a whole job.
 
 A micro-batch reads and writes a wearer's state once, and its events are available when it ends. A batch that Spark
 repeats after a crash emits the same events with the same identities (NumberedEvent). A killed task may leave files in
@@ -20,15 +21,11 @@ from pyspark.sql import Column, DataFrame, Row
 from pyspark.sql import functions as f
 from pyspark.sql.streaming.stateful_processor import StatefulProcessor, StatefulProcessorHandle, TimerValues
 
-from . import EVENT_COLUMNS, SENT_COLUMNS, Fleet, Sent, Unreadable, event_row, read_line, read_sent
+from . import EVENT_COLUMNS, SENT_COLUMNS, Fleet, Sent, Unreadable, event_row, read_message, read_sent
 
 _ROCKS = "org.apache.spark.sql.execution.streaming.state.RocksDBStateStoreProvider"
 STORE = {"spark.sql.streaming.stateStore.providerClass": _ROCKS}
 """Configuration that the Spark session needs: transformWithState keeps its state in RocksDB only."""
-MAX_LINES = 4096
-"""Largest number of lines in one message.
-
-A message with more is rejected as a whole, since every line that cannot be read is reported."""
 
 
 def _make_schema(columns: Mapping[str, type]) -> str:
@@ -88,10 +85,7 @@ class GaitProcessor(StatefulProcessor):
 
 
 def _read_row(row: Row) -> list[Sent | Unreadable]:
-    if "value" not in row:
-        return [read_sent(row.asDict())]
-    lines = bytes(row.value or b"").splitlines()
-    return [*map(read_line, lines)] if len(lines) <= MAX_LINES else [Unreadable("", f"{len(lines)} lines at once")]
+    return read_message(row.key, row.value) if "value" in row else [read_sent(row.asDict())]
 
 
 _make_fleet = lru_cache(lambda make: make())

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import os
 import random
-import re
-import shutil
-import subprocess
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -17,8 +14,10 @@ from walks import insoles, run_session
 
 from solepath.emulate.routes.route import Route
 from solepath.fleet import End, NumberedEvent, Sent, event_row, sent_row
+from solepath.fleet.jvm import NoJava, java_environment
 from solepath.fleet.spark_files import committed
 from solepath.recipes import DEFAULT, by_name
+from solepath.types.extras import install_hint
 
 ROUTE = Route().stand(1.0).walk(3.0, 1.3).stop(0.5)
 CONF = {
@@ -38,19 +37,13 @@ Row = dict[str, Any]
 
 def lacking() -> str | None:
     """Return why Spark cannot run here."""
-    home = os.environ.get("JAVA_HOME")
-    java = shutil.which("java", path=f"{home}/bin" if home else None)
-    if java is None:
-        return "Spark needs Java 17, and there is no java here"
-    java_version = subprocess.run([java, "-version"], capture_output=True, text=True, check=False).stderr
-    version = re.search(r'version "(\d+)', java_version)
-    if version is None or int(version[1]) < 17:
-        return f"Spark needs Java 17, and here is {java_version.splitlines()[0] if java_version else 'none'}"
     try:
         import pyspark  # noqa: F401
         from google import protobuf  # noqa: F401
-    except ImportError as error:
-        return f"{error}; pip install solepath[spark]"
+
+        java_environment()
+    except (ImportError, NoJava) as error:
+        return f"{error}; {install_hint('spark')}"
     return None
 
 

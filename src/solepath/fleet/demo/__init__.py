@@ -1,1 +1,1 @@
-"""Demonstration: a fleet of emulated wearers on bytewax, killed, restarted, and compared with an uninterrupted run."""
+"""Demonstration: a fleet of emulated wearers on Spark, killed, restarted, and compared with sessions without Spark."""

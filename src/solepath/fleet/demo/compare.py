@@ -1,122 +1,74 @@
-"""Comparison of the events in two directories, as multisets."""
+"""Comparison of events of the demonstration, as multisets of rows."""
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, get_args
 
-import pyarrow as pa
-import pyarrow.compute as pc
 from pyarrow import parquet
 
+from ...events import Event
 from ...recording import printable
 from ..events import FleetEvent
-from ..parquet import SCHEMA
-from .sending import Remark
+from ..rows import event_row
+from ..spark_files import committed
+from ..step.sent import NumberedEvent
+from .wearers import DemoWearer
 
 MAX_REPORTED = 3
 """Largest number of differences that are reported."""
-SORT_KEYS = [(name, "ascending") for name in SCHEMA.names]
+Row = dict[str, Any]
+_FLEET_EVENTS = {kind.__name__ for kind in get_args(FleetEvent)}
 
 
-class UnreadableEvents(Exception):
-    """Raised with one sentence when events cannot be read."""
+def read_events(directory: Path) -> list[Row]:
+    """Return the events in the finished files of a run, by wearer and number."""
+    rows = [row for path in committed(directory) for row in parquet.read_table(path, partitioning=None).to_pylist()]
+    return sorted(rows, key=itemgetter("wearer", "number"))
 
 
-def files(directory: Path) -> list[Path]:
-    """Return the finished Parquet files of a directory; hidden files are left out."""
-    return sorted(directory.glob("[!._]*.parquet"))
-
-
-def read_events(directory: Path) -> pa.Table:
-    """Return all events of a directory, sorted by every column. Raises UnreadableEvents."""
-    tables = [SCHEMA.empty_table()]
-    for path in files(directory):
-        try:
-            tables.append(parquet.read_table(path, partitioning=None).cast(SCHEMA))
-        except (pa.ArrowInvalid, OSError) as error:
-            raise UnreadableEvents(f"{printable(str(path))} cannot be read: {printable(str(error))}") from None
-    return pa.concat_tables(tables).combine_chunks().sort_by(SORT_KEYS)
-
-
-def differences(expected: pa.Table, found: pa.Table) -> list[str]:
-    """Return the first few differences between two tables of `read_events`, a sentence each; [] for equal tables."""
-    if expected.equals(found):
-        return []
-    expected_rows, found_rows = (
-        Counter(tuple(row.values()) for row in table.to_pylist()) for table in (expected, found)
-    )
-    changes = [(row, "is missing") for row in (expected_rows - found_rows).elements()]
+def differences(expected: Iterable[Row], found: Iterable[Row]) -> list[str]:
+    """Return the first few differences between two lists of rows, a sentence each; [] for equal multisets."""
+    expected_counts, found_counts = (Counter(tuple(row.values()) for row in rows) for rows in (expected, found))
+    changes = [(row, "is missing") for row in (expected_counts - found_counts).elements()]
     changes += [
-        (row, "is there, and should not be" if row not in expected_rows else "is there too often")
-        for row in found_rows - expected_rows
+        (row, "is there too often" if row in expected_counts else "is there, and should not be")
+        for row in found_counts - expected_counts
     ]
-    changes.sort(key=lambda change: (change[0][:2], change[1]))
-    lines = [
+    lines = sorted(
         f"{wearer}, event {number} ({event} at {t} s) {fault}" for (wearer, number, event, t, *_), fault in changes
-    ]
-    return _shorten(lines)
-
-
-def _shorten(lines: list[str]) -> list[str]:
-    """Return the first few lines, and a line with the number of the others."""
+    )
     remainder = [f"and {len(lines) - MAX_REPORTED} more"] if len(lines) > MAX_REPORTED else []
     return [*map(printable, lines[:MAX_REPORTED]), *remainder]
 
 
-def session_events(events: pa.Table) -> pa.Table:
-    """Return the events without those that the fleet itself emits (FleetEvent), each wearer's numbered again from 0."""
-    session_rows = events.filter(pc.invert(_is_fleet_event(events)))
-    numbers: list[int] = []
-    last_wearer, number = None, 0
-    for wearer in session_rows["wearer"].to_pylist():
-        number = number + 1 if wearer == last_wearer else 0
-        last_wearer = wearer
-        numbers.append(number)
-    return session_rows.set_column(
-        SCHEMA.get_field_index("number"), SCHEMA.field("number"), pa.array(numbers, pa.int64())
-    )
+def compare_sessions(
+    wearers: Iterable[DemoWearer], sessions: Mapping[str, Iterable[Event]], found: Iterable[Row]
+) -> list[str]:
+    """Return how events of the fleet differ from those of sessions and from what the fleet itself must emit.
+
+    The events of the sessions are numbered again without those of the fleet."""
+    expected, actual, counts = list[Row](), list[Row](), Counter[str]()
+    for wearer in wearers:
+        events = enumerate(sessions[wearer.name])
+        expected += [event_row(NumberedEvent(wearer.name, number, event)) for number, event in events]
+        expected += [_remark(wearer.name, event) for event in wearer.sending.remarks]
+    for name, rows in groupby(found, key=itemgetter("wearer")):
+        for number, row in enumerate(rows):
+            if row["number"] != number:
+                return [f"{printable(name)} has event {row['number']} where event {number} is due"]
+            if row["event"] in _FLEET_EVENTS:
+                actual.append(_remark(name, row["event"]))
+            else:
+                actual.append({**row, "number": counts[name]})
+                counts[name] += 1
+    return differences(expected, actual)
 
 
-def compare_remarks(expected: Mapping[str, Iterable[Remark]], events: pa.Table) -> list[str]:
-    """Return the first few events of the fleet (FleetEvent) that are missing or were not expected, a sentence each."""
-    expected_rows = Counter((wearer, remark) for wearer, remarks in expected.items() for remark in remarks)
-    found_rows = Counter((row["wearer"], _remark(row)) for row in events.filter(_is_fleet_event(events)).to_pylist())
-    wrong = [(*one, "is missing") for one in (expected_rows - found_rows).elements()]
-    wrong += [(*one, "was not expected") for one in (found_rows - expected_rows).elements()]
-    lines = sorted(
-        f"{wearer}, {one.event} ({one.why}) of row {one.number} of run {one.run} {fault}"
-        for wearer, one, fault in wrong
-    )
-    return _shorten(lines)
-
-
-def _remark(row: dict[str, Any]) -> Remark:
-    """Return the Remark of an event: a SentRejected has a reason; one about no row has a detail, no run and number."""
-    fields = json.loads(row["fields"])
-    if row["event"] == "NumbersMissing":
-        return Remark(row["event"], fields["run"], fields["first"], fields["count"])
-    return Remark(row["event"], fields.get("run"), fields.get("number"), fields.get("reason", fields.get("detail", "")))
-
-
-def _is_fleet_event(events: pa.Table) -> Any:
-    """Return a mask of the events that the fleet itself emits, not a session."""
-    return pc.is_in(events["event"], pa.array([kind.__name__ for kind in get_args(FleetEvent)]))
-
-
-def find_number_gaps(events: pa.Table) -> list[str]:
-    """Return the first few wearers with a number missing between 0 and their last number, a sentence each."""
-    counts = events.group_by("wearer").aggregate([("number", "min"), ("number", "max"), ("number", "count_distinct")])
-    faulty = [
-        row
-        for row in counts.to_pylist()
-        if row["number_min"] != 0 or row["number_max"] != row["number_count_distinct"] - 1
-    ]
-    return [
-        f"{printable(row['wearer'])} has {row['number_count_distinct']} different event numbers from "
-        f"{row['number_min']} to {row['number_max']}"
-        for row in faulty[:MAX_REPORTED]
-    ]
+def _remark(wearer: str, event: str) -> Row:
+    """Return an event of the fleet itself as a row for `differences`."""
+    return {"wearer": wearer, "number": None, "event": event, "t": None}

@@ -1,187 +1,201 @@
-"""One run of the demonstration's job: its processes, its directory and its result."""
+"""The runs of a demonstration: sessions without an engine, the job uninterrupted, and the job with kills."""
 
 from __future__ import annotations
 
 import json
 import os
-import socket
+import signal
 import subprocess
 import sys
-from contextlib import ExitStack, suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from time import monotonic, sleep
-from typing import Any
+from random import Random
+from time import monotonic, process_time, time
 
-from attrs import define, field
-from bytewax.recovery import init_db_dir
+import pyarrow as pa
+from attrs import asdict, define, field, frozen
+from pyarrow import parquet
 
+from ...events import Event
+from ...recipes import by_name
 from ...recording import printable
-from .job import EVENTS, POSITION_FORMAT, RECOVERY, REOPENED_PREFIX
+from ...session import Session
+from ...types import Packet
+from ..jvm import java_environment
+from .compare import Row, compare_sessions, differences, read_events
+from .job import CHECKPOINT, EVENTS, PLAN, SENT
+from .wearers import DemoPlan, DemoWearer, count_samples, make_wearers
 
-CHECK_INTERVAL = 0.005
-"""Interval between two checks for the end of a process, s."""
-END_TIMEOUT = 3.0
-"""Time that the processes of a job have to end after one of them was killed, s; then they are killed too."""
+CHECK_INTERVAL = 0.02
+"""Interval between two looks at a running job, s."""
+JOB = ("-m", "solepath.fleet.demo.job")
 
 
 class RunFailed(Exception):
-    """Raised with one sentence when a process of a run ended with an error."""
+    """Raised with one sentence when a job ended with an error."""
 
 
-def start(module: str, *arguments: str, directory: Path, log: Path) -> subprocess.Popen[bytes]:
-    """Start a Python process that ends when this one ends; it does not receive Ctrl-C."""
-    package = Path(__file__).parents[3]
-    path = os.pathsep.join([str(package), *filter(None, [os.environ.get("PYTHONPATH")])])
-    with log.open("ab") as out:
-        return subprocess.Popen(
-            [sys.executable, "-m", module, *arguments],
-            stdin=subprocess.PIPE,
-            stdout=out,
-            stderr=subprocess.STDOUT,
-            cwd=directory,
-            env={**os.environ, "PYTHONPATH": path},
-            start_new_session=True,
-        )
+@frozen
+class Kill:
+    """A kill of all processes of a job; `when` is its time, s, system's clock.
+
+    `batches` were finished by then; `is_in_batch` is True if one more had started."""
+
+    when: float
+    batches: int
+    is_in_batch: bool
 
 
-@define
-class Children:
-    """The processes that are killed at the end of `with Children() as children`."""
-
-    running: list[subprocess.Popen[bytes]] = field(factory=list)
-
-    def __enter__(self) -> Children:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self.kill()
-
-    def ended(self, patience: float) -> bool:
-        """Return whether all ended within `patience` s or one failed, since the others might wait for it for ever."""
-        limit = monotonic() + patience
-        while True:
-            statuses = [child.poll() for child in self.running]
-            if None not in statuses or any(statuses):
-                return True
-            if monotonic() > limit:
-                return False
-            sleep(CHECK_INTERVAL)
-
-    def is_running(self) -> bool:
-        """Return whether at least one still runs."""
-        return any(child.poll() is None for child in self.running)
-
-    def kill(self, which: int | None = None) -> None:
-        """Kill the process number `which`, or all if None, as `kill -9` does."""
-        killed = self.running if which is None else [self.running[which]]
-        for child in killed:
-            child.kill()
-        for child in killed:
-            child.wait()
-            if child.stdin is not None:
-                with suppress(OSError):
-                    child.stdin.close()
-
-    def check(self, what: str, log: Path) -> None:
-        """Raise RunFailed, with the last line of the log, when a process ended with an error."""
-        for child in self.running:
-            if child.returncode:
-                lines = log.read_text(encoding="utf-8", errors="replace").strip().splitlines() or ["it said nothing"]
-                raise RunFailed(f"{what} ended with status {child.returncode}: {printable(lines[-1])}")
-
-
-@define
+@frozen
 class EngineRun:
-    """A run of the engine in a `directory` of a stage; `every` is the time between two snapshots, s."""
+    """A job in a `directory` of a stage: its processes, batches and events."""
 
     directory: Path
-    processes: int
-    every: float
-    children: Children = field(factory=Children)
+    job: tuple[str, ...] = JOB
 
-    @classmethod
-    def create(cls, directory: Path, processes: int, every: float) -> EngineRun:
-        """Return a new run with empty directories."""
-        (directory / RECOVERY).mkdir(parents=True)
-        init_db_dir(directory / RECOVERY, processes)  # type: ignore[no-untyped-call]
-        return cls(directory, processes, every)
+    @contextmanager
+    def started(self) -> Iterator[subprocess.Popen[bytes]]:
+        """Start the job, or continue it from its checkpoint; at the end kill its processes, as `kill -9` does."""
+        self.directory.mkdir(exist_ok=True)
+        package = str(Path(__file__).parents[3])
+        path = os.pathsep.join([package, os.environ.get("PYTHONPATH", "")])
+        place = {"PYTHONPATH": path, "PYSPARK_PYTHON": sys.executable, "SPARK_LOCAL_IP": "127.0.0.1"}
+        with (
+            (self.directory / "log").open("ab") as log,
+            subprocess.Popen(
+                [sys.executable, *self.job, str(self.directory)],
+                stdin=subprocess.PIPE,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                cwd=self.directory,
+                env={**os.environ, **java_environment(), **place},
+                start_new_session=True,
+            ) as child,
+        ):
+            try:
+                yield child
+            finally:
+                # Python and Java; the workers of Java end when it has ended
+                with suppress(ProcessLookupError):
+                    os.killpg(child.pid, signal.SIGKILL)
 
-    @property
-    def events(self) -> Path:
-        """Directory of the events."""
-        return self.directory / EVENTS
-
-    def start(self) -> None:
-        """Start the job, or continue it from its last snapshot."""
-        job = ("solepath.fleet.demo.job", str(self.directory), str(self.every))
-        self.children = Children()
-        for arguments in _process_arguments(self.processes):
-            child = start(*job, *arguments, directory=self.directory, log=self.directory / "log")
-            self.children.running.append(child)
-
-    def finish(self) -> list[dict[str, Any]]:
-        """Wait for the end and return each process's report (job.ProcessReport). Raises RunFailed."""
-        while not self.ended(END_TIMEOUT):
-            pass
-        self.children.kill()
-        reports = [self.directory / f"report-{child.pid}.json" for child in self.children.running]
-        return [json.loads(report.read_text(encoding="utf-8")) for report in reports]
-
-    def ended(self, patience: float) -> bool:
-        """Return whether the job ended within `patience` s. Raises RunFailed if it failed."""
-        if not self.children.ended(patience):
+    def ended(self, child: subprocess.Popen[bytes], patience: float | None) -> bool:
+        """Return whether the job ended within `patience` s, or ever. Raises RunFailed if it failed."""
+        try:
+            status = child.wait(patience)
+        except subprocess.TimeoutExpired:
             return False
-        self.children.check("the job", self.directory / "log")
+        if status:
+            lines = (self.directory / "log").read_text().splitlines() or [""]
+            raise RunFailed(f"the job ended with status {status}: {printable(lines[-1])}")
         return True
 
-    def kill(self, which: int | None) -> None:
-        """Kill one process, or all if None; those that have not ended after END_TIMEOUT are killed too."""
-        self.children.kill(which)
-        limit = monotonic() + END_TIMEOUT
-        while self.children.is_running() and monotonic() < limit:
-            sleep(CHECK_INTERVAL)
-        self.children.kill()
+    def finish(self) -> None:
+        """Start or continue the job and wait for its end. Raises RunFailed."""
+        with self.started() as child:
+            self.ended(child, None)
 
-    def close(self) -> None:
-        """Kill every process that still runs."""
-        self.children.kill()
+    def batch_times(self) -> list[float]:
+        """Return the time at which each finished batch ended, s, system's clock."""
+        paths = (self.directory / CHECKPOINT / "commits").glob("[0-9]*")
+        return [path.stat().st_mtime for path in sorted(paths, key=lambda path: int(path.name))]
 
-    def reached(self) -> dict[int, int]:
-        """Return the number of bundles read by now, by partition."""
-        counts = {}
-        for path in self.directory.glob("reached-*"):
-            data = path.read_bytes()
-            if len(data) == POSITION_FORMAT.size:
-                counts[int(path.name.partition("-")[2])] = POSITION_FORMAT.unpack(data)[0]
-        return counts
-
-    def share(self) -> float:
-        """Return the share of all bundles that were read; 0 before all partitions were opened."""
-        ends = {start["part"]: start["end"] for start in self.starts()}
-        return sum(self.reached().values()) / sum(ends.values()) if len(ends) == self.processes else 0.0
-
-    def reopened(self) -> int:
-        """Return the number of wearers who continued from their states, over all restarts."""
-        return sum(path.stat().st_size for path in self.directory.glob(f"{REOPENED_PREFIX}*"))
-
-    def starts(self) -> list[dict[str, Any]]:
-        """Return the openings of partitions: `part`, `time`, s, position `at` and position at the `end`, bundles."""
-        path = self.directory / "began.jsonl"
-        lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
-        return [json.loads(line) for line in lines if line.endswith("}")]
+    def kill(self, batches: int, delay: float) -> Kill | None:
+        """Kill the job `delay` s after so many batches are finished; return None if it ended before."""
+        with self.started() as child:
+            while len(self.batch_times()) < batches:
+                if self.ended(child, CHECK_INTERVAL):
+                    return None
+            if self.ended(child, delay):
+                return None
+            started_batches = [*(self.directory / CHECKPOINT / "offsets").glob("[0-9]*")]
+            finished = len(self.batch_times())
+            return Kill(time(), finished, len(started_batches) > finished)
 
 
-def _process_arguments(processes: int) -> list[tuple[str, ...]]:
-    """Return the arguments of each process of a job: its number and all addresses."""
-    if processes == 1:
-        return [()]
-    addresses = [f"127.0.0.1:{port}" for port in _free_ports(processes)]
-    return [(str(number), *addresses) for number in range(processes)]
+@define
+class DemoStage:
+    """A demonstration in the directory `at`: `prepare`, `run_sessions`, `uninterrupted`, then `killed`."""
 
+    at: Path
+    plan: DemoPlan
+    wearers: list[DemoWearer] = field(factory=list, init=False)
+    sessions: dict[str, list[Event]] = field(factory=dict, init=False)
+    """Events of sessions without an engine, by wearer."""
+    session_seconds: float = field(default=0.0, init=False)
+    """Processor time of these sessions, s."""
+    whole: float = field(default=0.0, init=False)
+    """Duration of the uninterrupted run with the start of its processes, s."""
+    times: list[float] = field(factory=list, init=False)
+    """Time at which each batch of the uninterrupted run ended, s."""
+    events: list[Row] = field(factory=list, init=False)
+    """Events of the uninterrupted run."""
+    kills: list[tuple[Kill, float]] = field(factory=list, init=False)
+    """Each kill, with the time from it to the end of the next batch, s."""
 
-def _free_ports(count: int) -> list[int]:
-    with ExitStack() as stack:
-        sockets = [stack.enter_context(socket.socket()) for _ in range(count)]
-        for socket_ in sockets:
-            socket_.bind(("127.0.0.1", 0))
-        return [socket_.getsockname()[1] for socket_ in sockets]
+    @property
+    def samples(self) -> int:
+        """Number of samples that all wearers send."""
+        return sum(count_samples(wearer.sending) for wearer in self.wearers)
+
+    @property
+    def rate(self) -> float:
+        """Samples/s through the job after its first batch, in which Spark still starts."""
+        return self.samples / len(self.times) / self.batch if self.batch else 0.0
+
+    @property
+    def batch(self) -> float:
+        """Mean duration of a batch after the first, s."""
+        return (self.times[-1] - self.times[0]) / max(len(self.times) - 1, 1)
+
+    def prepare(self) -> None:
+        """Emulate the walks, and write what all wearers send in each second as a file."""
+        self.wearers = make_wearers(self.plan)
+        (self.at / SENT).mkdir()
+        for number in range(max(len(wearer.sending.bundles) for wearer in self.wearers)):
+            sent = [(wearer.name, wearer.bundle(number)) for wearer in self.wearers]
+            rows = [{"key": name, "value": lines} for name, lines in sent if lines]
+            path = self.at / SENT / f"{number:06d}.parquet"
+            schema = pa.schema([("key", pa.string()), ("value", pa.binary())])
+            parquet.write_table(pa.Table.from_pylist(rows, schema), path)
+            os.utime(path, (1.7e9 + number, 1.7e9 + number))  # Spark takes files by the time of their last change
+        (self.at / PLAN).write_text(json.dumps(asdict(self.plan)))
+
+    def run_sessions(self) -> None:
+        """Run a session for each wearer, without an engine."""
+        recipe = by_name(self.plan.recipe)
+        for wearer in self.wearers:
+            inputs, session, events = wearer.inputs(), Session(recipe), list[Event]()
+            started_at = process_time()
+            for payload in inputs:
+                events += session.feed(payload) if isinstance(payload, Packet) else session.finish()
+            self.session_seconds += process_time() - started_at
+            self.sessions[wearer.name] = events
+
+    def uninterrupted(self) -> list[str]:
+        """Run the job without a kill, and return how its events differ from those of sessions. Raises RunFailed."""
+        run, started_at = EngineRun(self.at / "uninterrupted"), monotonic()
+        run.finish()
+        self.whole, self.times = monotonic() - started_at, run.batch_times()
+        self.events = read_events(run.directory / EVENTS)
+        return compare_sessions(self.wearers, self.sessions, self.events)
+
+    def killed(self, kills: int, job: tuple[str, ...] = JOB) -> list[str]:
+        """Run a job with this number of kills and restarts, and return how its events differ from the uninterrupted's.
+
+        A kill comes after a random batch, in the middle of the next, or when the job starts again. Raises RunFailed."""
+        rng, run = Random(f"kills {self.plan.seed}"), EngineRun(self.at / "killed", job)
+        batches = len(self.times)
+        done, marks = 0, list[Kill]()
+        for after in sorted(rng.randint(1, max(batches - 2, 1)) for _ in range(kills)):
+            starting = self.whole - batches * self.batch if after <= done else 0.0
+            kill = run.kill(after, rng.uniform(0.0, starting + self.batch))
+            if kill is None:
+                break
+            marks.append(kill)
+            done = kill.batches
+        run.finish()
+        times = run.batch_times()
+        self.kills = [(kill, min(t for t in times if t > kill.when) - kill.when) for kill in marks]
+        return differences(self.events, read_events(run.directory / EVENTS))

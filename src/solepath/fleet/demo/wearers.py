@@ -1,18 +1,16 @@
-"""The wearers of a demonstration: their walks, times and transport to the engine, the same in every process.
-
-A stage is a directory with `plan.json` and the shared walks as recordings. Every process of a demonstration reads it,
-so that no process emulates walks, and every process has the same rows of a wearer."""
+"""The wearers of a demonstration: their walks, and what their phones send, late, twice, lost or damaged."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
-from itertools import chain
-from math import pi
-from pathlib import Path
+from collections.abc import Iterable, Sequence
+from functools import cache
+from math import ceil, pi
+from operator import itemgetter
 from random import Random
+from typing import Any
 
-from attrs import asdict, define, evolve, frozen
+from attrs import evolve, frozen
 
 from ...emulate.radio import Radio
 from ...emulate.routes.route import Route
@@ -20,12 +18,10 @@ from ...emulate.sensors.device import Device
 from ...emulate.sensors.insole_device import Insole
 from ...emulate.sensors.sensortags import CC2541, CC2650
 from ...emulate.walk import emulate
-from ...recipes import Recipe, by_name
-from ...recording import PacketWriter, read_packets
-from ...types import Packet, Site
-from ..rows import read_sent
-from ..step.sent import Sent, Tick, Unreadable
-from .sending import DemoPayload, Item, Remark, Sending, count_samples, make_gap, make_poison, make_sending
+from ...link.decoder import Decoder
+from ...types import Packet, Sample, Site
+from ..rows import sent_line
+from ..step.sent import MAX_DATA_LENGTH, End, Sent
 
 POOR_RADIO = Radio(loss=0.02, duplicate=0.005, corrupt=0.005, truncate=0.005, latency=0.01, jitter=0.03)
 """A poor radio connection: of a hundred notifications two never arrive, and one is damaged."""
@@ -35,7 +31,6 @@ DEVICES: dict[str, Device] = {
     "insoles": Insole(cells=48),
     "insoles in fragments": Insole(cells=24, rate=50.0, mtu=23),
     "insoles with broken cells": Insole(cells=35, batch=4, quaternion=True, broken=((5, 0), (6, 4095))),
-    "insoles out of reach": Insole(cells=48, rate=50.0),
     "CC2650": CC2650(presses=(2.0,)),
     "CC2541": CC2541(rate=20.0),
     "insoles of 96 cells": Insole(cells=96),
@@ -44,63 +39,51 @@ DEVICES: dict[str, Device] = {
 LARGE_INSOLES = "insoles of 96 cells"
 """Name of the walk of which the demonstration has no wearer, since it would take half its time."""
 DEMO_WALKS = tuple(name for name in DEVICES if name != LARGE_INSOLES)
-SILENT_WALK = "insoles out of reach"
-"""Name of the walk in which no packet arrives for some time."""
-SILENCE_SHARES = (0.5, 0.65)
-"""Start and end of the silence in SILENT_WALK, as shares of its duration."""
-
-
-def walk(name: str, seconds: float, seed: int) -> list[Packet]:
-    """Return the packets, in arrival order, of the first `seconds` of a walk in laps that starts with standing."""
-    route, length = Route().stand(1.0), 0.0
-    while length < WALKING_SPEED * seconds:
-        route = route.walk(6.0, WALKING_SPEED).turn(pi / 2, radius=1.5)
-        length += 6.0 + 1.5 * pi / 2
-    worn = {site: DEVICES[name] for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
-    received = [p for p in emulate(route, devices=worn, radio=POOR_RADIO, seed=seed).packets if p.t < seconds]
-    if name == SILENT_WALK:
-        start, end = (share * seconds for share in SILENCE_SHARES)
-        received = [packet for packet in received if not start <= packet.t < end]
-    return received
-
-
-POISON_EVERY = 97
-"""One wearer in this many sends random bytes; the first is wearer number 3."""
-GAP_EVERY = 10
-"""One wearer in this many loses some of its rows; the first is wearer number 5."""
+LATE_SHARE, MAX_DELAY_ROWS = 0.02, 100
+"""Share of the rows that come late, and the largest number of rows that overtake one; less than the fleet's window."""
+REPEATED_SHARE, MAX_REPEAT_ROWS = 0.02, 400
+"""Share of the rows that come a second time, and the largest number of other rows between the two."""
+LOST_ROWS, TOO_LATE_ROWS = 12, 500
+"""Number of rows that are lost, and of rows after which one of them arrives; the second exceeds the fleet's window."""
+INVALID_ROW_SHARE, CHANGED_SHARE = 0.1, 0.5
+"""Shares of a faulty phone's packets that become an invalid row, and that become this or get random bytes."""
+POISON_EVERY, GAP_EVERY = 97, 10
+"""One wearer in so many sends random bytes (the first is number 3), and loses rows (the first is number 5)."""
 FIRST_RUN = 1_790_000_000_000
 """Time at which the first phone was started, ms since 1970; it is the number of a run."""
+
+Payload = Packet | End
+Row = dict[str, Any]
+"""A row of a faulty phone: the columns of protocol/fleet.md with any values."""
+Item = tuple[int, int, Payload | Row]
+"""(index of the phone's run, number, payload)."""
 
 
 @frozen
 class DemoPlan:
     """The settings that determine every byte of a demonstration.
 
-    `seconds` is the duration of a walk. `bundle` is the time of walking that a phone sends at once, s. `parts` is the
-    number of processes, and of partitions of the source and of the files. `every` is the time between two snapshots, s;
-    None derives it from the duration of the run. `walks` are names of walks, of which each wearer has one."""
+    `seconds` is the duration of a walk. `processes` is the number of tasks that Spark runs at a time. `walks` are names
+    of walks, of which each wearer has one."""
 
     wearers: int
     seconds: float
     seed: int = 1
     recipe: str = "default"
-    parts: int = 1
-    bundle: float = 1.0
-    every: float | None = None
+    processes: int = 1
     walks: Sequence[str] = DEMO_WALKS
 
 
-def prepare(stage: Path, plan: DemoPlan) -> None:
-    """Emulate the walks and write them and the plan into the directory `stage`. Raises OSError, RecordingError."""
-    for number, name in enumerate(plan.walks):
-        with PacketWriter(_walk_path(stage, number)) as writer:
-            for packet in walk(name, plan.seconds, plan.seed + number):
-                writer.write(packet)
-    (stage / "plan.json").write_text(json.dumps(asdict(plan)), encoding="utf-8")
+@frozen(eq=False)
+class Sending:
+    """The rows of a phone, which many wearers share.
 
+    `bundles` holds the items in the order of arrival, one bundle for each second. `ordered` holds the session's input
+    in the right order. `remarks` holds the names of the events that the fleet itself must emit."""
 
-def _walk_path(stage: Path, number: int) -> Path:
-    return stage / f"walk-{number}.jsonl"
+    bundles: tuple[tuple[Item, ...], ...]
+    ordered: tuple[Payload, ...]
+    remarks: tuple[str, ...] = ()
 
 
 @frozen
@@ -112,102 +95,120 @@ class DemoWearer:
     shift: float
     run: int
 
-    def bundle(self, number: int) -> list[Sent | Unreadable]:
-        """Return the rows that arrive from this wearer in this period."""
+    def bundle(self, number: int) -> bytes:
+        """Return the lines that arrive from this wearer in this second."""
         bundles = self.sending.bundles
-        if number >= len(bundles):
-            return []
-        name, run, shift = self.name, self.run, self.shift
-        # a fast path for packets, the majority, so that the measurement shows the engine's time
-        return [
-            Sent(name, n, Packet(payload.t + shift, payload.site, payload.channel, payload.data), run + k)
-            if type(payload) is Packet
-            else self._make_row((k, n, payload))
-            for k, n, payload in bundles[number]
-        ]
+        return b"".join(map(self._line, bundles[number])) if number < len(bundles) else b""
 
-    def remarks(self) -> list[Remark]:
-        """Return the events that the fleet itself must emit for this wearer."""
-        return [r if r.run is None else evolve(r, run=self.run + r.run) for r in self.sending.remarks]
-
-    def inputs(self) -> list[DemoPayload]:
+    def inputs(self) -> list[Payload]:
         """Return the input of this wearer's session, in order."""
-        return [_shift_time(payload, self.shift) for payload in self.sending.ordered]
+        return [self._shifted(payload) for payload in self.sending.ordered]
 
-    def _make_row(self, item: Item) -> Sent | Unreadable:
-        run_index, number, payload = item
+    def _line(self, item: Item) -> bytes:
+        run, number, payload = item
         if isinstance(payload, dict):
-            return read_sent({**payload, "wearer": self.name, "run": self.run + run_index})
-        return Sent(self.name, number, _shift_time(payload, self.shift), self.run + run_index)
+            return json.dumps({**payload, "wearer": self.name, "run": self.run + run}).encode() + b"\n"
+        return sent_line(Sent(self.name, number, self._shifted(payload), self.run + run))
+
+    def _shifted(self, payload: Payload) -> Payload:
+        return payload if isinstance(payload, End) else evolve(payload, t=payload.t + self.shift)
 
 
-def _shift_time(payload: DemoPayload, shift: float) -> DemoPayload:
-    if isinstance(payload, Packet):
-        return Packet(payload.t + shift, payload.site, payload.channel, payload.data)
-    return Tick(payload.t + shift) if isinstance(payload, Tick) else payload
+def make_wearers(plan: DemoPlan) -> list[DemoWearer]:
+    """Emulate the walks and return the wearers, the same for the same plan."""
+    walks = [walk(name, plan.seconds, plan.seed + number) for number, name in enumerate(plan.walks)]
+    rng = Random(f"sendings {plan.seed}")
+    healthy = [make_sending(packets, rng, **kind) for packets in walks for kind in ({}, {"ends": True}, {"runs": 2})]
+    poisons = [make_poison(packets, rng) for packets in walks]
+    gaps = [gap for packets in walks if (gap := make_gap(packets, rng)) is not None] or healthy
+    wearers = []
+    for number in range(plan.wearers):
+        rng = Random(f"wearer {plan.seed} {number}")
+        kind = poisons if number % POISON_EVERY == 3 else gaps if number % GAP_EVERY == 5 else healthy
+        run = FIRST_RUN + rng.randrange(10**8)
+        wearers.append(DemoWearer(f"w{number:05d}", rng.choice(kind), rng.uniform(0.0, 1e5), run))
+    return wearers
 
 
-@define(eq=False)
-class Wearers:
-    """All wearers of a stage."""
+def walk(name: str, seconds: float, seed: int) -> list[Packet]:
+    """Return the packets, in arrival order, of the first `seconds` of a walk in laps that starts with standing."""
+    route = Route().stand(1.0)
+    for _ in range(ceil(WALKING_SPEED * seconds / (6.0 + 1.5 * pi / 2))):
+        route = route.walk(6.0, WALKING_SPEED).turn(pi / 2, radius=1.5)
+    worn = {site: DEVICES[name] for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
+    return [p for p in emulate(route, devices=worn, radio=POOR_RADIO, seed=seed).packets if p.t < seconds]
 
-    plan: DemoPlan
-    sendings: list[Sending]
-    """Sendings of wearers without faults."""
-    poisons: list[Sending]
-    """Sendings with random bytes."""
-    gaps: list[Sending]
-    """Sendings with lost rows; empty if the walks are too short."""
-    all: list[DemoWearer]
 
-    @classmethod
-    def read(cls, stage: Path) -> Wearers:
-        """Read the wearers of a stage."""
-        plan = DemoPlan(**json.loads((stage / "plan.json").read_text(encoding="utf-8")))
-        walks = [list(read_packets(_walk_path(stage, number))) for number in range(len(plan.walks))]
-        rng = Random(f"sendings {plan.seed}")
-        sendings = []
-        for packets in walks:
-            sendings.append(make_sending(packets, plan.bundle, rng))
-            sendings.append(make_sending(packets, plan.bundle, rng, ends=True))
-            sendings.append(make_sending(packets, plan.bundle, rng, runs=2))
-        poisons = [make_poison(packets, plan.bundle, rng) for packets in walks]
-        gaps = [gap for packets in walks if (gap := make_gap(packets, plan.bundle, rng)) is not None]
-        wearers = []
-        for number in range(plan.wearers):
-            rng = Random(f"wearer {plan.seed} {number}")
-            kind = (
-                poisons if number % POISON_EVERY == 3 else (gaps or sendings) if number % GAP_EVERY == 5 else sendings
-            )
-            sending = rng.choice(kind)
-            run = FIRST_RUN + rng.randrange(10**8)
-            wearers.append(DemoWearer(f"w{number:05d}", sending, rng.uniform(0.0, 1e5), run))
-        return cls(plan, sendings, poisons, gaps, wearers)
+def make_sending(packets: Sequence[Packet], rng: Random, *, runs: int = 1, ends: bool = False) -> Sending:
+    """Return the Sending of a walk; `runs` is the number of times that the phone's app was started during the walk."""
+    received: list[Payload] = [*packets, *([End()] if ends else [])]
+    cuts = [len(received) * k // runs for k in range(runs + 1)]
+    arrived: list[Item] = []
+    for run in range(runs):
+        arrived += _disturb([(run, n, what) for n, what in enumerate(received[cuts[run] : cuts[run + 1]])], rng)
+    return Sending(_make_bundles(arrived), tuple(received))
 
-    @property
-    def recipe(self) -> Recipe:
-        """Recipe of the plan."""
-        return by_name(self.plan.recipe)
 
-    @property
-    def bundles(self) -> int:
-        """Largest number of bundles that a wearer sends."""
-        return max(len(sending.bundles) for sending in chain(self.sendings, self.poisons, self.gaps))
+def make_gap(packets: Sequence[Packet], rng: Random) -> Sending | None:
+    """Return the Sending of a walk that loses LOST_ROWS consecutive rows; one of them comes after it was given up.
 
-    @property
-    def poisoned(self) -> int:
-        """Number of wearers who send random bytes."""
-        return sum(wearer.sending in self.poisons for wearer in self.all)
+    Returns None when the walk has too few rows for that."""
+    first = len(packets) // 8
+    end = first + LOST_ROWS
+    bundles = _make_bundles(_disturb([(0, n, what) for n, what in enumerate(packets) if not first <= n < end], rng))
+    # the engine may use the rows of a bundle in any order, so the late row comes in a later bundle
+    if sum(map(len, bundles[:-1])) < end + TOO_LATE_ROWS:
+        return None
+    late = rng.randrange(first, end)
+    bundles = (*bundles[:-1], (*bundles[-1], (0, late, packets[late])))
+    ordered = (*packets[:first], *packets[end:])
+    return Sending(bundles, ordered, ("NumbersMissing", "SentRejected"))
 
-    @property
-    def gapped(self) -> int:
-        """Number of wearers who lose rows for ever."""
-        return sum(wearer.sending in self.gaps for wearer in self.all)
 
-    def samples(self, part: int) -> int:
-        """Return the number of samples of the wearers of one partition; slow at the first call."""
-        return sum(count_samples(wearer.sending) for wearer in self.of_partition(part))
+def make_poison(packets: Sequence[Packet], rng: Random) -> Sending:
+    """Return a Sending of a walk with random bytes in many packets, and with invalid rows."""
+    received, items = list[Payload](), list[Item]()
+    for number, packet in enumerate(packets):
+        draw = rng.random()
+        if draw < INVALID_ROW_SHARE:
+            items.append((0, number, {"number": number, "t": packet.t, "site": "tail", "channel": packet.channel}))
+            continue
+        if draw < CHANGED_SHARE:
+            data = rng.randbytes(rng.choice((0, 1, 20, 244, MAX_DATA_LENGTH)))
+            packet = Packet(packet.t, rng.choice(list(Site)), rng.choice((packet.channel, "\N{SKULL}")), data)
+        received.append(packet)
+        items.append((0, number, packet))
+    remarks = ("SentRejected",) * (len(packets) - len(received))
+    return Sending(_make_bundles(items), tuple(received), remarks)
 
-    def of_partition(self, part: int) -> list[DemoWearer]:
-        """Return the wearers of one partition, which are those of one process."""
-        return self.all[part :: self.plan.parts]
+
+def _disturb(sent: Iterable[Item], rng: Random) -> list[Item]:
+    """Return the rows with some of them late, repeated and out of order."""
+    placed: list[tuple[float, Item]] = []
+    for index, item in enumerate(sent):
+        delay = rng.uniform(1, MAX_DELAY_ROWS) if rng.random() < LATE_SHARE else 0.0
+        placed.append((index + delay, item))
+        if rng.random() < REPEATED_SHARE:
+            placed.append((index + delay + rng.uniform(0, MAX_REPEAT_ROWS), item))
+    return [item for _, item in sorted(placed, key=itemgetter(0))]
+
+
+def _make_bundles(items: Iterable[Item]) -> tuple[tuple[Item, ...], ...]:
+    """Return bundles of a second by the newest time that arrived; late rows may make the last bundle longer."""
+    bundles: list[list[Item]] = [[]]
+    for item in items:
+        payload = item[2]
+        t = payload.t if isinstance(payload, Packet) else 0.0
+        while t >= len(bundles):
+            bundles.append([])
+        bundles[-1].append(item)
+    return tuple(map(tuple, bundles))
+
+
+@cache
+def count_samples(sending: Sending) -> int:
+    """Return the number of samples that links make of the packets."""
+    links = {site: Decoder(site) for site in Site}
+    outputs = [links[packet.site].feed(packet) for packet in sending.ordered if isinstance(packet, Packet)]
+    outputs += [link.finish() for link in links.values()]
+    return sum(isinstance(item, Sample) for output in outputs for item in output)

@@ -10,7 +10,7 @@ from ...saving.codec import SnapshotError
 from ...session import Session
 from ...types import Packet
 from ..events import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
-from .order import MissingNumbers, RejectedItem, RowOrder, check_payload, is_valid
+from .order import MissingNumbers, RejectedItem, RowOrder, check_payload
 from .sent import MAX_COUNT, MAX_DETAIL_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
 from .sessions import Sessions
 from .state import StateError, StateHead, StateRest, read_head, read_rest, write_state
@@ -69,11 +69,7 @@ class Keyed:
         if self._pending is not None and self._has_numbers:
             self._emit_pending(emitted)
         for item in sent:
-            if type(item) is Sent and self._is_next_packet(item):
-                self._order.pass_next()
-                self._use(item.what, emitted)
-            else:
-                self._use_in_order(item, emitted)
+            self._use_in_order(item, emitted)
         return emitted
 
     def state(self) -> bytes:
@@ -120,23 +116,6 @@ class Keyed:
         if self._pending is not None:
             self._opened_state = state
 
-    def _is_next_packet(self, sent: Sent) -> bool:
-        """Return whether this is a valid packet in its turn and no held row follows, as for nearly all rows."""
-        order, payload = self._order, sent.what
-        return (
-            type(sent.number) is int
-            and sent.number == order.next_number
-            and type(sent.run) is int
-            and sent.run == order.run
-            and not (order.held_rows and order.may_release_after_next())
-            and not order.ended
-            and sent.number <= MAX_COUNT
-            and type(sent.wearer) is str
-            and sent.wearer == self._wearer
-            and type(payload) is Packet
-            and is_valid(payload)
-        )
-
     def _use_in_order(self, item: object, emitted: list[NumberedEvent]) -> None:
         """Check a row, put it in order, and use the rows whose turn has come."""
         rejection = self._reject_unnumbered(item)
@@ -172,7 +151,7 @@ class Keyed:
             return self._event(SentRejected, reason=SentRejection.UNREADABLE, detail=detail[:MAX_DETAIL_LENGTH])
         if not isinstance(item, Sent):
             detail = f"a {type(item).__name__}, not a Sent"
-        elif not isinstance(item.wearer, str) or item.wearer != self._wearer:
+        elif item.wearer != self._wearer:
             detail = "of another wearer"
         elif not _is_count(item.run) or not _is_count(item.number):
             detail = "run and number are whole numbers from 0 to 2**53 - 1"

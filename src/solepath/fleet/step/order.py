@@ -13,6 +13,7 @@ from math import inf
 from attrs import define, field, frozen
 
 from ...types import Packet, Site
+from ...types.records import MAX_TIME
 from ..events import SentRejection
 from .sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_DETAIL_LENGTH, MAX_NAME_LENGTH, End, Tick
 from .unused import NumberSpan, StrayRows, UnusedNumbers
@@ -64,17 +65,6 @@ class RowOrder:
     def __attrs_post_init__(self) -> None:
         self._waiting = sorted(self.held_rows)
         self._size = sum(map(_size, self.held_rows.values()))  # whole numbers
-
-    def may_release_after_next(self) -> bool:
-        """Return whether a held row may pass when the next row of this run has passed; some rows must be held."""
-        run, number = self._waiting[0]
-        is_full = len(self._waiting) > self.window or self._size > MAX_HELD_BYTES  # under a smaller window than before
-        return run != self.run or number <= self.next_number + 1 or is_full
-
-    def pass_next(self) -> None:
-        """Pass the next row of this run, as `take` does when no held row passes after it."""
-        self.next_number += 1
-        self.strays.rising_rows = self.strays.number = 0
 
     def take(self, run: int, number: int, payload: Payload) -> PassedRows:
         """Add one row and return the rows that pass now; `run` and `number` are from 0 to MAX_COUNT."""
@@ -159,24 +149,10 @@ def _size(payload: Payload) -> int:
     return len(payload.data) + len(payload.channel) + len(payload.device) if isinstance(payload, Packet) else 0
 
 
-def is_valid(packet: Packet) -> bool:
-    """Return whether a packet can go to a session, and into a state, unchanged."""
-    return (
-        type(packet.t) is float
-        and type(packet.site) is Site
-        and type(packet.channel) is str
-        and type(packet.data) is bytes
-        and type(packet.device) is str
-        and len(packet.data) <= MAX_DATA_LENGTH
-        and len(packet.channel) <= MAX_NAME_LENGTH
-        and len(packet.device) <= MAX_NAME_LENGTH
-    )
-
-
 def check_payload(payload: object) -> Payload:
     """Return a payload that a session accepts and a state can hold, or its rejection."""
     if isinstance(payload, Packet):
-        return payload if type(payload) is Packet and is_valid(payload) else _convert_packet(payload)
+        return _convert_packet(payload)
     if isinstance(payload, Tick):
         t = _number(payload.t)
         if t is None:
