@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
+from collections import Counter
 from collections.abc import Sequence
-from math import inf
 from typing import Any
 
-from ..events import Defect, DefectFound, Event, SampleGap, StrideTaken
+from ..events import Defect, DefectFound, Event, Flaw, StrideTaken
 from ..recording import RecordingError, open_source, printable
 from ..recording.errors import UnusableValues
 from ..recording.source import label_files
@@ -33,59 +33,42 @@ UNSEEN = (
 LARGE_SHARE = 0.1
 """Share of degraded strides of a foot from which on they are mentioned, and of damaged rows that must be mended; chosen
 by hand."""
-MOST_GAPS = 1000
-"""Largest number of gaps of a foot that are remembered until its next stride."""
+
+
+FLAW_WORDS = {
+    Flaw.GAP: "a gap of more than 60 ms",
+    Flaw.RANGE: "values at the end of a range",
+    Flaw.TWO_STRIDES: "two strides in one",
+    Flaw.IMPOSSIBLE: "a speed or a height that cannot be",
+}
+"""What the sentence on degraded strides says of each flaw; strides that a defect spoils are not in it."""
 
 
 @define
 class DegradedStrides:
-    """The strides of one foot that are degraded although no defect spoils them, and what they lack."""
+    """The strides of one foot before a defect spoils its data, and their flaws."""
 
     strides: int = 0
-    """Number of strides before a defect."""
     degraded: int = 0
-    """Number of them that are degraded."""
-    with_gap: int = 0
-    """Number of these in which samples are missing."""
-    gap_count: int = 0
-    """Number of gaps in them."""
-    shortest: float = inf
-    """Shortest gap, s."""
-    longest: float = 0.0
-    """Longest gap, s."""
+    flaws: Counter[Flaw] = field(factory=Counter)
     is_spoilt: bool = False
     """Flag: a defect spoils the data from now on."""
-    gaps: list[SampleGap] = field(factory=list)
-    """Gaps since the last stride ended."""
 
-    def add(self, event: Event) -> None:
+    def add(self, event: DefectFound | StrideTaken) -> None:
         """Add an event of this foot."""
         if isinstance(event, DefectFound):
             self.is_spoilt = self.is_spoilt or event.spoils
-        elif isinstance(event, SampleGap):
-            self.gaps = [*self.gaps[1 - MOST_GAPS :], event]
-        elif isinstance(event, StrideTaken) and event.final and not self.is_spoilt:
+        elif event.final and not self.is_spoilt:
             self.strides += 1
             self.degraded += event.degraded
-            gaps = [gap.duration for gap in self.gaps if gap.t + gap.duration > event.t_start]
-            if event.degraded and gaps:
-                self.with_gap += 1
-                self.gap_count += len(gaps)
-                self.shortest, self.longest = min(self.shortest, *gaps), max(self.longest, *gaps)
-            self.gaps = [gap for gap in self.gaps if gap.t + gap.duration > event.t_end]
+            self.flaws.update(event.flaws)
 
     def sentence(self) -> str | None:
-        """Return how many strides are degraded and why; None if they are few."""
+        """Return how many strides are degraded and by what; None if they are few."""
         if self.degraded < max(1.0, LARGE_SHARE * self.strides):
             return None
-        text = f"{self.degraded} of {counted(self.strides, 'stride')} degraded"
-        if self.with_gap:
-            longest, shortest = f"{1e3 * self.longest:.3g}", f"{1e3 * self.shortest:.3g}"
-            size = longest if longest == shortest else f"{shortest} to {longest}"
-            text += f": samples are missing in {self.with_gap} ({counted(self.gap_count, 'gap')} of {size} ms)"
-        if other := self.degraded - self.with_gap:
-            text += f"; {other} with values at the end of a range, or that look like two strides in one or are too fast"
-        return text
+        reasons = [f"{words} in {self.flaws[flaw]}" for flaw, words in FLAW_WORDS.items() if self.flaws[flaw]]
+        return f"{self.degraded} of {counted(self.strides, 'stride')} degraded: {', '.join(reasons)}"
 
 
 def add_to(commands: Any) -> None:
@@ -142,9 +125,10 @@ def run(options: argparse.Namespace) -> int:
         for event in events:
             if isinstance(event, DefectFound):
                 found.append(event)
-            foot = event.site.foot if isinstance(event, DefectFound | SampleGap) else getattr(event, "foot", None)
-            if foot is not None:
-                degraded[foot].add(event)
+                if event.site.foot is not None:
+                    degraded[event.site.foot].add(event)
+            elif isinstance(event, StrideTaken):
+                degraded[event.foot].add(event)
 
     try:
         with progress_bar(name, source.total) as show:

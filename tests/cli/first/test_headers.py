@@ -16,7 +16,7 @@ from solepath.show.output import CYCLE_COLUMNS, PLACE_COLUMNS, STRIDE_COLUMNS, T
 UNITS = ("_s", "_m", "_deg", "_m_per_s", "_steps_per_min")
 WITHOUT_UNIT = {
     "foot", "phase", "level", "room", "door", "number", "strides", "steps", "turns", "candidates", "degraded_strides",
-    "degraded", "steady", "implausible", "weight", "stance_share", "double_support_share",
+    "degraded", "steady", "implausible", "weight", "stance_share", "double_support_share", "missing", "flaws",
 }  # fmt: skip
 """Names, counts, flags, and shares from 0 to 1; `phase` of a gait cycle is a share too."""
 
