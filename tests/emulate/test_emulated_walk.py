@@ -66,7 +66,7 @@ def check_all_found(one: Compared, least: int) -> None:
 
 @SEEDS
 @pytest.mark.soak
-def test_every_step_over_a_bad_radio_is_found_in_its_time_and_length_and_called_degraded(seed: int) -> None:
+def test_every_step_over_a_bad_radio_is_found_in_its_time_and_length_and_says_what_is_missing(seed: int) -> None:
     events, feet = walked("long", seed=seed, device=Insole())
     check_all_found((events, feet), 25)
     for one in feet.values():
@@ -76,7 +76,9 @@ def test_every_step_over_a_bad_radio_is_found_in_its_time_and_length_and_called_
             offsets = sorted(abs(offset) for offset in one.events[kind].offsets)
             assert offsets[len(offsets) // 2] <= 0.040 and offsets[int(0.9 * len(offsets))] <= 0.060
     steps = of(StrideTaken, events)
-    assert sum(step.degraded for step in steps) > 0.9 * len(steps)  # one packet in twenty, a hundred in a step
+    # one packet in twenty is lost, of a hundred in a step: something is missing of nearly all, and few have a flaw
+    assert sum(0.0 < step.missing < 0.2 for step in steps) > 0.9 * len(steps)
+    assert sum(step.degraded for step in steps) < 0.05 * len(steps)
 
 
 @pytest.mark.parametrize(
