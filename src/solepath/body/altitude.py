@@ -304,7 +304,7 @@ class Altitude(Part):
         if not LEVEL_LIMIT < height < MAX_TRACK_HEIGHT or not variance < MAX_TRACK_HEIGHT:
             return ()
         error_variance = (STRIDE_ERROR * height) ** 2 + max(0.0, variance)
-        if stride.degraded:
+        if stride.flaws:
             error_variance *= DEGRADED_FACTOR * DEGRADED_FACTOR
         # a stride moves the mean of both feet by half of its height
         return self._add_input((stride.t, MOVE, 0.0, 0.25 * error_variance))

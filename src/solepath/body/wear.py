@@ -230,7 +230,7 @@ class Sides:
 def _add_landing(side: SwapEvidence, stride: StrideTaken, attitude: Quat) -> None:
     """Add the roll of the foot at the heel-strike of a finished stride; `attitude` is that at foot-flat."""
     t_toe_off, t_heel_strike = stride.t_toe_off, stride.t_heel_strike
-    if t_toe_off is None or t_heel_strike is None or stride.degraded:
+    if t_toe_off is None or t_heel_strike is None or stride.flaws:
         return
     if stride.length < MIN_STRIDE_LENGTH or abs(stride.heading_change) > MAX_HEADING_CHANGE:
         return

@@ -405,7 +405,7 @@ class Particles(Part):
         move, placed = ((x - x0) * k, (y - y0) * k), self.place
         # both feet make a turn of the wearer: half of each stride's turn counts
         turn = min(0.5 * fsum([abs(stride.heading_change) for stride in strides]), pi)
-        error_factor = DEGRADED_FACTOR if any([stride.degraded for stride in strides]) else 1.0
+        error_factor = DEGRADED_FACTOR if any([bool(stride.flaws) for stride in strides]) else 1.0
         particles = self._move(plan, before, move, error_factor, turn)
         if placed is not None:
             particles = hold_alike_levels(plan, before, particles, move, placed)

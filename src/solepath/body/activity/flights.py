@@ -113,7 +113,7 @@ class Flights:
 
         `direction` is 1 upstairs, -1 downstairs, 0 level, None when it could not be judged."""
         foot, height = self.feet[stride.foot], stride.height_change
-        trusted = direction is not None and is_stair_rise(height, stride.degraded)
+        trusted = direction is not None and is_stair_rise(height, bool(stride.flaws))
         events: list[FlightClimbed] = []
         if direction:
             if self.direction == -direction:

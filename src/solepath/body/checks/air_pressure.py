@@ -86,7 +86,7 @@ class AirPressure(Part):
         outputs = () if view is None or view.sample.air_pressure is None else self._add_reading(view)
         for event in events:
             if isinstance(event, StrideTaken):
-                self.stride_at, self.degraded = event.t, event.degraded
+                self.stride_at, self.degraded = event.t, bool(event.flaws)
         return outputs
 
     def _add_reading(self, view: FootView) -> Sequence[PartOutput]:

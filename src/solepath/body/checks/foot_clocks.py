@@ -203,7 +203,7 @@ class LoneStrides:
             this.stood_since = event.t if isinstance(event, HeelStrike | FootFlat) else None
             return None
         is_lone = other.stood_since is not None and other.stood_since <= event.t_start
-        if event.degraded or not is_lone or self.other_t is None or self.other_t < event.t_end - MAX_LAG:
+        if event.flaws or not is_lone or self.other_t is None or self.other_t < event.t_end - MAX_LAG:
             this.restart()
             return None
         x, y, _ = event.displacement

@@ -107,11 +107,11 @@ class PossibleMotion(Part):
             is_new, record.all_reported = not record.all_reported, True
             text = f"{'most' if most else 'several'} strides cannot be right: the last one has {reason}. {ADVICE}"
         else:
-            is_new = motion is not None and not record.one_reported and (is_too_long or not event.degraded)
+            is_new = motion is not None and not record.one_reported and (is_too_long or not event.flaws)
             text = f"a stride cannot be right, because it has {reason}; it is marked as degraded. If it happens again: "
             text += ADVICE
         output: list[PartOutput] = []
-        if motion is not None and not event.degraded:
+        if motion is not None and not event.flaws:
             output.append(Replacement(event, evolve(event, flaws=(*event.flaws, Flaw.IMPOSSIBLE))))
         if is_new:
             record.one_reported = True

@@ -297,7 +297,7 @@ class BothFeet(MeanOfFeet):
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         common.propagate(foot, count, turn, duration, moved, variance)
         excess = max(0.0, length - MAX_STRIDE_LENGTH)
-        degraded = self.errors.judge_stride(foot, event.degraded, foot in self.straight_ways.spoiled) or excess > 0.0
+        degraded = self.errors.judge_stride(foot, bool(event.flaws), foot in self.straight_ways.spoiled) or excess > 0.0
         if self.started:
             self.errors.propagate(foot, (stance, swing), this.flat(event.position), moved, variance, degraded)
         if excess > 0.0:

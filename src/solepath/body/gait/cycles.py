@@ -135,7 +135,7 @@ class Footfalls:
         if cycle is not None and cycle.end == contact and cycle.toe_off == stride.t_toe_off:
             if stride.t_start >= cycle.start:
                 cycle.stride = stride
-            if stride.degraded and cycle.lack == COMPLETE:
+            if stride.flaws and cycle.lack == COMPLETE:
                 # if no sample is missing in the next cycle either, the reason is clipping
                 cycle.lack = UNSTEADY if self.lack == COMPLETE else DEGRADED
 
