@@ -67,3 +67,12 @@ def test_a_gap_of_a_swing_is_a_flaw_of_that_stride_and_makes_its_length_less_sur
     assert flawed.length_sigma > 4.0 * stride.length_sigma
     assert abs(flawed.length - stride.length) < 3.0 * flawed.length_sigma
     assert flawed.to_dict()["flaws"] == ["gap"]
+
+
+@pytest.mark.parametrize("start", [4.0, 4.3, 4.6, 4.9])
+def test_a_long_gap_is_shared_by_the_strides_that_it_lies_in_and_none_is_sure_of_its_length(start: float) -> None:
+    found = strides(lambda k, one: not start < one.t < start + 1.3)
+    touched = [one for one in found if one.longest_gap]
+    assert touched and all(one.longest_gap <= one.t_end - one.t_start + 1e-9 for one in touched)
+    assert sum(one.longest_gap for one in touched) <= 1.3 + 2.1 * INTERVAL
+    assert all(one.length_sigma > 0.5 * one.longest_gap for one in touched if one.longest_gap > 0.3)

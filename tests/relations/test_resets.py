@@ -101,10 +101,9 @@ StraightWays.reset: straightness.reset()
 Straightness.reset: direction
 StreamLink.handle_reconnection: last_t newest_arrival off_rate_interval off_rate_packets packet_run* periodic
 StreamLink.restart_clock: off_rate_interval off_rate_packets packet_run* periodic*
-StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped first_pitch flat_pitch flaws guessed_time
-  heel_strike_pitch load_count load_sum longest_gap missing_time next_pitch number peak_height peak_speed pitch
-  pitch_high pitch_low pitches start t_heel_off t_heel_strike t_mid_stance t_pitch t_toe_off toe_off_pitch
-  usual_flat_pitch usual_motion
+StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped first_pitch flat_pitch flaws heel_strike_pitch
+  load_count load_sum next_pitch number peak_height peak_speed pitch pitch_high pitch_low pitches start t_heel_off
+  t_heel_strike t_mid_stance t_pitch t_toe_off toe_off_pitch usual_flat_pitch usual_motion
 StrideTemplate.reset: age bridged first_position infilled last_stride longest_stride stance_duration straight_on*
   t_last_flat t_next_moment
 StrideTurn.reset: stride_turn
@@ -134,8 +133,8 @@ Rest._start_span: bias bias_filter count grain last scale
 Sagittal.end_lift: forward pitch toe up
 SoftSwing.start: drift_scale drift_time heel_slide heel_strike_error_time interval interval_velocity pivot
   previous_interval scale_excess toe_off_error_time toe_slide
-StrideBuilder.start_stride: contact_time first_pitch flat_pitch flawed_until flaws longest_gap missing_time newest_gap
-  next_pitch number pitches t_contact t_mid_stance t_pitch usual_flat_pitch usual_motion
+StrideBuilder.start_stride: contact_time first_pitch flat_pitch flawed_until flaws newest_gaps next_pitch number
+  pitches t_contact t_mid_stance t_pitch usual_flat_pitch usual_motion
 StrideTemplate.start_stride: age bridged first_position infilled last_stride longest_stride stance_duration straight_on
   t_flat t_last_flat
 TrackErrorFilter.start: centre degraded_shares

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections import deque
 from collections.abc import Iterator
 from functools import cache
+from types import ModuleType
 from typing import Any, get_args
 
 import attrs
 import pytest
+from attrs import evolve
 from made import NAMES, Maker, places, replaced
+from walks import samples
 
-from solepath import Calibration, Event, Packet, Sample
+from solepath import Calibration, Event, Packet, Sample, Session
 from solepath.floorplan.plan import FloorPlan
-from solepath.recipes import part_class
+from solepath.recipes import DEFAULT, part_class
 from solepath.saving.codec import SnapshotError, load, save
 
 # internal: the packed form of a record that is not a whole session, and the schema from which it is made
@@ -127,3 +131,44 @@ def test_values_of_other_types_missing_fields_and_further_ones_are_rejected_in_o
             with pytest.raises(SnapshotError) as caught:
                 load(cls, other, part_class)
             assert "\n" not in str(caught.value) and len(str(caught.value)) < 400
+
+
+MODULES = {
+    "app_base": """
+from __future__ import annotations
+from solepath.body.part import Part
+from solepath.types.attrs import define, field
+@define
+class Recovery:
+    count: int = 0
+@define
+class Counter(Part):
+    needs_samples = True
+    recovery: Recovery | None = field(default=None, init=False)
+    def feed(self, events, view):
+        self.recovery = Recovery(1 if self.recovery is None else self.recovery.count + 1)
+        return ()
+""",
+    "app_part": """
+from __future__ import annotations
+from app_base import Counter, define
+@define
+class OwnCounter(Counter):
+    pass
+""",
+}
+"""Modules of an app, with a class that is named as one that solepath loads late."""
+
+
+def test_an_apps_class_is_its_own_also_where_solepath_has_one_of_that_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, source in MODULES.items():
+        module = ModuleType(name)
+        monkeypatch.setitem(sys.modules, name, module)
+        exec(compile(source, name, "exec"), vars(module))
+    own = sys.modules["app_part"].OwnCounter
+    session = Session(evolve(DEFAULT, name="own", parts=(*DEFAULT.parts, own())))
+    for sample in samples():
+        session.feed(sample)
+    saved = session.snapshot()
+    assert Session.restore(json.loads(json.dumps(saved)), parts=[own]).snapshot() == saved
+    assert '"count"' in json.dumps(saved)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import hypot, sqrt
+from typing import NamedTuple
 
 from ..events import Flaw, StrideFeatures, StrideTaken
 from ..types import Foot, Quat, Vec3
@@ -38,8 +39,31 @@ LONGEST_HARMLESS_GAP = 0.06
 """Longest gap that is no flaw, s: with shorter ones lengths err as without any (`solepath-lab damage losses`)."""
 GUESSED_SPEED_SIGMA = 1.0
 """Standard deviation of the speed of a foot in a gap that no motion bridges, m/s (`solepath-lab damage losses`)."""
+MOST_GAPS = 8
+"""Number of the newest gaps that are kept one by one, because a foot-flat may be dated back before them."""
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
+
+
+class GapSums(NamedTuple):
+    """What the gaps of a stride add up to, each as far as it lies in the stride, s."""
+
+    missing: float = 0.0
+    """Time for which samples are missing."""
+    longest: float = 0.0
+    """Longest time from one sample to the next."""
+    guessed: float = 0.0
+    """Square root of the sum of the squared times of gaps that no motion bridges."""
+
+    def with_gap(self, gap: Vec3, t_start: float, t_end: float) -> GapSums:
+        """Return the sums with a gap of a stride from `t_start` to `t_end`, s."""
+        t_last, t_next, interval = gap
+        inside = min(t_next, t_end) - max(t_last, t_start)
+        if inside <= 0.0:
+            return self
+        missing = max(0.0, min(inside, t_next - t_last - interval))
+        guessed = inside if t_next - t_last > LONGEST_BRIDGE else 0.0
+        return GapSums(self.missing + missing, max(self.longest, inside), hypot(self.guessed, guessed))
 
 
 @define
@@ -63,14 +87,10 @@ class StrideBuilder:
     """Time up to which samples have each flaw, s."""
     flaws: tuple[Flaw, ...] = ()
     """Flaws of the samples of the stride."""
-    newest_gap: Vec3 = ZERO
-    """Last sample before the newest gap, first one after it, and the usual interval, s; zeros before any gap."""
-    missing_time: float = 0.0
-    """Time for which samples of the stride are missing, s."""
-    longest_gap: float = 0.0
-    """Longest time from one sample of the stride to the next across a gap, s."""
-    guessed_time: float = 0.0
-    """Square root of the sum of the squared times of the gaps that the corrector does not bridge, s."""
+    newest_gaps: tuple[Vec3, ...] = ()
+    """Of the newest gaps, the last sample before it, the first one after it, and the usual interval, s."""
+    older_gaps: GapSums = GapSums()
+    """Sums over gaps of the stride that are no longer among the newest."""
     peak_height: float = 0.0
     """Largest height of the sensor in the stride, navigation frame, m."""
     peak_speed: float = 0.0
@@ -135,10 +155,8 @@ class StrideBuilder:
         self.toe_off_pitch = self.heel_strike_pitch = None
         # the foot-flat may be dated back into a gap; the rest of the gap then belongs to the new stride
         self.flaws = tuple([flaw for flaw, until in self.flawed_until.items() if t < until])
-        t_last, t_next, interval = self.newest_gap
-        self.longest_gap = max(0.0, t_next - max(t_last, t))
-        self.missing_time = max(0.0, min(self.longest_gap, t_next - t_last - interval))
-        self.guessed_time = 0.0
+        self.newest_gaps = tuple([gap for gap in self.newest_gaps if gap[1] > t])
+        self.older_gaps = GapSums()
         self.peak_height = position[2]
         self.peak_speed = self.pitch = self.pitch_low = self.pitch_high = 0.0
         self.load_sum = 0.0
@@ -155,19 +173,16 @@ class StrideBuilder:
 
     def add_gap(self, t_last: float, t: float, interval: float) -> None:
         """Add a gap from the sample at `t_last` to that at `t`, s, of a sensor that measures every `interval` s."""
-        duration = t - t_last
-        self.newest_gap = (t_last, t, interval)
-        self.missing_time += max(0.0, duration - interval)
-        self.longest_gap = max(self.longest_gap, duration)
-        if duration > LONGEST_HARMLESS_GAP:
+        if len(self.newest_gaps) == MOST_GAPS and self.t_start is not None:
+            self.older_gaps = self.older_gaps.with_gap(self.newest_gaps[0], self.t_start, t_last)
+        self.newest_gaps = (*self.newest_gaps[1 - MOST_GAPS :], (t_last, t, interval))
+        if t - t_last > LONGEST_HARMLESS_GAP:
             self.mark_flawed(Flaw.GAP, t)
-        if duration > LONGEST_BRIDGE:
-            self.guessed_time = hypot(self.guessed_time, duration)
 
     def cut(self) -> None:
         """Discard the stride, because times restart: its start and its end would be times of two clocks."""
         self.t_start = self.t_contact = None
-        self.flawed_until, self.newest_gap = {}, ZERO
+        self.flawed_until, self.newest_gaps, self.older_gaps = {}, (), GapSums()
 
     def add_motion(self, t: float, dt: float, height: float, speed: float, sagittal: float, still: bool) -> None:
         """Add one sample: height in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown).
@@ -267,6 +282,9 @@ class StrideBuilder:
         if length > FASTEST_RUN * (t - self.t_start):
             flaws = (*flaws, Flaw.IMPOSSIBLE)
         covariance = world.rotate_covariance(corrector.covariance()[:6])
+        gaps = self.older_gaps
+        for gap in self.newest_gaps:
+            gaps = gaps.with_gap(gap, self.t_start, t)
         return StrideTaken(
             t=t,
             known_at=known_at,
@@ -282,9 +300,9 @@ class StrideBuilder:
             covariance=covariance,
             t_toe_off=self.t_toe_off,
             t_heel_strike=self.t_heel_strike,
-            missing=min(1.0, self.missing_time / (t - self.t_start)) if t > self.t_start else 0.0,
-            longest_gap=self.longest_gap,
-            length_sigma=self._length_sigma(displacement, covariance),
+            missing=min(1.0, gaps.missing / (t - self.t_start)) if t > self.t_start else 0.0,
+            longest_gap=gaps.longest,
+            length_sigma=_length_sigma(displacement, covariance, gaps.guessed),
             flaws=flaws,
             features=StrideFeatures(
                 clearance=self.peak_height - max(corrector.position[2], self.start[2]),
@@ -299,14 +317,6 @@ class StrideBuilder:
             ),
         )
 
-    def _length_sigma(self, displacement: Vec3, covariance: Covariance3) -> float:
-        """Return the standard deviation of the stride's horizontal length, m."""
-        (x, y, _), (xx, xy, _, yy, _, _) = displacement, covariance
-        square = x * x + y * y
-        along = (x * x * xx + 2.0 * x * y * xy + y * y * yy) / square if square > 0.0 else 0.5 * (xx + yy)
-        guessed = GUESSED_SPEED_SIGMA * self.guessed_time
-        return sqrt(max(0.0, along) + guessed * guessed)
-
     def _has_merged(self, t: float) -> bool:
         """Return whether the stride that ends at `t`, s, covers two strides, and learn the usual time of one."""
         usual = self.usual_motion
@@ -314,3 +324,12 @@ class StrideBuilder:
         if not self.flaws:  # also of a merged one, so that a wearer who walks ever slower is learnt
             self.usual_motion = follow(usual, motion, MOTION_GAIN, largest=LARGEST_MOTION_RATIO)
         return motion > MERGED_RATIO * usual
+
+
+def _length_sigma(displacement: Vec3, covariance: Covariance3, guessed_time: float) -> float:
+    """Return the standard deviation of the horizontal length of a stride, m, with its time that was guessed, s."""
+    (x, y, _), (xx, xy, _, yy, _, _) = displacement, covariance
+    square = x * x + y * y
+    along = (x * x * xx + 2.0 * x * y * xy + y * y * yy) / square if square > 0.0 else 0.5 * (xx + yy)
+    guessed = GUESSED_SPEED_SIGMA * guessed_time
+    return sqrt(max(0.0, along) + guessed * guessed)

@@ -141,8 +141,13 @@ def _fields(record: Any) -> list[tuple[Any, Any]]:
     arguments: dict[Any, Any] = {}
     for base in (*getattr(cls, "__orig_bases__", ()), record):
         arguments |= zip(getattr(typing.get_origin(base), "__parameters__", ()), typing.get_args(base), strict=False)
-    own: dict[str, Any] = getattr(sys.modules.get(cls.__module__), "__dict__", {})
-    hints = typing.get_type_hints(cls, localns={name: own.get(name, late) for name, late in LATE.items()})
+    hints: dict[str, Any] = {}
+    for base in reversed(cls.__mro__):
+        # a name of the row stands for the late class where a module of this package imports it for type checkers alone
+        own: dict[str, Any] = getattr(sys.modules.get(base.__module__), "__dict__", {})
+        late = LATE if base.__module__.partition(".")[0] == __name__.partition(".")[0] else {}
+        annotated = type(base.__name__, (), {"__annotations__": base.__dict__.get("__annotations__", {})})
+        hints |= typing.get_type_hints(annotated, own, {name: one for name, one in late.items() if name not in own})
     return [(one, _substituted(hints[one.name], arguments)) for one in attrs.fields(cls)]
 
 

@@ -351,7 +351,8 @@ class SessionState:
                 moved = self._make_moved(known_at)
             if moved is not None and part.needs_position:
                 received = (*received, moved)
-            if (received or (view is not None and part.needs_samples)) and (output := part.feed(received, view)):
+            is_asked = view is not None and part.needs_samples and not (first and part.idle)
+            if (received or is_asked) and (output := part.feed(received, view)):
                 self._apply(output, events)
             if finishing:
                 self._apply(part.finish(known_at), events)
