@@ -351,8 +351,8 @@ class SessionState:
                 moved = self._make_moved(known_at)
             if moved is not None and part.needs_position:
                 received = (*received, moved)
-            is_asked = view is not None and part.needs_samples and not (first and part.idle)
-            if (received or is_asked) and (output := part.feed(received, view)):
+            has_sample = view is not None and part.needs_samples and not (first and part.idle)
+            if (received or has_sample) and (output := part.feed(received, view)):
                 self._apply(output, events)
             if finishing:
                 self._apply(part.finish(known_at), events)
