@@ -11,7 +11,7 @@ from math import radians
 from solepath import Foot, Recipe, Session, StrideTaken, recipes
 from solepath.emulate import Radio, Route, emulate
 from solepath.foot.navigate.dedrift import LinearDedrift
-from solepath.foot.stance.cycle import ShoeDetector
+from solepath.foot.stance.shoe import ShoeDetector
 
 # Walking slowly and fast, with a bend, is difficult for a single threshold.
 route = Route().stand(2).walk(15, speed=0.9).turn(radians(180), radius=2).walk(15, speed=1.6).stop(2)

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from solepath.foot.settings import ShoeSettings
-from solepath.foot.stance.cycle import Cycle, ShoeDetector
+from solepath.foot.stance.cycle import Cycle
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.stance.stance import Stance
 from solepath.types.vector import GRAVITY
 

@@ -16,7 +16,7 @@ from solepath.calibration.records import HeadingCalibration, InsoleCalibration
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.phase import describe
-from solepath.foot.stance.cycle import ShoeDetector
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.papers.walking_modes.mode import regions
 from solepath.recipes import Recipe
 

@@ -29,7 +29,8 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Start
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.navigate.error_state import ErrorStateFilter
-from solepath.foot.stance.cycle import Cycle, ShoeDetector
+from solepath.foot.stance.cycle import Cycle
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.link.decoder import Decoder
 from solepath.papers.kupt_dfpc.known_velocity import KnownVelocity
 from solepath.recipes import DEFAULT, Recipe

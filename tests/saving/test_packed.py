@@ -21,7 +21,7 @@ from solepath.body.part import TrackPart
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
-from solepath.foot.stance.cycle import ShoeDetector
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.papers.kupt_dfpc.fusion import DoubleFoot
 
 

@@ -106,7 +106,7 @@ class StrideBuilder:
     pitch_high: float = 0.0
     """Largest pitch of the stride, rad."""
     pitches: list[float] = field(factory=lambda: [0.0] * MOST_PITCHES)
-    """Ring buffer of the newest pitches, rad, rounded by `single`."""
+    """Ring buffer of the newest pitches, rad, rounded by `to_float32`."""
     next_pitch: int = 0
     """Index of the oldest pitch in `pitches`, which the next one replaces."""
     t_pitch: float = 0.0
@@ -194,7 +194,7 @@ class StrideBuilder:
             self.peak_speed = speed
         pitch = self.pitch = self.pitch + sagittal * dt
         self.t_pitch = t
-        high = SPLIT * pitch  # rounded as by `single`
+        high = SPLIT * pitch  # rounded as by `to_float32`
         self.pitches[self.next_pitch] = high - (high - pitch)
         self.next_pitch = (self.next_pitch + 1) % MOST_PITCHES
         if pitch < self.pitch_low:

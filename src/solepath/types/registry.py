@@ -33,7 +33,7 @@ TABLE: dict[str, dict[str, str]] = {
     # classes of parts; a saved state names only these and those of an app
     "part": {
         "Cycle": "solepath.foot.stance.cycle:Cycle",
-        "ShoeDetector": "solepath.foot.stance.cycle:ShoeDetector",
+        "ShoeDetector": "solepath.foot.stance.shoe:ShoeDetector",
         "ErrorStateFilter": "solepath.foot.navigate.error_state:ErrorStateFilter",
         "LinearDedrift": "solepath.foot.navigate.dedrift:LinearDedrift",
         "GaitCues": "solepath.foot.cues.gait_cues:GaitCues",

@@ -42,7 +42,7 @@ from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.navigate.dedrift import LinearDedrift
-from solepath.foot.stance.cycle import ShoeDetector
+from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.tracker import FootTracker
 from solepath.link.decoder import Decoder
 from solepath.recipes import Recipe

@@ -11,7 +11,7 @@ from math import cos, sin, sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, IDENTITY, ZERO, add, from_yaw, multiply, normalise, turned
+from ...types.vector import GRAVITY, IDENTITY, ZERO, add, from_yaw, multiply, normalise, rotate, turned
 from .corrector import Corrector
 
 WIDEST_SERIES = 0.06
@@ -81,15 +81,7 @@ class Strapdown(Corrector):
         qz = w * hz + x * hy - y * hx + z * c
         k = 1.5 - 0.5 * (qw * qw + qx * qx + qy * qy + qz * qz)  # one Newton step towards length 1
         self.attitude = attitude = (qw * k, qx * k, qy * k, qz * k)
-        # the force in the navigation frame, as `rotate` computes it
-        w, x, y, z = attitude
-        fx, fy, fz = acc
-        tx, ty, tz = 2.0 * (y * fz - z * fy), 2.0 * (z * fx - x * fz), 2.0 * (x * fy - y * fx)
-        fx, fy, fz = force = (
-            fx + w * tx + y * tz - z * ty,
-            fy + w * ty + z * tx - x * tz,
-            fz + w * tz + x * ty - y * tx,
-        )
+        fx, fy, fz = force = rotate(attitude, acc)
         px, py, pz = self.force or force
         # trapezoidal rule: a = (f + f_previous) / 2 - g, v <- v + a dt, p <- p + (v + v_previous) dt / 2
         ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY

@@ -15,6 +15,7 @@ A cell is "lively" in a window in which it both loads and unloads. The numbers w
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import atan2, hypot, pi
 
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads
@@ -66,6 +67,14 @@ WIDEST_NEIGHBOUR_ANGLE = 2.6
 A cell with a wider angle lies at the rim of its neighbours."""
 
 
+def add_up(values: Iterable[float]) -> float:
+    """Return the sum, in order; `fsum` takes twice the time, and `sum` rounds as its Python does."""
+    total = 0.0
+    for value in values:
+        total += value
+    return total
+
+
 @define
 class CellSpan:
     """The lowest and highest value of each cell, and of their sum, over a span of time."""
@@ -81,9 +90,7 @@ class CellSpan:
 
     def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
         """Add one sample; cells with an index in `excluded` do not count in the sum."""
-        total = 0.0
-        for value in [v for i, v in enumerate(cells) if i not in excluded] if excluded else cells:
-            total += value
+        total = add_up([v for i, v in enumerate(cells) if i not in excluded] if excluded else cells)
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
             self.low = self.high = total

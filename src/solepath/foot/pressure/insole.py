@@ -24,7 +24,7 @@ from ...types.vector import TIME_EPSILON
 from ..limitations import Limitations
 from ..settings import FootSettings, InsoleSettings
 from ..stance.stance import Load
-from .cell_health import CellHealth
+from .cell_health import CellHealth, add_up
 
 SPAN_DURATION = 2.0
 """Duration of one of the five spans over which the lowest and highest load are kept, s."""
@@ -56,7 +56,7 @@ class Extremes:
     """Highest value of all spans."""
 
     def update(self, t: float, value: float) -> None:
-        """Add one value at `t`, s; a value between the extremes of a span that has not ended need not be added."""
+        """Add one value at `t`, s."""
         if self.span_end is None or t >= self.span_end:
             self.span_end = t + SPAN_DURATION - TIME_EPSILON
             self.lows = [*self.lows[-4:], value]
@@ -130,11 +130,8 @@ class InsoleLoads:
         if len(settings.noise) == len(cells):
             cells = above(settings.noise, cells)
         self.cells = cells
-        # loops, because `fsum` takes twice the time, and `sum` rounds as its Python does
-        total = heel_sum = forefoot_sum = 0.0
-        for value in cells:
-            total += value
-        self.sum = total
+        total = self.sum = add_up(cells)
+        heel_sum = forefoot_sum = 0.0
         sums = [(self.total, total)]
         has_areas = self.layout is not None and len(cells) == len(self.layout.cells)
         if has_areas:
@@ -144,9 +141,7 @@ class InsoleLoads:
                 forefoot_sum += cells[i]
             sums += [(self.heel, heel_sum), (self.forefoot, forefoot_sum)]
         for extremes, value in sums:
-            span_end = extremes.span_end
-            if span_end is None or t >= span_end or not extremes.lows[-1] <= value <= extremes.highs[-1]:
-                extremes.update(t, value)
+            extremes.update(t, value)
         low, high = self.total.low, self.total.high
         load_range = high - low
         if load_range <= LEAST_LOAD_RANGE * high or load_range <= 0.0:

@@ -11,7 +11,7 @@ from math import inf
 
 from ...calibration import Calibration, ShoeGeometry
 from ...foot.cues.touch import Touch
-from ...foot.stance.cycle import ShoeDetector
+from ...foot.stance.shoe import ShoeDetector
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Foot, Layout, Phase, Quat, Vec3
 from ...types.attrs import define, evolve, field, frozen
