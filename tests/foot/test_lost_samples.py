@@ -9,7 +9,7 @@ from functools import cache
 import pytest
 from walks import of, samples
 
-from solepath import Flaw, Foot, Sample, Session, Site, StrideTaken
+from solepath import Event, Flaw, Foot, GaitCycleMeasured, Sample, Session, Site, StrideTaken
 from solepath.emulate import Route
 
 ROUTE = Route().stand(3.0).walk(60.0, speed=1.3).stop(2.0)
@@ -22,10 +22,14 @@ def walked() -> tuple[Sample, ...]:
     return tuple([one for one in samples(ROUTE, rate=1.0 / INTERVAL, seed=5) if one.site is Site.LEFT_FOOT])
 
 
-def strides(keeps: Callable[[int, Sample], bool]) -> list[StrideTaken]:
+def reported(keeps: Callable[[int, Sample], bool]) -> list[Event]:
     session = Session()
     events = [event for k, one in enumerate(walked()) if keeps(k, one) for event in session.feed(one)]
-    return [stride for stride in of(StrideTaken, events + session.finish()) if stride.final]
+    return events + session.finish()
+
+
+def strides(keeps: Callable[[int, Sample], bool]) -> list[StrideTaken]:
+    return [stride for stride in of(StrideTaken, reported(keeps)) if stride.final]
 
 
 def test_nothing_is_missing_of_a_whole_walk() -> None:
@@ -37,7 +41,9 @@ def test_nothing_is_missing_of_a_whole_walk() -> None:
 
 @pytest.mark.parametrize("of_samples", [10, 50, 200])
 def test_one_sample_of_n_is_missing_and_no_stride_has_a_flaw(of_samples: int) -> None:
-    found = strides(lambda k, one: k % of_samples != 7)
+    events = reported(lambda k, one: k % of_samples != 7)
+    found, cycles = of(StrideTaken, events), of(GaitCycleMeasured, events)
+    assert len(cycles) > 25 and not any(one.degraded for one in cycles), "a cycle has no flaw that its stride has not"
     time = sum(one.t_end - one.t_start for one in found)
     missing = sum(one.missing * (one.t_end - one.t_start) for one in found)
     assert missing / time == pytest.approx(1.0 / of_samples, rel=0.1)

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ..events import Defect, DefectFound, Event, Flaw, StrideTaken
+from ..events.foot import LONGEST_HARMLESS_GAP
 from ..recording import RecordingError, open_source, printable
 from ..recording.errors import UnusableValues
 from ..recording.source import label_files
@@ -36,7 +37,7 @@ by hand."""
 
 
 FLAW_WORDS = {
-    Flaw.GAP: "a gap of more than 60 ms",
+    Flaw.GAP: f"a gap of more than {1e3 * LONGEST_HARMLESS_GAP:.0f} ms",
     Flaw.RANGE: "values at the end of a range",
     Flaw.TWO_STRIDES: "two strides in one",
     Flaw.IMPOSSIBLE: "a speed or a height that cannot be",

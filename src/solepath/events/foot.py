@@ -76,11 +76,15 @@ class StrideFeatures:
     """Height of the stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
 
 
+LONGEST_HARMLESS_GAP = 0.06
+"""Longest gap that is no flaw, s: with shorter ones lengths err as without any (`solepath-lab damage losses`)."""
+
+
 class Flaw(Enum):
     """What makes a stride wrong."""
 
     GAP = "gap"
-    """Samples are missing for longer than 60 ms, so that the motion had to be guessed."""
+    """Samples are missing for longer than `LONGEST_HARMLESS_GAP`, so that the motion had to be guessed."""
     RANGE = "range"
     """Values are at the end of the sensor's range, so that peaks are cut off."""
     TWO_STRIDES = "two strides"

@@ -73,7 +73,7 @@ class GaitCycleMeasured(BaseEvent):
     rise: float | None
     """Height of the foot after the stride above its height before, m."""
     degraded: bool
-    """True when its stride is degraded, or one of its gait events is inferred."""
+    """True when its stride has flaws, a gap in it would be one, or one of its gait events is inferred."""
     steady: bool
     """True when the cycle counts in the means (`Session.gait`, summary, report) if another cycle of the foot follows at
     once, which starts at this `t`; so the last cycle before a stop counts in none."""

@@ -69,7 +69,7 @@ class PacketsLost(BaseEvent):
 
 @frozen(kw_only=True)
 class SampleGap(BaseEvent):
-    """No samples came for longer than the sensor's rate allows; the stride with the gap is marked degraded.
+    """No samples came for longer than the sensor's rate allows; the stride says what is missing of it.
 
     `t` is the last sample before the gap. It is reported with the first sample after the gap."""
 

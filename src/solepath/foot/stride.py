@@ -6,6 +6,7 @@ from math import hypot, sqrt
 from typing import NamedTuple
 
 from ..events import Flaw, StrideFeatures, StrideTaken
+from ..events.foot import LONGEST_HARMLESS_GAP
 from ..types import Foot, Quat, Vec3
 from ..types.attrs import define, field
 from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
@@ -35,8 +36,6 @@ Two swings and a stance take more than twice that time. On recordings without da
 """
 MOTION_GAIN, LARGEST_MOTION_RATIO = 0.2, 1.3
 """Weight of the newest time in the usual one, and the limit of its ratio to the usual one in the average."""
-LONGEST_HARMLESS_GAP = 0.06
-"""Longest gap that is no flaw, s: with shorter ones lengths err as without any (`solepath-lab damage losses`)."""
 GUESSED_SPEED_SIGMA = 1.0
 """Standard deviation of the speed of a foot in a gap that no motion bridges, m/s (`solepath-lab damage losses`)."""
 MOST_GAPS = 8

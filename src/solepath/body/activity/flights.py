@@ -33,7 +33,7 @@ HIGHEST_RISE = 0.88
 
 The Building Regulations 2010, Approved Document K (2013), table 1.1, allow no higher riser."""
 HIGHEST_DEGRADED_RISE = 0.6
-"""Largest height change of a stair stride in which samples are missing, m.
+"""Largest height change of a stair stride that has a flaw, m.
 
 A stride of one tread at a time gains 0.44 m; a third of that is added for the gap. Above that limit, a stride of two
 treads at a time cannot be distinguished from a height that has drifted."""

@@ -10,6 +10,7 @@ from typing import ClassVar
 from ...events import (
     Defect,
     DefectFound,
+    Flaw,
     FootFlat,
     GaitCycleMeasured,
     HeelOff,
@@ -18,6 +19,7 @@ from ...events import (
     StrideTaken,
     ToeOff,
 )
+from ...events.foot import LONGEST_HARMLESS_GAP
 from ...foot.view import FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, per_foot
 from ...types.attrs import define, field
@@ -34,7 +36,7 @@ MAX_PHASE_TIME = 2.0
 MIN_CYCLE_TIME = 0.35
 """Shortest gait cycle, also of a runner, s."""
 MAX_STEADY_GAP = 0.1
-"""Longest gap in a steady cycle, s; with 1 packet in 30 lost, most cycles have shorter gaps, which are allowed."""
+"""Longest gap in a steady cycle, s."""
 GAP_MARGIN = 0.05
 """Time after a gap in which an event is not trusted, s, because it may have happened in the gap."""
 MAX_KEPT = 4
@@ -42,7 +44,7 @@ MAX_KEPT = 4
 
 
 COMPLETE, DEGRADED, UNSTEADY = range(3)
-"""What is missing in a cycle: nothing; samples, or an event, which is inferred; more than a steady cycle allows."""
+"""What a cycle lacks: nothing; samples for longer than is harmless; more than a steady cycle may lack."""
 
 
 @define
@@ -116,11 +118,12 @@ class Footfalls:
             self.toe_offs = [*self.toe_offs[1 - MAX_KEPT :], event.t]
 
     def add_gap(self, gap: SampleGap) -> None:
-        """Add a gap between samples."""
-        is_long = gap.duration > MAX_STEADY_GAP
-        self.lack = UNSTEADY if is_long else max(self.lack, DEGRADED)
-        if is_long:
+        """Add a gap between samples; one that is no flaw of a stride is none of a cycle either."""
+        if gap.duration > MAX_STEADY_GAP:
+            self.lack = UNSTEADY
             self.gap = gap.t, gap.t + gap.duration
+        elif gap.duration > LONGEST_HARMLESS_GAP:
+            self.lack = max(self.lack, DEGRADED)
 
     def _lack_of(self, event: HeelStrike | FootFlat | ToeOff) -> int:
         """Return what an event lacks: it may be inferred, or have happened in a gap and been detected after it."""
@@ -135,9 +138,8 @@ class Footfalls:
         if cycle is not None and cycle.end == contact and cycle.toe_off == stride.t_toe_off:
             if stride.t_start >= cycle.start:
                 cycle.stride = stride
-            if stride.flaws and cycle.lack == COMPLETE:
-                # if no sample is missing in the next cycle either, the reason is clipping
-                cycle.lack = UNSTEADY if self.lack == COMPLETE else DEGRADED
+            if stride.flaws:
+                cycle.lack = max(cycle.lack, DEGRADED if stride.flaws == (Flaw.GAP,) else UNSTEADY)
 
     def close_cycle(self) -> None:
         """Move the finished cycle to the waiting cycles, because all its events have been added."""
@@ -150,7 +152,7 @@ class Footfalls:
 #
 # GaitCycleMeasured defines the values. Only steady cycles enter the running means. A gait cycle is steady when
 #
-# - no sample in it clipped, no gap in it is longer than `MAX_STEADY_GAP`, and none of its events is inferred;
+# - its stride has no flaw but a gap, no gap in it is longer than `MAX_STEADY_GAP`, and none of its events is inferred;
 # - it follows another cycle without a pause. This leaves out the first three steps of a walk, after which gait is
 #   steady (Mann et al. 1979, J. Bone Joint Surg. Am. 61): the half stride from standing, and the first cycle;
 # - neither its time nor its length differs from that of the cycle before by a factor of `STEADY_FACTOR` or more,
