@@ -28,14 +28,18 @@ def add_only(command: ArgumentParser, what: str = "data set") -> None:
     )
 
 
-def add_seeds(command: ArgumentParser, count: int, first: int, counted: str = "walks") -> None:
-    """Add the number of emulated walks, or of something else that is counted, and the seed of the first one."""
+def add_seeds(
+    command: ArgumentParser, count: int, first: int, counted: str = "walks", may_be_none: bool = False
+) -> None:
+    """Add the number of emulated walks, or of something else that is counted, and the seed of the first one.
+
+    `may_be_none`: the number may be 0, which leaves their table out."""
     command.add_argument(
         f"--{counted}",
         metavar="N",
-        type=parse_whole_number,
+        type=parse_whole_number if may_be_none else parse_count,
         default=count,
-        help=f"number of {counted} (default: {count})",
+        help=f"number of {counted}{', or 0' * may_be_none} (default: {count})",
     )
     command.add_argument(
         "--seed", metavar="K", type=parse_whole_number, default=first, help=f"the first one's seed (default: {first})"

@@ -230,7 +230,7 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = add_command(commands, "by-hand", "worth of a calibration by hand", __doc__ or "")
     command.add_argument("--sensors", metavar="N", type=int, default=SENSORS, help="of each kind in each hand; or 0")
-    add_seeds(command, WALKS, FIRST_SEED)
+    add_seeds(command, WALKS, FIRST_SEED, may_be_none=True)
     add_recipe_name(command, action="append", default=[], help="may be given again")
     command.add_argument(
         "--chip", metavar="NAME", action="append", default=[], choices=list(CHIPS), help="of the walks"

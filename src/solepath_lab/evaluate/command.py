@@ -16,6 +16,7 @@ from solepath.cli.common.inputs import add_calibration, add_recipe_name, calibra
 from solepath.recipes import DEFAULT, NAMES, by_name
 from solepath.show.tables.progress import progress_bar
 
+from ..options import add_json, add_only, add_processes, add_seeds
 from ..tables.markdown import accuracy_table
 from ..tables.scores import ablation_table, comparison_tables, score_table
 from . import ablation
@@ -38,9 +39,7 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath-lab evaluate --emulated --walks 1",
     )
     command.add_argument("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})")
-    command.add_argument(
-        "--only", metavar="DATASET", action="append", default=[], help="this data set only; may be given again"
-    )
+    add_only(command)
     add_recipe_name(command, action="append", default=[], help="this recipe only; may be given again")
     add_calibration(command)
     command.add_argument(
@@ -49,10 +48,7 @@ def add_to(commands: Any) -> None:
         help="on emulated walks too (without DIR on them alone): 500 m, 30 minutes, four floors of stairs; with the "
         "recipe default where no --recipe is named",
     )
-    command.add_argument(
-        "--walks", metavar="N", type=int, default=3, help="number of emulated walks of each kind (default: 3)"
-    )
-    command.add_argument("--seed", metavar="K", type=int, default=1, help="the first one's seed (default: 1)")
+    add_seeds(command, 3, 1)
     command.add_argument(
         "--ablation",
         action="store_true",
@@ -61,7 +57,7 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--markdown", action="store_true", help="print one table of the averages only, as docs/accuracy.md quotes it"
     )
-    command.add_argument("--json", metavar="FILE", type=Path, help="write the scores as JSON too")
+    add_json(command)
     add_force(command)
     command.add_argument(
         "--compare",
@@ -69,13 +65,7 @@ def add_to(commands: Any) -> None:
         type=Path,
         help="the JSON of an earlier evaluation: say of every figure what it was, and whether it is better or worse",
     )
-    command.add_argument(
-        "--processes",
-        metavar="N",
-        type=int,
-        default=os.cpu_count() or 1,
-        help="recordings at a time (default: one for each processor)",
-    )
+    add_processes(command)
     command.set_defaults(run=run)
 
 
@@ -93,8 +83,6 @@ def run(options: argparse.Namespace) -> int:
     folder = options.dir or (Path(default_folder) if default_folder and (recorded or not emulated) else None)
     if folder is None and (recorded or not emulated):
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
-    if options.walks < 1 or options.seed < 0:
-        raise Failure("--walks must be 1 or more, and --seed not negative")
     scores = None if options.json is None else OutputFile(options.json, SCORES)
     if scores is not None:
         data_sets = folder.glob("*/") if folder is not None else ()
@@ -114,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
             show(100 * done // total)
 
         common_options: dict[str, Any] = {
-            "calibration": calibration_of(options), "processes": max(1, options.processes), "progress": percent,
+            "calibration": calibration_of(options), "processes": options.processes, "progress": percent,
         }  # fmt: skip
         evaluations: list[Iterator[Result]] = []
         if options.ablation and folder is not None and not options.only:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from functools import partial
 from pathlib import Path
@@ -24,6 +23,7 @@ from solepath.cli.completion import complete_with
 from solepath.recording import printable
 from solepath.saving.files import replace_whole
 
+from ..options import add_json, add_processes
 from ..tables.comparison import comparison_with_paper
 from . import footstep_tracker, kupt_dfpc, pressure_contour, shoe_sensing, walking_modes
 from .done_jobs import DoneJobs, DoneJobsError
@@ -68,7 +68,7 @@ def add_to(commands: Any) -> None:
         type=Path,
         help="append the result of each walk to this file, and do not walk again what it already has",
     )
-    command.add_argument("--json", metavar="FILE", type=Path, help="write the table as JSON too")
+    add_json(command)
     command.add_argument(
         "--figure",
         metavar="FILE",
@@ -78,13 +78,7 @@ def add_to(commands: Any) -> None:
         help="draw the paper's main figure into this file, .png, .svg or .pdf (default: NAME.png)",
     )
     add_force(command)
-    command.add_argument(
-        "--processes",
-        metavar="N",
-        type=parse_count,
-        default=os.cpu_count() or 1,
-        help="walks at a time (default: one for each processor)",
-    )
+    add_processes(command)
     command.set_defaults(run=run)
 
 
