@@ -77,7 +77,7 @@ class StrideFeatures:
 
 
 LONGEST_HARMLESS_GAP = 0.06
-"""Longest gap that is no flaw, s: with shorter ones lengths err as without any (`solepath-lab damage losses`)."""
+"""Longest gap that is no flaw, s: shorter ones cost a centimetre of a length (`solepath-lab damage losses`)."""
 
 
 class Flaw(Enum):
