@@ -257,7 +257,7 @@ class Walk:
                 last = self.standing[foot].last
                 is_due = last is None or not 0.0 <= t - last.t < HEIGHT_INTERVAL
                 if is_due and event.phase is Phase.STATIONARY:
-                    self.standing[foot].add(event, 0 if self.limit == 0 else MAX_POINTS)
+                    self.standing[foot].add(event, self._point_limit)
             case FootPressed(t=t, known_at=known_at, foot=foot):
                 link = self.link(SITE_OF_FOOT[foot])
                 link.add_sample(t, known_at)
@@ -275,6 +275,11 @@ class Walk:
                 self._add_fault(event)
                 self.places.add(event)
         return True
+
+    @property
+    def _point_limit(self) -> int:
+        """Largest number of points of a line that are kept."""
+        return 0 if self.limit == 0 else MAX_POINTS
 
     def link(self, site: Site) -> LinkLedger:
         """Return the ledger of a site; it is made on first use."""
@@ -337,7 +342,7 @@ class Walk:
                 if turn is not None:
                     self.turns[turn] += 1
             case WearerMoved():
-                self.wearer_track.add(event, 0 if self.limit == 0 else MAX_POINTS)
+                self.wearer_track.add(event, self._point_limit)
             case Placed() | PlaceLost():
                 self.placed.add(_with_heaviest(event), self.limit)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None and self.limit != 0:
