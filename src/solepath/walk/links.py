@@ -240,8 +240,6 @@ class LinkLedger:
                 self.battery = level
             case LinkTrouble(what=what) | DefectFound(what=what, needs_action=True):
                 self.trouble = what
-            case _:
-                pass
 
     @property
     def rate(self) -> float | None:
