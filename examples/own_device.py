@@ -12,7 +12,7 @@ from pathlib import Path
 
 from construct import Const, Int16ul, Struct, Terminated
 
-from solepath import Foot, Packet, PacketsLost, Session, Site, StrideTaken
+from solepath import Foot, Packet, SampleGap, Session, Site, StrideTaken
 from solepath.emulate import Route, Walker
 from solepath.link.driver import Driver, Measured, Reading
 from solepath.link.profile import Access, Channel, Profile, Write
@@ -55,5 +55,5 @@ if __name__ == "__main__":  # `solepath track FILE --driver own_device.py` loads
             match event:
                 case StrideTaken(t=t, length=length, longest_gap=gap):
                     print(f"{t:6.2f} s  stride of {length:.2f} m{', with a gap in it' if gap else ''}")
-                case PacketsLost(t=t, count=count):
-                    print(f"{t:6.2f} s  {count} packets lost")
+                case SampleGap(t=t, count=count):
+                    print(f"{t:6.2f} s  {count} samples missing")

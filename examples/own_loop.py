@@ -12,7 +12,7 @@ second, so that a silent sensor is reported.
 import sys
 from math import degrees, radians
 
-from solepath import FootFlat, HeelOff, HeelStrike, PacketRejected, PacketsLost, Session, StrideTaken, ToeOff
+from solepath import FootFlat, HeelOff, HeelStrike, PacketRejected, SampleGap, Session, StrideTaken, ToeOff
 
 # Packet(t, site, channel, data): when it arrived (s), where it is worn, what it is, its bytes
 if len(sys.argv) > 1:
@@ -27,7 +27,7 @@ else:
     print(f"The route ends at x {route.end.x:.2f} m (ahead), y {route.end.y:.2f} m (left).")
 
 session = Session()
-lost = 0
+missing = 0
 for packet in packets:
     for event in session.feed(packet):  # in the order in which they became known
         match event:
@@ -36,12 +36,12 @@ for packet in packets:
                 print(f"{event.t:6.2f} s  {event.foot.value:5}  {type(event).__name__:10}  known {delay:3.0f} ms later")
             case StrideTaken(t=t, foot=foot, number=number, length=length, heading_change=turn):
                 print(f"{t:6.2f} s  {foot.value:5}  stride {number}: {length:.2f} m, turned {degrees(turn):+.0f} deg")
-            case PacketsLost(count=count):
-                lost += count
+            case SampleGap(count=count):
+                missing += count
             case PacketRejected(t=t, reason=reason):
                 print(f"{t:6.2f} s  a packet was not used: {reason.value}")
 session.finish()
 
 if session.position is not None:
     x, y, z = session.position.position
-    print(f"The wearer stands at x {x:.2f} m, y {y:.2f} m. {lost} packets were lost.")
+    print(f"The wearer stands at x {x:.2f} m, y {y:.2f} m. {missing} samples are missing.")

@@ -55,14 +55,14 @@ def test_track_sums_up_in_plain_text(tracked, packets):
     assert no_control_codes(result.stdout)
     arrivals = [packet.t for packet in read_packets(packets)]
     assert result.stdout.startswith(f"{packets.name}, recipe default: {arrivals[-1] - arrivals[0]:.1f} s\n")
-    assert "packets lost" in result.stdout and "rejected (" in result.stdout
+    assert "samples missing (" in result.stdout and "rejected (" in result.stdout
     assert f"written to {out}" in result.stdout
 
 
 def test_events_are_strict_json_with_their_times_and_feet(tracked):
     _, out = tracked
     events = events_in(out)
-    assert {"HeelStrike", "FootFlat", "HeelOff", "ToeOff", "StrideTaken", "PacketsLost"} <= {e["event"] for e in events}
+    assert {"HeelStrike", "FootFlat", "HeelOff", "ToeOff", "StrideTaken", "SampleGap"} <= {e["event"] for e in events}
     for event in events:
         assert list(event)[:4] == ["event", "t", "known_at", "final"]
         assert event["known_at"] >= event["t"] and event["final"] in (True, False)
@@ -111,7 +111,7 @@ def test_events_of_the_link_name_the_foot_too(tracked, events_of):
     events = events_in(tracked[1])
     assert [e["event"] for e in events] == [type(e).__name__ for e in events_of if not isinstance(e, LiveEvent)]
     of_sites = [event for event in events if event.get("site") is not None]
-    assert {"PacketsLost", "PacketRejected"} <= {event["event"] for event in of_sites}
+    assert {"SampleGap", "PacketRejected"} <= {event["event"] for event in of_sites}
     for event in of_sites:
         assert event["site"] == f"{event['foot']}_foot"
 

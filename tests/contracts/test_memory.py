@@ -13,7 +13,7 @@ from attrs import evolve
 from soak import longer, soaked
 from walks import LEFT, RIGHT, insoles, of, samples
 
-from solepath import Packet, PacketRejected, PacketsLost, Sample, Session, Site, StrideTaken
+from solepath import Packet, PacketRejected, Sample, SampleGap, Session, Site, StrideTaken
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.wire.error import WireError
@@ -70,7 +70,7 @@ def walk_on(session: Session, count: int) -> tuple[list[int], list[int]]:
     sizes, stride_counts = [], []
     for packets in rounds(count):
         emitted = session.feed(packets)
-        assert all(lost.count < 40 for lost in of(PacketsLost, emitted)), "the rounds do not join"
+        assert all(lost.count < 40 for lost in of(SampleGap, emitted)), "the rounds do not join"
         stride_counts.append(len(of(StrideTaken, emitted)))
         sizes.append(size(session))
     return sizes, stride_counts

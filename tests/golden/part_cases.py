@@ -55,7 +55,7 @@ def meddled(event: Any, draw: float) -> list[Any]:
         return []
     when, site = {"t": event.t, "known_at": event.known_at}, (LEFT, RIGHT)[int(1e4 * draw) % 2]
     if draw < 0.15:
-        return [SampleGap(**when, site=site, duration=40.0 * draw - 3.9), event]
+        return [SampleGap(**when, site=site, duration=40.0 * draw - 3.9, count=0), event]
     if draw < 0.16:
         defect = [*Defect][int(1e6 * draw) % len(Defect)]
         return [DefectFound(**when, site=site, defect=defect, what="", spoils=draw < 0.157), event]

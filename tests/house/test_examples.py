@@ -97,7 +97,7 @@ def test_a_device_of_ones_own_is_one_file_and_its_vectors():
     assert first == "the vectors agree"
     true = len(Walker(Route().stand(2).walk(8).stop(2)).truth().strides(Foot.LEFT))
     assert sum(" stride " in line for line in lines_out) == true
-    assert sum("3 packets lost" in line for line in lines_out) == 1
+    assert sum("3 samples missing" in line for line in lines_out) == 1
     assert sum("with a gap in it" in line for line in lines_out) == 1
 
 

@@ -17,7 +17,7 @@ from decoded import (
 )
 from walks import of
 
-from solepath.events import ClockReset, Limitation, PacketRejected, PacketsLost, Rejection
+from solepath.events import ClockReset, Limitation, PacketRejected, Rejection, SampleGap
 from solepath.link.decoder import Decoder
 from solepath.link.devices.insole import _TABLES, MOST_TABLES, InsoleLink
 from solepath.saving import codec
@@ -67,16 +67,17 @@ def test_another_tick_rate_is_another_clock() -> None:
 def test_frames_lost_over_a_whole_round_of_the_sequence_are_counted_by_ticks() -> None:
     decoder = fed_decoder()
     lost_frames = 3 * 65536 + 10
-    lost = of(PacketsLost, decoder.feed(frame_packet(4 + lost_frames)))
-    assert [event.count for event in lost] == [lost_frames - 1]
-    assert lost[0].t == pytest.approx(10.0 + 5 * SAMPLE_INTERVAL)
+    (gap,) = of(SampleGap, decoder.feed(frame_packet(4 + lost_frames)))
+    assert gap.t == pytest.approx(10.0 + 4 * SAMPLE_INTERVAL)
+    assert gap.duration == pytest.approx(lost_frames * SAMPLE_INTERVAL)
+    assert gap.count == 0, "half an hour of silence is an absence"
 
 
 def test_a_device_that_samples_again_after_a_pause_has_lost_nothing() -> None:
     decoder = fed_decoder()
     pause = packet(20.0, "insole/frame", insole_frame(5, ticks=round(10.0 * 32768)))
     outputs = decoder.feed(pause)
-    assert of(PacketsLost, outputs) == []
+    assert of(SampleGap, outputs) == []
     assert of(Sample, outputs)[0].t == pytest.approx(20.0, abs=0.001)
 
 
@@ -106,7 +107,7 @@ def test_a_lost_fragment_costs_its_frame_and_no_other(missing: int) -> None:
     del incomplete_frame[missing]
     outputs = feed(decoder, *incomplete_frame, *fragment_packets(2, 2), *fragment_packets(3, 3))
     assert [event.reason for event in of(PacketRejected, outputs)] == [Rejection.TRUNCATED]
-    assert [event.count for event in of(PacketsLost, outputs)] == [1]
+    assert [event.count for event in of(SampleGap, outputs)] == [1]
     assert len(of(Sample, outputs)) == 2
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from here import PROTOCOL
 
-from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, StreamResumed, StreamStale
+from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, SampleGap, StreamResumed, StreamStale
 from solepath.link.decoder import Decoder
 from solepath.types import Packet, Sample, Site
 
@@ -17,7 +17,7 @@ STORIES = sorted((PROTOCOL / "stories").glob("*.json"))
 
 KIND_OF_OUTPUT = {
     Sample: "sample",
-    PacketsLost: "lost",
+    SampleGap: "gap",
     PacketRejected: "rejected",
     ClockReset: "reset",
     StreamStale: "stale",
@@ -53,7 +53,7 @@ def check(outputs: list[Any], expected: list[dict[str, Any]], tolerance: float, 
     for output, fields in zip(outputs, expected, strict=True):
         description = describe(output, fields)
         for key, value in fields.items():
-            if key == "t":
+            if key in ("t", "duration"):
                 assert description[key] == pytest.approx(value, rel=0, abs=tolerance), where
             elif isinstance(value, float | list):
                 assert description[key] == pytest.approx(value, rel=1e-5, abs=1e-12), where

@@ -14,18 +14,7 @@ from hypothesis import strategies as st
 from page_events import events_of_all_kinds, rough_walk
 from shown import later
 
-from solepath import (
-    Event,
-    Foot,
-    FootMoved,
-    FootPressed,
-    PacketRejected,
-    PacketsLost,
-    Placed,
-    SampleGap,
-    StrideTaken,
-    WearerMoved,
-)
+from solepath import Event, Foot, FootMoved, FootPressed, PacketRejected, Placed, SampleGap, StrideTaken, WearerMoved
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.page.messages import encode
 from solepath.show.page.scene.lists import MAX_BEHIND, MAX_POINTS
@@ -130,7 +119,7 @@ def test_a_page_that_is_far_behind_gets_the_whole_scene_again() -> None:
 
 @pytest.mark.long
 def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
-    many = FootMoved | FootPressed | PacketsLost | PacketRejected | SampleGap
+    many = FootMoved | FootPressed | SampleGap | PacketRejected
     once = [event for event in events_of_all_kinds() if not isinstance(event, many)]
     length = once[-1].known_at + 1.0
     scene, sizes = Scene("hours", "default", plan=BUILDING), []

@@ -76,6 +76,6 @@ def test_a_device_is_declared_proven_and_walked_with() -> None:
     assert vectors == "the vectors agree\n"
     true = len(Walker(Route().stand(2).walk(6).stop(2)).truth().strides(Foot.LEFT))
     assert sum(line.startswith("StrideTaken(") for line in walked.splitlines()) == true
-    (lost,) = [line for line in walked.splitlines() if line.startswith("PacketsLost(")]
+    (lost,) = [line for line in walked.splitlines() if line.startswith("SampleGap(")]
     assert "count=1" in lost
     assert json.loads((EXAMPLES / "own_device.json").read_text())["channel"] == "shoe/motion"

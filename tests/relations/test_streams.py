@@ -22,7 +22,6 @@ from solepath import (
     HeelStrike,
     LayoutKnown,
     PacketRejected,
-    PacketsLost,
     Rejection,
     Sample,
     SampleGap,
@@ -40,7 +39,7 @@ FEW = ("whole frames", "fragments", "cc2541", "thingy", "walking-modes", "sample
 """Sessions that differ most from each other."""
 OTHERS = ("footstep-tracker", "shoe-sensing", "walking-modes")
 PHASES = (HeelStrike, FootFlat, HeelOff, ToeOff)
-TURNING_POINTS = LayoutKnown | PacketsLost | SampleGap | ClockReset | StreamResumed
+TURNING_POINTS = LayoutKnown | SampleGap | ClockReset | StreamResumed
 """Events after which a session is saved, the first of each kind."""
 
 
@@ -208,6 +207,6 @@ def test_every_sample_that_was_taken_is_used_or_rejected_or_missing(name: str) -
             events += session.feed(packet)
     for site in (LEFT, RIGHT):
         used = sum(event.foot is site.foot for event in of(FootMoved, events))
-        missing = sum(event.count for event in of(PacketsLost, events) if event.site is site)
+        missing = sum(event.count for event in of(SampleGap, events) if event.site is site)
         assert missing > 20 and used + missing == taken[site]
         assert sum(event.site is site for event in of(PacketRejected, events)) == spoilt[site]

@@ -15,7 +15,7 @@ from made import Maker
 from pages import Node, parse_page, read_page
 from walks import insoles, of, run_session
 
-from solepath import Connected, LinkTrouble, PacketsLost, PlaceLost, Site
+from solepath import Connected, LinkTrouble, PlaceLost, SampleGap, Site
 from solepath.body.gait.means import GaitMeans
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
@@ -91,7 +91,7 @@ def test_the_summary_holds_duration_distance_and_activities() -> None:
 def test_faults_are_shown_in_words_and_in_the_table_of_links() -> None:
     link = [
         Connected(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, device="a", name="sole 7", signal=-50),
-        PacketsLost(t=3.0, known_at=3.0, site=Site.LEFT_FOOT, channel="insole/frame", count=11),
+        SampleGap(t=3.0, known_at=3.0, site=Site.LEFT_FOOT, duration=0.12, count=11),
         LinkTrouble(t=4.0, known_at=4.0, site=Site.LEFT_FOOT, what="the battery is nearly empty"),
     ]
     page = shown(report_of(*link, *walk_events()))

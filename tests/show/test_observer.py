@@ -32,21 +32,21 @@ def frames(radio: Radio, **device: int) -> tuple[Packet, ...]:
 
 
 @pytest.mark.parametrize("batch", [1, 4])
-def test_loss_is_a_share_of_packets_not_of_samples(batch: int) -> None:
+def test_the_missing_share_is_that_of_samples_however_many_a_packet_has(batch: int) -> None:
     link = observed(frames(Radio(loss=0.25), cells=8, batch=batch)).links[LEFT]
-    assert link.loss == pytest.approx(0.25, abs=0.06)
+    assert link.missing_share == pytest.approx(0.25, abs=0.06)
     assert link.samples == batch * link.received
 
 
-def test_received_and_lost_frames_are_all_that_were_sent_whatever_came_damaged_or_twice() -> None:
+def test_received_and_missing_samples_are_all_that_were_sent_whatever_came_damaged_or_twice() -> None:
     """Each frame comes in fragments, of which any may be lost, damaged or doubled."""
     sent = len(emulate(SHORT, devices={LEFT: Insole(cells=8)}, radio=CLEAN, seed=1).packets)
     rough = Radio(loss=0.03, duplicate=0.05, corrupt=0.05)
     for device in ({"cells": 8}, {"mtu": 60}):
         link = observed(frames(rough, **device)).links[LEFT]
-        assert link.rejected.total() > 10 and link.lost > 10
+        assert link.rejected.total() > 10 and link.missing > 10
         assert link.received == link.samples
-        assert link.received + link.lost == pytest.approx(sent, abs=6), "what is no frame of samples are a few"
+        assert link.samples + link.missing == pytest.approx(sent, abs=6), "what is no frame of samples are a few"
 
 
 def test_a_clock_that_was_set_back_goes_on_from_there() -> None:

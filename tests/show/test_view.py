@@ -3,17 +3,7 @@
 from attrs import evolve
 from strides import stride
 
-from solepath.events import (
-    Defect,
-    DefectFound,
-    Flaw,
-    HeelStrike,
-    Limitation,
-    PacketRejected,
-    PacketsLost,
-    Rejection,
-    SampleGap,
-)
+from solepath.events import Defect, DefectFound, Flaw, HeelStrike, Limitation, PacketRejected, Rejection, SampleGap
 from solepath.session import Session
 from solepath.show.tables.summary import link_health, status, summary
 from solepath.types import Foot, Packet, Sample, Site
@@ -30,10 +20,10 @@ def test_a_summary_counts_the_events_of_each_foot():
     for n in range(11):
         walk.take(Sample(n * 0.25 + (1.5 if n > 5 else 0.0), Site.LEFT_FOOT), [])
     strike = HeelStrike(t=1.9375, known_at=2.0, foot=Foot.LEFT)
-    gap = SampleGap(t=1.25, known_at=3.0, site=Site.LEFT_FOOT, duration=1.75)
+    gap = SampleGap(t=1.25, known_at=3.0, site=Site.LEFT_FOOT, duration=1.75, count=6)
     walk.take(None, [gap, strike, evolve(strike, final=False), STRIDE])
     left, link = walk.feet[Foot.LEFT], walk.links[Site.LEFT_FOOT]
-    assert (link.samples, link.gaps, link.gap_time, link.rate) == (11, 1, 1.75, 4.0)
+    assert (link.samples, link.missing, link.missing_time, link.rate) == (11, 6, 1.5, 4.0)
     assert (left.events["heel-strike"], left.strides, left.degraded, left.distance) == (1, 1, 1, 1.25)
     text = summary(walk, title="walk.npz", seconds=2.0)
     assert text.splitlines()[0] == "walk.npz: 4.0 s"
@@ -48,11 +38,12 @@ def test_a_healthy_link_is_not_mentioned_and_a_bad_one_line_by_line():
     frame = Packet(1.0, Site.LEFT_FOOT, "insole/frame", b"")
     for _ in range(97):
         walk.take(frame, [])
-    walk.add(PacketsLost(t=0.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", count=3))
+    walk.add(SampleGap(t=0.0, known_at=1.0, site=Site.LEFT_FOOT, duration=0.04, count=3))
     for reason in (Rejection.CHECKSUM, Rejection.DUPLICATE, Rejection.CHECKSUM):
         rejected = PacketRejected(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", reason=reason)
         walk.take(frame, [rejected])
-    assert link_health(walk) == ["3 of 100 packets lost", "3 packets rejected (checksum 2, duplicate 1)"]
+    missing = "left foot: 3 of 100 samples missing (3.0 %, 0.00 s)"
+    assert link_health(walk) == [missing, "3 packets rejected (checksum 2, duplicate 1)"]
 
 
 def test_defects_are_the_first_lines_of_a_summary_and_limitations_are_reported():

@@ -16,6 +16,7 @@ from .common.files import OutputFile, check_outputs, files_of_track
 from .common.inputs import assumed_foot, calibration_of, check_pressure, floorplan_of, source_of, undo_clocks
 from .common.outcomes import has_outcomes
 from .common.own_devices import UnusedPackets, drivers_of
+from .common.run_file import Run, given_options, inputs_of
 from .common.tables import feet_of, mapping_of
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> i
                     plan=None if plan is None else plan.plan,
                     outputs=outputs,
                     unused=UnusedPackets(make_kinds(drivers)),
+                    run=Run(recipe, inputs_of(options), given_options(options)),
                 )
             )
             rows.append(RecipeRun(recipe.name, results.walk))
@@ -118,9 +120,7 @@ def _check_outputs(options: argparse.Namespace, recipes: Sequence[Recipe]) -> li
     outputs = [
         output
         for recipe in recipes
-        for output in files_of_track(_folder(options.out, recipe), places=has_plan, plan=has_plan)
+        for output in files_of_track(_folder(options.out, recipe), places=has_plan, plan=has_plan, run=True)
     ]
-    check_outputs(
-        outputs, [*options.files, options.mapping, options.calibration, options.floorplan], force=options.force
-    )
+    check_outputs(outputs, inputs_of(options), force=options.force)
     return outputs

@@ -28,6 +28,7 @@ from .common.inputs import (
 from .common.outcomes import add_outcomes, band_files_of, has_outcomes, outcomes_of
 from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
 from .common.report import add_report, check_report_options, report_of
+from .common.run_file import Run, given_options, inputs_of
 from .common.tables import add_tables, feet_of, mapping_of
 from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, page_address_of, play, speed_of
 
@@ -117,6 +118,7 @@ def run(options: argparse.Namespace) -> int:
         outputs=outputs,
         outcomes=outcomes,
         unused=UnusedPackets(make_kinds(drivers)),
+        run=Run(recipe, inputs_of(options), given_options(options)),
     )
     seconds, shown = 0.0, False
     with stop_signals_raise(), results:
@@ -138,12 +140,11 @@ def run(options: argparse.Namespace) -> int:
 def _check_outputs(options: argparse.Namespace) -> list[OutputFile]:
     """Return the files of --out and --report; raise Failure or OSError when one must not, or cannot, be written."""
     has_plan = options.floorplan is not None
-    outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=has_outcomes(options))
+    outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=has_outcomes(options), run=True)
     if options.report is not None:
         outputs.append(OutputFile(options.report, REPORT))
-    inputs = [*options.files, options.mapping, options.calibration, options.floorplan]
-    inputs += [*(options.compare or ()), *band_files_of(options)]
-    check_outputs(outputs, inputs, force=options.force)
+    compared = [*(options.compare or ()), *band_files_of(options)]
+    check_outputs(outputs, [*inputs_of(options), *compared], force=options.force)
     if options.report is not None:
         check_writable(options.report, made=options.out)
     return outputs

@@ -31,7 +31,6 @@ from .link import (
     LinkTrouble,
     PacketRejected,
     PacketsDropped,
-    PacketsLost,
     PositionReported,
     Rejection,
     SampleGap,
@@ -49,7 +48,7 @@ __all__ = [
     "FlightClimbed",
     "FootFlat", "FootResumed", "FootMoved", "FootPressed", "FootSilent", "GaitEvent", "HeelOff", "HeelStrike",
     "InsoleNeverUnloads", "KeysChanged", "LayoutKnown", "LiftRidden", "Limitation", "LinkEvent", "LinkTrouble",
-    "LiveEvent", "PacketRejected", "PacketsDropped", "PacketsLost", "PlaceEvent", "PlaceLost", "Placed",
+    "LiveEvent", "PacketRejected", "PacketsDropped", "PlaceEvent", "PlaceLost", "Placed",
     "PlanContradicted", "PositionRejected", "PositionReported", "Rejection", "TrackNode", "TrackRevised",
     "SampleGap", "SampleRejected", "StrideFeatures", "StrideTaken", "StreamRestarted", "StreamResumed",
     "StreamStale", "StrideFused", "GaitCycleMeasured", "ToeOff", "TouchedDown", "TurnMade", "WalkingModeChanged",
@@ -59,7 +58,7 @@ __all__ = [
 GaitEvent = HeelStrike | FootFlat | HeelOff | ToeOff | StrideTaken
 """Gait events and strides of one foot."""
 LinkEvent = (
-    PacketRejected | SampleRejected | PacketsLost | SampleGap | ClockReset | StreamStale | StreamResumed | Connected
+    PacketRejected | SampleRejected | SampleGap | ClockReset | StreamStale | StreamResumed | Connected
     | Disconnected | PacketsDropped | StreamRestarted | LinkTrouble | LayoutKnown | PositionReported | BatteryLevel
     | KeysChanged | Limitation
 )  # fmt: skip

@@ -56,26 +56,20 @@ class SampleRejected(BaseEvent):
 
 
 @frozen(kw_only=True)
-class PacketsLost(BaseEvent):
-    """Packets never arrived; the device's counters show it, or the times of arrival if the device has no counters.
-
-    `t` is the time of the first missing packet. It is reported at the arrival of the first packet after them."""
-
-    site: Site
-    channel: str
-    count: int
-    """Number of packets, at least 1."""
-
-
-@frozen(kw_only=True)
 class SampleGap(BaseEvent):
-    """No samples came for longer than the sensor's rate allows; the stride says what is missing of it.
+    """Samples did not arrive, or none was taken for a while; the stride says what is missing of it.
 
     `t` is the last sample before the gap. It is reported with the first sample after the gap."""
 
     site: Site
     duration: float
     """Time from the last sample before the gap to the first sample after it, s."""
+    count: int
+    """Number of samples that the device took and that did not arrive.
+
+    The device's counters give it, or the times of arrival if the device has no counters; for samples that were fed
+    without packets, the usual interval between them. It is 0 for an absence: the device was not connected, was silent
+    for longer than its profile allows, or took no samples."""
 
 
 @frozen(kw_only=True)

@@ -24,6 +24,8 @@ LEAST_GAP_RATIO, LEAST_GAP_DIFFERENCE = 1.75, 0.004
 """Ratio of an interval to the usual one, and difference between them in s, above which it is a gap; chosen by hand."""
 GAPS_OF_NEW_RATE, LARGEST_GAP_DEVIATION = 10, 0.1
 """Number of equal gaps in a row that mean a new sampling rate, and largest relative difference between them."""
+LONGEST_LOSS = 2.0
+"""Longest gap in which samples were lost, s; in a longer one the sensor was absent. Built-in devices are stale then."""
 FIRST_INTERVALS = 10
 """Number of intervals after the start among which a much shorter one replaces the usual interval."""
 
@@ -61,6 +63,12 @@ class Rhythm:
         if self.gaps_in_a_row == GAPS_OF_NEW_RATE:
             self.usual_interval, self.gaps_in_a_row = dt, 0
         return True
+
+    def count_missing(self, gap: float) -> int:
+        """Return how many samples at the usual interval a gap of so many s has room for; 0 in an absence."""
+        if self.usual_interval is None or gap > LONGEST_LOSS:
+            return 0
+        return round(gap / self.usual_interval) - 1
 
 
 FIRST_STANCE, FIRST_SWING = 0.7, 0.5

@@ -53,6 +53,10 @@ class FootTracker:
     """Time of the newest sample whose view the parts of the body received, s; None before any."""
     load: Load | None = field(default=None, init=False)
     """Newest load that came without acc or gyro and waits for the next inertial sample; None otherwise."""
+    lost_count: int | None = field(default=None, init=False)
+    """Number of samples that the link has lost since the last gap; None where samples are fed without a link."""
+    lost_after: float = field(default=0.0, init=False)
+    """Time of the sample after which they were lost, s."""
     rhythm: Rhythm = field(factory=Rhythm, init=False)
     levelling: Levelling = field(factory=Levelling, init=False)
     levelled: bool = field(default=False, init=False)
@@ -160,6 +164,7 @@ class FootTracker:
             self.corrector.bridge(inf)
         self.t = self.moved_at = self.partial_at = self.viewed_at = self.limitations.lacking_since = self.load = None
         self.limitations.mismatch_since = None
+        self.lost_count, self.lost_after = None if self.lost_count is None else 0, 0.0
         self.gait.reset()
         # Windows that hold old times would wait until the new times reach them. What was learnt stays.
         detector: Any = self.detector
@@ -207,6 +212,8 @@ class FootTracker:
         dt = 0.0 if t_last is None else t - t_last
         if t_last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
             dt = self._cross_gap(t_last, t, known_at, sample, events)
+        elif self.lost_count and t_last is not None and t > self.lost_after:  # what is missing was interpolated
+            self._report_gap(t_last, t, known_at, events)
         if acc is None or gyro is None:
             text = f"no {'accelerometer' if acc is None else 'gyroscope'} on the {self.foot.value} foot"
             text = f"{text}: no steps and no track from it"
@@ -275,13 +282,26 @@ class FootTracker:
             gait.stride.add_cop(load.centre if is_known else sole.insole.centre_of_pressure(load.cells))
         return load
 
+    def add_loss(self, gap: SampleGap) -> None:
+        """Add a loss that the link has counted; it is reported with the first sample after it."""
+        self.lost_count, self.lost_after = (self.lost_count or 0) + gap.count, gap.t
+
+    def _report_gap(self, t_last: float, t: float, known_at: float, events: list[Event]) -> None:
+        count = 0
+        if self.lost_count is None:
+            count = self.rhythm.count_missing(t - t_last)
+        elif t > self.lost_after:
+            count, self.lost_count = self.lost_count, 0
+        site = SITE_OF_FOOT[self.foot]
+        events.append(SampleGap(t=t_last, known_at=known_at, site=site, duration=t - t_last, count=count))
+
     def _cross_gap(self, t_last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Report a gap between two samples; return the time to integrate over, s.
 
         If there is a stride template (gap.py), the gap is filled and the phases that it hid are appended to `events`;
         else it is crossed by a straight line."""
         duration = t - t_last
-        events.append(SampleGap(t=t_last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=duration))
+        self._report_gap(t_last, t, known_at, events)
         corrector, gait = self.corrector, self.gait
         template = gait.template
         gait.stride.add_gap(t_last, t, self.rhythm.usual_interval or 0.0)

@@ -6,7 +6,7 @@ restarts."""
 
 from __future__ import annotations
 
-from ..events import ClockReset, PacketsLost, Rejection
+from ..events import ClockReset, Rejection, SampleGap
 from ..types import Site
 from ..types.attrs import define
 from ..wire.error import WireError
@@ -55,20 +55,20 @@ class SampleTimes:
     times: list[float]
     """Time of each sample, s."""
     lost_count: int = 0
-    """Number of packets that were lost directly before the packet."""
-    t_missing: float = 0.0
-    """Time of the first lost packet, s."""
+    """Number of samples that were lost directly before the packet."""
+    last_t: float = 0.0
+    """Time of the newest sample before the packet, s."""
     restarted: bool | None = None
     """True when a new fit started because the counters restarted, False for other new fits; None without a new fit."""
 
-    def make_events(self, site: Site, channel: str, arrival: float) -> list[PacketsLost | ClockReset]:
+    def make_events(self, site: Site, arrival: float) -> list[SampleGap | ClockReset]:
         """Return the events that come before the packet's samples, in order."""
-        events: list[PacketsLost | ClockReset] = []
-        if self.lost_count:
-            t = self.t_missing
-            events.append(PacketsLost(t=t, known_at=max(arrival, t), site=site, channel=channel, count=self.lost_count))
+        events: list[SampleGap | ClockReset] = []
+        t, last_t, count = self.times[0], self.last_t, self.lost_count
+        if count:
+            known_at = max(arrival, last_t)
+            events.append(SampleGap(t=last_t, known_at=known_at, site=site, duration=t - last_t, count=count))
         if self.restarted is not None:
-            t = self.times[0]
             events.append(ClockReset(t=t, known_at=max(arrival, t), site=site, restarted=self.restarted))
         return events
 
@@ -107,7 +107,7 @@ class PacketRun:
         A duplicate or late packet raises WireError and changes nothing. `new_fit`: start a new fit with this packet,
         whatever its counters are."""
         packet_ticks = float(position.interval * position.samples)
-        clock, lost_count, t_missing, restarted = self.clock, 0, 0.0, None
+        clock, lost_count, last_t, restarted = self.clock, 0, 0.0, None
         if clock is None:
             clock = self._start_clock(position.ticks, rate, None)
         else:
@@ -123,8 +123,7 @@ class PacketRun:
                 restarted = not 1 <= position.sequence_difference <= REMEMBERED_PACKETS
                 clock = self._start_clock(position.ticks, rate, clock.last_t + self.interval / clock.rate)
             else:
-                if packets > 1:
-                    lost_count, t_missing = packets - 1, clock.preview_time(self.ticks + self.packet_ticks)
+                lost_count, last_t = (packets - 1) * position.samples, clock.last_t
                 self.ticks += ticks
                 self.accepted_bits = (
                     (self.accepted_bits << packets | 1) & (1 << REMEMBERED_PACKETS) - 1
@@ -137,7 +136,7 @@ class PacketRun:
         times = []
         for j in range(position.samples):
             times.append(clock.assign_time(self.ticks + j * self.interval))
-        return SampleTimes(times, lost_count, t_missing, restarted)
+        return SampleTimes(times, lost_count, last_t, restarted)
 
     def _start_clock(self, ticks: int, rate: float, t_min: float | None) -> Clock:
         self.clock = Clock(rate, t_min=t_min)

@@ -18,9 +18,18 @@ from __future__ import annotations
 from copy import deepcopy
 from math import isfinite
 
-from ..events import BatteryLevel, ClockReset, Connected, PacketRejected, Rejection, StreamResumed, StreamStale
+from ..events import (
+    BatteryLevel,
+    ClockReset,
+    Connected,
+    PacketRejected,
+    Rejection,
+    SampleGap,
+    StreamResumed,
+    StreamStale,
+)
 from ..types import Packet, Site
-from ..types.attrs import NOT_SAVED, define, field, fields
+from ..types.attrs import NOT_SAVED, define, evolve, field, fields
 from ..types.records import MAX_TIME
 from ..wire.error import WireError
 from .kinds import BUILT_IN_KINDS, DeviceKinds, DeviceLink, Output, is_address
@@ -54,6 +63,8 @@ class Decoder:
     """Arrival of the newest packet of a channel that must not fall silent, s."""
     stale: bool = False
     """True from StreamStale until StreamResumed."""
+    reconnected: bool = False
+    """True from a new connection until the first packet of such a channel."""
     used: bool = field(default=False, init=False, eq=False, metadata=NOT_SAVED)
     """Flag: the packet of the last `feed` was used, though it may report an earlier one that was rejected."""
 
@@ -147,8 +158,11 @@ class Decoder:
         if link is None or kind is None or packet.channel not in kind.profile.streams:
             return self.advance(t, kinds) + out
         newest, limit = self.newest_stream_arrival, kind.profile.stale_after
-        self.newest_stream_arrival = t
-        if newest is not None and (self.stale or (t - newest > limit and not link.may_be_silent)):
+        reconnected, self.reconnected, self.newest_stream_arrival = self.reconnected, False, t
+        is_long = newest is not None and t - newest > limit
+        if is_long or reconnected or self.stale:
+            out = [evolve(item, count=0) if isinstance(item, SampleGap) else item for item in out]
+        if newest is not None and (self.stale or (is_long and not link.may_be_silent)):
             resumed = StreamResumed(t=t, site=self.site, silent_for=t - newest)
             out[:0] = [resumed] if self.stale else [self._silence(newest, t, limit), resumed]
             self.stale = False
@@ -158,8 +172,10 @@ class Decoder:
         from .receiver import parse_receiver_event
 
         out = parse_receiver_event(packet)
-        if self.link is not None and any([isinstance(event, Connected) for event in out]):
-            self.link.handle_reconnection()
+        if any([isinstance(event, Connected) for event in out]):
+            self.reconnected = True
+            if self.link is not None:
+                self.link.handle_reconnection()
         return [*out]
 
     def _read_standard(self, packet: Packet) -> Output:

@@ -89,23 +89,22 @@ class PeriodicClock:
 
         `counts_losses` is False while the device may be silent (wake on motion), so that a gap shows no loss."""
         if self.newest_arrival is None:
-            return self._restart(arrival, 0, arrival)
+            return self._restart(arrival)
         gap = arrival - self.newest_arrival
         period = self.period * (1.0 + self.clock.drift)
-        t_missing = self.clock.preview_time(self.slot + 1.0)
+        last_t = self.clock.last_t
         if gap > NEW_PHASE_SILENCE or (not counts_losses and gap > MIN_LOSS_GAP * period):
-            lost_count = max(1, round(gap / period) - 1) if counts_losses else 0
             self.period = period
-            return self._restart(arrival, lost_count, t_missing)
+            return self._restart(arrival)
         if self._correct_period(arrival, gap):
-            return self._restart(arrival, 0, t_missing)
+            return self._restart(arrival)
         self.newest_arrival = arrival
         delay = arrival - self.clock.fit_time(self.slot + 1.0)
         settled = self.settled_packets >= SETTLED_PACKETS
         if (
             delay < -MIN_EARLY_PERIODS * period
             and (settled or self.revisable_packets)
-            or arrival - t_missing < -(MAX_EARLY_ARRIVAL + period)
+            or arrival - self.clock.preview_time(self.slot + 1.0) < -(MAX_EARLY_ARRIVAL + period)
         ):
             self.revisable_packets = self.slipped_packets = 0
             return SampleTimes([self.clock.assign_time(self.slot + EARLY_SLOT)])
@@ -120,7 +119,7 @@ class PeriodicClock:
             if settled:
                 late = max(0.0, min(4.0 * period, arrival - self.clock.fit_time(self.slot)))
                 self.jitter += (late - self.jitter) / 16.0
-        return SampleTimes([self.clock.assign_time(self.slot)], lost_count, t_missing)
+        return SampleTimes([self.clock.assign_time(self.slot)], lost_count, last_t)
 
     def set_period(self, period: float) -> None:
         """Set a period (s) that was written to the device; slots restart with the next packet, if it is another one."""
@@ -167,7 +166,7 @@ class PeriodicClock:
         self.period = round((arrival - self.wide_gaps_start) / self.wide_gaps, 2)
         return True
 
-    def _restart(self, arrival: float, lost_count: int, t_missing: float) -> SampleTimes:
+    def _restart(self, arrival: float) -> SampleTimes:
         """Restart the slots with this packet, in a new fit whose times come after those of the old fit."""
         t_min = None if self.clock.last_device_time is None else self.clock.last_t + 0.5 * self.period
         self.clock = Clock(1.0 / self.period, t_min=t_min)
@@ -175,4 +174,4 @@ class PeriodicClock:
         self.slot, self.newest_arrival = 0.0, arrival
         self.slipped_packets = self.revisable_packets = self.settled_packets = self.rate_packets = self.wide_gaps = 0
         self.rate_start = arrival
-        return SampleTimes([self.clock.assign_time(0.0)], lost_count, t_missing)
+        return SampleTimes([self.clock.assign_time(0.0)])

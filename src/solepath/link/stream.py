@@ -173,7 +173,7 @@ class StreamLink(DeviceLink):
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
-        out: Output = [*sample_times.make_events(self.site, channel, arrival)]
+        out: Output = [*sample_times.make_events(self.site, arrival)]
         if not self.limitation_reported:
             unused = UNUSED_TICKS if reading.ticks is not None and not driver.tick_rate else ""
             out += self.report_limitation("; ".join(filter(None, (driver.limitation, unused))), arrival)
@@ -264,6 +264,7 @@ class StreamLink(DeviceLink):
         sample_times = self.periodic.add_packet(arrival, counts_losses=not self.may_be_silent)
         (last,), interval = sample_times.times, self.periodic.period / count
         sample_times.times = [last - (count - 1 - j) * interval for j in range(count)]
+        sample_times.lost_count *= count
         return sample_times
 
     def _make_increasing(self, t: float) -> float:

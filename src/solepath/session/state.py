@@ -31,6 +31,7 @@ from ..events import (
     LayoutKnown,
     Limitation,
     PacketRejected,
+    SampleGap,
     SampleRejected,
     StrideTaken,
     WearerMoved,
@@ -39,7 +40,7 @@ from ..foot.settings import FootSettings
 from ..foot.view import FootView
 from ..link.kinds import DeviceKinds
 from ..recipes import Recipe, part_class
-from ..types import OTHER, Foot, Packet, Sample, Site
+from ..types import OTHER, SITE_OF_FOOT, Foot, Packet, Sample, Site
 from ..types.attrs import MADE_AGAIN, NOT_SAVED, define, evolve, field, frozen
 from ..types.plain import has_floats, number, text, with_floats
 from ..types.records import MAX_TIME
@@ -225,10 +226,15 @@ class SessionState:
         self._find_awake()
 
     def report(self, site: Site, event: Event) -> list[Event]:
-        """Use an event of a link; return it and the events that follow from it."""
+        """Use an event of a link; return it and the events that follow from it.
+
+        The tracker of a foot reports a loss, with the first sample after it."""
         if isinstance(event, ClockReset):
             self._reset_parts(site)
         foot = site.foot
+        if isinstance(event, SampleGap) and foot in self.feet:
+            self.feet[foot].add_loss(event)
+            return []
         if foot is not None and isinstance(event, LayoutKnown):
             tracker = self._tracker(foot)
             tracker.set_layout(event.layout)
@@ -414,6 +420,7 @@ class SessionState:
                 settings,
                 cues=_calibrated(cues, calibration, foot),
             )
+            tracker.lost_count = 0 if SITE_OF_FOOT[foot] in self.decoders else None
         return tracker
 
     def _add_tracker(self, tracker: FootTracker) -> None:

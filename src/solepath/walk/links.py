@@ -21,7 +21,6 @@ from ..events import (
     LinkTrouble,
     PacketRejected,
     PacketsDropped,
-    PacketsLost,
     SampleGap,
     SampleRejected,
     StreamRestarted,
@@ -90,26 +89,34 @@ class CoveredTime:
         return self._ended_time + (0.0 if self.span_start is None else self.span_end - self.span_start)
 
 
+def taken(missing: int, samples: int, packets: int) -> int:
+    """Return how many samples a device took, of which these are missing and these came in so many packets.
+
+    A CC2541 sends acceleration and angular rate in packets of their own, so that more packets than samples come; then
+    every packet is a sample that could be missing."""
+    return missing + max(samples, packets)
+
+
 @define
 class RecentLoss:
-    """The numbers of received and lost packets of samples in the last LOSS_WINDOW seconds."""
+    """The numbers of packets, samples and missing samples in the last LOSS_WINDOW seconds."""
 
     seconds: deque[list[int]] = field(factory=lambda: deque(maxlen=LOSS_WINDOW + 1))
-    """Lists [second, received, lost] for each second in which there were any packets."""
+    """Lists [second, packets, samples, missing samples] for each second in which there were any."""
 
-    def add(self, t: float, received: int, lost: int) -> None:
-        """Add packets that were received or lost at `t` s."""
+    def add(self, t: float, *, packets: int = 0, samples: int = 0, missing: int = 0) -> None:
+        """Add what came or was lost at `t` s."""
         second = floor(t)
         if not self.seconds or not self.seconds[-1][0] - 1 <= second <= self.seconds[-1][0]:
-            self.seconds.append([second, 0, 0])
-        self.seconds[-1][1] += received
-        self.seconds[-1][2] += lost
+            self.seconds.append([second, 0, 0, 0])
+        newest = self.seconds[-1]
+        newest[1:] = newest[1] + packets, newest[2] + samples, newest[3] + missing
 
     def share(self, now: float) -> float | None:
-        """Return the share, 0 to 1, of the packets in the window before `now`, s, that were lost; None if none came."""
-        recent = [counts for counts in self.seconds if now - LOSS_WINDOW - 1.0 < counts[0] <= now]
-        received, lost = sum([counts[1] for counts in recent]), sum([counts[2] for counts in recent])
-        return lost / (received + lost) if received else None
+        """Return the share, 0 to 1, of the samples in the window before `now`, s, that are missing."""
+        recent = [counts[1:] for counts in self.seconds if now - LOSS_WINDOW - 1.0 < counts[0] <= now]
+        packets, samples, missing = [sum(column) for column in zip(*recent, strict=True)] or (0, 0, 0)
+        return missing / taken(missing, samples, packets) if samples or packets else None
 
 
 @define
@@ -123,10 +130,9 @@ class LinkLedger:
     received: int = 0
     """Packets of samples that came and were used. The fragments of a frame count as one packet, when a sample is
     complete. The count is 0 where samples are fed without packets, and for a device that only the app knows."""
-    lost: int = 0
-    """Packets of samples that never came (PacketsLost), found by the device's counter or, without one, by the time
-    between arrivals. A packet that was rejected because it came twice or late is not lost. A packet that came damaged,
-    or that the receiver dropped, counts as lost."""
+    missing: int = 0
+    """Samples that the device took and that did not arrive (`SampleGap.count`). A packet that was rejected because it
+    came twice or late is not missing. A packet that came damaged, or that the receiver dropped, is."""
     dropped: int = 0
     """Packets that came and were discarded because the program did not read them in time (PacketsDropped)."""
     rejected: Counter[tuple[str, str]] = field(factory=Counter)
@@ -140,9 +146,9 @@ class LinkLedger:
     has_pressure: bool = False
     """True from the first sample of pressure cells on."""
     gaps: int = 0
-    """Gaps between samples that are longer than the sensor's rate allows (SampleGap)."""
-    gap_time: float = 0.0
-    """Total duration of the gaps, s."""
+    """Number of losses and absences (SampleGap)."""
+    absent_time: float = 0.0
+    """Total duration of the absences, s, in which the device was not connected, was silent or took no samples."""
     silences: int = 0
     """Number of times that nothing came for longer than the link allows (StreamStale)."""
     connections: int = 0
@@ -166,6 +172,8 @@ class LinkLedger:
     """True from the first sample of the present connection on."""
     _stale: bool = False
     """True after the session has reported that nothing comes any more."""
+    _absent_since: float | None = None
+    """Arrival of the newest sample before the present absence, s; None while samples come."""
     _t: float | None = None
     """Time of the newest sample by its own clock, s."""
     _covered: CoveredTime = field(factory=CoveredTime)
@@ -183,14 +191,17 @@ class LinkLedger:
     def add_packet(self, t: float) -> None:
         """Add a packet of samples that came at `t` s and was used."""
         self.received += 1
-        self._losses.add(t, 1, 0)
+        self._losses.add(t, packets=1)
 
     def add_sample(self, t: float, known_at: float) -> None:
         """Add a used sample of time `t` that came at `known_at`, both s; a repeated `t` does not count."""
         if t == self._t:
             return
-        self._t, self.last_sample_at, self.is_counted = t, known_at, True
+        if self._absent_since is not None:
+            self.absent_time += max(0.0, known_at - self._absent_since)
+        self._t, self.last_sample_at, self.is_counted, self._absent_since = t, known_at, True, None
         self.samples += 1
+        self._losses.add(known_at, samples=1)
         self._covered.add(t)
         if self._recent and known_at < self._recent[-1] - SET_BACK_TOLERANCE:
             self._recent.clear()
@@ -203,19 +214,18 @@ class LinkLedger:
     def add_event(self, event: Event) -> None:
         """Count an event of this link; other events change nothing."""
         match event:
-            case PacketsLost(count=count):
-                self.lost += count
-                self._losses.add(event.known_at, 0, count)
             case PacketRejected(reason=reason):
                 self.rejected["packets", reason.value] += 1
             case SampleRejected(reason=reason):
                 self.rejected["samples", reason.value] += 1
             case PacketsDropped(count=count):
                 self.dropped += count
-            case SampleGap(duration=duration):
+            case SampleGap(duration=duration, count=count):
                 self.gaps += 1
-                self.gap_time += duration
+                self.missing += count
+                self._losses.add(event.known_at, missing=count)
                 if self._covered.span_start is not None:
+                    self.absent_time += 0.0 if count else duration
                     self._gaps_covered += 1
                     self._gap_time_covered += duration
             case ClockReset():
@@ -224,7 +234,7 @@ class LinkLedger:
             case StreamStale():
                 self.silences += 1
                 self._stale = True
-                self._covered.close()
+                self._start_absence()
             case StreamResumed():
                 self._stale = False
             case StreamRestarted():
@@ -235,11 +245,15 @@ class LinkLedger:
                 self.broken_at, self._has_samples, self._stale = None, False, False
             case Disconnected():
                 self.broken_at, self._has_samples = event.known_at, False
-                self._covered.close()
+                self._start_absence()
             case BatteryLevel(level=level):
                 self.battery = level
             case LinkTrouble(what=what) | DefectFound(what=what, needs_action=True):
                 self.trouble = what
+
+    def _start_absence(self) -> None:
+        self._absent_since = self.last_sample_at
+        self._covered.close()
 
     @property
     def rate(self) -> float | None:
@@ -257,12 +271,22 @@ class LinkLedger:
         return len(self._recent) / min(RATE_WINDOW, max(now - self._recent_start, MIN_RATE_TIME))
 
     @property
-    def loss(self) -> float | None:
-        """Share, 0 to 1, of the packets sent since the start that were lost; None when none came."""
-        return self.lost / (self.received + self.lost) if self.received else None
+    def taken(self) -> int:
+        """Number of samples that the device took while it was connected."""
+        return taken(self.missing, self.samples, self.received)
 
-    def recent_loss(self, now: float) -> float | None:
-        """Return the lost share, 0 to 1, of the packets sent in the LOSS_WINDOW before `now`, s; None if none came."""
+    @property
+    def missing_share(self) -> float:
+        """Share, 0 to 1, of these samples that are missing; 0 without samples."""
+        return self.missing / self.taken if self.taken else 0.0
+
+    @property
+    def missing_time(self) -> float:
+        """Total duration of what is missing, s: its number times the interval between samples."""
+        return self.missing / self.rate if self.rate else 0.0
+
+    def recent_share(self, now: float) -> float | None:
+        """Return the share, 0 to 1, of the samples of the LOSS_WINDOW before `now`, s, that are missing."""
         return self._losses.share(now)
 
     def state(self, now: float) -> str:

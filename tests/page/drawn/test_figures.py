@@ -9,7 +9,7 @@ from page_events import foot_moved
 from shown import frame, shown
 from walks import insoles
 
-from solepath import Activity, ActivityChanged, Event, Foot, GaitCycleMeasured, Packet, PacketsLost, Session, Site
+from solepath import Activity, ActivityChanged, Event, Foot, GaitCycleMeasured, Packet, SampleGap, Session, Site
 from solepath.emulate.routes.route import Route
 from solepath.show.page.scene.scene import Scene
 
@@ -71,12 +71,12 @@ def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
             t = start + 0.01 * k
             scene.take(Packet(t + 0.02, Site.LEFT_FOOT, "insole/frame", b""), [foot_moved(t, known_at=t + 0.02)])
         link = frame(scene)["links"]["left foot"]
-        return link["lost"], link["loss"]
+        return link["missing"], link["recent_share"]
 
     loss_after(0.0, 2.0)
-    shown([PacketsLost(t=12.0, known_at=12.0, site=Site.LEFT_FOOT, channel="insole/frame", count=1000)], scene)
+    shown([SampleGap(t=12.0, known_at=12.0, site=Site.LEFT_FOOT, duration=10.0, count=1000)], scene)
     lost, share = loss_after(12.0, 14.0)
     assert lost == 1000 and 0.7 < share < 0.9
     assert loss_after(14.0, 24.0) == (1000, 0.0)
     scene.tick(27.0)
-    assert frame(scene)["links"]["left foot"]["loss"] is None, "nothing comes"
+    assert frame(scene)["links"]["left foot"]["recent_share"] is None, "nothing comes"

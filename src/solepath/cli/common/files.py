@@ -34,6 +34,7 @@ from ...show.output import (
     TRACK_FILE,
 )
 from .failure import Failure
+from .run_file import RUN_FILE
 
 MAX_START = 1_000_000
 """Number of bytes of an existing file that are looked at, which say what it is."""
@@ -91,6 +92,7 @@ TRACK_KINDS = {
     STRIDES_FILE: _table(STRIDE_COLUMNS),
     GAIT_CYCLES_FILE: _table(CYCLE_COLUMNS),
 }
+RUN_KINDS = {RUN_FILE: Kind(re.compile(rb'\{\n "solepath": "[^"\n]*",\n "recipe": "'))}
 PLACE_KINDS = {PLACES_FILE: _table(PLACE_COLUMNS)}
 PLAN_KINDS = {PLAN_FILE: Kind(re.compile(rb"""<\?xml [^\n]*\n<svg [^\n>]*id="solepath-plan\""""))}
 
@@ -126,15 +128,17 @@ def add_force(command: argparse.ArgumentParser) -> None:
     )
 
 
-def files_of_track(out: Path | None, *, places: bool, plan: bool = False, outcomes: bool = False) -> list[OutputFile]:
+def files_of_track(
+    out: Path | None, *, places: bool, plan: bool = False, outcomes: bool = False, run: bool = False
+) -> list[OutputFile]:
     """Return the files that are written to the directory `out`; `places`, `plan`: with a floor plan, and its picture.
 
-    `outcomes`: with clinical outcomes. Raise Failure when there is a file in place of the directory."""
+    `outcomes`: with clinical outcomes; `run`: with run.json. Raise Failure when a file has the directory's name."""
     if out is None:
         return []
     if out.exists() and not out.is_dir():
         raise Failure(f"{printable(str(out))}: is a file; --out needs a folder, which is made when there is none")
-    kinds = TRACK_KINDS | (PLACE_KINDS if places else {}) | (PLAN_KINDS if plan else {})
+    kinds = TRACK_KINDS | (RUN_KINDS if run else {}) | (PLACE_KINDS if places else {}) | (PLAN_KINDS if plan else {})
     if outcomes:
         from ...show.outcomes.files import BOUT_COLUMNS, BOUTS_FILE, OUTCOME_COLUMNS, OUTCOMES_FILE
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -21,6 +22,7 @@ from ...walk.walk import Walk
 from .failure import Failure, note
 from .files import OutputFile, replacements
 from .own_devices import UnusedPackets
+from .run_file import RUN_FILE, Run
 
 if TYPE_CHECKING:
     from ...show.outcomes.clinic import OutcomeRequest
@@ -46,6 +48,8 @@ class Results:
     outcomes: OutcomeRequest | None = None
     """Clinical outcomes; None without any."""
     unused: UnusedPackets = field(factory=UnusedPackets)
+    run: Run | None = None
+    """What run.json says of the run; None without this file."""
     walk: Walk = field(factory=Walk, init=False)
     _files: TrackFiles | None = field(default=None, init=False)
     _open: ExitStack = field(factory=ExitStack, init=False)
@@ -98,6 +102,10 @@ class Results:
             with os_errors_naming(self.out):
                 write_bouts(results, self._file_replacements.temporary_path(self.out / BOUTS_FILE))
                 write_outcomes(results, self._file_replacements.temporary_path(self.out / OUTCOMES_FILE))
+        if self.run is not None and self.out is not None:
+            with os_errors_naming(self.out):
+                content = json.dumps(self.run.describe(self.walk), indent=1, allow_nan=False)
+                self._file_replacements.temporary_path(self.out / RUN_FILE).write_text(content + "\n", encoding="utf-8")
         self._file_replacements.move_to_targets()
         return [] if self.outcomes is None or results is None else self.outcomes.lines(results)
 

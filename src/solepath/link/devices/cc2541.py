@@ -211,7 +211,7 @@ class Cc2541Link(DeviceLink):
     def _add(self, channel: str, clock: PeriodicClock, add: Add, value: Vec3, arrival: float) -> Output:
         sample_times = clock.add_packet(arrival)
         (t,) = sample_times.times
-        out: Output = [*sample_times.make_events(self.site, channel, arrival)]
+        out: Output = [*sample_times.make_events(self.site, arrival)]
         return out + [*add(t, value, clock.period, arrival)]
 
     def _read_barometer(self, temperature: int, raw: int, arrival: float) -> Output:

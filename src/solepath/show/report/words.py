@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from ...recording import printable
-from ...types import Foot, Site, Turn
-from ...walk.links import LinkLedger
+from ...types import Foot, Turn
 from ...walk.walk import Walk
-from ..tables.summary import link_health, sample_lines, wear_lines
+from ..tables.summary import degraded_lines, link_health, site_links, wear_lines
 from ..tables.table import counted, duration_text, number
 from ..tables.words import activity_words, turn_words
 from .clock import ReportClock
@@ -51,13 +50,13 @@ def overview(walk: Walk, clock: ReportClock, cycle_counts: dict[Foot, int]) -> l
 
 def faults(walk: Walk) -> list[str]:
     """Return sentences on what is missing or wrong in sensors, their wearing and their links; none without faults."""
-    return whole_sentences([*wear_lines(walk), *link_health(walk), *sample_lines(walk)])
+    return whole_sentences([*wear_lines(walk), *link_health(walk), *degraded_lines(walk)])
 
 
 def sensors(walk: Walk) -> str:
     """Return the sensors in one line, with the names of the devices and the kinds of their data."""
     lines = []
-    for site, link in _links(walk):
+    for site, link in site_links(walk):
         name = f" ({printable(link.name, MAX_NAME_LENGTH)})" if link.name else ""
         kinds = [kind for kind, present in (("motion", link.has_motion), ("pressure", link.has_pressure)) if present]
         lines.append(f"{site.words}{name}{': ' + ' and '.join(kinds) if kinds else ''}")
@@ -66,14 +65,10 @@ def sensors(walk: Walk) -> str:
 
 def link_rows(walk: Walk) -> list[list[str]]:
     """Return the rows of the table of links, with its header first."""
-    rows = [["sensor", "samples", "Hz", "gaps", "s in gaps", "lost", "rejected", "silent", "battery"]]
-    for site, link in _links(walk):
+    rows = [["sensor", "samples", "Hz", "missing", "%", "s absent", "rejected", "silent", "battery"]]
+    for site, link in site_links(walk):
         battery = "-" if link.battery is None else f"{100.0 * link.battery:.0f} %"
-        gaps = [str(link.gaps), number(link.gap_time, 2)]
-        counts = [str(link.lost), str(link.rejected.total()), str(link.silences), battery]
-        rows.append([site.words, str(link.samples), number(link.rate, 1), *gaps, *counts])
+        missing = [str(link.missing), number(100.0 * link.missing_share, 1), number(link.absent_time, 1)]
+        counts = [str(link.rejected.total()), str(link.silences), battery]
+        rows.append([site.words, str(link.samples), number(link.rate, 1), *missing, *counts])
     return rows
-
-
-def _links(walk: Walk) -> list[tuple[Site, LinkLedger]]:
-    return [(site, walk.links[site]) for site in Site if site in walk.links]

@@ -16,6 +16,8 @@ from .table import counted, duration_text, milliseconds, number, table, times
 from .words import activity_words, turn_words
 
 NO_DATA = "no data from either foot"
+SHORTEST_ABSENCE = 0.05
+"""Shortest absence that is written, s; a shorter one would be written as 0.0 s."""
 
 
 def summary(walk: Walk, *, title: str, seconds: float) -> str:
@@ -50,20 +52,24 @@ def _foot_table(walk: Walk) -> list[str]:
         link = walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
         row = [f"{foot}", str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
         rows.append([*row, *[str(counts.events[name]) for name in GAIT_EVENTS.values()]])
-    return ["", table(header, rows), "", *sample_lines(walk)]
+    return ["", table(header, rows), "", *degraded_lines(walk)]
 
 
-def sample_lines(walk: Walk) -> list[str]:
-    """Return lines about missing samples and the strides that they degrade; none if no sample is missing."""
-    lines = []
-    for foot in walk.known_feet:
-        counts = walk.feet.get(foot, FootCounts())
-        link = walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
-        if link.gaps:
-            lines.append(f"{foot}: {counted(link.gaps, 'gap')} in the samples, {link.gap_time:.2f} s in all")
-        if counts.degraded:
-            lines.append(f"{foot}: {counts.degraded} of {counts.strides} strides degraded")
-    return lines
+def degraded_lines(walk: Walk) -> list[str]:
+    """Return a line for each foot with degraded strides."""
+    feet = [(foot, walk.feet.get(foot, FootCounts())) for foot in walk.known_feet]
+    return [f"{foot}: {one.degraded} of {one.strides} strides degraded" for foot, one in feet if one.degraded]
+
+
+def missing_words(link: LinkLedger) -> str:
+    """Return how many samples of a link are missing, and how long its sensor was absent; "" if neither is so."""
+    words = []
+    if link.missing:
+        share = f"{100.0 * link.missing_share:.1f} %, {link.missing_time:.2f} s"
+        words.append(f"{link.missing} of {counted(link.taken, 'sample')} missing ({share})")
+    if link.absent_time >= SHORTEST_ABSENCE:
+        words.append(f"absent for {link.absent_time:.1f} s")
+    return ", ".join(words)
 
 
 def fused_stride(walk: Walk) -> list[str]:
@@ -117,12 +123,15 @@ def wear_lines(walk: Walk) -> list[str]:
     ]
 
 
+def site_links(walk: Walk) -> list[tuple[Site, LinkLedger]]:
+    """Return the ledgers of all sites in the order of Site."""
+    return [(site, walk.links[site]) for site in Site if site in walk.links]
+
+
 def link_health(walk: Walk) -> list[str]:
     """Return a line for each kind of fault of the links; none without faults."""
     lines, links = [], list(walk.links.values())
-    if lost := sum([link.lost for link in links]):
-        received = sum([link.received for link in links])
-        lines.append(f"{f'{lost} of ' if received else ''}{counted(lost + received, 'packet')} lost")
+    lines += [f"{site.words}: {words}" for site, link in site_links(walk) if (words := missing_words(link))]
     rejected = sum([link.rejected for link in links], Counter[tuple[str, str]]())
     for kind in ("packet", "sample"):
         reasons = {reason: count for (what, reason), count in rejected.items() if what == f"{kind}s"}
@@ -137,9 +146,9 @@ def link_health(walk: Walk) -> list[str]:
         lines.append(f"a stream froze and was set up again {times(restarts)}")
     if dropped := sum([link.dropped for link in links]):
         lines.append(f"{counted(dropped, 'packet')} dropped: too many came to be used in time")
-    for site in Site:
-        if site in walk.links and walk.links[site].connections > 1:
-            lines.append(f"{site.words}: connected {times(walk.links[site].connections)}")
+    for site, link in site_links(walk):
+        if link.connections > 1:
+            lines.append(f"{site.words}: connected {times(link.connections)}")
     lines += [f"trouble, {printable(what)}" for what in walk.troubles]
     return lines
 
@@ -153,15 +162,15 @@ def latency(walk: Walk) -> list[str]:
 
 def status(walk: Walk) -> list[str]:
     """Return a line on the link of each site, in the order of Site, and one on the place if it is known."""
-    lines = [_link(site, walk.links[site], walk.now) for site in Site if site in walk.links]
+    lines = [_link(site, link, walk.now) for site, link in site_links(walk)]
     place = walk.places.last
     return lines if place is None else [*lines, place_line(place)]
 
 
 def _link(site: Site, link: LinkLedger, now: float) -> str:
     parts = [f"{site.words}: {link.recent_rate(now) or 0.0:.0f} Hz"]
-    if link.loss is not None:
-        parts.append(f"{100.0 * link.loss:.1f} % lost")
+    if link.missing:
+        parts.append(f"{100.0 * link.missing_share:.1f} % missing")
     if link.battery is not None:
         parts.append(f"battery {100.0 * link.battery:.0f} %")
     if link.signal is not None:

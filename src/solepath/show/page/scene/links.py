@@ -78,8 +78,9 @@ def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
     return {
         "state": state,
         "rate": rate,
-        "lost": link.lost,
-        "loss": rounded(link.recent_loss(now), 4) if state == "ok" else None,
+        "missing": link.missing,
+        "missing_share": rounded(link.missing_share, 4),
+        "recent_share": rounded(link.recent_share(now), 4) if state == "ok" else None,
         "rejected": link.rejected.total(),
         "gaps": link.gaps,
         "battery": rounded(link.battery),

@@ -2,7 +2,7 @@
 
 import { LINKS, capital, child, fixed, percent, wordOf, show, span, setData, write } from "./words.js";
 
-const HIGH_LOSS = 0.05; // share of packets lost from which on a link is marked; accuracy is stated for up to so much
+const HIGH_LOSS = 0.05; // share of samples missing from which on a link is marked; accuracy is stated for up to so much
 const LOW_BATTERY = 0.15; // charge from which down the battery may be why nothing comes
 
 const RECORDED = { ok: "recorded", silent: "no data", lost: "lost", waiting: "no data yet" };
@@ -39,17 +39,17 @@ export function linksText({ links, source, finished }) {
   const some = names.map((name) => links[name]);
   const most = mostLost(links);
   if (!finished && most > 0) return `${all} ${verb}, ${lossText(most)}`;
-  const ever = some.reduce((sum, { lost, gaps }) => sum + (lost > 0) + (gaps > 0), 0);
-  const packets = some.reduce((sum, { lost }) => sum + (lost > 0 ? lost : 0), 0);
-  if (finished && packets > 0) return `${all} ${verb}, ${counted(packets, "packet")} lost`;
+  const ever = some.reduce((sum, { missing, gaps }) => sum + (missing > 0) + (gaps > 0), 0);
+  const samples = some.reduce((sum, { missing }) => sum + (missing > 0 ? missing : 0), 0);
+  if (finished && samples > 0) return `${all} ${verb}, ${counted(samples, "sample")} missing`;
   return ever === 0 ? `${all} ${verb}, no data lost` : `${all} ${verb}${finished ? ", with some data lost" : ", no data lost now"}`;
 }
 
-const mostLost = (links) => Math.max(0, ...Object.values(links).map(({ loss }) => (Number.isFinite(loss) ? loss : 0)));
-const lossText = (share) => `${percent(share, share < 0.0995 ? 1 : 0)} of packets lost`;
+const mostLost = (links) => Math.max(0, ...Object.values(links).map(({ recent_share }) => (Number.isFinite(recent_share) ? recent_share : 0)));
+const lossText = (share) => `${percent(share, share < 0.0995 ? 1 : 0)} of samples missing`;
 const counted = (count, word) => `${fixed(count)} ${word}${count === 1 ? "" : "s"}`;
 
-// True while more packets are lost than the stated limit.
+// True while more samples are missing than the stated limit.
 export const losesMany = ({ links, finished }) => !finished && mostLost(links) > HIGH_LOSS;
 
 export class Links {
@@ -82,7 +82,7 @@ export class Links {
   }
 }
 
-const FIGURES = ["rate", "loss", "lost", "gaps", "rejected", "battery", "signal"];
+const FIGURES = ["rate", "recent", "missing", "gaps", "rejected", "battery", "signal"];
 
 class Link {
   constructor(name) {
@@ -109,8 +109,9 @@ class Link {
     write(this.state, wordOf(words, link.state ?? "waiting") + silent);
     write(this.device, typeof link.name === "string" ? link.name : "");
     this.#figure("rate", `${fixed(link.rate)} samples a second`, Number.isFinite(link.rate));
-    this.#figure("loss", lossText(link.loss), Number.isFinite(link.loss)); // recent loss
-    this.#figure("lost", `${counted(link.lost, "packet")} lost since the start`, link.lost > 0);
+    this.#figure("recent", lossText(link.recent_share), Number.isFinite(link.recent_share));
+    const share = percent(link.missing_share, 1);
+    this.#figure("missing", `${counted(link.missing, "sample")} missing since the start (${share})`, link.missing > 0);
     this.#figure("gaps", counted(link.gaps, "interruption"), link.gaps > 0);
     this.#figure("rejected", `${counted(link.rejected, "packet")} rejected`, link.rejected > 0);
     this.#figure("battery", `battery ${percent(link.battery)}`, Number.isFinite(link.battery));

@@ -14,8 +14,8 @@ from ....events import Defect, DefectFound
 from ....types import SITE_OF_FOOT, Foot, Site
 from ....walk.walk import Walk
 from ...tables.gait import MIN_STRIDES
-from ...tables.summary import wear_lines
-from ...tables.table import counted, number, times
+from ...tables.summary import missing_words, wear_lines
+from ...tables.table import counted, times
 from ..markup import add, whole_sentences
 
 GOOD_GAP_SHARE, MAX_GAP_SHARE = 0.01, 0.25
@@ -101,11 +101,10 @@ def _samples(walked: MeasuredWalk) -> Judgement:
     missing, worst = [], 0.0
     for foot in walked.walk.known_feet:
         link = walked.walk.links.get(SITE_OF_FOOT[foot])
-        if link is not None and link.gaps:
-            share = link.gap_time / walked.duration if walked.duration > 0.0 else 0.0
-            worst = max(worst, share)
-            shown = f"{100.0 * share:.1f} %" if share >= 0.0005 else "less than 0.1 %"
-            missing.append(f"{foot} {number(link.gap_time)} s ({shown}) in {counted(link.gaps, 'gap')}")
+        if link is not None and (words := missing_words(link)):
+            absent = link.absent_time / walked.duration if walked.duration > 0.0 else 0.0
+            worst = max(worst, link.missing_share, absent)
+            missing.append(f"{foot} foot {words}")
     silences = walked.walk.silences.total()
     if silences:
         missing.append(f"a foot was silent {times(silences)} while the other walked on")
@@ -113,7 +112,7 @@ def _samples(walked: MeasuredWalk) -> Judgement:
         return Judgement("samples", QualityVerdict.GOOD, "No sample is missing.")
     verdict = QualityVerdict.GOOD if worst <= GOOD_GAP_SHARE and not silences else QualityVerdict.LOOK
     verdict = QualityVerdict.STOP if worst > MAX_GAP_SHARE else verdict
-    return Judgement("samples", verdict, f"Missing: {'; '.join(missing)}.", "missing samples")
+    return Judgement("samples", verdict, f"{'; '.join(missing)}.", "missing samples")
 
 
 def _clocks(walked: MeasuredWalk) -> Judgement | None:
