@@ -59,8 +59,8 @@ FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares r
   strike_height top tracked
 FootClocks._forget: feet* idle
 FootClocks.reset: feet* idle
-FootTracker.reset: corrector* cues* detector* gait* levelled limitations lost_count rest* rhythm sole* walk_scale* cues.reset()
-  cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
+FootTracker.reset: corrector* cues* detector* gait* levelled limitations lost_count rest* rhythm sole* walk_scale*
+  cues.reset() cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
 Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
 GaitCues.reset: inertial* pressure sagittal inertial.reset()

@@ -65,9 +65,8 @@ class SoleLoads:
         self.paths.clear()
 
     def add_cycle(self, event: GaitCycleMeasured) -> None:
-        """Add the contact of a gait cycle of walking, unless it lacks samples or is longer than MAX_CONTACT_TIME."""
-        lacks_samples = event.degraded and not event.steady
-        if lacks_samples or event.running or not 0.0 < event.t_toe_off - event.t_start <= MAX_CONTACT_TIME:
+        """Add the contact of a gait cycle of walking, unless it is degraded or longer than MAX_CONTACT_TIME."""
+        if event.degraded or event.running or not 0.0 < event.t_toe_off - event.t_start <= MAX_CONTACT_TIME:
             return
         samples = list(self.newest)
         times = [sample.t for sample in samples]

@@ -10,7 +10,6 @@ from typing import ClassVar
 from ...events import (
     Defect,
     DefectFound,
-    Flaw,
     FootFlat,
     GaitCycleMeasured,
     HeelOff,
@@ -35,16 +34,10 @@ MAX_PHASE_TIME = 2.0
 """Longest stance, and longest swing, of a gait cycle, s."""
 MIN_CYCLE_TIME = 0.35
 """Shortest gait cycle, also of a runner, s."""
-MAX_STEADY_GAP = 0.1
-"""Longest gap in a steady cycle, s."""
 GAP_MARGIN = 0.05
 """Time after a gap in which an event is not trusted, s, because it may have happened in the gap."""
 MAX_KEPT = 4
 """Largest number of contacts, of toe-offs and of waiting cycles of a foot that are kept."""
-
-
-COMPLETE, DEGRADED, UNSTEADY = range(3)
-"""What a cycle lacks: nothing; samples for longer than is harmless; more than a steady cycle may lack."""
 
 
 @define
@@ -56,8 +49,8 @@ class PendingCycle:
     end: float
     follows_cycle: bool
     """Flag: the cycle directly before was accepted too."""
-    lack: int
-    """What is missing in the cycle: `COMPLETE`, `DEGRADED` or `UNSTEADY`."""
+    degraded: bool
+    """Flag: an event of the cycle is inferred, a gap in it is a flaw, or its stride has flaws."""
     foot_was_flat: bool = False
     """Flag: a foot-flat followed the cycle; if no stride ended there, the wearer stepped on the spot."""
     stride: StrideTaken | None = None
@@ -80,8 +73,8 @@ class Footfalls:
     """Toe-off since the newest contact, s, also when no cycle is under way; None without one."""
     follows_cycle: bool = False
     """Flag: the cycle directly before the one under way was accepted."""
-    lack: int = COMPLETE
-    """What is missing in the cycle under way: `COMPLETE`, `DEGRADED` or `UNSTEADY`."""
+    degraded: bool = False
+    """Flag: an event of the cycle under way is inferred, or a gap in it is a flaw."""
     ended_cycle: PendingCycle | None = None
     """Newest finished cycle, while events may still be added to it."""
     waiting_cycles: list[PendingCycle] = field(factory=list)
@@ -93,42 +86,38 @@ class Footfalls:
     toe_offs: list[float] = field(factory=list)
     """Times of the newest toe-offs, without inferred ones, s."""
     gap: tuple[float, float] | None = None
-    """Start and end of the newest gap that is longer than `MAX_STEADY_GAP`, s; None before any."""
+    """Start and end of the newest gap that is a flaw, s; None before any."""
 
     def add_contact(self, event: HeelStrike | FootFlat) -> None:
         """Add a contact of the foot."""
         t, start, toe_off = event.t, self.contact, self.toe_off
-        lack = self._lack_of(event)
+        uncertain = self._is_uncertain(event)
         if start is not None:
             if toe_off is None:
                 return  # the foot never left the ground
             is_cycle = max(toe_off - start, t - toe_off) <= MAX_PHASE_TIME and t - start >= MIN_CYCLE_TIME
             if is_cycle:
-                self.ended_cycle = PendingCycle(start, toe_off, t, self.follows_cycle, max(self.lack, lack))
+                self.ended_cycle = PendingCycle(start, toe_off, t, self.follows_cycle, self.degraded or uncertain)
             self.follows_cycle = is_cycle
-        self.contact, self.toe_off, self.lack = t, None, lack
-        if lack == COMPLETE:
+        self.contact, self.toe_off, self.degraded = t, None, uncertain
+        if not uncertain:
             self.contacts = [*self.contacts[1 - MAX_KEPT :], t]
 
     def add_toe_off(self, event: ToeOff) -> None:
         """Add a toe-off."""
-        lack = self._lack_of(event)
-        self.toe_off, self.lack = event.t, max(self.lack, lack)
-        if lack == COMPLETE:
+        uncertain = self._is_uncertain(event)
+        self.toe_off, self.degraded = event.t, self.degraded or uncertain
+        if not uncertain:
             self.toe_offs = [*self.toe_offs[1 - MAX_KEPT :], event.t]
 
     def add_gap(self, gap: SampleGap) -> None:
         """Add a gap between samples; one that is no flaw of a stride is none of a cycle either."""
-        if gap.duration > MAX_STEADY_GAP:
-            self.lack = UNSTEADY
-            self.gap = gap.t, gap.t + gap.duration
-        elif gap.duration > LONGEST_HARMLESS_GAP:
-            self.lack = max(self.lack, DEGRADED)
+        if gap.duration > LONGEST_HARMLESS_GAP:
+            self.degraded, self.gap = True, (gap.t, gap.t + gap.duration)
 
-    def _lack_of(self, event: HeelStrike | FootFlat | ToeOff) -> int:
-        """Return what an event lacks: it may be inferred, or have happened in a gap and been detected after it."""
-        in_gap = self.gap is not None and self.gap[0] < event.t <= self.gap[1] + GAP_MARGIN
-        return UNSTEADY if event.inferred or in_gap else COMPLETE
+    def _is_uncertain(self, event: HeelStrike | FootFlat | ToeOff) -> bool:
+        """Return whether an event is inferred, or may have happened in a gap and been detected after it."""
+        return event.inferred or (self.gap is not None and self.gap[0] < event.t <= self.gap[1] + GAP_MARGIN)
 
     def add_stride(self, stride: StrideTaken) -> None:
         """Add a stride to the finished cycle that has the same heel-strike and toe-off."""
@@ -138,8 +127,7 @@ class Footfalls:
         if cycle is not None and cycle.end == contact and cycle.toe_off == stride.t_toe_off:
             if stride.t_start >= cycle.start:
                 cycle.stride = stride
-            if stride.flaws:
-                cycle.lack = max(cycle.lack, DEGRADED if stride.flaws == (Flaw.GAP,) else UNSTEADY)
+            cycle.degraded = cycle.degraded or stride.degraded
 
     def close_cycle(self) -> None:
         """Move the finished cycle to the waiting cycles, because all its events have been added."""
@@ -152,7 +140,7 @@ class Footfalls:
 #
 # GaitCycleMeasured defines the values. Only steady cycles enter the running means. A gait cycle is steady when
 #
-# - its stride has no flaw but a gap, no gap in it is longer than `MAX_STEADY_GAP`, and none of its events is inferred;
+# - it is not degraded: its stride has no flaw, no gap in it would be one, and none of its events is inferred;
 # - it follows another cycle without a pause. This leaves out the first three steps of a walk, after which gait is
 #   steady (Mann et al. 1979, J. Bone Joint Surg. Am. 61): the half stride from standing, and the first cycle;
 # - neither its time nor its length differs from that of the cycle before by a factor of `STEADY_FACTOR` or more,
@@ -237,7 +225,7 @@ def measure_cycle(
         heel_strike_angle=strike_angle,
         turning_angle=turning,
         rise=rise,
-        degraded=cycle.lack != COMPLETE,
+        degraded=cycle.degraded,
         steady=is_steady(cycle, time, previous, this.tracked),
     )
 
@@ -258,7 +246,7 @@ def is_contradictory(cycle: PendingCycle, other_contact: float | None, other_toe
 
 def is_steady(cycle: PendingCycle, time: float, previous: GaitCycleMeasured | None, tracked: bool) -> bool:
     """Return whether the cycle, whose duration is `time`, s, is steady by the rule above."""
-    if cycle.lack == UNSTEADY or not cycle.follows_cycle or previous is None or previous.t != cycle.start:
+    if cycle.degraded or not cycle.follows_cycle or previous is None or previous.t != cycle.start:
         return False
     if max(time, previous.stride_time) >= STEADY_FACTOR * min(time, previous.stride_time):
         return False
