@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 from strides import in_order
 
 from solepath.emulate import Route
-from solepath.emulate.wearers.gait import SUBJECTS, Wearer
+from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
+from solepath_lab.emulated.wearers import SUBJECTS
 
 moves = st.one_of(
     st.tuples(st.just("walk"), st.floats(0.5, 8.0), st.floats(0.6, 1.8)),

@@ -29,9 +29,9 @@ from solepath.floorplan.plan import Anchor
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import NEAR_DISTANCE, PlaceScore, score
-from solepath_lab.emulated.buildings import HALF_TURN
 
 from ..options import add_command, add_seeds
+from .buildings import HALF_TURN
 
 FIRST_SEED, WALKS = 7001, 24
 """First seed and number of walks."""
