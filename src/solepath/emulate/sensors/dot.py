@@ -11,10 +11,9 @@ from ...types import Site
 from ..wearers.curves import Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .device import Notification, draw_clock, make_sampling, setup_notifications
+from .device import HANDLING_TIME, Notification, draw_clock, make_sampling, setup_notifications
 from .parts import CRE_CC02, AttitudeErrors
 from .sensors import read_attitudes
-from .tag_signals import HANDLING_TIME
 
 SAMPLING_RATE = 60.0
 """Sampling rate after the usual setup, Hz."""
