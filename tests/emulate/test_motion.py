@@ -67,7 +67,7 @@ WAYS = {
         False,
     ),
     "lift": Way(
-        START.lift(7.0, 1.6, 1.0, 1.2).walk(2.0).lift(-3.5, creep=0.15).walk(2.0).stop(1.0),
+        START.lift(7.0, 1.6, 1.0, 1.2).walk(2.0).lift(-3.5).walk(2.0).stop(1.0),
         (STAND, WALK, STAND, LIFT_UP, STAND, WALK, STAND, LIFT_DOWN, STAND, WALK, STAND),
         3.5,
         flat=False,

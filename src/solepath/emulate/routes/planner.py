@@ -12,11 +12,10 @@ from attrs import evolve
 from ...types import Foot
 from ..wearers.curves import Rng
 from ..wearers.gait import SETTLE_TIME, Climb, PlannedStride, WalkPlan, Wearer, double_support
-from .actions import Stage, Stand, stages
-from .elevator import CarRide, ride
-from .escalator import PAUSE, EscalatorRide, ride_escalator, ride_time
+from .elevator import CarRide, Elevator, ride
+from .escalator import PAUSE, Escalator, EscalatorRide, ride_escalator, ride_time
 from .footfalls import Footfall, FootfallPlan
-from .path import LEFT, RIGHT, ElevatorStage, EscalatorStage, Flight, Pivot, Pose, WalkPath
+from .path import LEFT, RIGHT, Flight, Pose, Stand, Turn, WalkPath, stages
 from .route import Route
 from .styles import StrideKind, style_of
 
@@ -28,7 +27,7 @@ _MIN_FLAT_TIME, _MIN_PUSH_OFF_TIME = 0.04, 0.06
 
 def plan(route: Route, wearer: Wearer, rng: Rng) -> WalkPlan:
     """Return the positions and times of the strides on `route`; `rng` draws all variations of the gait."""
-    return _Planner(wearer, rng).run(stages(route.actions))
+    return _Planner(wearer, rng).run(route)
 
 
 class _Planner:
@@ -52,26 +51,30 @@ class _Planner:
         self.starts = dict(self.feet)
         self.strides: dict[Foot, list[PlannedStride]] = {foot: [] for foot in Foot}
 
-    def run(self, route_stages: list[Stage]) -> WalkPlan:
+    def run(self, route: Route) -> WalkPlan:
         """Return the plan of all stages of a route."""
-        for stage in route_stages:
+        for pose, stage in stages(route.actions):
+            match stage:
+                case WalkPath(pieces=(first, *_)):
+                    if first.move.direction in (LEFT, RIGHT):
+                        self._lead(Foot.LEFT if first.move.direction == LEFT else Foot.RIGHT)
+                    self._walk(self.footfalls.on_path(stage))
+                    continue
+                case Turn():
+                    self._walk(self.footfalls.in_turn(pose, stage))
+                    continue
+            self._halt()
             match stage:
                 case Stand(duration=duration):
-                    self._halt()
                     self.t += duration
-                case WalkPath():
-                    if stage.direction in (LEFT, RIGHT):
-                        self._lead(Foot.LEFT if stage.direction == LEFT else Foot.RIGHT)
-                    self._walk(self.footfalls.on_path(stage))
-                case Pivot():
-                    self._walk(self.footfalls.in_pivot(stage))
-                case ElevatorStage():
-                    self._halt()
-                    self._ride(stage)
-                case EscalatorStage(start=pose, escalator=escalator):
-                    self._halt()
-                    start, end = self.t + PAUSE, self.t + PAUSE + ride_time(escalator)
-                    self.escalators.append(ride_escalator(escalator, pose.heading, start, end, self.rng))
+                case Elevator(doors=doors):
+                    car = ride(stage, self.t + doors, self.rng)
+                    self.rides.append(car)
+                    self.t = car.end + doors
+                    self.feet = {foot: evolve(one, z=one.z + car.height) for foot, one in self.feet.items()}
+                case Escalator():
+                    start, end = self.t + PAUSE, self.t + PAUSE + ride_time(stage)
+                    self.escalators.append(ride_escalator(stage, pose.heading, start, end, self.rng))
                     self.t = end + PAUSE
         self._halt()
         return WalkPlan(
@@ -83,12 +86,6 @@ class _Planner:
             rides=tuple(self.rides),
             escalators=tuple(self.escalators),
         )
-
-    def _ride(self, stage: ElevatorStage) -> None:
-        car = ride(stage.elevator, self.t + stage.elevator.doors, self.rng)
-        self.rides.append(car)
-        self.t = car.end + stage.elevator.doors
-        self.feet = {foot: evolve(pose, z=pose.z + car.height) for foot, pose in self.feet.items()}
 
     def _halt(self) -> None:
         if self.last_heel_strike is not None:

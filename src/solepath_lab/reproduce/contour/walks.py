@@ -14,7 +14,7 @@ from attrs import evolve, frozen
 
 from solepath.calibration import Calibration, CalibrationError, InsoleCalibration
 from solepath.calibration.records import merged
-from solepath.emulate.routes.actions import Stand
+from solepath.emulate.routes.path import Stand
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout as sole_layout
 from solepath.emulate.walk import SampledWalk, sampled
