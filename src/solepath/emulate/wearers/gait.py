@@ -18,7 +18,7 @@ from ...types import Foot
 from ..routes.elevator import CarRide
 from ..routes.escalator import EscalatorRide
 from ..routes.path import Flight, Pose
-from ..routes.styles import StrideKind
+from ..routes.styles import StrideKind, Style
 from .curves import Array
 from .shoe import Shoe
 from .soles.heel_pad import HeelPad
@@ -138,8 +138,10 @@ class PlannedStride:
     """Curvature of the path where the foot lands, 1/m; positive to the left."""
     step_speed: float
     """Speed of the body in the step that ends this stride, m/s: half of the foot's displacement over the step time."""
-    kind: StrideKind = StrideKind.WALK
+    kind: StrideKind
     """Kind of the stride."""
+    style: Style
+    """Parameters of the stride."""
     flight: Flight | None = None
     """Flight of stairs that the stride starts or ends on."""
 
@@ -191,8 +193,3 @@ class WalkPlan:
         for ride in self.escalators:
             total += ride.at(t)[0]
         return total
-
-
-def double_support(speed: float) -> float:
-    """Return the duration of one double support at `speed` m/s, as a share of the stride; numbers assumed."""
-    return float(np.clip(0.115 - 0.04 * (speed - 1.3), 0.05, 0.20))
