@@ -30,7 +30,7 @@ class Dot:
     mounting: Mounting = Mounting((0.0, 0.0, 0.0))
     """Position, m, and attitude of the sensor in the frame of its segment (limbs.py)."""
     attitude: AttitudeErrors = CRE_CC02
-    """Attitude errors; MOVELLA_DOT has those of a DOT, the default those of the unit of Gong et al. 2023."""
+    """Attitude errors; the default has those of the unit of Gong et al. 2023."""
     north: float = 0.0
     """Yaw of the device's world frame in the walk's world frame, rad, counter-clockwise positive."""
     ppm: float | None = None

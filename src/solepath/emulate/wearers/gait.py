@@ -9,6 +9,7 @@ in styles.py."""
 from __future__ import annotations
 
 from enum import Enum
+from typing import Protocol
 
 import numpy as np
 from attrs import frozen
@@ -21,7 +22,19 @@ from ..routes.path import Flight, Pose
 from ..routes.styles import StrideKind, Style
 from .curves import Array
 from .shoe import Shoe
-from .soles.heel_pad import HeelPad
+
+
+class HeelPad(Protocol):
+    """Pad under a heel, which lets the patch of pressure spread and move while the shoe is at rest."""
+
+    def spread(self, heel_load: Array) -> Array:
+        """Return the half-axes of the patch as a share of those of the zone, (N); the load is a share of the weight."""
+
+    def shift(self, stance: Array, heel_share: Array, weight: float, speed: Array, t: Array) -> Array:
+        """Return how far the patch is ahead of its place at foot-flat without shear, m, (N).
+
+        `stance` has heel-strike, foot-flat, heel-off and toe-off, s, (N, 4). `heel_share` is the share of the heel in
+        the foot's load, `weight` is in N, and `speed` is a ratio to 1.3 m/s."""
 
 
 class LoadLaw(Enum):

@@ -31,9 +31,8 @@ from ...types import Foot, Layout
 from ...types.vector import GRAVITY
 from ..routes.escalator import GroundRide
 from .curves import Array, Rng, hand_over
-from .gait import SETTLE_TIME, LoadLaw, PlannedStride, WalkPlan, Wearer
+from .gait import SETTLE_TIME, HeelPad, LoadLaw, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
-from .soles.heel_pad import HeelPad
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, cell_shares
 
 BOUNCE_AMPLITUDE = 0.17
