@@ -82,7 +82,6 @@ def test_invalid_values_in_a_route_are_rejected(bad: float) -> None:
         ("stairs", {"steps": 4, "rise": 0.4}, "stairs"),
         ("stairs", {"steps": 4, "going": 0.2}, "stairs"),
         ("lift", {"height": 0.1}, "lift"),
-        ("lift", {"height": 3.0, "creep": 0.9}, "lift"),
         ("escalator", {"height": 0.5}, "escalator"),
         ("escalator", {"height": nan}, "escalator"),
     ],
