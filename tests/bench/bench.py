@@ -25,7 +25,6 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.sensors.sensortags import CC2541
-from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.emulate.wearers.walker import Walker
@@ -33,6 +32,7 @@ from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.stance.cycle import Cycle
 from solepath.link.decoder import Decoder
 from solepath.types import SITE_OF_FOOT
+from solepath_lab.emulated.limb_samples import limb_samples
 
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
 """A walk of about 43 s; the feet stand still for 10 % of it."""

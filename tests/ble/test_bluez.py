@@ -16,7 +16,6 @@ from bus import DAEMON, message_bus
 
 from solepath.ble import BluetoothError, DeviceConfig, Devices, scan
 from solepath.emulate import Route
-from solepath.emulate.devices.attributes import BATTERY_STEP
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.sensors.device import Device
@@ -37,9 +36,7 @@ BUS = "DBUS_SYSTEM_BUS_ADDRESS"
 
 def bench(faults: str = "", **devices: Device) -> Bench:
     worn = {Site(site): device for site, device in devices.items()} or {LEFT: Insole()}
-    # at this offset no battery changes while a test lasts, whatever the machine's clock shows
-    started_at = monotonic() - 0.5 * BATTERY_STEP
-    bench_ = Bench(Route().walk(20.0), devices=worn, started_at=started_at, faults=parse_faults(faults))
+    bench_ = Bench(Route().walk(20.0), devices=worn, started_at=monotonic(), faults=parse_faults(faults))
     bench_.prepare()
     return bench_
 

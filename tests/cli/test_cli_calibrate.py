@@ -13,14 +13,15 @@ from recordings import recorded
 
 from solepath.calibration import Calibration, InsoleCalibration, Limbs
 from solepath.calibration.file import read_calibration, write_calibration
-from solepath.emulate.routes.laps import marked, marks, square, straight
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.insole_device import Insole, boot
+from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.suit import suit
 from solepath.emulate.walk import emulate
 from solepath.recipes import NAMES, by_name
 from solepath.types import Foot, Site, WalkingMode
 from solepath.types.attrs import evolve
+from solepath_lab.emulated.boot import boot
+from solepath_lab.emulated.laps import marked, marks, square, straight
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)

@@ -10,7 +10,7 @@ import pytest
 from solepath.emulate import Route, emulate
 from solepath.emulate.radio import Radio
 from solepath.emulate.sensors.parts import CRE_CC02
-from solepath.emulate.sensors.suit import limb_mounting, limb_samples, suit
+from solepath.emulate.sensors.suit import limb_mounting, suit
 from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.limbs import MAX_SLIP, ankle_place
 from solepath.emulate.wearers.shoe import Mounting
@@ -19,6 +19,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.link.decoder import Decoder
 from solepath.types import Foot, Quat, Sample, Site
 from solepath.types.vector import GRAVITY
+from solepath_lab.emulated.limb_samples import limb_samples
 
 ROUTE = Route().stand(2.0).walk(5.0, 1.3).turn(pi, 2.0, 1.1).walk(2.0).turn(pi / 2).walk(2.0).stop(2.0)
 ABOVE = [site for site in Site if site.foot is None]
@@ -66,7 +67,7 @@ def test_rates_and_forces_of_body_sensors_are_those_of_their_motion(walker: Walk
 
 def test_seven_sites_are_sampled_together_with_the_attitude_errors_of_the_paper_s_sensor(walker: Walker) -> None:
     exact, read, again = (
-        limb_samples(walker, 10.0, seed=7, attitude=part, errors=None, tissue=0.0)
+        limb_samples(walker, 10.0, seed=7, attitude=part, tissue=0.0, limb_attitudes_only=True)
         for part in (None, CRE_CC02, CRE_CC02)
     )
     assert read == again != exact

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from solepath.emulate import Route, emulate
-from solepath.emulate.sensors.insole_device import boot
-from solepath.emulate.sensors.insoles import LOAD_PER_COUNT, heel_array, layout
+from solepath.emulate.sensors.insoles import LOAD_PER_COUNT, layout
 from solepath.emulate.wearers.curves import Array
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot, Site
 from solepath.types.vector import GRAVITY
 from solepath.wire.insole_info import parse_info
+from solepath_lab.emulated.boot import boot, heel_array
 
 WEIGHT = 75.0 * GRAVITY
 STRAIGHT = Route().stand(2.0).walk(20.0, 1.3).stop(2.0)

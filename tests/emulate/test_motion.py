@@ -16,13 +16,14 @@ from solepath.emulate import Route
 from solepath.emulate.routes.escalator import Escalator, ride_time
 from solepath.emulate.routes.styles import StrideKind
 from solepath.emulate.wearers.curves import Array
-from solepath.emulate.wearers.gait import SUBJECTS, PlannedStride, Wearer
+from solepath.emulate.wearers.gait import PlannedStride, Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting, Shoe
 from solepath.emulate.wearers.soles.contact import RIGID, WORN
 from solepath.emulate.wearers.turning import from_rotation_vectors, matrices, multiply_quaternions
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Activity, Foot, Phase
 from solepath.types.vector import GRAVITY, from_rotation_vector
+from solepath_lab.emulated.wearers import SUBJECTS
 
 START = Route().stand(1.0).walk(3.0)
 TILTED = Mounting(position=(0.16, 0.01, 0.08), attitude=from_rotation_vector((0.5, -2.2, 0.9)))
@@ -66,7 +67,7 @@ WAYS = {
         False,
     ),
     "lift": Way(
-        START.lift(7.0, 1.6, 1.0, 1.2).walk(2.0).lift(-3.5, creep=0.15).walk(2.0).stop(1.0),
+        START.lift(7.0, 1.6, 1.0, 1.2).walk(2.0).lift(-3.5).walk(2.0).stop(1.0),
         (STAND, WALK, STAND, LIFT_UP, STAND, WALK, STAND, LIFT_DOWN, STAND, WALK, STAND),
         3.5,
         flat=False,

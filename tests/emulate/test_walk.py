@@ -13,7 +13,6 @@ from solepath.emulate.radio import Radio
 from solepath.emulate.sensors.device import SETUP_TIME, Device, Notification
 from solepath.emulate.sensors.dot import Dot
 from solepath.emulate.sensors.insole_device import ACC_COUNT, GYRO_COUNT, TICK_RATE
-from solepath.emulate.sensors.insoles import heel_array
 from solepath.emulate.sensors.parts import CellErrors, Imu, TriadErrors
 from solepath.emulate.wearers.shoe import IN_SOLE, Mounting
 from solepath.link.decoder import Decoder
@@ -22,6 +21,7 @@ from solepath.link.profile import Access, Profile
 from solepath.types.vector import from_rotation_vector
 from solepath.wire.insole import parse_frame
 from solepath.wire.insole_info import parse_info
+from solepath_lab.emulated.boot import heel_array
 
 SHORT = Route().stand(1.0).walk(6.0, 1.3).stop(1.0)
 IDEAL = TriadErrors(density=0.0, bias=0.0, drift=0.0, scale=0.0, cross=0.0, bandwidth=1e9)

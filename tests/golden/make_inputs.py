@@ -24,7 +24,7 @@ from solepath.emulate.sensors.dot import Dot
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.magnetic_field import MagneticField
 from solepath.emulate.sensors.parts import AK8963, LSM6DSOX
-from solepath.emulate.sensors.suit import limb_samples
+from solepath_lab.emulated.limb_samples import limb_samples
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ROUGH = Radio(loss=0.03, duplicate=0.01, corrupt=0.01, truncate=0.01, latency=0.01, jitter=0.04)

@@ -16,13 +16,12 @@ from soak import soaked
 
 from solepath import recipes
 from solepath.emulate.radio import CLEAN, Radio
-from solepath.emulate.routes.building import BUILDING, COLUMNS
+from solepath.emulate.routes.building import BUILDING, FOUR_LOOPS
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX, Imu
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
-from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.walker import Walker
 from solepath.floorplan.index import IndexedPlan
@@ -37,6 +36,7 @@ from solepath.recipes import DEFAULT, Recipe
 from solepath.saving import codec
 from solepath.session import Session
 from solepath.types import Foot, Packet, Sample, Site
+from solepath_lab.emulated.limb_samples import limb_samples
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ROUGH = Radio(loss=0.05, duplicate=0.02, corrupt=0.02, truncate=0.02, latency=0.01, jitter=0.04)
@@ -136,7 +136,7 @@ def indexed_building() -> IndexedPlan:
 def _placed(name: str, items: tuple[Item, ...], recipe: Recipe) -> Machine:
     """Return a session in a building with a known start without a heading."""
     building = indexed_building()
-    first_place = Start("0", (COLUMNS[0], 12.0))
+    first_place = Start("0", (FOUR_LOOPS.columns[0], 12.0))
 
     def start() -> Session:
         return Session(recipe, poses=True, floorplan=building, start=first_place)

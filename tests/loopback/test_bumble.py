@@ -8,9 +8,7 @@ from collections.abc import Awaitable, Callable
 import pytest
 from bleak.exc import BleakError, BleakGATTProtocolError
 from strap import BEAT, BOOK, CONTROL, LEVEL, PAGE
-from virtual import Host, find, linked, now, strap, virtually
-
-from solepath.emulate.controllers.server import virtual_link
+from virtual import linked, strap, virtually
 
 
 @pytest.mark.parametrize(("of_device", "of_host", "agreed"), [(247, 185, 185), (185, 247, 185), (23, 247, 23)])
@@ -63,31 +61,3 @@ async def test_a_rejected_request_is_an_att_error_and_the_link_stays_up() -> Non
         assert codes == [0x80, 0x80, 0x0D, 0x03, 0x02]
         assert await host.client.read_gatt_char(LEVEL) == b"\x57"
         assert not host.lost
-
-
-@virtually
-async def test_a_link_with_an_interval_sends_everything_at_its_events_in_order() -> None:
-    interval = 0.03
-    async with virtual_link([strap()], interval=interval) as backend:
-        host = Host(backend, await find(backend))
-        async with host.client:
-            for _ in range(5):
-                t_start = now()
-                assert await host.client.read_gatt_char(LEVEL) == b"\x57"
-                assert interval < now() - t_start < 2.1 * interval  # request and answer at two events
-                await asyncio.sleep(0.011)
-            await host.count(100)
-            await asyncio.sleep(9.0)
-            assert len(host.received) in range(890, 901)
-            assert host.numbers == list(range(host.numbers[0], host.numbers[0] + len(host.received)))
-            first = host.received[0][0]
-            for (t, _), number in zip(host.received, host.numbers, strict=True):
-                assert (t - first) / interval == pytest.approx(round((t - first) / interval), abs=1e-3)
-                assert -1e-3 < t - number / 100 < interval + 1e-3
-            await host.client.write_gatt_char(CONTROL, b"\x00", response=False)
-        # packets that were sent before the link ended have arrived
-        assert len(host.lost) == 1
-        received = len(host.received)
-        async with host.client:
-            assert await host.client.read_gatt_char(CONTROL) == b"\0"
-            assert len(host.received) == received

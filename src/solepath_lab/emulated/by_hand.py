@@ -3,7 +3,7 @@
     solepath-lab emulated by-hand [--sensors N] [--walks N] [--seed S] [--recipe NAME]
 
 prints the tables of docs/calibration.md as Markdown. The first is of `N` sensors of each kind in each hand
-(emulate/handling.py): how far scale and axes are from the emulator's, and how often within one and two standard
+(emulated/handling.py): how far scale and axes are from the emulator's, and how often within one and two standard
 deviations, which is 68 and 95 % for errors that are normal.
 
 The second is of walks of 250 m along corridors (emulated/heading_walks.py) by wearers whose two sensors were calibrated
@@ -31,7 +31,6 @@ from solepath.cli.calibrate.by_hand.fit import SYMMETRIC
 from solepath.cli.calibrate.by_hand.pauses import Floats
 from solepath.cli.calibrate.by_hand.sensor import fit_sensors, sensor_calibration
 from solepath.cli.common.inputs import add_recipe_name
-from solepath.emulate.handling import CLUMSY, STEADY, Clumsiness, Handling
 from solepath.emulate.radio import Radio
 from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
@@ -44,6 +43,7 @@ from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 
 from ..options import add_command, add_processes, add_seeds
 from ..processes import run_jobs
+from .handling import CLUMSY, STEADY, Clumsiness, Handling
 from .heading import follow, heading_figures
 from .heading_walks import G_EFFECT, OTHER_DAY, heading_route, wearer_of
 

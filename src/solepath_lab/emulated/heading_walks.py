@@ -17,10 +17,12 @@ from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import LSM6DSOX, Imu
 from solepath.emulate.wearers.curves import Rng
-from solepath.emulate.wearers.gait import Wearer, random_wearer
+from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 from solepath.types.vector import GRAVITY
+
+from .wearers import random_wearer
 
 STANDING_TIME = 3.0
 """Duration of standing at the start and at the end, s."""

@@ -18,7 +18,6 @@ from attrs import evolve
 
 from solepath import recipes
 from solepath.cli.common.inputs import add_recipe_name
-from solepath.emulate.routes.building import HALF_TURN
 from solepath.emulate.routes.ways import BuildingWalk, wandering
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.magnetic_field import EARTH, MagneticField
@@ -32,6 +31,7 @@ from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import NEAR_DISTANCE, PlaceScore, score
 
 from ..options import add_command, add_seeds
+from .buildings import HALF_TURN
 
 FIRST_SEED, WALKS = 7001, 24
 """First seed and number of walks."""

@@ -10,7 +10,7 @@ Each walk has another pair of insoles, for which the shoe is measured in five po
 III-C). A recording has 20 s of walking to measure the pressure noise (section III-B), a halt, and then the 20 m. The
 sessions receive only the samples after the halt. Distances are the sums of stride lengths, as in section IV-B. In the
 corridor the drift is the error of that sum, as in section IV-C. The paper does not give the corridor's shape; here it
-goes once around the inner block of a floor (emulate/routes/laps.py)."""
+goes once around the inner block of a floor (solepath_lab/emulated/laps.py)."""
 
 from __future__ import annotations
 

@@ -20,8 +20,7 @@ import numpy as np
 from attrs import evolve
 
 from solepath.calibration import Calibration
-from solepath.emulate.routes.laps import ACROSS, ALONG
-from solepath.emulate.wearers.gait import SUBJECTS, LoadLaw
+from solepath.emulate.wearers.gait import LoadLaw
 from solepath.emulate.wearers.soles.contact import SLIPPING, WORN
 from solepath.papers.walking_modes.calibrate import MODES
 from solepath.papers.walking_modes.compensation import Compensation
@@ -37,6 +36,8 @@ from solepath.papers.walking_modes.settings import ModeRule
 from solepath.recipes import Recipe
 from solepath.types import Foot
 
+from ..emulated.laps import ACROSS, ALONG
+from ..emulated.wearers import SUBJECTS
 from . import published
 from .modes.figures import CORNER_POSITIONS, panels
 from .modes.walks import (

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from solepath.calibration import Calibration, InsoleCalibration
-from solepath.emulate.routes.actions import Stand
+from solepath.emulate.routes.path import Stand
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import EmulatedWalk
 from solepath.emulate.wearers.walker import Walker

@@ -15,10 +15,12 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import MPU6050
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import EmulatedWalk, emulate
-from solepath.emulate.wearers.gait import Wearer, random_wearer
+from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import SITE_OF_FOOT, Foot
+
+from ..emulated.wearers import random_wearer
 
 RATE = 20.0
 """Sampling rate, Hz (section IV: "we sample the accelerometer and gyroscope with 20 Hz")."""

@@ -23,13 +23,13 @@ from solepath.body.gait.turns import TurnDetector, TurnProcess, features
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import EmulatedWalk, emulate
-from solepath.emulate.wearers.gait import random_wearer
 from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.events import StrideTaken
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Turn
 
+from ..emulated.wearers import random_wearer
 from ..options import add_command
 
 TURNS_FILE = Path(__file__).with_name("turns.csv")

@@ -20,11 +20,11 @@ from solepath.emulate.sensors.air import STILL_AIR, Air, PressureStep
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import emulate
-from solepath.emulate.wearers.gait import random_wearer
 from solepath.emulate.wearers.truth import Truth
 from solepath.events import ActivityChanged, FlightClimbed, LiftRidden
 from solepath.types import Activity, Site
 from solepath.walk.timeline import Timeline
+from solepath_lab.emulated.wearers import random_wearer
 
 SEEDS = longer(1, 2, 3)
 """Seeds of wearers; those beyond the first repeat a walk with another gait and other sensor errors."""

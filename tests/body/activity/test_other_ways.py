@@ -16,10 +16,11 @@ from solepath import Session, recipes
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import emulate
-from solepath.emulate.wearers.gait import SUBJECTS, Wearer
+from solepath.emulate.wearers.gait import Wearer
 from solepath.events import ActivityChanged
 from solepath.types import Activity, Site
 from solepath.walk.timeline import Timeline
+from solepath_lab.emulated.wearers import SUBJECTS
 
 SLOPE = 1.0 / 12.0
 UP = Route().stand(3.0).walk(5.0, 1.3).walk(25.0, slope=SLOPE).walk(3.0).stand(3.0)

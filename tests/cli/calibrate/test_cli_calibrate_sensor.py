@@ -13,13 +13,13 @@ from recordings import recorded
 from solepath import Calibration, Foot, Packet, Site
 from solepath.calibration import HeadingCalibration
 from solepath.calibration.file import read_calibration, write_calibration
-from solepath.emulate.handling import Handling
 from solepath.emulate.radio import Radio
 from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import MPU9250
 from solepath_lab.command import main as lab
 from solepath_lab.emulated.by_hand import specimen, true_corrections
+from solepath_lab.emulated.handling import Handling
 
 IMU = specimen(MPU9250, 81)
 

@@ -15,7 +15,8 @@ import pytest
 from programs import TAKES, drawn, emulator, in_terminal
 
 from solepath.calibration.file import read_calibration
-from solepath.emulate.routes.postures import PITCHES, posture
+from solepath.emulate.routes.postures import PITCHES
+from solepath_lab.emulated.postures import posture
 
 HOLD = 2.5
 """Time for which the emulated shoes are held in each posture, s."""

@@ -9,12 +9,10 @@ from attrs import evolve
 from solepath.emulate.sensors.parts import (
     BMP280,
     CRE_CC02,
-    INERTIACUBE3,
     LSM6DSOX,
     MPU9250,
     RESISTIVE,
     T5400,
-    TILTED_INERTIACUBE3,
     AttitudeErrors,
     BarometerErrors,
     TriadErrors,
@@ -34,6 +32,7 @@ from solepath.emulate.sensors.sensors import (
 from solepath.emulate.sensors.sensortags import T5400_CALIBRATION, raw_barometer_values
 from solepath.emulate.wearers.turning import multiply_quaternions
 from solepath.types.vector import from_rotation_vector, multiply
+from solepath_lab.emulated.boot import INERTIACUBE3, TILTED_INERTIACUBE3
 
 
 @pytest.mark.parametrize("part", [LSM6DSOX.acc, LSM6DSOX.gyro, MPU9250.acc, MPU9250.gyro])

@@ -11,9 +11,9 @@ from soak import soaked
 
 from solepath import CalibrationError, Foot, Sample
 from solepath.cli.calibrate.by_hand.sensor import fit_sensors, sensor_calibration
-from solepath.emulate.handling import CLUMSY, STEADY, Handling
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath_lab.emulated.by_hand import HandJob, hand_errors, handled, specimen
+from solepath_lab.emulated.handling import CLUMSY, STEADY, Handling
 
 APART = ~np.eye(3, dtype=np.bool_)
 

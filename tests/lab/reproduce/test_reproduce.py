@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from commands import run, run_failing
 
-from solepath.emulate.routes.laps import straight
 from solepath_lab.command import main as lab
+from solepath_lab.emulated.laps import straight
 from solepath_lab.reproduce import kupt_dfpc, shoe_sensing
 from solepath_lab.reproduce.command import NAMES
 from solepath_lab.reproduce.kupt import walks as kupt_walks

@@ -10,14 +10,14 @@ import pytest
 from attrs import evolve
 
 from solepath.calibration import Calibration, InsoleCalibration
-from solepath.emulate.routes.laps import square
-from solepath.emulate.sensors.insoles import heel_array
 from solepath.emulate.walk import SampledWalk, sampled
 from solepath.foot.stance.stance import Load
 from solepath.papers.pressure_contour.printed import PrintedContour
 from solepath.recipes import by_name
 from solepath.types import SITE_OF_FOOT, Foot, Phase
 from solepath.types.vector import GRAVITY
+from solepath_lab.emulated.boot import heel_array
+from solepath_lab.emulated.laps import square
 from solepath_lab.reproduce.contour.runs import ContourRun, run_foot, sign_test, stance_velocities
 from solepath_lab.reproduce.contour.variants import TABLE
 

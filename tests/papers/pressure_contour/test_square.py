@@ -12,7 +12,6 @@ from walks import of, run_session
 
 from solepath import StrideTaken
 from solepath.calibration import Calibration, CalibrationError
-from solepath.emulate.routes.laps import square
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import AttitudeErrors
 from solepath.emulate.walk import EmulatedWalk, emulate
@@ -29,6 +28,7 @@ from solepath.papers.pressure_contour.square import (
 from solepath.recipes import DEFAULT, Recipe
 from solepath.recording.decoded import decode_recording
 from solepath.types import Foot, Packet, Sample, Site, Vec3
+from solepath_lab.emulated.laps import square
 
 LEFT = Foot.LEFT
 EXACT_ATTITUDE = AttitudeErrors("exact", tilt=0.0, heading=0.0)

@@ -12,7 +12,7 @@ from walks import of, run_session
 
 from solepath import LayoutKnown, Limitation, StrideTaken
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.insole_device import Insole, boot
+from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.foot.pressure.insole import InsoleLoads as Cells
@@ -22,6 +22,7 @@ from solepath.papers.pressure_contour.contour_stance import ContourVelocity, Gyr
 from solepath.papers.pressure_contour.recipe import PRESSURE_CONTOUR
 from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
 from solepath.types.vector import GRAVITY, ZERO
+from solepath_lab.emulated.boot import boot
 
 LEFT = Foot.LEFT
 LAP = Route().stand(2.0).walk(9.0, 1.2).turn(radians(90), radius=1.5).walk(6.0).stop(2.0)

@@ -14,10 +14,8 @@ from walks import of
 
 from solepath.body.part import TrackPart
 from solepath.calibration import Calibration, InsoleCalibration
-from solepath.emulate.routes.laps import MARK_SPEED, marked
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
-from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.wearers.gait import LoadLaw, Wearer
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, TouchedDown, WalkingModeChanged
@@ -30,6 +28,8 @@ from solepath.recipes import DEFAULT
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, WalkingMode
 from solepath.types.vector import sub
+from solepath_lab.emulated.laps import MARK_SPEED, marked
+from solepath_lab.emulated.limb_samples import limb_samples
 
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(99, foot)) for foot in Foot})

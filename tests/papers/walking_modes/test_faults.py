@@ -18,12 +18,12 @@ from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
-from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, Limitation, TouchedDown
 from solepath.recipes import DEFAULT, Recipe, by_name
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
+from solepath_lab.emulated.limb_samples import limb_samples
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(96, foot) for foot in Foot}

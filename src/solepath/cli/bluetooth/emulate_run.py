@@ -122,7 +122,7 @@ async def _print_status(bench: Bench) -> None:
 
 def _state(peripheral: Peripheral) -> str:
     link = "connected" if peripheral.is_connected else "not connected"
-    faults = f", {peripheral.fault_count} faults" if peripheral.fault_count else ""
+    faults = f", {peripheral.faults.count} faults" if peripheral.faults.count else ""
     return f"{peripheral.site.words} {link}, {sum(peripheral.sent.values())} sent{faults}"
 
 

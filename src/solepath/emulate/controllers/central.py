@@ -38,10 +38,9 @@ _PAIRING_ERRORS: dict[tuple[str, int | None], str] = {
 }
 _SERVICE_LISTS = (
     AdvertisingData.INCOMPLETE_LIST_OF_16_BIT_SERVICE_CLASS_UUIDS,
-    AdvertisingData.COMPLETE_LIST_OF_16_BIT_SERVICE_CLASS_UUIDS,
     AdvertisingData.INCOMPLETE_LIST_OF_128_BIT_SERVICE_CLASS_UUIDS,
-    AdvertisingData.COMPLETE_LIST_OF_128_BIT_SERVICE_CLASS_UUIDS,
 )
+"""Lists of services in the advertisements of emulated devices (server.py)."""
 
 
 def backend_of(radio: VirtualRadio) -> Backend:
@@ -87,14 +86,11 @@ class RadioScanner(BaseBleakScanner):
         """Report one advertisement to the callbacks of bleak."""
         fields = advertisement.data
         lists = [listed for kind in _SERVICE_LISTS for listed in fields.get_all(kind) if isinstance(listed, list)]
-        services = [_uuid(uuid) for listed in lists for uuid in listed if isinstance(uuid, core.UUID)]
-        name = fields.get(AdvertisingData.COMPLETE_LOCAL_NAME) or fields.get(AdvertisingData.SHORTENED_LOCAL_NAME)
+        services = [_uuid(uuid) for listed in lists for uuid in listed]
+        name = fields.get(AdvertisingData.COMPLETE_LOCAL_NAME)
         data = AdvertisementData(
             local_name=name,
-            manufacturer_data={
-                int(company): bytes(body)
-                for company, body in fields.get_all(AdvertisingData.MANUFACTURER_SPECIFIC_DATA)
-            },
+            manufacturer_data={},
             service_data={},
             service_uuids=list(dict.fromkeys(services)),
             tx_power=None,
@@ -265,10 +261,6 @@ class RadioClient(BaseBleakClient):
     async def start_notify(
         self, characteristic: BleakGATTCharacteristic, callback: NotifyCallback, **kwargs: Any
     ) -> None:
-        if not {"notify", "indicate"} & set(characteristic.properties):
-            raise BleakError(f"{characteristic.uuid} does not notify")
-        if characteristic.handle in self._subscriptions:
-            raise BleakError(f"notifications of {characteristic.uuid} are on already")
         subscriber = self._subscriptions[characteristic.handle] = partial(_deliver, callback)
         try:
             await self._request(partial(characteristic.obj.subscribe, subscriber))

@@ -10,15 +10,9 @@ from contextlib import asynccontextmanager
 from functools import partial
 from typing import TypeVar
 
-from bumble import att, hci
+from bumble import att, core, data_types, hci
 from bumble.device import Connection, Device, DeviceConfiguration
-from bumble.gatt import (
-    GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR,
-    Characteristic,
-    CharacteristicValue,
-    Descriptor,
-    Service,
-)
+from bumble.gatt import Characteristic, CharacteristicValue, Service
 from bumble.host import Host
 from bumble.profiles.gap import GenericAccessService
 from bumble.transport.common import AsyncPipeSink, Transport
@@ -29,7 +23,6 @@ from ..devices.attributes import AttError
 from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualController, VirtualMedium
-from .gatt import AttributeServer, advertisement, short_or_long
 from .radio import VirtualRadio, enable_just_works, end_link
 
 _T = TypeVar("_T")
@@ -37,20 +30,14 @@ _T = TypeVar("_T")
 ADVERTISING_INTERVAL = 62.5
 """Advertising interval given to bumble's host, ms: 100 HCI units. Its controller takes a unit for 1 ms: 100 ms."""
 _CENTRAL_ADDRESS = "C0:50:1E:9A:74:01"
-_STANDARD_SERVICES = ("0000180a", "0000180f")
-"""Starts of the UUIDs of services whose characteristics need no description; the Bluetooth SIG defines them."""
 
 
 @asynccontextmanager
-async def virtual_link(
-    peripherals: Iterable[Peripheral], mtu: int = 247, interval: float | None = None
-) -> AsyncIterator[Backend]:
+async def virtual_link(peripherals: Iterable[Peripheral], mtu: int = 247) -> AsyncIterator[Backend]:
     """Serve the devices in this process, by the clock of its event loop, and yield a Backend that reaches them.
 
-    `mtu` is the ATT MTU that the central requests; a device may accept less. `interval` is the time between the
-    connection events of each link, s. All packets, also requests and answers, wait for the next event. On a real link
-    the interval is 0.0075 to 4 s, often 0.03. None: packets do not wait."""
-    medium = VirtualMedium(interval)
+    `mtu` is the ATT MTU that the central requests; a device may accept less."""
+    medium = VirtualMedium()
     controller = VirtualController("central", medium)
 
     async def reach() -> Transport:
@@ -101,33 +88,25 @@ class Server:
         )
         self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
         enable_just_works(self._device, lambda: self.peripheral.accepts_pairing(self._loop.time()))
-        self._device.gatt_server = AttributeServer(self._device)
         self._device.add_service(GenericAccessService(peripheral.name))
         self._served: dict[str, Characteristic[bytes]] = {}
         for service in peripheral.services:
-            described = not service.uuid.startswith(_STANDARD_SERVICES)
-            found = {
-                attribute.channel: self._characteristic(attribute, described) for attribute in service.characteristics
-            }
-            self._device.add_service(Service(short_or_long(service.uuid), list(found.values())))
+            found = {one.channel: self._characteristic(one) for one in service.characteristics}
+            self._device.add_service(Service(_uuid(service.uuid), list(found.values())))
             self._served |= found
         self._device.on(Device.EVENT_CONNECTION, self._connected)
 
-    def _characteristic(self, attribute: emulated.Characteristic, described: bool) -> Characteristic[bytes]:
+    def _characteristic(self, attribute: emulated.Characteristic) -> Characteristic[bytes]:
         properties = Characteristic.Properties(0)
         for name in attribute.properties:
             properties |= Characteristic.Properties[name.upper().replace("-", "_")]
-        description = Descriptor(
-            GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR, att.Attribute.READABLE, attribute.channel.encode()
-        )
         served: Characteristic[bytes] = Characteristic(
-            short_or_long(attribute.uuid),
+            _uuid(attribute.uuid),
             properties,
             att.Attribute.READABLE | att.Attribute.WRITEABLE,  # the Peripheral itself rejects what is not permitted
             CharacteristicValue(
                 read=partial(self.read, attribute.channel), write=partial(self.write, attribute.channel)
             ),
-            [description] if described else [],
         )
         subscribed: Callable[[Connection, bool, bool], None] = partial(self.subscribe, attribute.channel)
         served.on(Characteristic.EVENT_SUBSCRIPTION, subscribed)
@@ -159,7 +138,14 @@ class Server:
         )
 
     def _advertised(self) -> bytes:
-        return advertisement(self.peripheral.name, self.peripheral.advertised)
+        """Return the advertisement: services and name, without flags (Core supplement, A 1.3: they may be left out)."""
+        uuids = [_uuid(uuid) for uuid in self.peripheral.advertised]
+        short = [uuid for uuid in uuids if len(uuid.uuid_bytes) == 2]
+        long = [uuid for uuid in uuids if len(uuid.uuid_bytes) == 16]
+        entries: list[core.DataType] = [data_types.CompleteLocalName(self.peripheral.name)]
+        entries += [data_types.IncompleteListOf16BitServiceUUIDs(short)] if short else []
+        entries += [data_types.IncompleteListOf128BitServiceUUIDs(long)] if long else []
+        return bytes(core.AdvertisingData(entries))
 
     def _connected(self, link: Connection) -> None:
         self._link = link
@@ -208,9 +194,6 @@ class Server:
             return request(self._loop.time())
         except AttError as error:
             raise att.ATT_Error(error.code) from None
-        except Exception as error:
-            self._loop.call_exception_handler({"message": f"{self.peripheral.name} failed", "exception": error})
-            raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR) from error
         finally:
             self._arm()
 
@@ -251,3 +234,8 @@ class Server:
                 self.medium.lose(self._controller, connection)
         else:
             self._arm()
+
+
+def _uuid(uuid: str) -> core.UUID:
+    """Return the UUID, with 16 bits if the Bluetooth SIG assigned it."""
+    return core.UUID(uuid[4:8] if emulated.is_short(uuid) else uuid)

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Sequence
 from enum import IntEnum
-from math import ceil, floor, inf
 
 from attrs import frozen
 
-from ...link.profile import FIRMWARE, Profile, standard_uuid
-from ...wire.device import build_battery
-from ...wire.fields import build_text
+from ...link.profile import BASE_UUID, Profile
 
 
 class AttCode(IntEnum):
@@ -31,8 +28,6 @@ ATT_HEADER_SIZE = 3
 """Bytes of an ATT packet before the value that it delivers."""
 MAX_ADVERTISEMENT_SIZE = 31
 """Largest size of a legacy advertisement, bytes (Bluetooth Core, vol 6 part B, 2.3.1)."""
-SIG_UUID_END = "-0000-1000-8000-00805f9b34fb"
-"""End of every UUID that the Bluetooth SIG assigns; these UUIDs differ only in 16 bits of the start."""
 
 
 class AttError(Exception):
@@ -74,7 +69,7 @@ class Outgoing:
 
 def is_short(uuid: str) -> bool:
     """Return whether the Bluetooth SIG assigned the UUID, so that 16 bits identify it."""
-    return uuid.startswith("0000") and uuid.endswith(SIG_UUID_END)
+    return uuid.startswith("0000") and uuid.endswith(BASE_UUID)
 
 
 def check_fits(name: str, services: Sequence[str]) -> None:
@@ -88,60 +83,13 @@ def check_fits(name: str, services: Sequence[str]) -> None:
 
 
 READ = frozenset({"read"})
-NOTIFY = frozenset({"notify"})
-WRITE = frozenset({"write"})
-
-BATTERY_STEP = 600.0
-"""Time in which the battery loses one percent, s (assumed)."""
-
-_INFORMATION_NUMBERS = {"manufacturer": 0x2A29, "model": 0x2A24, "hardware": 0x2A27, "software": 0x2A28}
 
 
-def services(
-    profile: Profile,
-    properties: Mapping[str, frozenset[str]],
-    more: Sequence[tuple[str, Characteristic]] = (),
-    information_names: Sequence[str] = (),
-) -> tuple[Service, ...]:
-    """Return the services of a device.
-
-    They contain the channels of `profile`, with their `properties` by name, the pairs (UUID of the service,
-    characteristic) of `more`, and the characteristics of Device Information with the names `information_names`, which
-    are those of `_INFORMATION_NUMBERS`."""
-    table = [(c.service, Characteristic(c.characteristic, c.name, properties[c.name])) for c in profile.channels]
-    table += more
-    table += [
-        (FIRMWARE.service, Characteristic(standard_uuid(_INFORMATION_NUMBERS[name]), f"device/{name}", READ))
-        for name in information_names
-    ]
+def services(profile: Profile, readable: Container[str]) -> tuple[Service, ...]:
+    """Return the services of a device with the channels of `profile`, of which the `readable` ones can be read too."""
     found: dict[str, list[Characteristic]] = {}
-    for service, characteristic in table:
-        found.setdefault(service, []).append(characteristic)
+    for channel in profile.channels:
+        properties = frozenset({channel.access.value}) | (READ if channel.name in readable else frozenset())
+        characteristic = Characteristic(channel.characteristic, channel.name, properties)
+        found.setdefault(channel.service, []).append(characteristic)
     return tuple(Service(uuid, tuple(characteristics)) for uuid, characteristics in found.items())
-
-
-def device_information(firmware: str, **more: str) -> dict[str, bytes]:
-    """Return the values of Device Information by channel; `more` has texts by the names of `_INFORMATION_NUMBERS`."""
-    found = {"device/firmware": build_text(firmware)}
-    return found | {f"device/{name}": text.encode() for name, text in more.items()}
-
-
-@frozen
-class Battery:
-    """The battery level as a ValueSource: value k is due at k BATTERY_STEP s, when the level falls by one percent."""
-
-    percent: int
-    """Level at the start of the walk, percent."""
-
-    def level(self, t: float) -> bytes:
-        """Return the value of the battery characteristic at `t` s of the walk."""
-        return build_battery(max(0, self.percent - max(0, floor(t / BATTERY_STEP))))
-
-    def first_number_from(self, t: float) -> int:
-        return max(1, ceil(t / BATTERY_STEP))
-
-    def due(self, number: int) -> float:
-        return number * BATTERY_STEP if number <= self.percent else inf
-
-    def values(self, number: int, mtu: int) -> Sequence[bytes]:
-        return (self.level(number * BATTERY_STEP),)

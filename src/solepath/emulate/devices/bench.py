@@ -8,15 +8,14 @@ from ...types import SITE_OF_FOOT, Foot, Site
 from ..routes.route import Route
 from ..sensors.device import Device, foot_of
 from ..sensors.insole_device import Insole
-from ..sensors.sensortags import CC2541, CC2650
+from ..sensors.sensortags import SensorTag
 from ..wearers.gait import Wearer
 from ..wearers.truth import Truth
 from ..wearers.walker import Walker
-from .cc2541 import CC2541Peripheral
-from .cc2650 import CC2650Peripheral
 from .faults import Fault
 from .insole import InsolePeripheral
 from .peripheral import Peripheral, Placement
+from .tag import Tag
 
 
 class Bench:
@@ -72,11 +71,8 @@ class Bench:
 
 
 def _peripheral(device: Device, walker: Walker, seed: int, placement: Placement) -> Peripheral:
-    match device:
-        case Insole():
-            return InsolePeripheral(device, walker, seed, placement)
-        case CC2650():
-            return CC2650Peripheral(device, walker, seed, placement)
-        case CC2541():
-            return CC2541Peripheral(device, walker, seed, placement)
+    if isinstance(device, Insole):
+        return InsolePeripheral(device, walker, seed, placement)
+    if isinstance(device, SensorTag):
+        return Tag(device, walker, seed, placement)
     raise ValueError(f"no peripheral is known for {type(device).__name__}")

@@ -24,8 +24,10 @@ from __future__ import annotations
 
 import random
 import shlex
+from collections import defaultdict
 from collections.abc import Iterable
 from enum import Enum
+from itertools import groupby
 from math import inf, isfinite
 from operator import attrgetter
 from typing import TypeVar
@@ -77,9 +79,17 @@ class Fault:
     """Channel or PAIRING_ARGUMENT for REJECT, name for NAME; else empty."""
 
 
-_COUNTED = {FaultKind.DROP, FaultKind.DUPLICATE, FaultKind.TRUNCATE, FaultKind.FLIP, FaultKind.REJECT}
-_LASTING = {FaultKind.VANISH, FaultKind.FREEZE}
 _NAMING = {FaultKind.REJECT: "a channel", FaultKind.NAME: "a name"}
+_WHOLE = (1.0, inf, 1.0, "a whole number, at least 1")
+_SECONDS = (0.0, inf, inf, "a time")
+_AMOUNTS = {
+    **dict.fromkeys(
+        (FaultKind.DROP, FaultKind.DUPLICATE, FaultKind.TRUNCATE, FaultKind.FLIP, FaultKind.REJECT), _WHOLE
+    ),
+    **dict.fromkeys((FaultKind.VANISH, FaultKind.FREEZE), _SECONDS),
+    FaultKind.MTU: (23.0, 517.0, 0.0, "a whole number from 23 to 517"),
+}
+"""Least, largest and usual amount of the kinds that have one, and what it is in words."""
 
 
 def parse_faults(text: str) -> tuple[Fault, ...]:
@@ -88,63 +98,45 @@ def parse_faults(text: str) -> tuple[Fault, ...]:
     A line with an error raises ValueError, which names the line and the reason."""
     found = []
     for number, line in enumerate(text.splitlines(), 1):
+        lexer = shlex.shlex(line, posix=True, punctuation_chars=";")
+        lexer.whitespace_split = True
         try:
-            found += [_fault(words) for words in _words(line)]
+            found += [
+                _fault(list(words)) for is_end, words in groupby(lexer, lambda one: set(one) == {";"}) if not is_end
+            ]
         except ValueError as error:
             raise ValueError(f"line {number}: {error}") from None
     return tuple(found)
 
 
-def _words(line: str) -> list[list[str]]:
-    lexer = shlex.shlex(line, posix=True, punctuation_chars=";")
-    lexer.whitespace_split = True
-    faults: list[list[str]] = [[]]
-    for word in lexer:
-        if set(word) == {";"}:
-            faults.append([])
-        else:
-            faults[-1].append(word)
-    return [words for words in faults if words]
-
-
 def _fault(words: list[str]) -> Fault:
     if len(words) < 3:
         raise ValueError("a fault is SECONDS SITE WHAT [AMOUNT]")
-    at, kind = _number(words[0], "seconds"), _one_of(FaultKind, words[2], "fault")
+    at, kind = _number(words[0]), _one_of(FaultKind, words[2], "fault")
     site = None if words[1] == "*" else _one_of(Site, words[1], "site", "* and ")
-    arguments = words[3:]
-    argument = ""
+    arguments, argument = words[3:], ""
     if kind in _NAMING:
         if not arguments:
             raise ValueError(f"{kind.value} needs {_NAMING[kind]}")
-        argument, arguments = arguments[0], arguments[1:]
-    takes_amount = kind in _COUNTED | _LASTING | {FaultKind.MTU}
-    if len(arguments) > takes_amount:
+        argument = arguments.pop(0)
+    if len(arguments) > (kind in _AMOUNTS):
         raise ValueError(f"too many words after {kind.value}")
-    return Fault(at, site, kind, _amount(kind, arguments), argument)
+    amount = 1.0
+    if kind in _AMOUNTS:
+        least, most, amount, meaning = _AMOUNTS[kind]
+        amount = _number(arguments[0]) if arguments else amount
+        if not least <= amount <= most or ("whole" in meaning and not amount.is_integer()):
+            raise ValueError(f"{kind.value} needs {meaning}")
+    return Fault(at, site, kind, amount, argument)
 
 
-def _amount(kind: FaultKind, arguments: list[str]) -> float:
-    if kind is FaultKind.MTU:
-        amount = _number(arguments[0], "MTU") if arguments else 0.0
-        if amount != int(amount) or not 23 <= amount <= 517:
-            raise ValueError("mtu needs a whole number from 23 to 517")
-        return amount
-    if not arguments:
-        return inf if kind in _LASTING else 1.0
-    amount = _number(arguments[0], "amount")
-    if kind in _COUNTED and (amount != int(amount) or amount < 1):
-        raise ValueError(f"{kind.value} needs a whole number, at least 1")
-    return amount
-
-
-def _number(word: str, noun: str) -> float:
+def _number(word: str) -> float:
     try:
         value = float(word)
     except ValueError:
-        raise ValueError(f"{noun}: {word!r} is not a number") from None
+        raise ValueError(f"{word!r} is not a number") from None
     if not isfinite(value) or value < 0.0:
-        raise ValueError(f"{noun}: {word} is out of range")
+        raise ValueError(f"{word} is out of range")
     return value
 
 
@@ -163,8 +155,7 @@ class FaultState:
         site_faults = [fault for fault in faults if fault.site in (None, site)]
         self._pending = sorted(site_faults, key=attrgetter("at"))
         self._random = random.Random(f"faults {site.value}")
-        self._counts = dict.fromkeys(_COUNTED - {FaultKind.REJECT}, 0)
-        self._rejections: dict[str, int] = {}
+        self._left: dict[tuple[FaultKind, str], int] = defaultdict(int)
         self._hidden_until = -inf
         self._frozen_until = -inf
         self._hang_pending = False
@@ -173,8 +164,8 @@ class FaultState:
         """Number of faults that have happened."""
         self.must_disconnect = False
         """True when the link must end now."""
-        self.mtu: int | None = None
-        """Largest MTU that the device accepts; None when no fault sets it."""
+        self.mtu = inf
+        """Largest MTU that the device accepts; inf when no fault sets it."""
         self.restarted_at: float | None = None
         """Time of the last restart of the device, s; None when it never restarted."""
         self.name: str | None = None
@@ -209,12 +200,6 @@ class FaultState:
         """End a FREEZE before its time."""
         self._frozen_until = -inf
 
-    def rejects(self, channel: str) -> bool:
-        """Return whether the device rejects this request to the channel; each call counts as one request."""
-        remaining = self._rejections.get(channel, 0)
-        self._rejections[channel] = max(0, remaining - 1)
-        return remaining > 0
-
     def hangs(self, t: float) -> bool:
         """Return whether a request at `t` gets no answer: the first after a HANG, and all later ones on its link."""
         if self._hang_pending:
@@ -223,29 +208,33 @@ class FaultState:
 
     def apply(self, value: bytes) -> list[bytes]:
         """Return the notifications that are sent in place of one notification."""
-        if self._use_up(FaultKind.DROP):
+        if self.uses_up(FaultKind.DROP):
             return []
-        if self._use_up(FaultKind.TRUNCATE):
+        if self.uses_up(FaultKind.TRUNCATE):
             value = value[: self._random.randrange(len(value))] if value else value
-        if self._use_up(FaultKind.FLIP):
+        if self.uses_up(FaultKind.FLIP):
             value = self._flip(value)
-        return [value, value] if self._use_up(FaultKind.DUPLICATE) else [value]
+        return [value, value] if self.uses_up(FaultKind.DUPLICATE) else [value]
+
+    def uses_up(self, kind: FaultKind, argument: str = "") -> bool:
+        """Return whether a fault of this kind, and of this channel for REJECT, happens to the next one."""
+        left = self._left[kind, argument]
+        self._left[kind, argument] = max(0, left - 1)
+        return left > 0
 
     def _start_fault(self, fault: Fault) -> None:
         self.count += 1
+        if fault.kind in (FaultKind.DISCONNECT, FaultKind.RESTART, FaultKind.VANISH):
+            self.must_disconnect = True
         match fault.kind:
-            case FaultKind.DISCONNECT:
-                self.must_disconnect = True
             case FaultKind.RESTART:
-                self.must_disconnect, self.restarted_at = True, fault.at
+                self.restarted_at = fault.at
             case FaultKind.VANISH:
-                self.must_disconnect, self._hidden_until = True, fault.at + fault.amount
+                self._hidden_until = fault.at + fault.amount
             case FaultKind.FREEZE:
                 self._frozen_until = fault.at + fault.amount
             case FaultKind.MTU:
-                self.mtu = int(fault.amount)
-            case FaultKind.REJECT:
-                self._rejections[fault.argument] = self._rejections.get(fault.argument, 0) + int(fault.amount)
+                self.mtu = fault.amount
             case FaultKind.HANG:
                 self._hang_pending = True
             case FaultKind.NAME:
@@ -253,13 +242,7 @@ class FaultState:
             case FaultKind.PAIRING:
                 self.needs_pairing = True
             case _:
-                self._counts[fault.kind] += int(fault.amount)
-
-    def _use_up(self, kind: FaultKind) -> bool:
-        if self._counts[kind] == 0:
-            return False
-        self._counts[kind] -= 1
-        return True
+                self._left[fault.kind, fault.argument] += int(fault.amount)
 
     def _flip(self, value: bytes) -> bytes:
         damaged = bytearray(value)

@@ -10,7 +10,9 @@ from attrs import Factory, define, evolve
 
 from ...link.devices.insole import PROFILE as INSOLE
 from ...types import Foot
+from ...wire.device import build_battery
 from ...wire.error import WireError
+from ...wire.fields import build_text
 from ...wire.fragment import FRAME_ID_COUNT, MAX_FRAGMENTS, split
 from ...wire.insole import InsoleFrame, build_frame
 from ...wire.insole_control import Resend, SetInterval, StartSampling, StopSampling, parse_control
@@ -18,7 +20,7 @@ from ...wire.insole_info import build_info
 from ..sensors.device import device_rng, foot_of
 from ..sensors.insole_device import BATTERY, TICK_RATE, Insole, InsoleSignal
 from ..wearers.walker import Walker
-from .attributes import ATT_HEADER_SIZE, NOTIFY, READ, WRITE, AttError, Battery, device_information, services
+from .attributes import ATT_HEADER_SIZE, AttError, services
 from .peripheral import Peripheral, Placement
 
 UNKNOWN_OPCODE, WRONG_VALUE, NOT_NOW = 0x80, 0x81, 0x82
@@ -35,18 +37,6 @@ _MAX_CACHED_SIGNALS = 3
 _OPCODES = range(1, 5)
 _MAX_FRAME_SIZE, _HEADER_AND_CRC_SIZE, _FRAGMENT_HEADER_SIZE = 512, 16, 1
 """Sizes in bytes: of a whole frame at most, of its part that is not samples, and of what a fragment adds."""
-
-_SERVICES = services(
-    INSOLE,
-    {
-        "insole/frame": NOTIFY,
-        "insole/info": READ,
-        "insole/control": WRITE,
-        "device/battery": READ | NOTIFY,
-        "device/firmware": READ,
-    },
-    information_names=("manufacturer", "model"),
-)
 
 
 @define(eq=False)
@@ -112,13 +102,13 @@ class InsolePeripheral(Peripheral):
 
     def __init__(self, device: Insole, walker: Walker, seed: int, placement: Placement) -> None:
         name = f"solepath {'L' if foot_of(placement.site) is Foot.LEFT else 'R'}"
-        super().__init__(placement, name, _SERVICES, INSOLE.services)
+        table = services(INSOLE, ("insole/info", "device/battery", "device/firmware"))
+        super().__init__(placement, name, table, INSOLE.services)
         self.device, self._walker, self._seed = device, walker, seed
         self._interval = device.interval
         self._signals: dict[int, InsoleSignal] = {}
         self._frames: _Frames | None = None
-        self._battery = Battery(BATTERY)
-        self._device_information = device_information(device.firmware, manufacturer="solepath", model="emulated insole")
+        self._constants = {"device/firmware": build_text(device.firmware), "device/battery": build_battery(BATTERY)}
 
     def prepare(self) -> None:
         self.signal()
@@ -136,19 +126,11 @@ class InsolePeripheral(Peripheral):
             self._signals[self._interval] = found
         return found
 
-    def start(self, t: float) -> None:
-        self.flow("device/battery", self._battery, t)
-
     def stop(self) -> None:
         self._frames = None
 
     def value(self, channel: str, t: float) -> bytes:
-        match channel:
-            case "insole/info":
-                return build_info(self.device.info(self.signal()))
-            case "device/battery":
-                return self._battery.level(t)
-        return self._device_information[channel]
+        return self._constants.get(channel) or build_info(self.device.info(self.signal()))
 
     def accept_write(self, channel: str, value: bytes, t: float) -> None:
         try:
@@ -178,10 +160,12 @@ class InsolePeripheral(Peripheral):
     def _frames_from(self, t: float) -> _Frames:
         """Return the frames from `t` on; after a restart the sequence starts at 0 and the ticks at the restart."""
         frames = _Frames(self.signal(), self._batch())
-        if self.restarted_at is not None:
+        if self.faults.restarted_at is not None:
             number = frames.first_number_from(t)
             frames.sequence_offset = -(frames.signal.sequence + number) % 2**16
-            frames.tick_offset = (frames.elapsed(number, self.restarted_at) - frames.signal_ticks(number)) % 2**32
+            frames.tick_offset = (
+                frames.elapsed(number, self.faults.restarted_at) - frames.signal_ticks(number)
+            ) % 2**32
         return frames
 
     def _batch(self) -> int:

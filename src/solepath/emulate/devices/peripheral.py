@@ -59,8 +59,9 @@ class Peripheral:
         for text in (name, *(fault.argument for fault in placement.faults if fault.kind is FaultKind.NAME)):
             check_fits(text, self.advertised)
         self._name, self._mtu = name, placement.mtu
-        self._started_at, self._faults = placement.started_at, placement.faults
-        self._fault_state = FaultState(placement.faults, placement.site)
+        self._started_at, self._script = placement.started_at, placement.faults
+        self.faults = FaultState(placement.faults, placement.site)
+        """Faults of the script that have happened in this walk, and their effects."""
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
         self._flows = Flows()
         self._now = -inf
@@ -83,9 +84,6 @@ class Peripheral:
     def stop(self) -> None:
         """Reset the device after the end of its link; its channels have stopped already."""
 
-    def start(self, t: float) -> None:
-        """Start the channels that send as soon as a host connects, at `t` s of the walk."""
-
     def prepare(self) -> None:
         """Compute the signals now and not when a host first needs them."""
 
@@ -98,51 +96,35 @@ class Peripheral:
     @property
     def name(self) -> str:
         """Name that the device advertises."""
-        return self._name if self._fault_state.name is None else self._fault_state.name
+        return self.faults.name or self._name
 
     @property
     def mtu(self) -> int:
         """Largest ATT MTU that the device accepts, bytes."""
-        return self._mtu if self._fault_state.mtu is None else min(self._mtu, self._fault_state.mtu)
-
-    @property
-    def restarted_at(self) -> float | None:
-        """Time of the walk at which the device last restarted, s; None when it never restarted."""
-        return self._fault_state.restarted_at
-
-    @property
-    def fault_count(self) -> int:
-        """Number of faults of the script that have happened in this walk."""
-        return self._fault_state.count
-
-    @property
-    def needs_pairing(self) -> bool:
-        """True when, without encryption, the device rejects requests to all channels but "device/..."."""
-        return self._fault_state.needs_pairing
+        return int(min(self._mtu, self.faults.mtu))
 
     def walk_from(self, started_at: float) -> None:
         """Restart the walk and its fault script at this time of the event loop, s; earlier faults have no effect."""
         self._started_at = started_at
-        self._fault_state = FaultState(self._faults, self.site)
+        self.faults = FaultState(self._script, self.site)
         self._flows.go_to(self._now - started_at)
         self._notify_changed()
 
     def visible(self, now: float) -> bool:
         """Return whether a device without a link advertises now."""
-        return not self._fault_state.hidden(self._advance(now))
+        return not self.faults.hidden(self._advance(now))
 
     def connected(self, now: float, mtu: int) -> None:
         """Start a link with this ATT MTU, bytes."""
-        t = self._advance(now)
-        self._fault_state.connected()
+        self._advance(now)
+        self.faults.connected()
         self.is_connected, self.is_encrypted, self.agreed_mtu = True, False, mtu
-        self.start(t)
         self._notify_changed()
 
     def accepts_pairing(self, now: float) -> bool:
         """Return whether the device accepts a pairing that the host starts."""
         self._advance(now)
-        return not self._fault_state.rejects(PAIRING_ARGUMENT)
+        return not self.faults.uses_up(FaultKind.REJECT, PAIRING_ARGUMENT)
 
     def disconnected(self, now: float) -> None:
         """End the link: remove all subscriptions and reset the device as its protocol says."""
@@ -154,7 +136,7 @@ class Peripheral:
 
     def subscribe(self, channel: str, on: bool, now: float) -> None:
         """Start or stop the notifications of a channel; raise AttError when it has none."""
-        if "notify" not in self._properties.get(channel, ()):
+        if "notify" not in self._properties[channel]:
             raise AttError(AttCode.REQUEST_NOT_SUPPORTED)
         t = self._advance(now)
         self._check_paired(channel)
@@ -166,7 +148,7 @@ class Peripheral:
         t = self._advance(now)
         if self._hangs(channel, t):
             return None
-        if "read" not in self._properties.get(channel, ()):
+        if "read" not in self._properties[channel]:
             raise AttError(AttCode.READ_NOT_PERMITTED)
         return self.value(channel, t)
 
@@ -175,10 +157,10 @@ class Peripheral:
         t = self._advance(now)
         if self._hangs(channel, t):
             return False
-        if not self._properties.get(channel, frozenset()) & {"write", "write-without-response"}:
+        if not self._properties[channel] & {"write", "write-without-response"}:
             raise AttError(AttCode.WRITE_NOT_PERMITTED)
         self.accept_write(channel, bytes(value), t)
-        self._fault_state.thaw()
+        self.faults.thaw()
         self._notify_changed()
         return True
 
@@ -186,7 +168,7 @@ class Peripheral:
         """Return when to call `poll` and `must_hang_up` next, s of the event loop; None when nothing is due."""
         if not self.is_connected:
             return None
-        soonest = min(self._flows.find_due(inf)[1], self._fault_state.next_at())
+        soonest = min(self._flows.find_due(inf)[1], self.faults.next_at())
         return None if soonest == inf else max(self._now, self._started_at + soonest)
 
     def poll(self, now: float) -> list[Outgoing]:
@@ -195,13 +177,13 @@ class Peripheral:
         while self.is_connected:
             channel, due = self._flows.find_due(now - self._started_at + _TIMER_TOLERANCE)
             t = self._advance(now) if channel is None else self._advance_faults(due)
-            if channel is None or self._fault_state.must_disconnect:
+            if channel is None or self.faults.must_disconnect:
                 break
             source, number = self._flows.take(channel)
-            if self._fault_state.frozen(t) or self._is_closed(channel):
+            if self.faults.frozen(t) or self._is_closed(channel):
                 continue
             for value in source.values(number, self.agreed_mtu):
-                found += [Outgoing(channel, sent) for sent in self._fault_state.apply(value)]
+                found += [Outgoing(channel, sent) for sent in self.faults.apply(value)]
         for outgoing in found:
             self.sent[outgoing.channel] = self.sent.get(outgoing.channel, 0) + 1
         if self.log is not None:
@@ -211,25 +193,22 @@ class Peripheral:
     def must_hang_up(self, now: float) -> bool:
         """Return True, once, when the link must be lost now, as by a supervision timeout (0x08)."""
         self._advance(now)
-        must_disconnect, self._fault_state.must_disconnect = (
-            self._fault_state.must_disconnect and self.is_connected,
-            False,
-        )
-        return must_disconnect
+        must_disconnect, self.faults.must_disconnect = self.faults.must_disconnect, False
+        return must_disconnect and self.is_connected
 
     def _hangs(self, channel: str, t: float) -> bool:
         """Return whether a request to the channel is never answered; raise AttError when it is rejected."""
-        if self._fault_state.hangs(t):
+        if self.faults.hangs(t):
             self._notify_changed()
             return True
-        if self._fault_state.rejects(channel):
+        if self.faults.uses_up(FaultKind.REJECT, channel):
             raise AttError(AttCode.APPLICATION_ERROR)
         self._check_paired(channel)
         return False
 
     def _is_closed(self, channel: str) -> bool:
         """Return whether the channel needs an encryption that the link does not have."""
-        return self.needs_pairing and not self.is_encrypted and not channel.startswith("device/")
+        return self.faults.needs_pairing and not self.is_encrypted and not channel.startswith("device/")
 
     def _check_paired(self, channel: str) -> None:
         if self._is_closed(channel):
@@ -241,7 +220,7 @@ class Peripheral:
         return self._advance_faults(now - self._started_at + _TIMER_TOLERANCE) - _TIMER_TOLERANCE
 
     def _advance_faults(self, t: float) -> float:
-        self._fault_state.advance(t)
+        self.faults.advance(t)
         return t
 
     def _notify_changed(self) -> None:

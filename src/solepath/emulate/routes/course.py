@@ -16,10 +16,10 @@ from attrs import Factory, define
 
 from ...floorplan.plan import Point, Start
 from ...types import Foot
-from ..buildings.storeys import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, RISE, RISERS, STOREY, UPPER
 from ..wearers.curves import Array
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
+from .building import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, RISE, RISERS, STOREY, UPPER
 from .path import ahead
 from .route import TIGHT_TURN_SPEED, Route
 

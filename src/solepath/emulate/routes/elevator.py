@@ -2,8 +2,7 @@
 
 Speed, acceleration and jerk are limited (Peters 1995, "Ideal lift kinematics", Elevator Technology 6). The acceleration
 rises linearly, is constant and falls linearly. The car then runs at constant speed and slows down in the same way.
-Elevators of few storeys run at 1.0 to 1.6 m/s with 0.6 to 1.2 m/s^2 and a jerk of about 1 m/s^3. Some creep: they
-approach the floor at a very low speed over the last centimetres.
+Elevators of few storeys run at 1.0 to 1.6 m/s with 0.6 to 1.2 m/s^2 and a jerk of about 1 m/s^3.
 
 The car vibrates on its rails. VIBRATION_AMPLITUDE is of the order of measurements by ISO 18738-1 in
 elevators in good order: 10 to 15 milli-g from peak to peak. The frequencies between 2 and 12 Hz are assumed."""
@@ -27,8 +26,6 @@ VIBRATION_BAND = (2.0, 12.0)
 """Frequency range of the vibration, Hz."""
 FADE_TIME = 0.5
 """Time in which the vibration starts and ends, s."""
-CREEP_TIME = 1.0
-"""Time for which a car runs at its creep speed, s."""
 BISECTIONS = 60
 """Number of bisections that find the top speed of a short ride."""
 
@@ -50,8 +47,6 @@ class Elevator:
     """Largest jerk, m/s^3."""
     doors: float = 2.5
     """Time that the doors take to close before the ride, and to open after it, s."""
-    creep: float = 0.0
-    """Speed at which the car creeps to its floor, m/s; 0: it does not creep."""
 
 
 @frozen(eq=False)
@@ -140,44 +135,28 @@ def ride(elevator: Elevator, start: float, rng: Rng) -> CarRide:
 
 def _jerk_phases(elevator: Elevator) -> list[_JerkPhase]:
     """Return the phases of constant jerk of the whole ride, as if it went upwards, in order."""
-    distance = abs(elevator.height)
-    creep = min(elevator.creep, 0.1 * distance)  # a creep of CREEP_TIME = 1 s covers at most a tenth of the ride
-    top_speed = elevator.speed
-    if _least_distance(top_speed, creep, elevator) > distance:
-        low = creep
+    distance, top_speed = abs(elevator.height), elevator.speed
+    if _least_distance(top_speed, elevator) > distance:
+        low = 0.0
         for _ in range(BISECTIONS):
             middle = 0.5 * (low + top_speed)
-            low, top_speed = (
-                (low, middle) if _least_distance(middle, creep, elevator) > distance else (middle, top_speed)
-            )
+            low, top_speed = (low, middle) if _least_distance(middle, elevator) > distance else (middle, top_speed)
         top_speed = low
-    slow, stop = _speed_change(top_speed - creep, elevator), _speed_change(creep, elevator)
-    found = [
-        *_speed_change(top_speed, elevator),
-        ((distance - _least_distance(top_speed, creep, elevator)) / top_speed, 0.0),
-        *((d, -j) for d, j in slow),
-    ]
-    found += [(CREEP_TIME if creep > 0.0 else 0.0, 0.0), *((d, -j) for d, j in stop)]
+    change = _speed_change(top_speed, elevator)
+    steady = (distance - _least_distance(top_speed, elevator)) / top_speed
+    found = [*change, (steady, 0.0), *((duration, -jerk) for duration, jerk in change)]
     return [(duration, jerk) for duration, jerk in found if duration > 0.0]
 
 
-def _least_distance(top_speed: float, creep: float, elevator: Elevator) -> float:
-    """Return the least distance, m, of a ride that reaches `top_speed` and then creeps at `creep`, m/s."""
-    durations = [
-        sum(duration for duration, _ in _speed_change(difference, elevator))
-        for difference in (top_speed, top_speed - creep, creep)
-    ]
-    # A change of speed is symmetric about its middle: its mean speed is the mean of the speeds at its ends.
-    return (
-        0.5 * (top_speed * durations[0] + (top_speed + creep) * durations[1] + creep * durations[2])
-        + creep * CREEP_TIME
-    )
+def _least_distance(top_speed: float, elevator: Elevator) -> float:
+    """Return the least distance, m, of a ride that reaches `top_speed`, m/s.
+
+    A change of speed is symmetric about its middle: its mean speed is the mean of the speeds at its ends."""
+    return top_speed * sum(duration for duration, _ in _speed_change(top_speed, elevator))
 
 
 def _speed_change(difference: float, elevator: Elevator) -> list[_JerkPhase]:
     """Return the phases of constant jerk that change the speed by `difference` m/s."""
-    if difference <= 0.0:
-        return []
     peak = min(elevator.acceleration, sqrt(difference * elevator.jerk))
     return [
         (peak / elevator.jerk, elevator.jerk),

@@ -7,7 +7,7 @@ from attrs import evolve, frozen
 
 from ..wearers.curves import Rng
 from ..wearers.gait import Wearer
-from .path import AHEAD, BACK, Flight, Piece, Pivot, Pose, WalkPath
+from .path import AHEAD, BACK, Flight, Piece, Pose, Turn, WalkPath
 from .styles import BACKWARDS_RATIO, SIDE_STEP, StrideKind, running_cadence
 from .wander import Wander
 
@@ -42,14 +42,14 @@ class FootfallPlan:
     def on_path(self, path: WalkPath) -> list[Footfall]:
         """Return the footfalls of a path, section by section, and that of the closing half step."""
         footfalls: list[Footfall] = []
-        if path.direction != AHEAD:
+        if path.pieces[0].move.direction != AHEAD:
             return [footfall for piece in path.pieces for footfall in self._other_way_footfalls(piece)]
         for section in path.sections:
             piece = section.pieces[0]
             if piece.flight is not None:
                 footfalls += self._stair_footfalls(piece, piece.flight)
-            elif section.spacing is not None:
-                footfalls += self._mark_footfalls(section, section.spacing)
+            elif piece.move.spacing is not None:
+                footfalls += self._mark_footfalls(section, piece.move.spacing)
             else:
                 footfalls += self._natural_footfalls(section)
         # The closing half step ends beside the foot that arrived.
@@ -74,13 +74,13 @@ class FootfallPlan:
         wander = Wander.drawn(path.length, self.wearer.wander, self.rng) if self.wearer.wander else None
         footfalls = []
         for end in (scale * end for end in ends):
-            pose = path.at(end)[0]
+            pose, move = path.at(end)
             if wander is not None:
                 pose = wander.move(pose, end)
             speed, running = path.pace(end)
             step_time = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
             kind = StrideKind.RUN if running else StrideKind.WALK
-            footfalls.append(Footfall(pose, speed, step_time, path.curvature(end), kind))
+            footfalls.append(Footfall(pose, speed, step_time, move.curvature, kind))
         return footfalls
 
     def _mark_footfalls(self, path: WalkPath, spacing: float) -> list[Footfall]:
@@ -88,21 +88,19 @@ class FootfallPlan:
         mark_spacing = path.length / count
         footfalls = []
         for k in range(1, count + 1):
-            _, speed = path.at(mark_spacing * k)
+            _, move = path.at(mark_spacing * k)
             position = mark_spacing * k + self.wearer.mark_error * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
-            footfalls.append(
-                Footfall(path.at(position)[0], speed, mark_spacing / speed, path.curvature(mark_spacing * k))
-            )
+            footfalls.append(Footfall(path.at(position)[0], move.speed, mark_spacing / move.speed, move.curvature))
         return footfalls
 
     def _other_way_footfalls(self, piece: Piece) -> list[Footfall]:
         """Return the footfalls of a walk backwards or sideways.
 
         Sideways both feet go to each place, one after the other; backwards they do so at the end only."""
-        is_back, speed = piece.direction == BACK, piece.speed
+        is_back, speed, length = piece.move.direction == BACK, piece.move.speed, piece.move.length
         ratio = BACKWARDS_RATIO * self.wearer.walk_ratio
-        count = max(1, round(piece.length / (float(np.sqrt(60.0 * speed * ratio)) if is_back else SIDE_STEP)))
-        step_length, kind = piece.length / count, StrideKind.BACK if is_back else StrideKind.SIDE
+        count = max(1, round(length / (float(np.sqrt(60.0 * speed * ratio)) if is_back else SIDE_STEP)))
+        step_length, kind = length / count, StrideKind.BACK if is_back else StrideKind.SIDE
         duration = step_length / speed if is_back else 0.5 * step_length / speed
         footfalls = []
         for k in range(1, count + 1):
@@ -118,17 +116,16 @@ class FootfallPlan:
         for k in range(1, flight.steps + 1):
             position = flight.going * k + self.wearer.mark_error * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
             pose = evolve(piece.start.ahead(position, 0.0), z=flight.z + flight.rise * k)
-            duration = flight.going / piece.speed
-            footfalls.append(Footfall(pose, piece.speed, duration, 0.0, kind, flight))
+            speed = piece.move.speed
+            footfalls.append(Footfall(pose, speed, flight.going / speed, 0.0, kind, flight))
         return footfalls
 
-    def in_pivot(self, pivot: Pivot) -> list[Footfall]:
+    def in_turn(self, start: Pose, turn: Turn) -> list[Footfall]:
         """Return the footfalls of a turn on the spot, and that of the closing step."""
-        count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.max_pivot_turn)))
-        angles = [pivot.angle * k / count for k in range(1, count + 1)]
-        duration = 60.0 / self.wearer.cadence(pivot.speed)
-        footfalls = [Footfall(pivot.turned(a), pivot.speed, duration) for a in angles]
-        return [*footfalls, footfalls[-1]]
+        count = max(1, int(np.ceil(abs(turn.angle) / self.wearer.max_pivot_turn)))
+        duration = 60.0 / self.wearer.cadence(turn.speed)
+        poses = [start.turned(turn.angle * k / count) for k in range(1, count + 1)]
+        return [Footfall(pose, turn.speed, duration) for pose in (*poses, poses[-1])]
 
     def vary(self, sigma: float) -> float:
         """Return a random factor about 1, limited to three sigma."""

@@ -1,7 +1,8 @@
-"""The path of a route on the floor: poses, pieces, flights of stairs, and paths from one halt to the next."""
+"""The actions of a route, and where they lie on the floor: poses, flights of stairs, and paths from halt to halt."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from math import cos, pi, sin, sqrt
 
 import numpy as np
@@ -109,45 +110,105 @@ class Pose:
             turned,
         )
 
+    def turned(self, angle: float) -> Pose:
+        """Return the pose after a turn on the spot; a ramp falls when it rose before half a turn."""
+        return evolve(self, heading=self.heading + angle, grade=self.grade * cos(angle))
+
+
+@frozen
+class Stand:
+    """An action: stand still with the feet side by side."""
+
+    duration: float
+    """Duration of standing, s."""
+
+
+@frozen
+class Turn:
+    """An action: turn on the spot, with the feet together before and after."""
+
+    angle: float
+    """Angle of the turn, rad; counter-clockwise positive."""
+    speed: float
+    """Walking speed that sets the cadence of the steps, m/s."""
+
+
+@frozen
+class Stairs:
+    """The stairs of a flight."""
+
+    steps: int
+    """Number of risers."""
+    rise: float
+    """Height of a riser, m; negative downwards."""
+    going: float
+    """Distance between risers, m."""
+    escalator: Escalator | None = None
+    """Escalator whose steps these are; None for stairs that do not move."""
+
+
+@frozen
+class Move:
+    """An action: go along a straight line, an arc or a flight of stairs."""
+
+    length: float
+    """Length of the move, m."""
+    speed: float
+    """Speed of walking or running, m/s; horizontal along a flight."""
+    spacing: float | None = None
+    """Distance between marks to step on, m; None: no marks."""
+    curvature: float = 0.0
+    """Curvature, 1/m; positive to the left."""
+    running: bool = False
+    """True when the wearer runs."""
+    slope: float = 0.0
+    """Slope of a ramp along the move, as rise over run, no unit; 0 on the level and on stairs."""
+    direction: float = AHEAD
+    """Angle from the heading of the feet to the direction of the move, rad: AHEAD, LEFT, RIGHT or BACK; a straight line
+    when it is not AHEAD."""
+    stairs: Stairs | None = None
+    """Stairs of the flight that the move is; None on the level."""
+
+
+Action = Stand | Turn | Move | Elevator | Escalator
+
 
 @frozen
 class Piece:
-    """A straight line, an arc or a flight of stairs on the path."""
+    """A move at its place on the path."""
 
     start: Pose
-    """Pose at the start of the piece."""
-    length: float
-    """Length of the piece, m."""
-    curvature: float
-    """Curvature, 1/m; positive to the left."""
-    speed: float
-    """Speed of walking or running, m/s."""
-    spacing: float | None = None
-    """Distance between marks to step on, m; None: no marks."""
-    running: bool = False
-    """True when the wearer runs."""
+    """Pose at the start of the move."""
+    move: Move
     flight: Flight | None = None
     """Flight of stairs that the piece is; None on the level."""
-    slope: float = 0.0
-    """Slope of a ramp along the piece, as rise over run, no unit; 0 on the level and on stairs."""
-    direction: float = 0.0
-    """Angle from the heading of the feet to the direction of the piece, rad; a straight line when it is not 0."""
+
+    @classmethod
+    def of(cls, start: Pose, move: Move) -> Piece:
+        """Return the piece of a move from this pose on."""
+        stairs = move.stairs
+        if stairs is None:
+            return cls(start, move)
+        edge = start.ahead(ahead(stairs.rise > 0.0, stairs.going), 0.0)
+        place = (edge.x, edge.y, start.z, start.heading)
+        return cls(start, move, Flight(*place, stairs.steps, stairs.rise, stairs.going, stairs.escalator))
 
     def leads_on_to(self, following: Piece) -> bool:
         """Return whether a wearer goes on to the next piece without bringing the feet together."""
-        if self.flight is None and following.flight is None and self.spacing != following.spacing:
+        one, other = self.move, following.move
+        if one.stairs is None and other.stairs is None and one.spacing != other.spacing:
             return False
-        return self.direction == following.direction
+        return one.direction == other.direction
 
     def at(self, s: float) -> Pose:
         """Return the pose `s` m from the start; on stairs the height is that of a ramp over them."""
-        pose = self.start.ahead(s, self.curvature)
-        if self.direction:
-            moved = evolve(self.start, heading=self.start.heading + self.direction).ahead(s, 0.0)
+        move, pose = self.move, self.start.ahead(s, self.move.curvature)
+        if move.direction:
+            moved = evolve(self.start, heading=self.start.heading + move.direction).ahead(s, 0.0)
             pose = evolve(moved, heading=self.start.heading)
-        if self.slope:
-            return evolve(pose, z=pose.z + self.slope * s, grade=self.slope * cos(self.direction))
-        return pose if self.flight is None else evolve(pose, z=pose.z + self.flight.height * s / self.length)
+        if move.slope:
+            return evolve(pose, z=pose.z + move.slope * s, grade=move.slope * cos(move.direction))
+        return pose if self.flight is None else evolve(pose, z=pose.z + self.flight.height * s / move.length)
 
 
 @frozen
@@ -158,30 +219,14 @@ class WalkPath:
     """Pieces in order, all with the same direction."""
 
     @property
-    def direction(self) -> float:
-        """Angle from the heading of the feet to the direction of the path, rad: AHEAD, LEFT, RIGHT or BACK."""
-        return self.pieces[0].direction
-
-    @property
     def length(self) -> float:
         """Length of the path, m."""
-        return sum(piece.length for piece in self.pieces)
+        return sum(piece.move.length for piece in self.pieces)
 
-    @property
-    def end(self) -> Pose:
-        """Pose at the end."""
-        last = self.pieces[-1]
-        return last.at(last.length)
-
-    @property
-    def spacing(self) -> float | None:
-        """Distance between the marks to step on in the first piece, m; None: no marks."""
-        return self.pieces[0].spacing
-
-    def at(self, s: float) -> tuple[Pose, float]:
-        """Return the pose `s` m after the halt, and the speed there, m/s."""
+    def at(self, s: float) -> tuple[Pose, Move]:
+        """Return the pose `s` m after the halt, and the move there."""
         piece, offset = self._piece(s)
-        return piece.at(offset), piece.speed
+        return piece.at(offset), piece.move
 
     @property
     def sections(self) -> tuple[WalkPath, ...]:
@@ -199,76 +244,57 @@ class WalkPath:
 
         A runner accelerates from the speed of the previous piece and slows down to that of the next one."""
         piece, offset = self._piece(s)
-        if not piece.running:
-            return piece.speed, False
-        k = self.pieces.index(piece)
-        before = self.pieces[k - 1].speed if k else RUN_START_SPEED
-        after = self.pieces[k + 1].speed if k + 1 < len(self.pieces) else RUN_START_SPEED
+        move, k = piece.move, self.pieces.index(piece)
+        if not move.running:
+            return move.speed, False
+        before = self.pieces[k - 1].move.speed if k else RUN_START_SPEED
+        after = self.pieces[k + 1].move.speed if k + 1 < len(self.pieces) else RUN_START_SPEED
         speed_after_start = sqrt(before**2 + 2.0 * RUN_ACCELERATION * max(offset, 0.0))
-        speed_before_end = sqrt(after**2 + 2.0 * RUN_ACCELERATION * max(piece.length - offset, 0.0))
-        speed = min(piece.speed, speed_after_start, speed_before_end)
+        speed_before_end = sqrt(after**2 + 2.0 * RUN_ACCELERATION * max(move.length - offset, 0.0))
+        speed = min(move.speed, speed_after_start, speed_before_end)
         return speed, speed >= MIN_RUNNING_SPEED
-
-    def curvature(self, s: float) -> float:
-        """Return the curvature `s` m after the halt, 1/m; positive to the left."""
-        return self._piece(s)[0].curvature
 
     def _piece(self, s: float) -> tuple[Piece, float]:
         """Return the piece `s` m after the halt, and the distance from its start, m."""
         for piece in self.pieces[:-1]:
-            if s < piece.length:
+            if s < piece.move.length:
                 return piece, s
-            s -= piece.length
+            s -= piece.move.length
         return self.pieces[-1], s
 
 
-@frozen
-class Pivot:
-    """A turn on the spot, with the feet together before and after."""
-
-    start: Pose
-    """Pose before the turn."""
-    angle: float
-    """Angle of the turn, rad; counter-clockwise positive."""
-    speed: float
-    """Walking speed that sets the cadence of the steps, m/s."""
-
-    @property
-    def end(self) -> Pose:
-        """Pose after the turn."""
-        return self.turned(self.angle)
-
-    def turned(self, angle: float) -> Pose:
-        """Return the pose after the first `angle` rad of the turn; a ramp falls when it rose before half a turn."""
-        start = self.start
-        return evolve(start, heading=start.heading + angle, grade=start.grade * cos(angle))
+Stage = Stand | Turn | Elevator | Escalator | WalkPath
+"""Part of a route between two halts."""
 
 
-@frozen
-class ElevatorStage:
-    """An elevator ride as a stage of a route."""
+def follow(actions: Iterable[Action]) -> Iterator[tuple[Pose, Action, Piece | None, Pose]]:
+    """Yield each action with the pose before it, the piece of a path that it is or None, and the pose after it.
 
-    start: Pose
-    """Pose before the ride."""
-    elevator: Elevator
-    """Parameters of the ride."""
+    Poses are on the ground as it lies at the start: those after an escalator do not contain its displacement."""
+    pose = Pose(0.0, 0.0, 0.0, 0.0)
+    for action in actions:
+        start, piece = pose, None
+        match action:
+            case Turn(angle=angle):
+                pose = start.turned(angle)
+            case Elevator(height=height):
+                pose = evolve(start, z=start.z + height)
+            case Move(length=length):
+                piece = Piece.of(start, action)
+                pose = piece.at(length)
+        yield start, action, piece, pose
 
-    @property
-    def end(self) -> Pose:
-        """Pose after the ride."""
-        return evolve(self.start, z=self.start.z + self.elevator.height)
 
-
-@frozen
-class EscalatorStage:
-    """A ride on an escalator, standing, as a stage of a route."""
-
-    start: Pose
-    """Pose before the ride."""
-    escalator: Escalator
-    """Parameters of the ride."""
-
-    @property
-    def end(self) -> Pose:
-        """Pose after the ride, without the displacement by the escalator."""
-        return self.start
+def stages(actions: Iterable[Action]) -> Iterator[tuple[Pose, Stage]]:
+    """Yield the stages that actions make, each with the pose before it."""
+    pieces: list[Piece] = []
+    for start, action, piece, _ in follow(actions):
+        if pieces and (piece is None or not pieces[-1].leads_on_to(piece)):
+            yield pieces[0].start, WalkPath(tuple(pieces))
+            pieces = []
+        if piece is not None:
+            pieces.append(piece)
+        elif not isinstance(action, Move):
+            yield start, action
+    if pieces:
+        yield pieces[0].start, WalkPath(tuple(pieces))

@@ -13,15 +13,14 @@ Stairs and elevators change the floor; on landings the route has ordinary walks 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import inf, isfinite, pi, remainder
+from math import cos, inf, isfinite, pi, remainder, sin
 
 import numpy as np
 from attrs import evolve, frozen
 
-from .actions import Action, Stairs, Stand, TurnAction, Walk, end_pose, stages
 from .elevator import Elevator
 from .escalator import LEAST_HEIGHT, STEP_DEPTH, STEP_HEIGHT, Escalator, climbed_steps
-from .path import AHEAD, BACK, LEFT, RIGHT, Pose, WalkPath
+from .path import AHEAD, BACK, LEFT, RIGHT, Action, Move, Pose, Stairs, Stand, Turn, follow
 from .styles import (
     BACKWARDS_SPEED,
     LANDING,
@@ -70,7 +69,7 @@ class Route:
 
         It starts and ends with the feet together. Idealised: the feet are lifted as high as in walking, and pitch as in
         any stride so short."""
-        return self._then(Walk(_positive("distance", distance), _positive("speed", speed), SHUFFLING_STEP))
+        return self._then(Move(_positive("distance", distance), _positive("speed", speed), SHUFFLING_STEP))
 
     def crowded(self, distance: float, seed: int, speed: float | None = None) -> Route:
         """Go `distance` m ahead through a crowd: walks of 1 to 5 m and shuffles, with halts of 0.5 to 3 s between them.
@@ -116,29 +115,33 @@ class Route:
         `stops` are halts on the way, as at a door: the distance from the start of the walk, m, and how long the wearer
         stands there, s, in order."""
         if stops:
-            return self._halting(
-                distance, stops, lambda route, part: route.walk(part, speed, slope=slope, direction=direction)
-            )
+            route, done = self, 0.0
+            for place, duration in (*stops, (distance, 0.0)):
+                if not done < place <= distance:
+                    raise ValueError(f"walk: stops must be in order and on the way of {distance} m, got {place}")
+                route, done = route.walk(place - done, speed, slope=slope, direction=direction), place
+                route = route.stand(duration) if done < distance else route
+            return route
         direction = _main_direction(direction)
         if not abs(slope) <= MAX_SLOPE:
             raise ValueError(f"walk: slope must be between -{MAX_SLOPE} and {MAX_SLOPE}, got {slope}")
-        if slope and self._ends_near(lambda action: isinstance(action, Stairs)):
+        if slope and self._ends_near(lambda move: move.stairs is not None):
             raise ValueError(f"walk: {LANDING} m on the level lie between a flight of stairs and a ramp")
         if direction != AHEAD:
             if slope and direction != BACK:
                 raise ValueError("walk: side steps are on the level")
             usual_speed = BACKWARDS_SPEED if direction == BACK else SIDEWAYS_SPEED
             chosen_speed = usual_speed if speed is None else _positive("speed", speed)
-            return self._then(Walk(_positive("distance", distance), chosen_speed, slope=slope, direction=direction))
+            return self._then(Move(_positive("distance", distance), chosen_speed, slope=slope, direction=direction))
         chosen_speed = self.speed if speed is None else _positive("speed", speed)
-        move = Walk(_positive("distance", distance), chosen_speed, self.spacing, slope=slope)
+        move = Move(_positive("distance", distance), chosen_speed, self.spacing, slope=slope)
         return evolve(self._then(move), speed=chosen_speed)
 
     def jog(self, distance: float, speed: float = 2.6) -> Route:
         """Run `distance` m straight on at `speed` m/s; the speed is not kept for later moves.
 
         The runner walks the first steps after a halt and the last steps before one."""
-        move = Walk(_positive("distance", distance), _positive("speed", speed), self.spacing, running=True)
+        move = Move(_positive("distance", distance), _positive("speed", speed), self.spacing, running=True)
         return self._then(move)
 
     def stairs(
@@ -151,30 +154,17 @@ class Route:
         The flight is `steps * going` m long."""
         if steps < 1 or going < 0.25 or not 0.0 < rise <= 0.22:
             raise ValueError(f"stairs: 1 step or more, going from 0.25 m, rise to 0.22 m, got {steps}, {going}, {rise}")
-        if self.actions and isinstance(self.actions[-1], Stairs):
-            raise ValueError("stairs: a landing lies between two flights, walk or turn on it")
-        if self._ends_near(lambda action: isinstance(action, Walk) and action.slope != 0.0):
-            raise ValueError(f"stairs: {LANDING} m on the level lie between a ramp and a flight of stairs")
-        chosen_speed = (STAIRS_UP_SPEED if up else STAIRS_DOWN_SPEED) if speed is None else _positive("speed", speed)
-        return self._then(Stairs(steps, rise if up else -rise, going, chosen_speed))
+        return self._flight(Stairs(steps, rise if up else -rise, going), speed)
 
     def lift(
-        self,
-        height: float,
-        speed: float = 1.0,
-        acceleration: float = 0.8,
-        jerk: float = 1.0,
-        doors: float = 2.5,
-        creep: float = 0.0,
+        self, height: float, speed: float = 1.0, acceleration: float = 0.8, jerk: float = 1.0, doors: float = 2.5
     ) -> Route:
         """Ride in an elevator by `height` m, negative downwards; the other parameters are those of `Elevator`."""
         if not isfinite(height) or abs(height) < 0.5:
             raise ValueError(f"lift: it goes at least half a metre, got {height}")
         for limit in (speed, acceleration, jerk, doors):
             _positive("lift", limit)
-        if not 0.0 <= creep <= 0.3 * speed:
-            raise ValueError(f"lift: creep must be between 0 and 0.3 of the speed, got {creep}")
-        return self._then(Elevator(height, speed, acceleration, jerk, doors, creep))
+        return self._then(Elevator(height, speed, acceleration, jerk, doors))
 
     def escalator(self, height: float, speed: float = 0.5, *, walking: bool = False) -> Route:
         """Ride on an escalator by `height` m, negative downwards, whose steps move at `speed` m/s; stand or walk on it.
@@ -188,11 +178,9 @@ class Route:
             return self._then(escalator)
         up = height > 0.0
         steps = climbed_steps(escalator, (STAIRS_UP_SPEED if up else STAIRS_DOWN_SPEED) / STEP_DEPTH)
-        climbed = self.stairs(steps, up, STEP_HEIGHT, STEP_DEPTH)
-        flight = climbed.actions[-1]
-        assert isinstance(flight, Stairs)
-        rest = evolve(escalator, height=height - steps * flight.rise)
-        return self._then(evolve(flight, escalator=rest))
+        rise = STEP_HEIGHT if up else -STEP_HEIGHT
+        stairs = Stairs(steps, rise, STEP_DEPTH, evolve(escalator, height=height - steps * rise))
+        return self._flight(stairs)
 
     def turn(self, angle: float, radius: float = 0.0, speed: float | None = None) -> Route:
         """Turn by `angle` rad, counter-clockwise positive, along an arc of `radius` m; 0: on the spot."""
@@ -200,43 +188,48 @@ class Route:
             raise ValueError(f"turn: angle must be finite and radius not negative, got {angle}, {radius}")
         if speed is None:
             speed = min(self.speed, TIGHT_TURN_SPEED if radius < 1.0 else inf)
-        return self._then(TurnAction(angle, radius, _positive("speed", speed), self.spacing))
+        _positive("speed", speed)
+        if radius == 0.0:
+            return self._then(Turn(angle, speed))
+        bend = (1.0 if angle > 0.0 else -1.0) / radius
+        return self._then(Move(abs(angle) * radius, speed, self.spacing, bend))
 
     @property
     def length(self) -> float:
         """Length of the path's centre line, m."""
-        return sum(
-            piece.length for stage in stages(self.actions) if isinstance(stage, WalkPath) for piece in stage.pieces
-        )
+        return sum(action.length for action in self.actions if isinstance(action, Move))
 
     @property
     def end(self) -> Pose:
-        """Pose at the end of the route, between the feet."""
-        return end_pose(stages(self.actions))
+        """Pose at the end of the route, between the feet, where escalators have moved the wearer."""
+        pose, (x, y, z) = Pose(0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        for start, action, _, after in follow(self.actions):
+            pose, escalator = after, action if isinstance(action, Escalator) else None
+            if isinstance(action, Move) and action.stairs is not None:
+                escalator = action.stairs.escalator
+            if escalator is not None:
+                x, y = x + escalator.run * cos(start.heading), y + escalator.run * sin(start.heading)
+                z += escalator.height
+        return evolve(pose, x=pose.x + x, y=pose.y + y, z=pose.z + z)
 
-    def _ends_near(self, is_meant: Callable[[Action], bool]) -> bool:
-        """Return whether the route ends less than LANDING m after an action that is meant."""
+    def _flight(self, stairs: Stairs, speed: float | None = None) -> Route:
+        last = self.actions[-1] if self.actions else None
+        if isinstance(last, Move) and last.stairs is not None:
+            raise ValueError("stairs: a landing lies between two flights, walk or turn on it")
+        if self._ends_near(lambda move: move.slope != 0.0):
+            raise ValueError(f"stairs: {LANDING} m on the level lie between a ramp and a flight of stairs")
+        usual_speed = STAIRS_UP_SPEED if stairs.rise > 0.0 else STAIRS_DOWN_SPEED
+        chosen_speed = usual_speed if speed is None else _positive("speed", speed)
+        return self._then(Move(stairs.steps * stairs.going, chosen_speed, stairs=stairs))
+
+    def _ends_near(self, is_meant: Callable[[Move], bool]) -> bool:
+        """Return whether the route ends less than LANDING m after a move that is meant."""
         room = 0.0
-        for action in reversed(self.actions):
-            if is_meant(action):
+        for move in reversed([action for action in self.actions if isinstance(action, Move)]):
+            if is_meant(move):
                 return room < LANDING
-            match action:
-                case Walk(distance=distance):
-                    room += distance
-                case TurnAction(angle=angle, radius=radius):
-                    room += abs(angle) * radius
+            room += move.length
         return False
-
-    def _halting(
-        self, distance: float, stops: Sequence[tuple[float, float]], go_on: Callable[[Route, float], Route]
-    ) -> Route:
-        """Return the route with a way of `distance` m that `go_on` makes part by part, with halts between the parts."""
-        route, done = self, 0.0
-        for place, duration in stops:
-            if not done < place < distance:
-                raise ValueError(f"walk: stops must be in order and on the way of {distance} m, got {place}")
-            route, done = go_on(route, place - done).stand(duration), place
-        return go_on(route, distance - done)
 
     def _then(self, action: Action) -> Route:
         return evolve(self, actions=(*self.actions, action))

@@ -90,7 +90,7 @@ class Style:
     forefoot_share: float = 0.0
     """Share of the load that the forefoot takes at the landing."""
     load_amplitude: float = 0.0
-    """Amplitude of the load about the weight, as a share of the weight."""
+    """Amplitude of the load about the weight, as a share of the weight; 0: it follows from the speed."""
 
 
 UPSTAIRS = Style(

@@ -15,10 +15,9 @@ import numpy as np
 from attrs import field, frozen
 
 from ...floorplan.plan import Point, Start
-from ..buildings.storeys import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, UPPER, Building, Cabin, Well, unit
 from ..wearers.curves import Array, Rng
 from ..wearers.walker import Walker
-from .building import CABINS, COLUMNS, FOUR_LOOPS, NORTH, ROWS
+from .building import EDGE_OFFSET, FOUR_LOOPS, GOING, GROUND, LANE_OFFSET, UPPER, Building, Cabin, Well, unit
 from .course import OTHER_LEVEL, Course, plan_track, wrapped
 from .path import ahead
 from .route import Route
@@ -71,12 +70,12 @@ def case_study() -> BuildingWalk:
 
     The wearer goes down by the elevator at the bottom left, along corridors, and away by another elevator. The paper
     gives no lengths; this walk turns five times on the floor."""
-    a, b = CABINS[:2]
+    a, b = FOUR_LOOPS.cabins[:2]
     course = Course(UPPER, a.middle, a.door_heading)
     course.stand()
     course.ride()
-    west, middle, east = COLUMNS
-    south, centre, _ = ROWS
+    west, middle, east = FOUR_LOOPS.columns
+    south, centre, _ = FOUR_LOOPS.rows
     bends = ((west, a.middle[1]), (west, south), (middle, south), (middle, centre), (east, centre), (east, b.middle[1]))
     course.walk_along([*bends, b.middle])
     course.face(b.door_heading)
@@ -87,9 +86,9 @@ def case_study() -> BuildingWalk:
 
 def corridor() -> BuildingWalk:
     """Return a walk of 63 m straight on from door to door, like the long corridor of Liu et al. 2015, section V-D."""
-    course = Course(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
+    course = Course(GROUND, (FOUR_LOOPS.columns[0], 0.0), 0.5 * pi)
     course.stand()
-    course.walk_along([(COLUMNS[0], NORTH)])
+    course.walk(63.0)
     course.stand()
     return BuildingWalk(course.route, course.start, GROUND)
 

@@ -20,6 +20,8 @@ from .sensors import Sampling, instants, measure
 
 CRYSTAL_PPM = 30.0
 """Standard deviation of a clock's rate error, ppm; usual 32 kHz crystals are within about +-50 ppm."""
+HANDLING_TIME = 2e-3
+"""Time from a measurement of a small sensor until the radio has its value, s (assumed)."""
 SETUP_TIME = 0.05
 """Time of the walk at which the setup (reads and writes) is over and measuring starts, s (assumed)."""
 

@@ -11,10 +11,9 @@ from ...types import Site
 from ..wearers.curves import Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .device import Notification, draw_clock, make_sampling, setup_notifications
+from .device import HANDLING_TIME, Notification, draw_clock, make_sampling, setup_notifications
 from .parts import CRE_CC02, AttitudeErrors
 from .sensors import read_attitudes
-from .tag_signals import HANDLING_TIME
 
 SAMPLING_RATE = 60.0
 """Sampling rate after the usual setup, Hz."""
@@ -31,7 +30,7 @@ class Dot:
     mounting: Mounting = Mounting((0.0, 0.0, 0.0))
     """Position, m, and attitude of the sensor in the frame of its segment (limbs.py)."""
     attitude: AttitudeErrors = CRE_CC02
-    """Attitude errors; MOVELLA_DOT has those of a DOT, the default those of the unit of Gong et al. 2023."""
+    """Attitude errors; the default has those of the unit of Gong et al. 2023."""
     north: float = 0.0
     """Yaw of the device's world frame in the walk's world frame, rad, counter-clockwise positive."""
     ppm: float | None = None

@@ -16,11 +16,11 @@ from ...wire.fragment import FRAME_ID_COUNT, split
 from ...wire.insole import InsoleFrame, InsoleSample, build_frame
 from ...wire.insole_info import InsoleInfo, build_info
 from ..wearers.curves import Array, Rng
-from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
+from ..wearers.shoe import IN_SOLE, Mounting, Shoe
 from ..wearers.walker import Walker
 from .device import Notification, device_rng, draw_clock, foot_of, make_sampling, measure_field, setup_notifications
-from .insoles import FULL_COUNT, LOAD_PER_COUNT, heel_array, layout
-from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudeErrors, CellErrors, Imu, TriadErrors
+from .insoles import FULL_COUNT, LOAD_PER_COUNT, layout
+from .parts import LSM6DSOX, RESISTIVE, AttitudeErrors, CellErrors, Imu, TriadErrors
 from .sensors import instants, measure_imu, read_attitudes, read_cells, samples_of, take_samples, to_counts
 
 HANDLING_TIME = 1e-3
@@ -265,19 +265,3 @@ class Insole:
             measured = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
         quats: Counts = np.rint(2**14 * measured).astype(np.int16)
         return quats
-
-
-def boot(foot: Foot, rate: float = 100.0) -> Insole:
-    """Return the sensors of Bebek et al. 2010, IEEE Trans. Instrum. Meas. 59: 24 cells and an attitude sensor.
-
-    The cells are under the heel, the sensor on the back of the heel. Specific force and angular rate have the errors of
-    the other insoles, and `rate`, Hz, is assumed, because the paper gives neither errors nor a sampling rate."""
-    return Insole(
-        cells=heel_array(foot),
-        rate=rate,
-        quaternion=True,
-        attitude=INERTIACUBE3,
-        mounting=ON_HEEL,
-        cell_part=HEEL_ARRAY,
-        reports_saturation=False,
-    )

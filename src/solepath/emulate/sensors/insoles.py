@@ -46,28 +46,6 @@ def layout(count: int, foot: Foot, length: float = 0.285, width: float = 0.100) 
     return Layout(count, foot, tuple(cells), length, LOAD_PER_COUNT, FULL_SCALE)
 
 
-HEEL_LENGTH, HEEL_WIDTH = 0.0823, 0.0451
-"""Sensing area of a DigiTacts II array, m (Bebek et al. 2010, section IV); its 24 cells lie 6 by 4 (assumed)."""
-MAX_HEEL_PRESSURE = 140e3
-"""Largest pressure that a DigiTacts II array detects, Pa (Bebek et al. 2010, section IV)."""
-
-
-def heel_array(foot: Foot, length: float = 0.285, rear: float = 0.008) -> Layout:
-    """Return the layout of a DigiTacts II array under the heel of a shoe of `length` m.
-
-    Its 24 cells are ordered row by row from the back to the front, and in a row from right to left. The first row
-    starts `rear` m in front of the heel's rear end (assumed). The layout of 24 cells over the whole sole has the same
-    id, 24; INFO distinguishes the two."""
-    step, across = HEEL_LENGTH / 6, HEEL_WIDTH / 4
-    cells = [
-        Cell(rear + (row + 0.5) * step, -0.5 * HEEL_WIDTH + (column + 0.5) * across, step * across)
-        for row in range(6)
-        for column in range(4)
-    ]
-    max_load = MAX_HEEL_PRESSURE * step * across
-    return Layout(24, foot, tuple(cells), length, max_load / FULL_COUNT, max_load)
-
-
 def _shares(widths: np.ndarray[tuple[int, ...], np.dtype[np.float64]], count: int) -> list[int]:
     """Split `count` cells over the rows in proportion to their widths, at least one each, by largest remainders."""
     exact = (count - len(widths)) * widths / widths.sum()

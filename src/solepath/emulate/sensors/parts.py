@@ -194,20 +194,11 @@ RESISTIVE = CellErrors("FSR", gain=0.03, preload=0.5, noise=0.12, lag=0.003)
 
 Noise of 2 to 3 counts, the lag of the cover and the in-shoe preload are assumed."""
 
-CAPACITIVE = CellErrors("capacitive", gain=0.025, preload=0.3, noise=0.06, lag=0.002)
-"""Calibrated capacitive insoles (novel pedar), accuracy +-5 %; noise, lag and preload are assumed."""
-
 WORN_RESISTIVE = evolve(RESISTIVE, name="FSR in a laced shoe", relief_per_g=0.3, contact_noise=0.2)
-WORN_CAPACITIVE = evolve(CAPACITIVE, name="capacitive in a laced shoe", relief_per_g=0.3, contact_noise=0.12)
-"""Errors of capacitive cells with the contact of the foot in swing; WORN_RESISTIVE has those of resistive cells.
+"""Errors of resistive cells with the contact of the foot in swing.
 
 Neither sheets nor papers give figures. Assumed: each g relieves 0.3 of the preload (a laced foot presses with about
 50 N in all), and the load of a cell varies by 0.4 of its mean preload."""
-
-HEEL_ARRAY = evolve(WORN_CAPACITIVE, name="DigiTacts II under a heel")
-"""Errors of the DigiTacts II of Pressure Profile Systems, assumed as for other capacitive cells.
-
-The array is capacitive and calibrated before shipment; Bebek et al. 2010, section IV, give only its range."""
 
 
 @frozen
@@ -231,17 +222,5 @@ class AttitudeErrors:
     direction in the world."""
 
 
-INERTIACUBE3 = AttitudeErrors("InertiaCube3", tilt=radians(0.25), heading=radians(1.0))
-"""InterSense InertiaCube3 (*): accuracy 1 degree in yaw, 0.25 degrees in pitch and roll at 25 degrees C."""
-
-TILTED_INERTIACUBE3 = evolve(INERTIACUBE3, steady_tilt=radians(0.25))
-"""Errors of INERTIACUBE3, and a tilt as large as its accuracy that stays (assumed).
-
-The users of Bebek et al. 2010 found "drifts toward a fixed direction" and suspected the device's gravity compensation
-(section V-B)."""
-
 CRE_CC02 = AttitudeErrors("CRE-CC02", tilt=radians(0.81), heading=radians(0.81))
 """Nine-axis unit of Gong et al. 2023, Sensors 23, 5417, section 3.1: absolute angle accuracy 0.81 degrees."""
-
-MOVELLA_DOT = AttitudeErrors("Movella DOT", tilt=radians(1.0), heading=radians(2.0))
-"""Movella DOT (*): in motion 1.0 degree in roll and pitch, 2.0 degrees in heading, one standard deviation."""

@@ -9,19 +9,32 @@ in styles.py."""
 from __future__ import annotations
 
 from enum import Enum
+from typing import Protocol
 
 import numpy as np
-from attrs import evolve, frozen
+from attrs import frozen
 
 from ...calibration import Limbs
 from ...types import Foot
 from ..routes.elevator import CarRide
 from ..routes.escalator import EscalatorRide
 from ..routes.path import Flight, Pose
-from ..routes.styles import StrideKind
-from .curves import Array, Rng
-from .shoe import Rocker, Shoe
-from .soles.heel_pad import HeelPad
+from ..routes.styles import StrideKind, Style
+from .curves import Array
+from .shoe import Shoe
+
+
+class HeelPad(Protocol):
+    """Pad under a heel, which lets the patch of pressure spread and move while the shoe is at rest."""
+
+    def spread(self, heel_load: Array) -> Array:
+        """Return the half-axes of the patch as a share of those of the zone, (N); the load is a share of the weight."""
+
+    def shift(self, stance: Array, heel_share: Array, weight: float, speed: Array, t: Array) -> Array:
+        """Return how far the patch is ahead of its place at foot-flat without shear, m, (N).
+
+        `stance` has heel-strike, foot-flat, heel-off and toe-off, s, (N, 4). `heel_share` is the share of the heel in
+        the foot's load, `weight` is in N, and `speed` is a ratio to 1.3 m/s."""
 
 
 class LoadLaw(Enum):
@@ -95,7 +108,7 @@ class Wearer:
     limbs: Limbs = Limbs()
     """Lengths of the limbs."""
     number: int = 0
-    """Number from which the motion of the soft tissue of this wearer is drawn (sensors/soft_tissue.py)."""
+    """Number from which experiments draw what is this wearer's own."""
 
     def cadence(self, speed: float) -> float:
         """Return the cadence at `speed` m/s, steps per minute.
@@ -138,8 +151,10 @@ class PlannedStride:
     """Curvature of the path where the foot lands, 1/m; positive to the left."""
     step_speed: float
     """Speed of the body in the step that ends this stride, m/s: half of the foot's displacement over the step time."""
-    kind: StrideKind = StrideKind.WALK
+    kind: StrideKind
     """Kind of the stride."""
+    style: Style
+    """Parameters of the stride."""
     flight: Flight | None = None
     """Flight of stairs that the stride starts or ends on."""
 
@@ -191,70 +206,3 @@ class WalkPlan:
         for ride in self.escalators:
             total += ride.at(t)[0]
         return total
-
-
-def double_support(speed: float) -> float:
-    """Return the duration of one double support at `speed` m/s, as a share of the stride; numbers assumed."""
-    return float(np.clip(0.115 - 0.04 * (speed - 1.3), 0.05, 0.20))
-
-
-DEFAULT_FOOT_LENGTH = 0.275
-"""Length of the foot that the default shoe (size 43) fits, m."""
-DEFAULT_STATURE = 1.75
-"""Stature of the default wearer, m."""
-SPINE_DISTANCE_SHARE = 0.137
-"""Distance of the anterior iliac spines as a share of the stature: 0.24 m at 1.75 m (Bell et al. 1989)."""
-
-
-def hip_joint_distance(spines: float) -> float:
-    """Return the distance between the hip joints, m, of a pelvis whose anterior iliac spines are `spines` m apart.
-
-    Either joint is 0.33 of that distance and 7.3 mm from the middle (Harrington et al. 2007, J Biomech 40: images of
-    the joints themselves). The 0.191 of the stature in Drillis and Contini (1966) is the breadth of the hips."""
-    return 2.0 * (0.33 * spines + 0.0073)
-
-
-def scaled_wearer(stature: float, mass: float, foot_length: float) -> Wearer:
-    """Return a wearer of this stature, m, and mass, kg, in the default shoe scaled to a foot of `foot_length` m.
-
-    The limbs have the proportions of `Limbs`; their `foot` is the length of the shoe ahead of the ankle. By dynamic
-    similarity, the step length is proportional to the leg length, and the cadence to the frequency of a pendulum as
-    long as the leg (Alexander 1989, Physiol. Rev. 69). The walk ratio therefore grows with stature^1.5."""
-    default, scale = Wearer(), foot_length / DEFAULT_FOOT_LENGTH
-    default_shoe = default.shoe
-    shoe = Shoe(
-        length=scale * default_shoe.length,
-        width=scale * default_shoe.width,
-        heel=Rocker(scale * default_shoe.heel.x, scale * default_shoe.heel.radius),
-        forefoot=Rocker(scale * default_shoe.forefoot.x, scale * default_shoe.forefoot.radius),
-        ankle=(scale * default_shoe.ankle[0], scale * default_shoe.ankle[1], scale * default_shoe.ankle[2]),
-    )
-    limbs = Limbs(
-        hip_width=hip_joint_distance(SPINE_DISTANCE_SHARE * stature),
-        thigh=0.245 * stature,
-        shank=0.246 * stature,
-        foot=shoe.length - shoe.ankle[0],
-        ankle_height=0.039 * stature,
-    )
-    return Wearer(
-        mass=mass,
-        shoe=shoe,
-        limbs=limbs,
-        centre_height=default.centre_height * stature / DEFAULT_STATURE,
-        walk_ratio=default.walk_ratio * (stature / DEFAULT_STATURE) ** 1.5,
-    )
-
-
-def random_wearer(rng: Rng) -> tuple[Wearer, float]:
-    """Return a random wearer and the stature, m: 1.55 to 1.92 m, with a body mass index of 21 to 28 kg/m^2."""
-    stature = float(rng.uniform(1.55, 1.92))
-    return scaled_wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature
-
-
-SUBJECTS = tuple(
-    evolve(scaled_wearer(stature, mass, foot_length), number=number)
-    for number, (stature, mass, foot_length) in enumerate(
-        ((1.72, 63.0, 0.245), (1.68, 52.5, 0.255), (1.60, 50.0, 0.235), (1.83, 81.0, 0.270)), 1
-    )
-)
-"""Wearers with stature, mass and foot length of the subjects of Gong et al. 2023 (Sensors 23, 5417), table 3."""

@@ -30,11 +30,9 @@ from numpy.typing import NDArray
 from ...types import Foot, Layout
 from ...types.vector import GRAVITY
 from ..routes.escalator import GroundRide
-from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng, hand_over
-from .gait import SETTLE_TIME, LoadLaw, PlannedStride, WalkPlan, Wearer
+from .gait import SETTLE_TIME, HeelPad, LoadLaw, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
-from .soles.heel_pad import HeelPad
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, cell_shares
 
 BOUNCE_AMPLITUDE = 0.17
@@ -226,7 +224,7 @@ def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
         stances={foot: _stances(plan, foot) for foot in Foot},
         lateral_shifts={foot: _lateral_shifts(plan, foot, wearer, rng) for foot in Foot},
         forefoot_shares={
-            foot: np.array([0.0, *(_forefoot_share(stride) for stride in plan.strides[foot])]) for foot in Foot
+            foot: np.array([0.0, *(stride.style.forefoot_share for stride in plan.strides[foot])]) for foot in Foot
         },
         rides=(*plan.rides, *plan.escalators),
         pad=wearer.pad,
@@ -234,16 +232,10 @@ def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
     )
 
 
-def _forefoot_share(stride: PlannedStride) -> float:
-    """Return the share of the load that the forefoot takes at the landing of this stride."""
-    return 0.0 if stride.kind is StrideKind.WALK else style_of(stride.kind, stride.speed).forefoot_share
-
-
 def _equivalent_speed(stride: PlannedStride) -> float:
     """Return the speed, m/s, of level walking whose load has the same amplitude as in this stride."""
-    if stride.kind is StrideKind.WALK or stride.kind is StrideKind.RUN:
-        return stride.speed
-    return 1.3 * float(np.sqrt(style_of(stride.kind, stride.speed).load_amplitude / BOUNCE_AMPLITUDE))
+    amplitude = stride.style.load_amplitude
+    return 1.3 * float(np.sqrt(amplitude / BOUNCE_AMPLITUDE)) if amplitude else stride.speed
 
 
 def _hand_overs(plan: WalkPlan) -> tuple[list[tuple[float, ...]], list[tuple[float, ...]]]:

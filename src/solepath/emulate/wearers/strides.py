@@ -18,7 +18,7 @@ from attrs import evolve
 
 from ...types import Foot, Phase
 from ..routes.path import Flight, Pose
-from ..routes.styles import StrideKind, style_of
+from ..routes.styles import StrideKind
 from .curves import BUMP, LEVELLING, Array, EndState, Rng, constant, evaluate, join, subcurve
 from .gait import PlannedStride, WalkPlan, Wearer
 from .motion import PHASES, FootMotion
@@ -28,10 +28,6 @@ from .soles.contact import MAX_IMPACT_SHARE, RIGID, TOE_SLIP, impact_displacemen
 from .sway import SHORTEST_STANDING, sway_pieces
 from .swing import pitch_at, reversal_share, running_swing_pitch, walking_swing_pitch
 
-SLIDE_SPEED_RATIO = 0.30
-"""Forward speed of the heel over the ground just before contact, as a ratio to the walking speed."""
-SINK_SPEED_RATIO = 0.13
-"""Downward speed of the heel just before contact, as a ratio to the walking speed."""
 TOE_OFF_SLOPES = (2.1, -2.0)
 """First and second derivative of the pitch at toe-off, in units of that pitch and the push-off time."""
 HEEL_STRIKE_SLOPES = (0.5, -4.0)
@@ -156,7 +152,7 @@ class _MotionBuilder:
         curves_of_pitch = running_swing_pitch if stride.kind is StrideKind.RUN else walking_swing_pitch
         pitches = curves_of_pitch(pitch_start, pitch_end, duration)
         if stride.flight is not None:
-            style = style_of(stride.kind, stride.speed)
+            style = stride.style
             displacement = p1 - p0
             hold = style.mid_swing_shift * min(1.0, 2.0 * stride.flight.going / hypot(displacement[0], displacement[1]))
             x += hold * displacement[0] * BUMP
@@ -285,8 +281,5 @@ def _end_state(curve: Array, s: float, duration: float) -> EndState:
 
 def _excess(stride: PlannedStride) -> tuple[float, float, float]:
     """Return the velocity of the heel at contact, world frame, m/s; rolling without slip would make it 0."""
-    slide, sink = SLIDE_SPEED_RATIO * stride.speed, SINK_SPEED_RATIO * stride.speed
-    if stride.kind is not StrideKind.WALK:
-        style = style_of(stride.kind, stride.speed)
-        slide, sink = style.forward_speed, style.sink_speed
+    slide, sink = stride.style.forward_speed, stride.style.sink_speed
     return (slide * cos(stride.end.heading), slide * sin(stride.end.heading), -sink)

@@ -9,12 +9,10 @@ from math import inf, radians
 
 from attrs import evolve, frozen
 
-from solepath.emulate.sensors.insole_device import Insole, boot
-from solepath.emulate.sensors.parts import INERTIACUBE3, TILTED_INERTIACUBE3, WORN_CAPACITIVE
+from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.wearers.gait import LoadLaw, Wearer
 from solepath.emulate.wearers.shoe import Shoe
 from solepath.emulate.wearers.soles.contact import SLIPPING, WORN, GroundContact
-from solepath.emulate.wearers.soles.heel_pad import HeelPad
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from solepath.papers.pressure_contour.contour import PAPER_LEVELS, Contours, ContourSettings
 from solepath.papers.pressure_contour.contour_stance import (
@@ -26,6 +24,8 @@ from solepath.papers.pressure_contour.contour_stance import (
 from solepath.papers.pressure_contour.recipe import AS_PRINTED, GYROSCOPE, PRESSURE_CONTOUR, PRESSURE_CONTOUR_PRINTED
 from solepath.recipes import Recipe
 from solepath.types import Foot
+
+from ...emulated.boot import INERTIACUBE3, TILTED_INERTIACUBE3, WORN_CAPACITIVE, HeelPad, boot
 
 RATE = 50.0
 """Sampling rate, Hz (assumed)."""

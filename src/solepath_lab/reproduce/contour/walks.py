@@ -14,8 +14,7 @@ from attrs import evolve, frozen
 
 from solepath.calibration import Calibration, CalibrationError, InsoleCalibration
 from solepath.calibration.records import merged
-from solepath.emulate.routes.actions import Stand
-from solepath.emulate.routes.laps import MARKS_PER_LAP, field_walk, square
+from solepath.emulate.routes.path import Stand
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout as sole_layout
 from solepath.emulate.walk import SampledWalk, sampled
@@ -24,6 +23,7 @@ from solepath.recipes import Recipe
 from solepath.types import SITE_OF_FOOT, Layout, Sample
 from solepath.validate.alignment import Floats
 
+from ...emulated.laps import MARKS_PER_LAP, field_walk, square
 from .. import published
 from ..done_jobs import named_values
 from ..tables import DrawStyle, PictureTrack

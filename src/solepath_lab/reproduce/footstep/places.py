@@ -11,7 +11,7 @@ from math import hypot
 import numpy as np
 from attrs import evolve, field, frozen
 
-from solepath.emulate.routes.building import FOUR_LOOPS, HALF_TURN
+from solepath.emulate.routes.building import FOUR_LOOPS
 from solepath.emulate.routes.ways import BuildingWalk, case_study, wandering
 from solepath.emulate.walk import EmulatedWalk
 from solepath.events import Event, Placed, TurnMade
@@ -23,6 +23,7 @@ from solepath.types import Packet, Site
 from solepath.validate import place as emulated_place
 from solepath.validate.place import PlaceScore, is_on_floor
 
+from ...emulated.buildings import HALF_TURN
 from ...emulated.evidence import HEADING_ERROR
 from .wearers import DROPS_AT_WALLS, WearerJob
 

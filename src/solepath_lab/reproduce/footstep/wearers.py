@@ -14,7 +14,7 @@ from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.parts import MPU6050
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import EmulatedWalk, emulate
-from solepath.emulate.wearers.gait import Wearer, random_wearer
+from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP
 from solepath.emulate.wearers.soles.contact import RIGID, SLIPPING, WORN, GroundContact
 from solepath.papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
@@ -24,6 +24,7 @@ from solepath.papers.footstep_tracker.snake import PrintedSnake
 from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
 from solepath.types import SITE_OF_FOOT, Packet
 
+from ...emulated.wearers import random_wearer
 from ..done_jobs import named_values
 
 RATE = 20.0

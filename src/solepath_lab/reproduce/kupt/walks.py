@@ -10,8 +10,6 @@ from attrs import evolve, frozen
 
 from solepath.calibration import Calibration
 from solepath.calibration.records import merged
-from solepath.emulate.routes.laps import corridor, straight
-from solepath.emulate.routes.postures import postures, write_postures
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import LSM6DSOX, MPU9250, WORN_RESISTIVE, Imu
 from solepath.emulate.walk import EmulatedWalk, emulate
@@ -29,6 +27,8 @@ from solepath.types import SITE_OF_FOOT, Foot, Vec3
 from solepath.types.attrs import define
 from solepath.types.vector import from_rotation_vector
 
+from ...emulated.laps import corridor, straight
+from ...emulated.postures import postures, write_postures
 from ..walks import WalkParts, cut_walk, find_halt, join_routes
 
 RATE = 30.0

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from solepath.emulate.routes.laps import ACROSS, ALONG, straight
 from solepath.emulate.wearers.walker import Walker
 from solepath.papers.walking_modes.limbs.limbs import LowerLimbs
 from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.types import Foot
 
+from ...emulated.laps import ACROSS, ALONG, straight
 from ..published import corner_row
 from ..tables import BoxPlots, DrawStyle, FloorPanel, Panel, PictureTrack
 from .walks import USUAL, Corners

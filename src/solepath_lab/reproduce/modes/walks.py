@@ -1,7 +1,7 @@
 """Emulated walks of Gong et al. 2023: over marks on the floor, around a rectangle, and along bends by two load laws.
 
 What the methods know of a wearer is not what the emulator has. The lengths of the limbs are measured from outside, with
-errors (`measured_limbs`). The sensors sit on skin that moves (emulate/sensors/soft_tissue.py). The load in bends moves
+errors (`measured_limbs`). The sensors sit on skin that moves (emulated/limb_samples.py). The load in bends moves
 by the law of the literature and by chance, not by that of the rules of table 2."""
 
 from __future__ import annotations
@@ -13,12 +13,9 @@ from attrs import evolve, frozen
 
 from solepath.calibration import Calibration, InsoleCalibration, Limbs
 from solepath.calibration.records import merged
-from solepath.emulate.routes.laps import LapCorner, corners, marked, rectangle
-from solepath.emulate.routes.laps import marks as marks_of
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import CRE_CC02, WORN_RESISTIVE
-from solepath.emulate.sensors.suit import limb_samples
-from solepath.emulate.wearers.gait import SUBJECTS, LoadLaw, Wearer
+from solepath.emulate.wearers.gait import LoadLaw, Wearer
 from solepath.emulate.wearers.soles.contact import RIGID, GroundContact
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import TouchedDown
@@ -32,6 +29,10 @@ from solepath.recording.decoded import DecodedRecording
 from solepath.types import SITE_OF_FOOT, Foot, Sample
 from solepath.types.vector import GRAVITY
 
+from ...emulated.laps import LapCorner, corners, marked, rectangle
+from ...emulated.laps import marks as marks_of
+from ...emulated.limb_samples import limb_samples
+from ...emulated.wearers import SUBJECTS
 from ..walks import run_session
 
 RATE = 50.0
@@ -57,7 +58,7 @@ class Conditions:
     hips: float = 0.0
     """Error of the measured distance of the hip joints in addition to that of `measured_limbs`, m."""
     tissue: float = 1.0
-    """Motion of soft tissue, as a multiple of that of soft_tissue.py."""
+    """Motion of soft tissue, as a multiple of that of limb_samples.py."""
     law: LoadLaw = LoadLaw.HEEL_OUT_FOREFOOT_IN
     """Law by which the load moves in a bend."""
     variation: float = LOAD_VARIATION

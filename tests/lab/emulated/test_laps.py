@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 
 from solepath.emulate import Route
-from solepath.emulate.routes.laps import (
+from solepath.emulate.wearers.walker import Walker
+from solepath.types import Foot, WalkingMode
+from solepath_lab.emulated.heading_walks import KINDS, heading_route, wearer_of
+from solepath_lab.emulated.laps import (
     MARK_SPACING,
     STEPS_OVER_MARKS,
     corners,
@@ -15,13 +18,10 @@ from solepath.emulate.routes.laps import (
     field_walk,
     marked,
     marks,
-    modes,
+    mode_of,
     rectangle,
     square,
 )
-from solepath.emulate.wearers.walker import Walker
-from solepath.types import Foot, WalkingMode
-from solepath_lab.emulated.heading_walks import KINDS, heading_route, wearer_of
 
 
 @pytest.fixture(scope="module")
@@ -51,10 +51,11 @@ def test_feet_land_on_their_marks_within_centimetres(laps: Walker, mode: Walking
 
 def test_steps_are_labelled_by_the_bend_in_which_they_land() -> None:
     route = Route().stand(1.0).walk(6.0, 1.1).turn(pi, 2.0).walk(4.0).turn(-pi / 2, 4.0).walk(4.0).stop(1.0)
-    found = modes(Walker(route, seed=3))
+    walker = Walker(route, seed=3)
     straight, bends = WalkingMode.STRAIGHT, (WalkingMode.LEFT_TIGHT, WalkingMode.RIGHT_WIDE)
     for foot in Foot:
-        labels = [label for label, before in zip(found[foot], [None, *found[foot]], strict=False) if label != before]
+        found = [mode_of(stride) for stride in walker.plan.strides[foot]]
+        labels = [label for label, before in zip(found, [None, *found], strict=False) if label != before]
         assert labels[:5] == [straight, bends[0], straight, bends[1], straight]
 
 

@@ -1,7 +1,7 @@
 """Routes of published experiments: straight on, squares and bends over marks, a rectangle, a corridor, a field.
 
 `Walker` and `emulate` take these routes. On routes with marks, `marks` returns which stride of which foot landed on
-each mark, and `modes` the walking mode of every stride. Marks are the points of the ground below the ankle, in the
+each mark. Marks are the points of the ground below the ankle, in the
 world frame of the walk (origin between the feet at the start, x along the first heading)."""
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from operator import attrgetter
 import numpy as np
 from attrs import evolve, frozen
 
-from ...types import Foot, Vec3, WalkingMode
-from ..wearers.gait import PlannedStride
-from ..wearers.walker import Walker
-from .course import wrapped
-from .planner import plan
-from .route import Route
+from solepath.emulate.routes.course import wrapped
+from solepath.emulate.routes.planner import plan
+from solepath.emulate.routes.route import Route
+from solepath.emulate.wearers.gait import PlannedStride
+from solepath.emulate.wearers.walker import Walker
+from solepath.types import Foot, Vec3, WalkingMode
 
 Point = tuple[float, float]
 
@@ -52,7 +52,9 @@ MIN_WALKING_DISPLACEMENT = 0.15
 ALONG, ACROSS = 2.8, 4.0
 """Length of the sides AB and CD, and of BC and DA, of the rectangle of Gong et al. 2023, section 3.4, m."""
 RECTANGLE_CORNER_RADIUS = 0.5
-"""Radius of the bends at the corners of the rectangle, m (assumed: without a halt, about one step on the arc)."""
+"""Radius of the bends at the corners of the rectangle, m (assumed: without a halt, about one step on the arc).
+
+They are walked at TIGHT_TURN_SPEED (route.py) at most."""
 CORRIDOR_LENGTH = 91.0
 """Length of the walk around a floor of Chen et al. 2019, section IV-C, m."""
 FIELD_SIZE = (60.0, 40.0)
@@ -75,10 +77,6 @@ class FloorMark:
     """Coordinate y of the mark in the world frame, m."""
     mode: WalkingMode
     """Walking mode of the stride."""
-    lap: int = 0
-    """Number of the lap, from 0; always 0 when the marks are not counted in laps."""
-    number: int = 0
-    """Number of the foot's mark in the lap, from 0."""
 
 
 @frozen
@@ -128,34 +126,31 @@ def marked(
     return route.turn(steps * spacing / radius, abs(radius), speed).stop(2.0)
 
 
-def rectangle(speed: float = 1.1, corner: float = RECTANGLE_CORNER_RADIUS, rounds: int = 1) -> Route:
+def rectangle() -> Route:
     """Return a rectangle from A over B, C and D back to A, counter-clockwise, with A at the origin and B ahead of it.
 
-    Corners are bends of radius `corner`, m, walked at TIGHT_TURN_SPEED (route.py) at most when `corner` is below 1 m; 0
-    means a turn on the spot, with a halt. The walk ends on A itself, at the end of DA."""
-    points = [(ALONG, 0.0), (ALONG, ACROSS), (0.0, ACROSS), (0.0, 0.0)] * rounds
-    return through(Route().stand(2.0), points, speed, corner).stop(2.0)
+    The walk ends on A itself, at the end of DA."""
+    points = [(ALONG, 0.0), (ALONG, ACROSS), (0.0, ACROSS), (0.0, 0.0)]
+    return through(points, 1.1, RECTANGLE_CORNER_RADIUS)
 
 
-def corridor(length: float = CORRIDOR_LENGTH, speed: float = 1.3, corner: float = 1.0) -> Route:
+def corridor(length: float = CORRIDOR_LENGTH, speed: float = 1.3) -> Route:
     """Return one lap around the inner block of a building's floor, to the left and back to the start.
 
     Long sides are 1.5 times as long as short ones (assumed: the paper shows the path only in fig. 13)."""
+    corner = 1.0  # radius of the bends, m
     short = (length - 2.0 * pi * corner) / 5.0 + 2.0 * corner
     long = 1.5 * (short - 2.0 * corner) + 2.0 * corner
-    route = Route().stand(2.0)
     # The walk starts and ends in the middle of a long side, where there is no bend.
     points = [(0.5 * long, 0.0), (0.5 * long, short), (-0.5 * long, short), (-0.5 * long, 0.0), (0.0, 0.0)]
-    return through(route, points, speed, corner).stop(2.0)
+    return through(points, speed, corner)
 
 
-def field_walk(
-    duration: float = 1800.0, speed: float = 1.0, seed: int = 1, field: Point = FIELD_SIZE, corner: float = 1.5
-) -> Route:
+def field_walk(duration: float = 1800.0, speed: float = 1.0, seed: int = 1) -> Route:
     """Return about `duration` s of walking from one random point in a field to the next, and back to the start."""
     rng = np.random.default_rng([seed, 7])
-    half = (0.5 * field[0], 0.5 * field[1])
-    points: list[Point] = [(0.4 * field[0], 0.0)]
+    half = (0.5 * FIELD_SIZE[0], 0.5 * FIELD_SIZE[1])
+    points: list[Point] = [(0.4 * FIELD_SIZE[0], 0.0)]
     previous: Point = (0.0, 0.0)
     distance = points[0][0]
     while distance + hypot(*points[-1]) < speed * duration or not _is_walkable(previous, points[-1], (0.0, 0.0)):
@@ -164,36 +159,28 @@ def field_walk(
             distance += hypot(target[0] - points[-1][0], target[1] - points[-1][1])
             previous = points[-1]
             points.append(target)
-    return through(Route().stand(2.0), [*points, (0.0, 0.0)], speed, corner).stop(2.0)
+    return through([*points, (0.0, 0.0)], speed, 1.5)
 
 
-def through(route: Route, points: Sequence[Point], speed: float, corner: float) -> Route:
-    """Return `route` continued on straight lines through the points, with bends of radius `corner`, m.
+def through(points: Sequence[Point], speed: float, corner: float) -> Route:
+    """Return a route from the origin on straight lines through the points, with bends of radius `corner`, m.
 
-    The first turn is on the spot; with `corner` 0 all turns are. A bend that does not fit between two points raises
-    ValueError."""
-    end = route.end
-    position, heading, cut_before = (end.x, end.y), end.heading, 0.0
+    The first turn is on the spot."""
+    route, position, heading, cut_before = Route().stand(2.0), (0.0, 0.0), 0.0, 0.0
     for k, target in enumerate(points):
-        distance = hypot(target[0] - position[0], target[1] - position[1])
         direction = atan2(target[1] - position[1], target[0] - position[0])
         turn = wrapped(direction - heading)
-        if k == 0 or corner == 0.0:
-            cut_before = 0.0
-            if abs(turn) > 1e-9:
-                route = route.turn(turn)
-        elif abs(turn) > 1e-9:
-            route = route.turn(turn, corner)
+        if abs(turn) > 1e-9:
+            route = route.turn(turn, corner if k else 0.0)
         cut_after = 0.0
-        if k + 1 < len(points) and corner > 0.0:
+        if k + 1 < len(points):
             following = points[k + 1]
             next_turn = wrapped(atan2(following[1] - target[1], following[0] - target[0]) - direction)
             cut_after = corner * tan(0.5 * abs(next_turn))
-        if distance - cut_before - cut_after <= 0.0:
-            raise ValueError(f"no room for bends of {corner:g} m between {position} and {target}")
+        distance = hypot(target[0] - position[0], target[1] - position[1])
         route = route.walk(distance - cut_before - cut_after, speed)
         position, heading, cut_before = target, direction, cut_after
-    return route
+    return route.stop(2.0)
 
 
 def mode_of(stride: PlannedStride) -> WalkingMode:
@@ -208,30 +195,24 @@ def mode_of(stride: PlannedStride) -> WalkingMode:
     return WalkingMode.LEFT_TIGHT if left else WalkingMode.RIGHT_TIGHT
 
 
-def modes(walker: Walker) -> dict[Foot, tuple[WalkingMode, ...]]:
-    """Return the mode of every true stride of each foot, in the order of `Truth.strides`."""
-    return {foot: tuple(mode_of(stride) for stride in walker.plan.strides[foot]) for foot in Foot}
-
-
-def marks(walker: Walker, per_lap: int | None = None) -> tuple[FloorMark, ...]:
+def marks(walker: Walker) -> tuple[FloorMark, ...]:
     """Return the marks of a walker on a paced route and the strides on them, in the order of time.
 
-    The closing step before a halt has no mark. `per_lap` is the number of a foot's marks in one lap."""
+    The closing step before a halt has no mark."""
     exact = evolve(walker.wearer, width_variation=0.0, angle_variation=0.0, mark_error=0.0)
     exact_plan = plan(walker.route, exact, np.random.default_rng(0))
     closing = {
         max(s.heel_strike for foot in Foot for s in walker.plan.strides[foot] if start <= s.heel_strike <= end)
         for start, end in walker.plan.bouts
     }
-    found = []
-    for foot in Foot:
+    found = [
+        FloorMark(foot, k, stride.foot_flat, exact_stride.end.x, exact_stride.end.y, mode_of(stride))
+        for foot in Foot
         for k, (stride, exact_stride) in enumerate(
-            zip(walker.plan.strides[foot], exact_plan.strides[foot], strict=True)
-        ):
-            if stride.heel_strike not in closing:
-                lap, number = (0, k) if per_lap is None else divmod(k, per_lap)
-                mark = exact_stride.end
-                found.append(FloorMark(foot, k + 1, stride.foot_flat, mark.x, mark.y, mode_of(stride), lap, number))
+            zip(walker.plan.strides[foot], exact_plan.strides[foot], strict=True), 1
+        )
+        if stride.heel_strike not in closing
+    ]
     return tuple(sorted(found, key=attrgetter("t")))
 
 
@@ -240,21 +221,17 @@ def corners(walker: Walker) -> tuple[LapCorner, ...]:
     t = np.arange(0.0, walker.duration, 0.01)
     track = walker.body.pelvis(t)[0]
     found = []
-    for name, x, y in (("B", ALONG, 0.0), ("C", ALONG, ACROSS), ("D", 0.0, ACROSS)):
-        k = int(np.argmin((track[:, 0] - x) ** 2 + (track[:, 1] - y) ** 2))
-        found.append(_corner(walker, name, float(t[k]), (x, y, 0.0)))
-    return (*found, _corner(walker, "A", walker.plan.bouts[-1][1], (0.0, 0.0, 0.0)))
-
-
-def _corner(walker: Walker, name: str, t: float, place: Vec3) -> LapCorner:
-    x, y, _ = (float(value) for value in walker.body.pelvis(np.array([t]))[0][0])
-    stride_numbers, footprints = {}, {}
-    for foot in Foot:
-        strides = walker.plan.strides[foot]
-        k = min(range(len(strides)), key=[abs(stride.foot_flat - t) for stride in strides].__getitem__)
-        stride_numbers[foot] = k + 1
-        footprints[foot] = (strides[k].end.x, strides[k].end.y, strides[k].end.z)
-    return LapCorner(name, t, place, (x, y, 0.0), stride_numbers, footprints)
+    for name, x, y in (("B", ALONG, 0.0), ("C", ALONG, ACROSS), ("D", 0.0, ACROSS), ("A", 0.0, 0.0)):
+        passed = t[int(np.argmin((track[:, 0] - x) ** 2 + (track[:, 1] - y) ** 2))]
+        at = walker.plan.bouts[-1][1] if name == "A" else float(passed)
+        body_x, body_y, _ = (float(value) for value in walker.body.pelvis(np.array([at]))[0][0])
+        stride_numbers, footprints = {}, {}
+        for foot in Foot:
+            stride = min(walker.plan.strides[foot], key=lambda one: abs(one.foot_flat - at))
+            stride_numbers[foot] = stride.number
+            footprints[foot] = (stride.end.x, stride.end.y, stride.end.z)
+        found.append(LapCorner(name, at, (x, y, 0.0), (body_x, body_y, 0.0), stride_numbers, footprints))
+    return tuple(found)
 
 
 def _is_walkable(previous: Point, position: Point, target: Point) -> bool:

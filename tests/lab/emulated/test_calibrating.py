@@ -7,14 +7,15 @@ import numpy as np
 import pytest
 
 from solepath.emulate import Route
-from solepath.emulate.handling import Handling
-from solepath.emulate.routes.postures import PITCHES, REPETITIONS, posture, postures, write_postures
+from solepath.emulate.routes.postures import PITCHES
 from solepath.emulate.wearers.shoe import Mounting, Shoe
 from solepath.emulate.wearers.turning import from_rotation_vectors, matrices, multiply_quaternions
 from solepath.emulate.wearers.walker import Walker
 from solepath.papers.kupt_dfpc.shoe.fit import fit_shoe
 from solepath.types import Foot
 from solepath.types.vector import GRAVITY
+from solepath_lab.emulated.handling import Handling
+from solepath_lab.emulated.postures import REPETITIONS, posture, postures, write_postures
 
 
 def test_with_the_lengths_of_a_posture_the_paper_s_equations_give_the_way_of_the_sensor() -> None:

@@ -21,15 +21,15 @@ from math import cos, pi, radians, sin, sqrt
 import numpy as np
 from attrs import field, frozen
 
-from ..types import Foot, Layout
-from ..types.vector import GRAVITY
-from .sensors.magnetic_field import UNDISTURBED
-from .wearers.curves import BUMP, Array, Rng, evaluate, join
-from .wearers.gait import Wearer
-from .wearers.motion import Kinematics
-from .wearers.shoe import IN_SOLE, Mounting
-from .wearers.turning import from_rotation_vectors, matrices, multiply_quaternions
-from .wearers.walker import Walker
+from solepath.emulate.sensors.magnetic_field import UNDISTURBED
+from solepath.emulate.wearers.curves import BUMP, Array, Rng, evaluate, join
+from solepath.emulate.wearers.gait import Wearer
+from solepath.emulate.wearers.motion import Kinematics
+from solepath.emulate.wearers.shoe import IN_SOLE, Mounting
+from solepath.emulate.wearers.turning import from_rotation_vectors, matrices, multiply_quaternions
+from solepath.emulate.wearers.walker import Walker
+from solepath.types import Foot, Layout
+from solepath.types.vector import GRAVITY
 
 STEP = 1e-5
 """Half of the time over which the motion is differentiated, s."""
