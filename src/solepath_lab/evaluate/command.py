@@ -18,9 +18,9 @@ from solepath.show.tables.progress import progress_bar
 
 from ..options import add_json, add_only, add_processes, add_seeds
 from ..tables.markdown import accuracy_table
-from ..tables.scores import ablation_table, comparison_tables, score_table
+from ..tables.scores import ablation_table, score_table
 from . import ablation
-from .changes import read_scores
+from .changes import comparison_tables, read_scores
 from .datasets import DATASETS, EMULATED
 from .jobs import evaluate, evaluate_emulated, find_data_sets
 from .report import Result, as_json

@@ -13,13 +13,13 @@ from functools import partial
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.types import Activity, Turn
 
-from . import published
 from .footstep.activities import STAIRS, VARIANTS, ActivityResults, score_activities
 from .footstep.corridor import CORRIDOR_LENGTH, CorridorResults, score_corridor
 from .footstep.figures import CLASSES, class_shares, panels, share_right
 from .footstep.places import PlaceResults, score_places
 from .footstep.turning import TurnResults, score_turns
 from .footstep.wearers import IN_WEATHER, LENGTH_RECIPES, SETTINGS, STANDARD, WearerJob
+from .published import PUBLISHED, rows_of
 from .runner import Runner
 from .tables import FigureRow, Reproduction, row_of
 
@@ -58,7 +58,7 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
         rows.append(_row(f"{name}: STAIRS_DOWN %", class_shares(scores, Activity.STAIRS_DOWN), 1))
     return Reproduction(
         name=NAME,
-        paper_title=published.FOOTSTEP_TRACKER_TITLE,
+        paper_title=PUBLISHED[NAME]["title"],
         emulation=f"{count} wearers with a CC2541 at 20 Hz in each worn insole, two floors of 56 m by 63 m",
         unit="as named",
         rows=tuple(rows),
@@ -67,7 +67,7 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     )
 
 
-_row = partial(row_of, published.FOOTSTEP_TRACKER)
+_row = partial(row_of, rows_of(NAME))
 
 
 def _one_foot(corridors: list[CorridorResults], variant: str) -> list[float]:

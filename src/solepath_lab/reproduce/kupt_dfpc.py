@@ -24,7 +24,6 @@ from solepath.recipes import Recipe
 from solepath.types import Foot
 from solepath.validate.alignment import Floats
 
-from . import published
 from .contour.runs import sign_test
 from .done_jobs import named_values
 from .kupt.figures import coverage, panels, watch
@@ -42,6 +41,7 @@ from .kupt.walks import (
     Setting,
     prepare,
 )  # fmt: skip
+from .published import PUBLISHED, rows_of
 from .runner import Runner
 from .tables import BoxPlots, Curves, DrawStyle, FigureRow, FloorPanel, PictureTrack, Reproduction, row_of, statistics
 from .walks import align_track, final_strides, run_session, thin_out
@@ -51,6 +51,9 @@ WALKS = 20
 WALKS_PER_CORRIDOR = 4
 """Number of walks of 20 m for each corridor walk. The paper has a single corridor walk, too few for a mean."""
 FOOT_LETTERS = {Foot.LEFT: "L", Foot.RIGHT: "R"}
+PAPER, PAPER_ROWS = PUBLISHED[NAME], rows_of(NAME)
+TABLE_I = ("ZUPT-L", "ZUPT-R", "KUPT-L", "KUPT-R", "KUPT+DFPC")
+"""Rows of table I and of fig. 12."""
 PRINTED_ROWS = ("KUPT-L, printed", "KUPT-R, printed", "KUPT+DFPC, printed")
 SAME_ROW, SAME_FUSED_ROW = "ZUPT (+ bias)", "ZUPT+DFPC, same additions"
 """Rows of ZUPT with all our additions to KUPT, of both feet and of their fusion."""
@@ -99,19 +102,18 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     results = runner.run(walk, jobs, _describe)
     corridor_walks, results = results[: len(laws) * corridors], results[len(laws) * corridors :]
     short_walks, others = results[:count], results[count:]
-    paper = published.KUPT_DFPC
     rows = [_row(name, short_walks) for name in short_walks[0].distances]
     for number, setting in enumerate(SETTINGS):
         walks_of_setting = others[number * count :][:count]
         rows += [_row(name, walks_of_setting, f"{setting.name}: {name}") for name in walks_of_setting[0].distances]
     return Reproduction(
         name=NAME,
-        paper_title=published.KUPT_DFPC_TITLE,
+        paper_title=PAPER["title"],
         emulation=f"{count} walks of {WALK_LENGTH:g} m at {RATE:g} Hz, another pair of insoles each time",
         unit="m",
         rows=tuple(rows),
         panels=(
-            BoxPlots(f"distance of {count} walks of {WALK_LENGTH:g} m (fig. 12)", tuple(paper), "m", WALK_LENGTH),
+            BoxPlots(f"distance of {count} walks of {WALK_LENGTH:g} m (fig. 12)", TABLE_I, "m", WALK_LENGTH),
             FloorPanel(
                 f"{CORRIDOR_LENGTH:g} m of corridors (fig. 13)", corridor_walks[0].tracks, (("start", 0.0, 0.0),)
             ),
@@ -121,20 +123,20 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
             *_notes(rows, short_walks),
             *_corridor_notes("", corridor_walks[:corridors]),
             *_corridor_notes(f" with {OTHER_LAW.name}", corridor_walks[corridors:]),
-            f"The paper contradicts itself: the mean of KUPT-L is {published.KUPT_DFPC['KUPT-L'].mean} m in table I "
-            f"and {published.KUPT_L_MEAN_IN_TEXT} m in the text below it.",
+            f"The paper contradicts itself: the mean of KUPT-L is {PAPER_ROWS['KUPT-L'].mean} m in table I "
+            f"and {PAPER['KUPT-L-in-text']} m in the text below it.",
         ),
     )
 
 
 def _describe(one: KuptResults) -> str:
-    return ", ".join(f"{name} {one.distances[name][0]:.2f}" for name in published.KUPT_DFPC) + " m"
+    return ", ".join(f"{name} {one.distances[name][0]:.2f}" for name in TABLE_I) + " m"
 
 
 def _row(name: str, walks: list[KuptResults], shown: str | None = None) -> FigureRow:
     values = [value for one in walks for value in one.distances[name]]
     digits = 1 if name in COVERAGE_ROWS else 2
-    return row_of(published.KUPT_DFPC_ROWS, name if shown is None else shown, values, digits)
+    return row_of(PAPER_ROWS, name if shown is None else shown, values, digits)
 
 
 def _notes(rows: list[FigureRow], short_walks: list[KuptResults]) -> list[str]:
@@ -169,7 +171,7 @@ def _notes(rows: list[FigureRow], short_walks: list[KuptResults]) -> list[str]:
 
 def _corridor_notes(condition: str, walks: list[KuptResults]) -> list[str]:
     lines = []
-    for name, drift in published.CORRIDOR_DRIFT.items():
+    for name, drift in PAPER["corridor"].items():
         off_by = [one.distances[name][0] - _true_distance(one, name) for one in walks]
         share = 100.0 * float(np.mean(np.abs(off_by))) / CORRIDOR_LENGTH
         worst = 100.0 * float(np.max(np.abs(off_by))) / CORRIDOR_LENGTH

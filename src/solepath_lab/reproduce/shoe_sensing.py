@@ -14,7 +14,7 @@ from functools import partial
 
 from solepath.papers.shoe_sensing.recipe import SHOE_SENSING
 
-from . import published
+from .published import PUBLISHED, rows_of
 from .runner import Runner
 from .shoe.notes import Results, notes, scores_of_state
 from .shoe.scores import relative_error
@@ -43,7 +43,7 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     }
     return Reproduction(
         name=NAME,
-        paper_title=published.SHOE_SENSING_TITLE,
+        paper_title=PUBLISHED[NAME]["title"],
         emulation=f"{count} wearers with an MPU-6050 on one worn shoe at 100 Hz, another sensor for each walk",
         unit="as named",
         rows=tuple([row for part in ROW_FUNCTIONS for row in part(results)]),
@@ -78,7 +78,7 @@ def _methods(one: ShoeResults) -> list[tuple[str, SessionScores]]:
     return [(name, one.scores[name]) for name in METHODS]
 
 
-_row = partial(row_of, published.SHOE_SENSING, digits=3)
+_row = partial(row_of, rows_of(NAME), digits=3)
 
 
 def _extraction(results: Results) -> list[FigureRow]:
@@ -137,7 +137,7 @@ def _lengths(results: Results) -> list[FigureRow]:
         for method in METHODS:
             scores = scores_of_state(results, state, method)
             errors = [of.heights if state == "upstairs" else of.lengths for of in scores if of.found]
-            shares = [100.0 * relative_error(of) / published.TABLE_2_DIVISOR for of in errors]
+            shares = [100.0 * relative_error(of) / PUBLISHED[NAME]["table-2-divisor"] for of in errors]
             rows.append(_row(f"{state}, table 2, {method} %", shares))
     return rows
 

@@ -24,7 +24,7 @@ from solepath.emulate.routes.laps import ACROSS, ALONG
 from solepath.emulate.wearers.gait import SUBJECTS, LoadLaw
 from solepath.emulate.wearers.soles.contact import SLIPPING, WORN
 from solepath.papers.walking_modes.calibrate import MODES
-from solepath.papers.walking_modes.compensation import Compensation
+from solepath.papers.walking_modes.compensation import TABLE_1, Compensation
 from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import (
     TOUCHDOWN_ACCELERATION,
@@ -37,8 +37,7 @@ from solepath.papers.walking_modes.settings import ModeRule
 from solepath.recipes import Recipe
 from solepath.types import Foot
 
-from . import published
-from .modes.figures import CORNER_POSITIONS, panels
+from .modes.figures import CORNER_POSITIONS, corner_row, panels
 from .modes.walks import (
     LOAD_VARIATION,
     RATE,
@@ -53,11 +52,12 @@ from .modes.walks import (
     walk,
     with_compensation,
 )
-from .published import corner_row, table_1_row
+from .published import PUBLISHED, rows_of
 from .runner import Runner
-from .tables import FigureRow, Reproduction, row_of, statistics
+from .tables import FigureRow, Reproduction, Statistics, row_of, statistics
 
 NAME = WALKING_MODES.name
+PAPER_ROWS = rows_of(NAME)
 WALKS = 40
 MARKED_STEPS, MARKED_REPEATS = 50, 3
 """Number of steps of a walk over marks, and number of its repetitions.
@@ -141,7 +141,7 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     ]
     return Reproduction(
         name=NAME,
-        paper_title=published.WALKING_MODES_TITLE,
+        paper_title=PUBLISHED[NAME]["title"],
         emulation=f"{count} rectangles of {ALONG} m by {ACROSS} m by {len(wearers)} wearers at {RATE:g} Hz",
         unit="m",
         rows=tuple(rows),
@@ -187,12 +187,7 @@ def _mean_table(calibrations: Sequence[Calibration]) -> Compensation:
 
 def _corner_rows(results: Sequence[Mapping[str, Corners]]) -> list[FigureRow]:
     return [
-        row_of(
-            published.WALKING_MODES,
-            corner_row(point, method, axis),
-            [one[method][point][k] for one in results],
-            digits=4,
-        )
+        row_of(PAPER_ROWS, corner_row(point, method, axis), [one[method][point][k] for one in results], digits=4)
         for point in CORNER_POSITIONS
         for method in METHODS
         for k, axis in enumerate("xy")
@@ -224,7 +219,12 @@ def _table_1_rows(calibrations: Sequence[Calibration]) -> list[FigureRow]:
     """Return the compensation of the wearers as table 1 has it: x to the right, y ahead."""
     tables = [calibration.modes or {} for calibration in calibrations]
     return [
-        row_of(published.TABLE_1, table_1_row(foot, mode, axis), [sign * t[foot][mode][k] for t in tables], digits=4)
+        FigureRow(
+            f"table 1 {foot.value} {mode.value} {axis}",
+            tuple([sign * t[foot][mode][k] for t in tables]),
+            Statistics(mean=sign * TABLE_1[foot][mode][k]),
+            digits=4,
+        )
         for foot in Foot
         for mode in MODES
         for axis, k, sign in (("x", 1, -1.0), ("y", 0, 1.0))
@@ -253,7 +253,8 @@ def _notes(results: Sequence[Mapping[str, Corners]], rows: Sequence[FigureRow]) 
             of_mean.append(f"{method} {100.0 * float(np.hypot(*deviations.mean(axis=0))):.1f}")
             mean_of.append(f"{method} {100.0 * float(np.hypot(*deviations.T).mean()):.1f}")
             if method in METHODS:
-                paper.append(f"{method} {100.0 * float(np.hypot(*published.CORNERS[point][method][0])):.1f}")
+                printed = [PAPER_ROWS[corner_row(point, method, axis)].mean or 0.0 for axis in "xy"]
+                paper.append(f"{method} {100.0 * float(np.linalg.norm(printed)):.1f}")
         better = sum(np.hypot(*one["IV"][point]) < np.hypot(*one["III"][point]) for one in results)
         lines.append(f"{point}: the length of our mean deviation, the paper's statistic, is {', '.join(of_mean)} cm; "
                      f"that of the paper is {', '.join(paper)} cm.")  # fmt: skip

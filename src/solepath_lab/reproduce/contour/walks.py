@@ -24,14 +24,26 @@ from solepath.recipes import Recipe
 from solepath.types import SITE_OF_FOOT, Layout, Sample
 from solepath.validate.alignment import Floats
 
-from .. import published
 from ..done_jobs import named_values
+from ..published import PUBLISHED
 from ..tables import DrawStyle, PictureTrack
 from ..walks import align_track, find_halt, join_routes, thin_out
 from .figures import bias_curves, stance_curves
 from .runs import ContourRun, run_foot, stance_velocities
 from .variants import FOOT, MAIN, PACE, PRESSURE_ROW, VARIANTS, WITHOUT_BIAS_ROW, WITHOUT_GATE_ROW, Setup
 
+
+@frozen
+class Loop:
+    """A half-hour walk of table I: its length and its loop-closing errors, m."""
+
+    distance: float
+    gyroscope: float
+    pressure: float
+
+
+LOOPS = tuple([Loop(*loop) for loop in PUBLISHED["pressure-contour"]["loops"]])
+"""Experiments 1 to 6 of table I."""
 HALF_HOUR = 1800.0
 """Duration of the paper's walks, s."""
 XY = tuple[float, float]
@@ -59,7 +71,7 @@ class ContourJob:
     @property
     def square(self) -> bool:
         """True for laps of the square, False for a random walk."""
-        return published.LOOPS[self.number].distance < PACE * HALF_HOUR
+        return LOOPS[self.number].distance < PACE * HALF_HOUR
 
 
 @frozen(eq=False)
@@ -88,7 +100,7 @@ class ContourResults:
 
 def route_of(job: ContourJob) -> tuple[Route, Route]:
     """Return the route of the calibration laps with a halt of half a minute, and the whole route."""
-    distance = published.LOOPS[job.number].distance * job.duration / HALF_HOUR
+    distance = LOOPS[job.number].distance * job.duration / HALF_HOUR
     pace = job.setup.speed
     if pace != PACE:
         distance = pace * job.duration

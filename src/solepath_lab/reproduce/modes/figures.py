@@ -12,7 +12,6 @@ from solepath.papers.walking_modes.limbs.limbs import LowerLimbs
 from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.types import Foot
 
-from ..published import corner_row
 from ..tables import BoxPlots, DrawStyle, FloorPanel, Panel, PictureTrack
 from .walks import USUAL, Corners
 
@@ -20,6 +19,11 @@ CORNER_POSITIONS = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D
 """Positions (x, y) of the corners, m; x along the first side, y to the left. The walk starts and ends at A."""
 ROD_COUNT, ROD_DISTANCE = 9, 0.35
 """Number of pictures of the rods over one stride, and distance between two in the panel, m."""
+
+
+def corner_row(point: str, method: str, axis: str) -> str:
+    """Return the name of the row of a corner, a touchdown method and an axis ("x" or "y")."""
+    return f"{point} {method} {axis}"
 
 
 def panels(results: Sequence[Mapping[str, Corners]], methods: tuple[str, ...], seed: int) -> tuple[Panel, ...]:
