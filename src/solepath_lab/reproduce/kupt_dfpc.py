@@ -43,7 +43,7 @@ from .kupt.walks import (
 )  # fmt: skip
 from .published import PUBLISHED, rows_of
 from .runner import Runner
-from .tables import BoxPlots, Curves, DrawStyle, FigureRow, FloorPanel, PictureTrack, Reproduction, row_of, statistics
+from .tables import BoxPlots, DrawStyle, FigureRow, PictureTrack, Plot, Reproduction, row_of, statistics
 from .walks import align_track, final_strides, run_session, thin_out
 
 NAME = KUPT_DFPC.name
@@ -87,7 +87,7 @@ class KuptResults:
     """True path and then the stride ends by each method; only of a corridor walk."""
     end_distances: dict[str, float] = field(factory=dict)
     """Distance from the start to the end of each track, m; only of a corridor walk, which is a closed loop."""
-    panels: tuple[Curves, ...] = ()
+    panels: tuple[Plot, ...] = ()
     """Panels of figs. 11 and 14; only of the walk that is drawn."""
 
 
@@ -114,8 +114,8 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
         rows=tuple(rows),
         panels=(
             BoxPlots(f"distance of {count} walks of {WALK_LENGTH:g} m (fig. 12)", TABLE_I, "m", WALK_LENGTH),
-            FloorPanel(
-                f"{CORRIDOR_LENGTH:g} m of corridors (fig. 13)", corridor_walks[0].tracks, (("start", 0.0, 0.0),)
+            Plot(
+                f"{CORRIDOR_LENGTH:g} m of corridors (fig. 13)", corridor_walks[0].tracks, marks=(("start", 0.0, 0.0),)
             ),
             *short_walks[0].panels,
         ),

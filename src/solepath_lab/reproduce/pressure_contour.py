@@ -39,7 +39,7 @@ from .contour.variants import (
 from .contour.walks import HALF_HOUR, LOOPS, NOT_FOUND, ContourJob, ContourResults, walk
 from .published import PUBLISHED, rows_of
 from .runner import Runner
-from .tables import Curves, FigureRow, FloorPanel, Panel, Reproduction, Table, row_of, statistics
+from .tables import FigureRow, Panel, Plot, Reproduction, Table, row_of, statistics
 
 NAME = PRESSURE_CONTOUR.name
 PAPER_ROWS: Table = {
@@ -66,6 +66,8 @@ LOOP_ORDER = (*FIGURE_TITLES, 0, 1, 2, 5)
 """Indices of LOOPS in the order in which they are walked."""
 SHORT_LOOP = 4
 """Index in LOOPS of the walk whose speed the short walks have: the random one."""
+START = (("start", 0.0, 0.0),)
+"""Mark of the start in a panel."""
 COMPARED = (GYROSCOPE_ROW, PRESSURE_ROW, PRESSURE_PRINTED_ROW)
 """Recipes that walk every setup."""
 
@@ -148,16 +150,16 @@ def _mean_bias(result: ContourResults, name: str) -> float:
 
 def _panels(loops: Sequence[ContourResults], shorts: Sequence[ContourResults]) -> tuple[Panel, ...]:
     panels: list[Panel] = [
-        FloorPanel(FIGURE_TITLES[one.number], one.tracks, (("start", 0, 0),)) for one in loops[: len(FIGURE_TITLES)]
+        Plot(FIGURE_TITLES[one.number], one.tracks, marks=START) for one in loops[: len(FIGURE_TITLES)]
     ]
     first = loops[0]
     if first.stance:
-        panels.append(Curves("a stance (fig. 7)", first.stance, "ms since foot-flat", "mm/s or mrad/s", (-50.0, 50.0)))
+        panels.append(Plot("a stance (fig. 7)", first.stance, "ms since foot-flat", "mm/s or mrad/s", (-50.0, 50.0)))
     if first.bias_filter:
-        panels.append(Curves("bias filter (fig. 9)", first.bias_filter, "min", "mg"))
+        panels.append(Plot("bias filter (fig. 9)", first.bias_filter, "min", "mg"))
     compared = ("true path", PRESSURE_PRINTED_ROW.lower(), WITHOUT_BIAS_ROW.lower())
     tracks = tuple([track for track in shorts[0].tracks if track.name in compared])
-    panels.append(FloorPanel("with and without the bias filter (fig. 10)", tracks, (("start", 0, 0),)))
+    panels.append(Plot("with and without the bias filter (fig. 10)", tracks, marks=START))
     return tuple(panels)
 
 

@@ -20,7 +20,7 @@ from .shoe.notes import Results, notes, scores_of_state
 from .shoe.scores import relative_error
 from .shoe.variants import BEFORE, BY_ANGLE, DEFAULT_ROW, LEVEL, MAGNITUDE, METHODS, OURS, SETUPS, SHORT, STAIRS, STATES
 from .shoe.walks import SLOPES, SessionScores, ShoeJob, ShoeResults, walk
-from .tables import FigureRow, Panel, Reproduction, SpacePanel, row_of
+from .tables import FigureRow, Panel, Plot, Reproduction, row_of
 
 NAME = SHOE_SENSING.name
 WALKS = 10
@@ -214,5 +214,5 @@ def _panels(results: Results) -> tuple[Panel, ...]:
     """Return figs. 3, 7 and 20, and tracks in space of figs. 25, 28 and 35, for the first wearer."""
     titles = {"walking": "there and back (fig. 25a)", "rectangle": "rectangle (fig. 25b)", "stairs": "stairs (fig. 28)"}
     titles["five minutes"] = "five minutes (fig. 35)"
-    spaces = [SpacePanel(title, results[name][0].tracks) for name, title in titles.items()]
+    spaces = [Plot(title, results[name][0].tracks) for name, title in titles.items()]
     return (*results["short"][0].curves, *spaces)

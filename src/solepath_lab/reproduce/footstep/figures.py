@@ -8,7 +8,7 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.types import Activity, Turn
 
 from ...measures.confusion import ActivityScore
-from ..tables import Bars, Curves, DrawStyle, FloorPanel, Panel, PictureTrack
+from ..tables import Bars, DrawStyle, Panel, PictureTrack, Plot
 from .activities import ActivityResults
 from .corridor import CORRIDOR_LENGTH, CorridorResults
 from .places import PlaceResults
@@ -55,12 +55,12 @@ def panels(
     along = [PictureTrack(name, of) for name, of in corridors[0].curves.items()]
     return (
         Bars("activities (a)", tuple([one.value for one in CLASSES]), shares, "windows right, %"),
-        Curves(f"{CORRIDOR_LENGTH:g} m of corridor (b)", tuple(along), "distance, m", "error, m"),
-        Curves("error of a stride length (c)", tuple(_distributions(corridors)), "error, m", "CDF", (0.0, 1.0)),
-        Curves("turn angle (d)", tuple(by_angle), "turn, degrees", "mean error, degrees"),
+        Plot(f"{CORRIDOR_LENGTH:g} m of corridor (b)", tuple(along), "distance, m", "error, m"),
+        Plot("error of a stride length (c)", tuple(_distributions(corridors)), "error, m", "CDF", (0.0, 1.0)),
+        Plot("turn angle (d)", tuple(by_angle), "turn, degrees", "mean error, degrees"),
         Bars("turn classes (e)", tuple([turn.value for turn in Turn]), (("ours", classes),), "turns right, %"),
-        Curves("place by steps (f)", _series(places[0].by_stride), "step", "error, m"),
-        Curves("place by turns (g)", _mean_series([one.by_turn for one in places]), "turn", "mean error, m"),
+        Plot("place by steps (f)", _series(places[0].by_stride), "step", "error, m"),
+        Plot("place by turns (g)", _mean_series([one.by_turn for one in places]), "turn", "mean error, m"),
         _by_user(places),
         _floor(places[0]),
     )
@@ -102,9 +102,9 @@ def _by_user(places: Sequence[PlaceResults]) -> Bars:
     return Bars("place by user (h)", names, values, "mean error, m")
 
 
-def _floor(one: PlaceResults) -> FloorPanel:
+def _floor(one: PlaceResults) -> Plot:
     place = one.scores["case study, two feet"]
     walls = tuple(PictureTrack("", (wall.start, wall.end), DrawStyle.TRUTH) for wall in BUILDING.levels[0].walls)
     candidates = PictureTrack("candidates", place.before, DrawStyle.DOTS)
     tracks = (*walls, candidates, PictureTrack("true path", place.path), PictureTrack("place", place.track))
-    return FloorPanel("the way of fig. 15", tracks)
+    return Plot("the way of fig. 15", tracks)

@@ -12,7 +12,7 @@ from solepath.papers.walking_modes.limbs.limbs import LowerLimbs
 from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.types import Foot
 
-from ..tables import BoxPlots, DrawStyle, FloorPanel, Panel, PictureTrack
+from ..tables import BoxPlots, DrawStyle, Panel, PictureTrack, Plot
 from .walks import USUAL, Corners
 
 CORNER_POSITIONS = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
@@ -44,14 +44,14 @@ def panels(results: Sequence[Mapping[str, Corners]], methods: tuple[str, ...], s
         for axis in "xy"
     ]
     return (
-        FloorPanel("corners as estimated by the four methods (fig. 15a)", tuple(tracks), marks),
-        FloorPanel("deviations at all corners (fig. 15b)", tuple(deviation_tracks), (("", 0.0, 0.0),)),
+        Plot("corners as estimated by the four methods (fig. 15a)", tuple(tracks), marks=marks),
+        Plot("deviations at all corners (fig. 15b)", tuple(deviation_tracks), marks=(("", 0.0, 0.0),)),
         *boxes,
         rods(seed),
     )
 
 
-def rods(seed: int) -> FloorPanel:
+def rods(seed: int) -> Plot:
     """Return the rods of both legs over one stride, from the left, by equation (7) from the sensors' attitudes.
 
     x is ahead and y is up. The pictures are `ROD_DISTANCE` apart, whatever the wearer walked between them."""
@@ -73,4 +73,4 @@ def rods(seed: int) -> FloorPanel:
         if sample.quat is not None:
             chain.set_attitude(sample.site, sample.t, sample.quat)
     tracks = tuple(PictureTrack(f"{foot.value} leg", tuple(points[:-1])) for foot, points in sides.items())
-    return FloorPanel("rods of the legs over one stride, from the left, y up (fig. 8)", tracks)
+    return Plot("rods of the legs over one stride, from the left, y up (fig. 8)", tracks)

@@ -21,7 +21,7 @@ from solepath.types import Sample
 from solepath.validate.alignment import Floats
 
 from ..done_jobs import named_values
-from ..tables import Curves, DrawStyle, SpaceTrack
+from ..tables import DrawStyle, PictureTrack, Plot
 from ..walks import align_track, final_strides, run_session
 from .figures import extraction_curves, posture_curves, window_curves
 from .scores import LegErrors, StrideErrors, score_legs, score_strides
@@ -193,9 +193,9 @@ class ShoeResults:
     """Horizontal length of the true path of the foot, m."""
     true_flights: tuple[bool, ...]
     """Direction of each flight that was climbed: True for up."""
-    tracks: tuple[SpaceTrack, ...] = ()
+    tracks: tuple[PictureTrack, ...] = ()
     """True track, and those of ours and the printed recipe; only of a walk that is drawn."""
-    curves: tuple[Curves, ...] = ()
+    curves: tuple[Plot, ...] = ()
     """Curves of figs. 3, 7 and 20; only of the short walk that is drawn."""
 
 
@@ -204,7 +204,7 @@ def walk(job: ShoeJob) -> ShoeResults:
     samples, truth = sample_walk(ROUTES[job.walk](job.setup), job.seed, job.setup)
     names = WALK_RECIPES[job.walk] if job.setup == TABLE else (OURS, PRINTED)
     sessions = {name: run_session(RECIPES[name], samples) for name in names}
-    curves: tuple[Curves, ...] = ()
+    curves: tuple[Plot, ...] = ()
     if job.drawn and job.walk == "short":
         curves = (window_curves(samples, truth), posture_curves(samples), *extraction_curves(samples, truth))
     true_path = truth.pose(FOOT, np.arange(0.0, truth.duration, 0.1)).position
@@ -279,14 +279,14 @@ def _rises(strides: Sequence[StrideTaken], truth: Truth) -> tuple[tuple[float, f
     return tuple(result)
 
 
-def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> tuple[SpaceTrack, ...]:
+def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> tuple[PictureTrack, ...]:
     t = np.array([0.0, *(stride.t_end for stride in truth.strides(FOOT)[-MAX_POINTS:])])
     position = truth.pose(FOOT, t).position
-    tracks = [SpaceTrack("true path", _points(position - position[0]), DrawStyle.TRUTH)]
+    tracks = [PictureTrack("true path", _points(position - position[0]), DrawStyle.TRUTH)]
     for name in (OURS, PRINTED):
         strides = final_strides(sessions[name], FOOT)
         if len(strides) > 1:
-            tracks.append(SpaceTrack(name, _points(_positions(strides, truth)[0][-MAX_POINTS:])))
+            tracks.append(PictureTrack(name, _points(_positions(strides, truth)[0][-MAX_POINTS:])))
     return tuple(tracks)
 
 
