@@ -63,6 +63,11 @@ class ClockWalk:
     """Time of the last sample, s."""
 
     @property
+    def name(self) -> str:
+        """Names of data set and recording."""
+        return f"{self.job.data_set}/{self.job.name}"
+
+    @property
     def is_known_apart(self) -> bool:
         """True if the feet have separate clocks already."""
         return self.job.data_set in KNOWN_APART or self.job.name in KNOWN_APART

@@ -12,7 +12,6 @@ from __future__ import annotations
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -29,6 +28,7 @@ from solepath.types import SITE_OF_FOOT, Foot, Sample, Vec3
 from solepath.types.vector import GRAVITY
 from solepath.validate.alignment import Floats
 
+from .. import markdown
 from ..options import add_command, add_folder, add_only, add_processes
 from ..processes import run_jobs
 
@@ -96,32 +96,9 @@ Change = Callable[[Floats], Floats]
 """Function of the values of one sensor."""
 
 
-def _same(values: Floats) -> Floats:
-    return values
-
-
-def _turn(values: Floats, rotation: Floats) -> Floats:
-    turned: Floats = values @ rotation.T
-    return turned
-
-
-def _mirror(values: Floats, axis: int) -> Floats:
-    mirrored = values.copy()
-    mirrored[:, axis] *= -1.0
-    return mirrored
-
-
-def _swap(values: Floats, first: int, second: int) -> Floats:
-    swapped = values.copy()
-    swapped[:, [first, second]] = values[:, [second, first]]
-    return swapped
-
-
 def _hold(values: Floats) -> Floats:
     """Return the values of a sensor that measures at half the rate: each one twice."""
-    held = values.copy()
-    held[1::2] = values[0::2][: len(held[1::2])]
-    return held
+    return values[np.arange(len(values)) // 2 * 2]
 
 
 def remove_gravity(t: Floats, acc: Floats, gyro: Floats) -> Floats:
@@ -146,22 +123,29 @@ def _rotation(axis: Sequence[float], angle: float) -> Floats:
     return rotation
 
 
-def _with(acc: Change = _same, gyro: Change = _same) -> Make:
-    def make(t: Floats, a: Floats, g: Floats) -> Damaged:
-        return t, acc(a), gyro(g)
+def _same(values: Floats) -> Floats:
+    return values
 
-    return make
+
+def _with(acc: Change = _same, gyro: Change = _same) -> Make:
+    return lambda t, a, g: (t, acc(a), gyro(g))
+
+
+def _by(matrix: Floats) -> Change:
+    """Return the function that multiplies each value by a matrix, (3,3)."""
+    return lambda values: values @ matrix.T
 
 
 def _damages() -> Iterator[Damage]:
-    for axis, name in enumerate("xyz"):
-        mirror = partial(_mirror, axis=axis)
-        yield Damage(f"gyroscope {name} mirrored", Defect.AXES, _with(gyro=mirror))
-        yield Damage(f"accelerometer {name} mirrored", Defect.AXES, _with(acc=mirror))
-    for first, second in ((0, 1), (0, 2), (1, 2)):
-        name, swap = f"{'xyz'[first]} and {'xyz'[second]} exchanged", partial(_swap, first=first, second=second)
-        yield Damage(f"gyroscope {name}", Defect.AXES, _with(gyro=swap))
-        yield Damage(f"accelerometer {name}", Defect.AXES, _with(acc=swap))
+    axes = np.eye(3)
+    changed = {f"{name} mirrored": axes - 2.0 * np.outer(axis, axis) for name, axis in zip("xyz", axes, strict=True)}
+    changed |= {
+        f"{'xyz'[a]} and {'xyz'[b]} exchanged": axes[[b if k == a else a if k == b else k for k in range(3)]]
+        for a, b in ((0, 1), (0, 2), (1, 2))
+    }
+    for name, matrix in changed.items():
+        yield Damage(f"gyroscope {name}", Defect.AXES, _with(gyro=_by(matrix)))
+        yield Damage(f"accelerometer {name}", Defect.AXES, _with(acc=_by(matrix)))
     yield Damage("specific force in g", Defect.ACC_UNIT, lambda t, a, g: (t, a / GRAVITY, g))
     yield Damage("angular rate in deg/s", Defect.GYRO_UNIT, lambda t, a, g: (t, a, np.degrees(g)))
     yield Damage("times in ms", Defect.TIME_UNIT, lambda t, a, g: (MS * t, a, g))
@@ -175,11 +159,11 @@ def _damages() -> Iterator[Damage]:
     yield Damage("half the rate, both repeated", Defect.REPEATED, _with(acc=_hold, gyro=_hold))
     yield Damage("half the rate, accelerometer alone", Defect.REPEATED, _with(acc=_hold))
     yield Damage("half the rate, gyroscope alone", Defect.REPEATED, _with(gyro=_hold))
-    tilt = partial(_turn, rotation=_rotation((1.0, 1.0, 0.0), TILT))
-    yield Damage("accelerometer turned by 10 degrees", Defect.AXES, _with(acc=tilt))
+    tilt = _rotation((1.0, 1.0, 0.0), TILT)
+    yield Damage("accelerometer turned by 10 degrees", Defect.AXES, _with(acc=_by(tilt)))
     random = np.random.default_rng(SEED)
     for number in (1, 2):
-        turn = partial(_turn, rotation=_rotation(random.normal(size=3).tolist(), random.uniform(0.0, np.pi)))
+        turn = _by(_rotation(random.normal(size=3).tolist(), random.uniform(0.0, np.pi)))
         yield Damage(f"whole sensor turned, {number}", None, _with(turn, turn))
 
 
@@ -261,20 +245,22 @@ def table(outcomes: Sequence[DefectOutcome]) -> list[str]:
         f"- {outcome.piece.path.parent.name}/{outcome.piece.path.stem}, {outcome.piece.foot}: {event.what}"
         for outcome, event in alarms
     ]
-    lines += ["", "| damage | feet | reported | after, median | what else is reported |", "|---|---|---|---|---|"]
+    rows = []
     for damage in _damages():
-        rows = [row for outcome in outcomes for row in outcome.damaged if row[0] == damage.name]
-        if not rows:
+        found = [row for outcome in outcomes for row in outcome.damaged if row[0] == damage.name]
+        if not found:
             continue
-        hits = [row for row in rows if row[1]]
+        hits = [row for row in found if row[1]]
         delays = [row[2] for row in hits if row[2] is not None]
-        others = Counter(name for row in rows for name in row[3] if damage.defect is None or name != damage.defect.name)
+        wanted = damage.defect and damage.defect.name
+        others = Counter(name for row in found for name in row[3] if name != wanted)
         words = ", ".join(f"{name.lower().replace('_', ' ')} {count}" for name, count in others.most_common())
-        share = 100.0 * len(hits) / len(rows)
-        result = f"silent {share:.1f} %" if damage.defect is None else f"{share:.1f} %"
+        silent = "silent " * (damage.defect is None)
+        share = 100.0 * len(hits) / len(found)
         after = f"{median(delays):.1f} s" if delays else "-"
-        lines.append(f"| {damage.name} | {len(rows)} | {result} | {after} | {words or '-'} |")
-    return lines
+        rows.append((damage.name, len(found), f"{silent}{share:.1f} %", after, words or "-"))
+    header = ("damage", "feet", "reported", "after, median", "what else is reported")
+    return [*lines, "", *markdown.table(header, rows, left=len(header))]
 
 
 def add_to(commands: Any) -> None:

@@ -31,6 +31,7 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import NEAR_DISTANCE, PlaceScore, score
 
+from .. import markdown
 from ..options import add_command, add_seeds
 
 FIRST_SEED, WALKS = 7001, 24
@@ -72,8 +73,8 @@ def score_north(way: BuildingWalk, walk: SampledWalk, bearing: float | None, rec
     return score(way, walk.walker, walk.truth, events), contradicted
 
 
-def row(name: str, scores: Sequence[tuple[PlaceScore, bool]]) -> str:
-    """Return a row of the table."""
+def cells(name: str, scores: Sequence[tuple[PlaceScore, bool]]) -> list[str]:
+    """Return the cells of a row of the table."""
     walks = len(scores)
     off = [distance for one, _ in scores for distance in one.off]
     kept = sum([one.strides > 0 and not one.dropped for one, _ in scores])
@@ -81,9 +82,8 @@ def row(name: str, scores: Sequence[tuple[PlaceScore, bool]]) -> str:
     near = sum([distance < NEAR_DISTANCE for distance in off]) / max(len(off), 1)
     contradicted = sum([contradicted for _, contradicted in scores])
     quantile = float(np.quantile(off, 0.95)) if off else 0.0
-    cells = (f"{kept} of {walks}", f"{right} of {walks}", f"{100.0 * near:.0f} %",
-             f"{fsum(off) / max(len(off), 1):.2f} m", f"{quantile:.2f} m", str(contradicted))  # fmt: skip
-    return f"| {name} | {' | '.join(cells)} |"
+    return [name, f"{kept} of {walks}", f"{right} of {walks}", f"{100.0 * near:.0f} %",
+            f"{fsum(off) / max(len(off), 1):.2f} m", f"{quantile:.2f} m", str(contradicted)]  # fmt: skip
 
 
 def add_to(commands: Any) -> None:
@@ -103,8 +103,6 @@ def run(options: Namespace) -> int:
         walk = walk_with_compass(way, radians(options.disturbance), seed)
         for name, bearing in BEARINGS.items():
             scores[name].append(score_north(way, walk, bearing, options.recipe))
-    print("| plan | true place kept | right at the end | strides within 3 m | mean error | 95 % | contradicted |")
-    print("|---|---:|---:|---:|---:|---:|---:|")
-    for name, found in scores.items():
-        print(row(name, found))
+    header = ("plan", "true place kept", "right at the end", "strides within 3 m", "mean error", "95 %", "contradicted")
+    print("\n".join(markdown.table(header, [cells(name, found) for name, found in scores.items()])))
     return 0

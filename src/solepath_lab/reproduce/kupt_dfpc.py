@@ -25,7 +25,6 @@ from solepath.types import Foot
 from solepath.validate.alignment import Floats
 
 from .contour.runs import sign_test
-from .done_jobs import named_values
 from .kupt.figures import coverage, panels, watch
 from .kupt.walks import (
     ABLATIONS,
@@ -71,8 +70,6 @@ class KuptJob:
     """Shoe and sensors."""
     drawn: bool = False
     """True for the walk of figs. 11 and 14."""
-
-    key = property(named_values)
 
 
 @frozen

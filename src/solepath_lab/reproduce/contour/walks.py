@@ -24,7 +24,6 @@ from solepath.recipes import Recipe
 from solepath.types import SITE_OF_FOOT, Layout, Sample
 from solepath.validate.alignment import Floats
 
-from ..done_jobs import named_values
 from ..published import PUBLISHED
 from ..tables import DrawStyle, PictureTrack
 from ..walks import align_track, find_halt, join_routes, thin_out
@@ -65,8 +64,6 @@ class ContourJob:
     """Recipes that walk it, keys of VARIANTS."""
     uncalibrated: bool = False
     """True if the track as printed is drawn as well without bias filter and laps: "position" in figs. 14 and 15."""
-
-    key = property(named_values)
 
     @property
     def square(self) -> bool:

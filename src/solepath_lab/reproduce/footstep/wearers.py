@@ -24,8 +24,6 @@ from solepath.papers.footstep_tracker.snake import PrintedSnake
 from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
 from solepath.types import SITE_OF_FOOT, Packet
 
-from ..done_jobs import named_values
-
 RATE = 20.0
 """Sampling rate, Hz."""
 WEATHER = Air(
@@ -101,12 +99,10 @@ BAROMETERS = ("cc2541/barometer", "cc2650/barometer")
 
 @frozen
 class WearerJob:
-    """One wearer in one setting; `key` is another for each other job of an experiment."""
+    """One wearer in one setting."""
 
     seed: int
     setting: FootstepSetting = STANDARD
-
-    key = property(named_values)
 
     @property
     def is_standard(self) -> bool:

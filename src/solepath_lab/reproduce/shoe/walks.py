@@ -20,7 +20,6 @@ from solepath.events import Event, FlightClimbed, StrideTaken
 from solepath.types import Sample
 from solepath.validate.alignment import Floats
 
-from ..done_jobs import named_values
 from ..tables import DrawStyle, PictureTrack, Plot
 from ..walks import align_track, final_strides, run_session
 from .figures import extraction_curves, posture_curves, window_curves
@@ -153,8 +152,6 @@ class ShoeJob:
     setup: ShoeSetup = TABLE
     drawn: bool = False
     """True for the walks of which curves are drawn."""
-
-    key = property(named_values)
 
 
 @frozen
