@@ -24,7 +24,7 @@ def score_table(result: Result) -> str:
     data_set = result.data_set
     known = [score.flat() for score in result.scores]
     known += [figures for one in result.summaries for figures in (one.mean, one.median, one.together)]
-    keys = [key for key in data_set.figures if any(one.get(key) is not None for one in known)]
+    keys = [key for key in FIGURES if any(one.get(key) is not None for one in known)]
     header = ["recording", *(FIGURES[key].title for key in keys)]
     rows: list[Sequence[str]] = []
     if data_set.lists_recordings:

@@ -72,7 +72,7 @@ VARIANTS: tuple[tuple[float | None, Recipe], ...] = (
 )
 """Rate in Hz (None: as recorded) and recipe with which each recording is processed."""
 MISLABELLED = ("various_03_05", "various_03_06")
-"""Recordings that are left out because most of their labels are mistakes (`CORRECTIONS` in hugadb.py says why).
+"""Recordings that are left out because most of their labels are mistakes (known.toml says why).
 
 The other corrections are of rides, in which feet stand; these recordings are learnt with their labels as they are."""
 LEVEL_WALKS = ("ipol_10m_uturn", "gumushane_gcp", "felius_2min_walk", "tripod_treadmill")
