@@ -8,7 +8,7 @@ from typing import Any
 
 import attrs
 import numpy as np
-from attrs import frozen
+from attrs import field, frozen
 
 
 class DrawStyle(Enum):
@@ -107,6 +107,21 @@ class FigureRow:
     paper: Statistics
     digits: int = 2
     """Number of digits after the point, as the paper prints it."""
+
+
+@frozen
+class WalkResults:
+    """The results of one walk, or of what else is one job of an experiment."""
+
+    values: dict[str, tuple[float, ...]] = field(repr=False)
+    """Values by name: of a row, or of what rows and notes are computed from."""
+    panels: tuple[Plot, ...] = ()
+    """Panels of the walks that are drawn."""
+
+
+def pooled(walks: Iterable[WalkResults], *names: str) -> list[float]:
+    """Return the values of these names of all walks, in one list; a walk may lack them."""
+    return [value for name in names for one in walks for value in one.values.get(name, ())]
 
 
 def row_of(paper: Table, name: str, values: Iterable[float], digits: int = 2) -> FigureRow:

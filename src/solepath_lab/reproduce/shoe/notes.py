@@ -91,9 +91,9 @@ def _tour_notes(results: Results) -> list[str]:
         )
         lines.append(
             f"Five minutes, {method}: the end is off by {ends.mean():.1f} m on average, "
-            f"{100.0 * ends.sum() / length:.1f} % of the way, and by {ends.max():.1f} m at worst, its height by {heights.mean():.2f} m and "
-            f"{heights.max():.2f} m; the heading of the last steps by {headings.mean():.0f} degrees on average and "
-            f"{headings.max():.0f} at worst."
+            f"{100.0 * ends.sum() / length:.1f} % of the way, and by {ends.max():.1f} m at worst, its height by "
+            f"{heights.mean():.2f} m and {heights.max():.2f} m; the heading of the last steps by {headings.mean():.0f} "
+            f"degrees on average and {headings.max():.0f} at worst."
         )
     return lines
 
@@ -106,9 +106,9 @@ def _long_notes(walk: ShoeResults) -> list[str]:
         steps, legs, true, courses, heading, end, height = (_mean(figures([walk], method, name)) for name in names)
         courses = _mean(np.abs(figures([walk], method, "courses")))
         lines.append(
-            f"Twenty rounds by one wearer, {walk.path_length:.0f} m, {method}: steps {steps:.1f} %, a leg of {true:.2f} "
-            f"m comes out as {legs:.2f} m, the course of steps is off by {courses:.1f} degrees, the heading of the last "
-            f"leg by {abs(heading):.0f} degrees, the end by {end:.1f} m and its height by {abs(height):.2f} m."
+            f"Twenty rounds by one wearer, {walk.path_length:.0f} m, {method}: steps {steps:.1f} %, a leg of "
+            f"{true:.2f} m comes out as {legs:.2f} m, the course of steps is off by {courses:.1f} degrees, the heading "
+            f"of the last leg by {abs(heading):.0f} degrees, the end by {end:.1f} m and its height by {abs(height):.2f} m."
         )
     return lines
 
