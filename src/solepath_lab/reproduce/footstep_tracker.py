@@ -133,8 +133,8 @@ def _notes(corridors: list[WalkResults], turns: list[WalkResults]) -> tuple[str,
     return (
         f"Corridor, two feet over one foot, RMS over {len(corridors)} pairs: {_rms(two_feet) / _rms(one_foot):.2f}. "
         f"The mean of both feet is off by {mean(two_feet):+.2f} m on average; half of their difference is "
-        f"{_rms(apart):.2f} m (RMS), which is what the mean takes away; {_rms(two_feet):.2f} m are common to both feet, "
-        f"which it does not.",
+        f"{_rms(apart):.2f} m (RMS), which is what the mean takes away; {_rms(two_feet):.2f} m are common to both "
+        f"feet, which it does not.",
         f"Toe-out: {n_angles} angles are twice their error or more, {2 * len(corridors) - n_angles} are not; by the "
         f"printed formula {n_printed} feet have an angle at all.",
         *[f"Turn {turn.value}: {mean(pooled(turns, turn.value)):.1f} % right." for turn in Turn],

@@ -109,11 +109,14 @@ class FigureRow:
     """Number of digits after the point, as the paper prints it."""
 
 
+Values = dict[str, tuple[float, ...]]
+
+
 @frozen
 class WalkResults:
     """The results of one walk, or of what else is one job of an experiment."""
 
-    values: dict[str, tuple[float, ...]] = field(repr=False)
+    values: Values = field(repr=False)
     """Values by name: of a row, or of what rows and notes are computed from."""
     panels: tuple[Plot, ...] = ()
     """Panels of the walks that are drawn."""

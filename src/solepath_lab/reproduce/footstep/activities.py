@@ -18,7 +18,7 @@ from solepath.walk.timeline import Timeline
 from ...evaluate.activity import score_windows
 from ...measures.confusion import ActivityScore
 from ...train.emulated import draw_route
-from ..tables import WalkResults
+from ..tables import Values, WalkResults
 from ..walks import final_strides, run_session
 from .wearers import WearerJob, without_barometer
 
@@ -56,7 +56,7 @@ def score_activities(job: WearerJob) -> WalkResults:
                 printed, until, [(s, e, sum([rise for t, rise in rises if s <= t <= e])) for s, e in stretches]
             ),
         }
-    values: dict[str, tuple[float, ...]] = {}
+    values = Values()
     for variant, timeline in timelines.items():
         score, title = score_windows(true, timeline), variant_title(variant)
         values[f"activities{title} %"] = (100.0 * (score.accuracy or 0.0),)

@@ -23,7 +23,7 @@ from solepath.validate import place as emulated_place
 from solepath.validate.place import PlaceScore, is_on_floor
 
 from ...emulated.evidence import HEADING_ERROR
-from ..tables import DrawStyle, PictureTrack, Plot, WalkResults
+from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults
 from .wearers import DROPS_AT_WALLS, WearerJob
 
 BUILDINGS = {"asymmetric": FOUR_LOOPS, "half turn": HALF_TURN}
@@ -45,7 +45,7 @@ def score_places(job: WearerJob) -> WalkResults:
         "printed": _run(FOOTSTEP_TRACKER_PRINTED, walk.packets, way),
     }
     found = {f"case study, {name}": _score(way, walk, events) for name, events in runs.items()}
-    values: dict[str, tuple[float, ...]] = {}
+    values = Values()
     for name in ("two feet", "one foot"):
         values[f"by stride: {name}"], values[f"by turn: {name}"] = _errors(way, walk, runs[name])
     for title, building in BUILDINGS.items():

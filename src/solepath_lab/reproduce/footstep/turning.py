@@ -12,7 +12,7 @@ from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.recipes import Recipe
 from solepath.types import Packet, Turn
 
-from ..tables import WalkResults
+from ..tables import Values, WalkResults
 from ..walks import final_strides, run_session
 from .wearers import PRINTED_FILTER, PRINTED_TURN, WearerJob
 
@@ -35,7 +35,7 @@ def score_turns(job: WearerJob) -> WalkResults:
 
     They are rows, the errors of TURN_ANGLES in their order among them, and the share of each class that is right, %."""
     rng = np.random.default_rng([job.seed, 18])
-    values: dict[str, tuple[float, ...]] = {}
+    values = Values()
     angles = [(angle, _packets(job, angle, rng, 600 + k)) for k, angle in enumerate(TURN_ANGLES)]
     for name, printed in (("turn angle deg", False), ("turn angle, (7) printed deg", True)):
         values[name] = tuple([_error(_turns(packets, printed), angle) for angle, packets in angles])

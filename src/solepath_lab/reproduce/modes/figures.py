@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -12,8 +12,9 @@ from solepath.papers.walking_modes.limbs.limbs import LowerLimbs
 from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.types import Foot
 
-from ..tables import BoxPlots, DrawStyle, Panel, PictureTrack, Plot
-from .walks import USUAL, Corners
+from ..tables import BoxPlots, DrawStyle, Panel, PictureTrack, Plot, WalkResults
+from ..walks import thin_out
+from .walks import USUAL, corner_row, deviations
 
 CORNER_POSITIONS = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
 """Positions (x, y) of the corners, m; x along the first side, y to the left. The walk starts and ends at A."""
@@ -21,23 +22,15 @@ ROD_COUNT, ROD_DISTANCE = 9, 0.35
 """Number of pictures of the rods over one stride, and distance between two in the panel, m."""
 
 
-def corner_row(point: str, method: str, axis: str) -> str:
-    """Return the name of the row of a corner, a touchdown method and an axis ("x" or "y")."""
-    return f"{point} {method} {axis}"
-
-
-def panels(results: Sequence[Mapping[str, Corners]], methods: tuple[str, ...], seed: int) -> tuple[Panel, ...]:
+def panels(results: Sequence[WalkResults], methods: tuple[str, ...], seed: int) -> tuple[Panel, ...]:
     """Return the panels of an experiment."""
     closed_path = tuple(CORNER_POSITIONS[point] for point in "ABCDA")
-    tracks = [PictureTrack("rectangle", closed_path, DrawStyle.TRUTH)]
-    deviation_tracks = []
+    tracks, deviation_tracks = [PictureTrack("rectangle", closed_path, DrawStyle.TRUTH)], []
     for method in methods:
-        deviations = [(point, one[method][point]) for one in results for point in CORNER_POSITIONS]
-        estimated_positions = tuple(
-            (CORNER_POSITIONS[point][0] + dx, CORNER_POSITIONS[point][1] + dy) for point, (dx, dy) in deviations
-        )
-        tracks.append(PictureTrack(method, estimated_positions, DrawStyle.DOTS))
-        deviation_tracks.append(PictureTrack(method, tuple(deviation for _, deviation in deviations), DrawStyle.DOTS))
+        off = {point: deviations(results, point, method) for point in CORNER_POSITIONS}
+        places = [CORNER_POSITIONS[point] + of for point, of in off.items()]
+        tracks.append(PictureTrack(method, thin_out(np.concatenate(places)), DrawStyle.DOTS))
+        deviation_tracks.append(PictureTrack(method, thin_out(np.concatenate([*off.values()])), DrawStyle.DOTS))
     marks = tuple((point, x, y) for point, (x, y) in CORNER_POSITIONS.items())
     boxes = [
         BoxPlots(f"deviation in {axis} at C (fig. 16)", tuple(corner_row("C", m, axis) for m in methods), "m", 0.0)

@@ -108,7 +108,8 @@ def _long_notes(walk: ShoeResults) -> list[str]:
         lines.append(
             f"Twenty rounds by one wearer, {walk.path_length:.0f} m, {method}: steps {steps:.1f} %, a leg of "
             f"{true:.2f} m comes out as {legs:.2f} m, the course of steps is off by {courses:.1f} degrees, the heading "
-            f"of the last leg by {abs(heading):.0f} degrees, the end by {end:.1f} m and its height by {abs(height):.2f} m."
+            f"of the last leg by {abs(heading):.0f} degrees, the end by {end:.1f} m and its height by "
+            f"{abs(height):.2f} m."
         )
     return lines
 

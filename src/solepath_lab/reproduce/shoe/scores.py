@@ -17,6 +17,8 @@ from solepath.types import Foot
 from solepath.validate.alignment import ALIGNMENT_LENGTH, Floats
 from solepath.validate.matching import pairs
 
+from ..tables import Values
+
 MATCHING_TIME = 0.3
 """Largest time between the ends of a found stride and the true one that it matches, s."""
 TWO_RISERS = 0.25
@@ -26,7 +28,7 @@ LEAST_LEVEL_LENGTH = 0.3
 DIRECTIONS = {"upstairs": 1, "downstairs": -1}
 """Steepness (papers/shoe_sensing/steepness.py) by state; 0 for the others."""
 
-Scores = dict[str, tuple[float, ...]]
+Scores = Values
 """Figures of one session by name: one value for each stride, leg or walk.
 
 "STATE steps": F1 of the strides of a state, %; "STATE right": 1 for each stride found whose state is right; "STATE
