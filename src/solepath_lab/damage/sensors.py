@@ -20,7 +20,7 @@ import numpy as np
 from attrs import frozen
 
 from solepath.body.checks.stances import StanceFinder
-from solepath.events import Defect, DefectFound, Event
+from solepath.events import Defect, DefectFound
 from solepath.recording import RecordingError
 from solepath.recording.samples import load_samples
 from solepath.session import Session
@@ -46,19 +46,18 @@ MS = 1e3
 """Number of ms in a second."""
 BEFORE, WALKING, LEAST_WALKING = 3.0, 20.0, 15.0
 """Time kept before the first stride, time of walking that is damaged, and the least that counts, s."""
-CLIP_ACC, CLIP_GYRO, BEYOND = 2.0 * GRAVITY, float(np.radians(250.0)), 1.05
-"""Ranges of the sensor that clips, m/s^2 and rad/s, and part of them that the motion must exceed for it to be cut."""
+LIMITS, BEYOND = np.array([np.inf, *[2.0 * GRAVITY] * 3, *[np.radians(250.0)] * 3]), 1.05
+"""Limits of time and of a sensor that clips, s, m/s^2 and rad/s, and part of its range that motion must exceed."""
 CORRECTION_RATE = 0.5
 """Rate at which the device that removes gravity pulls its attitude towards the specific force, 1/s."""
+AXES = np.eye(3)
 TILT = float(np.radians(10.0))
 """Angle by which the accelerometer is turned against the gyroscope, rad."""
 SEED = 19
 """Seed of the rotations of the whole sensor."""
 
-Damaged = tuple[Floats, Floats, Floats]
-"""Times, (n,), s, specific force, (n,3), m/s^2, and angular rate, (n,3), rad/s."""
-Make = Callable[[Floats, Floats, Floats], Damaged]
-"""Function of undamaged times, specific force and angular rate."""
+Make = Callable[[Floats], Floats]
+"""Function of undamaged samples, (n,7): time, s, specific force, m/s^2, and angular rate, rad/s."""
 
 
 @frozen
@@ -69,8 +68,8 @@ class Damage:
     defect: Defect | None
     """None when nothing has to be reported."""
     make: Make
-    changes: Callable[[Floats, Floats], bool] = lambda acc, gyro: True
-    """Function of the undamaged values that returns whether the damage changes them."""
+    changes: Callable[[Floats], bool] = lambda samples: True
+    """Function of the undamaged samples that returns whether the damage changes them."""
 
 
 @frozen
@@ -92,27 +91,18 @@ class DefectOutcome:
     """For each damage: name, reported or not, time since the first stride, s, and names of all that was reported."""
 
 
-Change = Callable[[Floats], Floats]
-"""Function of the values of one sensor."""
-
-
-def _hold(values: Floats) -> Floats:
-    """Return the values of a sensor that measures at half the rate: each one twice."""
-    return values[np.arange(len(values)) // 2 * 2]
-
-
-def remove_gravity(t: Floats, acc: Floats, gyro: Floats) -> Floats:
+def remove_gravity(samples: Floats) -> Floats:
     """Return what a device sends that subtracts gravity by its own attitude, in its own frame, m/s^2."""
-    up = acc[: max(1, int(np.searchsorted(t, t[0] + 0.5)))].mean(axis=0)
+    removed, t = samples.copy(), samples[:, 0]
+    up = samples[: max(1, int(np.searchsorted(t, t[0] + 0.5))), 1:4].mean(axis=0)
     up /= np.linalg.norm(up)
-    removed = np.empty_like(acc)
-    for i, dt in enumerate(np.diff(t, prepend=t[0])):
-        up = up - np.cross(gyro[i] * dt, up)
-        norm = float(np.linalg.norm(acc[i]))
+    for row, dt in zip(removed, np.diff(t, prepend=t[0]), strict=True):
+        up = up - np.cross(row[4:] * dt, up)
+        norm = float(np.linalg.norm(row[1:4]))
         if norm > 0.0:
-            up = up + CORRECTION_RATE * dt * (acc[i] / norm - up)
+            up = up + CORRECTION_RATE * dt * (row[1:4] / norm - up)
         up /= np.linalg.norm(up)
-        removed[i] = acc[i] - GRAVITY * up
+        row[1:4] -= GRAVITY * up
     return removed
 
 
@@ -123,92 +113,85 @@ def _rotation(axis: Sequence[float], angle: float) -> Floats:
     return rotation
 
 
-def _same(values: Floats) -> Floats:
-    return values
+def _linear(acc: Floats = AXES, gyro: Floats = AXES, time: float = 1.0) -> Make:
+    """Return the function that multiplies time, specific force and angular rate by a number and matrices."""
+    matrix = np.diag([time, *[0.0] * 6])
+    matrix[1:4, 1:4], matrix[4:, 4:] = acc, gyro
+    return lambda samples: samples @ matrix.T
 
 
-def _with(acc: Change = _same, gyro: Change = _same) -> Make:
-    return lambda t, a, g: (t, acc(a), gyro(g))
+def _held(columns: slice) -> Make:
+    """Return the function that repeats values as of a sensor that measures at half the rate: each one twice."""
 
+    def hold(samples: Floats) -> Floats:
+        held = samples.copy()
+        held[:, columns] = samples[np.arange(len(samples)) // 2 * 2, columns]
+        return held
 
-def _by(matrix: Floats) -> Change:
-    """Return the function that multiplies each value by a matrix, (3,3)."""
-    return lambda values: values @ matrix.T
+    return hold
 
 
 def _damages() -> Iterator[Damage]:
-    axes = np.eye(3)
-    changed = {f"{name} mirrored": axes - 2.0 * np.outer(axis, axis) for name, axis in zip("xyz", axes, strict=True)}
-    changed |= {
-        f"{'xyz'[a]} and {'xyz'[b]} exchanged": axes[[b if k == a else a if k == b else k for k in range(3)]]
-        for a, b in ((0, 1), (0, 2), (1, 2))
-    }
+    changed = {f"{name} mirrored": AXES - 2.0 * np.outer(axis, axis) for name, axis in zip("xyz", AXES, strict=True)}
+    for a, b in ((0, 1), (0, 2), (1, 2)):
+        order = [b if k == a else a if k == b else k for k in range(3)]
+        changed[f"{'xyz'[a]} and {'xyz'[b]} exchanged"] = AXES[order]
     for name, matrix in changed.items():
-        yield Damage(f"gyroscope {name}", Defect.AXES, _with(gyro=_by(matrix)))
-        yield Damage(f"accelerometer {name}", Defect.AXES, _with(acc=_by(matrix)))
-    yield Damage("specific force in g", Defect.ACC_UNIT, lambda t, a, g: (t, a / GRAVITY, g))
-    yield Damage("angular rate in deg/s", Defect.GYRO_UNIT, lambda t, a, g: (t, a, np.degrees(g)))
-    yield Damage("times in ms", Defect.TIME_UNIT, lambda t, a, g: (MS * t, a, g))
-    yield Damage("gravity removed", Defect.NO_GRAVITY, lambda t, a, g: (t, remove_gravity(t, a, g), g))
+        yield Damage(f"gyroscope {name}", Defect.AXES, _linear(gyro=matrix))
+        yield Damage(f"accelerometer {name}", Defect.AXES, _linear(acc=matrix))
+    yield Damage("specific force in g", Defect.ACC_UNIT, _linear(acc=AXES / GRAVITY))
+    yield Damage("angular rate in deg/s", Defect.GYRO_UNIT, _linear(gyro=np.degrees(AXES)))
+    yield Damage("times in ms", Defect.TIME_UNIT, _linear(time=MS))
+    yield Damage("gravity removed", Defect.NO_GRAVITY, remove_gravity)
     yield Damage(
         "clipped at 2 g and 250 deg/s",
         Defect.CLIPPED,
-        lambda t, a, g: (t, np.clip(a, -CLIP_ACC, CLIP_ACC), np.clip(g, -CLIP_GYRO, CLIP_GYRO)),
-        lambda a, g: bool(np.abs(a).max() > BEYOND * CLIP_ACC or np.abs(g).max() > BEYOND * CLIP_GYRO),
+        lambda samples: np.clip(samples, -LIMITS, LIMITS),
+        lambda samples: bool((np.abs(samples) > BEYOND * LIMITS).any()),
     )
-    yield Damage("half the rate, both repeated", Defect.REPEATED, _with(acc=_hold, gyro=_hold))
-    yield Damage("half the rate, accelerometer alone", Defect.REPEATED, _with(acc=_hold))
-    yield Damage("half the rate, gyroscope alone", Defect.REPEATED, _with(gyro=_hold))
+    yield Damage("half the rate, both repeated", Defect.REPEATED, _held(slice(1, 7)))
+    yield Damage("half the rate, accelerometer alone", Defect.REPEATED, _held(slice(1, 4)))
+    yield Damage("half the rate, gyroscope alone", Defect.REPEATED, _held(slice(4, 7)))
     tilt = _rotation((1.0, 1.0, 0.0), TILT)
-    yield Damage("accelerometer turned by 10 degrees", Defect.AXES, _with(acc=_by(tilt)))
+    yield Damage("accelerometer turned by 10 degrees", Defect.AXES, _linear(acc=tilt))
     random = np.random.default_rng(SEED)
     for number in (1, 2):
-        turn = _by(_rotation(random.normal(size=3).tolist(), random.uniform(0.0, np.pi)))
-        yield Damage(f"whole sensor turned, {number}", None, _with(turn, turn))
+        turn = _rotation(random.normal(size=3).tolist(), random.uniform(0.0, np.pi))
+        yield Damage(f"whole sensor turned, {number}", None, _linear(turn, turn))
 
 
-def _columns(piece: WalkingFoot) -> Damaged:
-    """Return the samples of the foot, which are finite."""
-    (table,) = [table for table in load_samples(piece.path).tables if table.foot is piece.foot]
-    acc, gyro = (np.column_stack(table.columns[quantity]) for quantity in ("acc", "gyro"))
-    return np.array(table.t), acc, gyro
+def _rows(samples: Floats) -> list[tuple[float, Vec3, Vec3]]:
+    return [(t, (a, b, c), (x, y, z)) for t, a, b, c, x, y, z in samples.tolist()]
 
 
-def _vectors(values: Floats) -> list[Vec3]:
-    return [(x, y, z) for x, y, z in values.tolist()]
-
-
-def _reported(values: Damaged, foot: Foot) -> list[DefectFound]:
+def _reported(samples: Floats, foot: Foot) -> list[DefectFound]:
     """Return the defects that a session of the default recipe reports while the samples come, not at their end."""
-    t, acc, gyro = values
-    session, events = Session(), list[Event]()
-    site = SITE_OF_FOOT[foot]
-    for time, force, rate in zip(t.tolist(), _vectors(acc), _vectors(gyro), strict=True):
-        events += session.feed(Sample(time, site, force, rate))
+    session, site = Session(), SITE_OF_FOOT[foot]
+    events = [event for row in _rows(samples) for event in session.feed(Sample(row[0], site, row[1], row[2]))]
     return [event for event in events if isinstance(event, DefectFound)]
 
 
 def examine(piece: WalkingFoot) -> DefectOutcome | None:
     """Return what is reported for one foot, whole and with each damage; None when it walks for less than 4 strides."""
-    t, acc, gyro = _columns(piece)
-    rows = zip(t.tolist(), _vectors(acc), _vectors(gyro), strict=True)
-    strides = [(time, stride) for time, stride in StanceFinder().add(rows) if len(stride.intervals) > 1]
+    (table,) = [table for table in load_samples(piece.path).tables if table.foot is piece.foot]
+    samples = np.column_stack([table.t, *table.columns["acc"], *table.columns["gyro"]])
+    strides = [(time, stride) for time, stride in StanceFinder().add(_rows(samples)) if len(stride.intervals) > 1]
     if len(strides) < 4:
         return None
-    whole = tuple(_reported((t, acc, gyro), piece.foot))
+    whole = tuple(_reported(samples, piece.foot))
     start = strides[0][0] - strides[0][1].duration
-    kept = (t >= start - BEFORE) & (t <= start + WALKING)
-    if t[kept][-1] - start < LEAST_WALKING:
+    t = samples[:, 0]
+    samples = samples[(t >= start - BEFORE) & (t <= start + WALKING)]
+    if samples[-1, 0] - start < LEAST_WALKING:
         return DefectOutcome(piece, whole)
-    t, acc, gyro = t[kept], acc[kept], gyro[kept]
     known = KNOWN.get(piece.path.parent.name, set())
     outcomes = []
     for damage in _damages():
-        if damage.defect in known or not damage.changes(acc, gyro):
+        if damage.defect in known or not damage.changes(samples):
             continue
         if damage.defect is None and Defect.CLIPPED in known:
             continue  # once turned, cut peaks no longer end at the range of an axis, which no sensor does
-        found = _reported(damage.make(t, acc, gyro), piece.foot)
+        found = _reported(damage.make(samples), piece.foot)
         names = tuple([event.defect.name for event in found if event.defect not in known])
         unit = MS if damage.defect is Defect.TIME_UNIT else 1.0
         first = next((event.t / unit for event in found if event.defect is damage.defect), None)

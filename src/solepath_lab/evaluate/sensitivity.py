@@ -32,31 +32,14 @@ from solepath.recipes import DEFAULT, Recipe
 from ..measures.score import Scored
 from ..options import add_command, add_folder, add_only, add_processes
 from ..processes import run_jobs
-from .ablation import COLUMNS, Column
+from ..tables.columns import SCALES
+from .ablation import SENSITIVITY_COLUMNS, Column
 from .jobs import EvaluationJob, find_data_sets, recordings
 from .report import Result
 from .run import RunSettings
 
 FACTORS = (0.5, 2.0)
 """Factors by which each number is multiplied."""
-ABLATION_TITLES = (
-    "pyshoe ARMSE2d",
-    "gumushane position",
-    "strides",
-    "xio end",
-    "openshoe end",
-    "ipol legs",
-    "HS F1",
-    "TO F1",
-    "gaitmap HS",
-)
-"""Titles of the columns of ablation.COLUMNS that this table has too."""
-TABLE_COLUMNS = (
-    *(column for column in COLUMNS if column.title in ABLATION_TITLES),
-    Column("ipol HS", "ipol_10m_uturn", "heel_strike_bias", "ms", pooled=True),
-    Column("ipol TO", "ipol_10m_uturn", "toe_off_bias", "ms", pooled=True),
-)
-"""The columns of the table."""
 PARTS: dict[str, tuple[Any, Any]] = {
     "detector": (CycleSettings, Cycle),
     "corrector": (ErrorStateSettings, ErrorStateFilter),
@@ -144,7 +127,7 @@ class SensitivityJob:
 
 def columns(names: Sequence[str] = ()) -> list[Column]:
     """Return the columns of the table: those of the data sets `names`, or all when `names` is empty."""
-    return [column for column in TABLE_COLUMNS if not names or column.data_set in names]
+    return [column for column in SENSITIVITY_COLUMNS if not names or column.data_set in names]
 
 
 def evaluate(
@@ -173,10 +156,6 @@ def evaluate(
             scores = tuple([one for one in outcomes_of_set if isinstance(one, Scored)])
             results.append(Result(data_set, "", scores, ()))
         yield number, factor, [column.find_figure(results, "") for column in shown]
-
-
-SCALES = {"": 1.0, "m": 1.0, "%": 100.0, "ms": 1000.0}
-"""Factor from SI units to each unit of a column."""
 
 
 def _change(column: Column, value: float | None, default: float | None) -> str:

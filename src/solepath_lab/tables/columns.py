@@ -11,13 +11,13 @@ be large. Numbers of true events, path lengths and other people's results have n
 
 from __future__ import annotations
 
-import csv
 from math import degrees
-from pathlib import Path
 
 from attrs import frozen
 
 from solepath.show.tables.table import number
+
+from ..descriptions import read_rows
 
 SCALES = {"": 1.0, "m": 1.0, "%": 100.0, "ms": 1000.0, "degrees": degrees(1.0), "degrees/min": degrees(60.0)}
 """Factor from SI units, and from shares, to each unit."""
@@ -44,11 +44,8 @@ class Figure:
         return shown(value, self.unit, self.digits)
 
 
-def _read() -> dict[str, Figure]:
-    with Path(__file__).with_name("columns.csv").open(encoding="utf-8", newline="") as file:
-        rows = csv.DictReader(file)
-        return {row["name"]: Figure(row["title"], row["unit"], int(row["digits"]), row["better"]) for row in rows}
-
-
-FIGURES = _read()
+FIGURES = {
+    row["name"]: Figure(row["title"], row["unit"], int(row["digits"]), row["better"])
+    for row in read_rows(__file__, "columns.csv")
+}
 """Figures by name in JSON."""

@@ -6,13 +6,12 @@ says, or with another unit and number of digits after a colon."""
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
 
 from attrs import frozen
 
+from ..descriptions import read_rows
 from ..evaluate.report import Result
 from ..markdown import table
 from ..measures.score import Figures, Summary
@@ -20,8 +19,7 @@ from .columns import FIGURES, shown
 
 PATH_SHARES = ("end_relative", "radius_error")
 """Shares of the path, which need no length of the walk beside them, as errors in m do."""
-with Path(__file__).with_name("accuracy.csv").open(encoding="utf-8", newline="") as _file:
-    ROWS = tuple(csv.DictReader(_file))
+ROWS = read_rows(__file__, "accuracy.csv")
 
 
 @frozen

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import pytest
 
 from solepath.events import ActivityChanged
@@ -30,7 +32,7 @@ def test_the_climb_is_the_slope_of_both_barometers_whatever_their_offsets() -> N
 
 
 def test_shares_leave_out_walks_without_the_class() -> None:
-    scores = [ActivityScore({(UP, UP): 3, (UP, DOWN): 1}), ActivityScore({(DOWN, DOWN): 2})]
+    scores = [ActivityScore(Counter({(UP, UP): 3, (UP, DOWN): 1})), ActivityScore(Counter({(DOWN, DOWN): 2}))]
     assert [class_share(score, UP) for score in scores] == [(75.0,), ()]
 
 
