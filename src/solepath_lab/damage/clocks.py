@@ -17,7 +17,6 @@ from collections.abc import Sequence
 from math import ceil, inf, isfinite
 from pathlib import Path
 from statistics import median
-from typing import Any
 
 import numpy as np
 from attrs import evolve, frozen
@@ -27,7 +26,6 @@ from solepath.events import DefectFound, GaitEvent, HeelStrike, StrideTaken
 from solepath.types import OTHER, Foot
 
 from .. import markdown
-from ..options import add_command, add_folder, add_only, add_processes
 from ..processes import run_jobs
 from .clock_walks import KNOWN_APART, PAUSE, ClockJob, ClockWalk, FootEvent, error_between, foot_of, read_walk
 
@@ -192,15 +190,6 @@ def _apart(walk: ClockWalk, usual: ClockOutcome) -> str:
         result = f"{1e3 * usual.reported:+.0f} ms reported"
     reason = KNOWN_APART.get(walk.job.data_set) or KNOWN_APART[walk.job.name]
     return f"- {walk.name}, {usual.walking:.0f} s of walking: {result}; {reason}"
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "clocks", "separate clocks of the feet", __doc__ or "")
-    add_folder(command)
-    add_only(command)
-    add_processes(command)
-    command.set_defaults(run=run)
 
 
 def run(options: Namespace) -> int:

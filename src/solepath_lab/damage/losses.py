@@ -16,7 +16,6 @@ import random
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from attrs import frozen
@@ -30,7 +29,6 @@ from .. import markdown
 from ..evaluate.jobs import find_data_sets, recordings
 from ..evaluate.run import Arrays, truth_of
 from ..measures.strides import END_TOLERANCE
-from ..options import add_command, add_folder, add_processes
 from ..processes import run_jobs
 
 DATA_SETS = ("pyshoe_vicon", "gumushane_surveyed")
@@ -113,14 +111,6 @@ def table(strides: Sequence[ScoredStride]) -> list[str]:
         means = [f"{np.mean(errors):.3f}" if errors else "-" for errors in ([*flawed, *sound], flawed, sound)]
         rows.append((loss, len(of_loss), percents[0], means[0], *percents[1:], *means[1:]))
     return markdown.table(HEADER, rows)
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "losses", "lengths of strides with samples cut out", __doc__ or "")
-    add_folder(command)
-    add_processes(command)
-    command.set_defaults(run=run)
 
 
 def run(options: Namespace) -> int:

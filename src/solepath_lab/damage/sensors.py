@@ -14,7 +14,6 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from statistics import median
-from typing import Any
 
 import numpy as np
 from attrs import frozen
@@ -29,7 +28,6 @@ from solepath.types.vector import GRAVITY
 from solepath.validate.alignment import Floats
 
 from .. import markdown
-from ..options import add_command, add_folder, add_only, add_processes
 from ..processes import run_jobs
 
 KNOWN: dict[str, set[Defect]] = {
@@ -244,15 +242,6 @@ def table(outcomes: Sequence[DefectOutcome]) -> list[str]:
         rows.append((damage.name, len(found), f"{silent}{share:.1f} %", after, words or "-"))
     header = ("damage", "feet", "reported", "after, median", "what else is reported")
     return [*lines, "", *markdown.table(header, rows, left=len(header))]
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "sensors", "damaged sensors", __doc__ or "")
-    add_folder(command)
-    add_only(command)
-    add_processes(command)
-    command.set_defaults(run=run)
 
 
 def run(options: Namespace) -> int:

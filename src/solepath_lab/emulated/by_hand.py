@@ -18,9 +18,9 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from itertools import product
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from attrs import evolve, frozen
@@ -43,7 +43,7 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 
 from .. import markdown
-from ..options import add_command, add_processes, add_seeds
+from ..options import option, seeds
 from ..processes import run_jobs
 from .heading import follow, heading_figures
 from .heading_walks import G_EFFECT, OTHER_DAY, heading_route, wearer_of
@@ -222,15 +222,12 @@ def _both(values: Floats) -> str:
     return f"{float(np.median(values)):.2f}, {float(values.max()):.2f}"
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "by-hand", "worth of a calibration by hand", __doc__ or "")
-    command.add_argument("--sensors", metavar="N", type=int, default=SENSORS, help="of each kind in each hand; or 0")
-    add_seeds(command, WALKS, FIRST_SEED, may_be_none=True)
-    add_recipe_name(command, action="append", default=[], help="may be given again")
-    add_processes(command)
-    command.add_argument("--record", metavar="FILE", type=Path, help="record a sensor in a hand instead")
-    command.set_defaults(run=run)
+OPTIONS = (
+    option("--sensors", metavar="N", type=int, default=SENSORS, help="of each kind in each hand; or 0"),
+    seeds(WALKS, FIRST_SEED, may_be_none=True),
+    partial(add_recipe_name, action="append", default=[], help="may be given again"),
+    option("--record", metavar="FILE", type=Path, help="record a sensor in a hand instead"),
+)
 
 
 def run(options: Namespace) -> int:
@@ -238,8 +235,8 @@ def run(options: Namespace) -> int:
     if options.record is not None:
         record_hand(options.record, options.seed)
         return 0
-    seeds = range(options.seed, options.seed + options.sensors)
-    hands = [HandJob(chip, hand, seed) for chip in CHIPS for hand in HANDS for seed in seeds]
+    numbers = range(options.seed, options.seed + options.sensors)
+    hands = [HandJob(chip, hand, seed) for chip in CHIPS for hand in HANDS for seed in numbers]
     results = list(run_jobs(hand_errors, hands, processes=options.processes))
     if results:
         print("\n".join(hand_table(results)))

@@ -1,6 +1,6 @@
 """Activities and place of emulated walks with pieces of evidence taken away: what each kind of evidence earns.
 
-    solepath-lab emulated evidence [--walks N] [--seed S] [--processes P]
+    solepath-lab emulated evidence [--walks N] [--seed S] [--only ROW] [--processes P]
 
 prints the tables of docs/activities.md as Markdown. For each seed a wearer walks a route of stairs, elevators and
 corridors (train/emulated.py), which gives the activities, and another one through the emulated building (ways.py),
@@ -37,12 +37,9 @@ from solepath.walk.walk import Walk
 from .. import markdown
 from ..evaluate.activity import score_rides, score_windows
 from ..measures.confusion import ActivityScore
-from ..options import add_command, add_processes, add_seeds
 from ..processes import run_jobs
 from ..train.emulated import RATE, draw_route
 
-FIRST_SEED, WALKS = 5001, 12
-"""First seed, none of those for training, and number of walks."""
 HEADING_ERROR = 0.1
 """Standard deviation of the first heading that is given, rad: 6 degrees, as a phone's compass may have."""
 CELLS = 24
@@ -224,17 +221,11 @@ def table(sensors: Sensors, outcomes: dict[str, WalkOutcome], walks: int) -> lis
     return markdown.table([sensors.title, *COLUMNS], rows)
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "evidence", "activities and place with evidence taken away", __doc__ or "")
-    add_seeds(command, WALKS, FIRST_SEED)
-    add_processes(command)
-    command.set_defaults(run=run)
-
-
 def run(options: Namespace) -> int:
     """Print the tables; return the exit status."""
-    for number, sensors in enumerate(TABLES):
+    for number, whole in enumerate(TABLES):
+        rows = tuple([row for row in whole.rows if not options.only or row.name in options.only])
+        sensors = evolve(whole, rows=rows)
         total = {row.name: WalkOutcome() for row in sensors.rows}
         seeds = range(options.seed, options.seed + options.walks)
         for outcomes in run_jobs(partial(score_seed, sensors), seeds, processes=options.processes):

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from math import cos, fsum, hypot, pi, radians, sin
-from typing import Any
 
 import numpy as np
 from attrs import evolve
@@ -32,10 +32,8 @@ from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import NEAR_DISTANCE, PlaceScore, score
 
 from .. import markdown
-from ..options import add_command, add_seeds
+from ..options import option
 
-FIRST_SEED, WALKS = 7001, 24
-"""First seed and number of walks."""
 DECLINATION = radians(4.0)
 """Angle from true to magnetic north, clockwise, rad: that of Central Europe (WMM2025)."""
 DISTURBANCE = 20.0
@@ -86,13 +84,10 @@ def cells(name: str, scores: Sequence[tuple[PlaceScore, bool]]) -> list[str]:
             f"{fsum(off) / max(len(off), 1):.2f} m", f"{quantile:.2f} m", str(contradicted)]  # fmt: skip
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "north", "worth of a compass on a plan that knows its north", __doc__ or "")
-    add_seeds(command, WALKS, FIRST_SEED)
-    command.add_argument("--disturbance", metavar="DEGREES", type=float, default=DISTURBANCE, help="of the field")
-    add_recipe_name(command, default="default", help="recipe of the sessions")
-    command.set_defaults(run=run)
+OPTIONS = (
+    option("--disturbance", metavar="DEGREES", type=float, default=DISTURBANCE, help="of the field"),
+    partial(add_recipe_name, default="default", help="recipe of the sessions"),
+)
 
 
 def run(options: Namespace) -> int:

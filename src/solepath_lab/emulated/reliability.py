@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
 
 import numpy as np
 from attrs import define, field
@@ -31,10 +30,7 @@ from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import is_near, is_on_floor
 
 from .. import markdown
-from ..options import add_command, add_seeds
 
-FIRST_SEED, WALKS = 5001, 25
-"""First seed and number of walks."""
 BINS = 10
 """Number of bins of equal width; a place that is the only one has a bin of its own after them."""
 DEVICES: dict[str, Device] = {"default": Insole(cells=8), "footstep-tracker": CC2541(rate=20.0, mounting=IN_SOLE)}
@@ -108,13 +104,6 @@ def table(results: dict[str, list[WeightBin]]) -> list[str]:
         name = "the only one" if k == BINS else f"{k / BINS:.1f} to {(k + 1) / BINS:.1f}"
         rows.append([name, *(one.text for one in bins)])
     return markdown.table(["weight", *(TITLES[recipe] for recipe in results)], rows)
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "reliability", "weights of candidates and how often they are true", __doc__ or "")
-    add_seeds(command, WALKS, FIRST_SEED)
-    command.set_defaults(run=run)
 
 
 def run(options: Namespace) -> int:

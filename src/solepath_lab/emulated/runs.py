@@ -12,7 +12,6 @@ from argparse import Namespace
 from collections.abc import Sequence
 from math import degrees, fsum, sqrt
 from operator import attrgetter
-from typing import Any
 
 import numpy as np
 from attrs import evolve, frozen
@@ -28,11 +27,8 @@ from solepath.types import OTHER, Foot
 from solepath.types.vector import GRAVITY
 
 from .. import markdown
-from ..options import add_command, add_seeds
 from .heading_walks import insoles_of, wearer_of
 
-FIRST_SEED, RUNS = 1, 12
-"""First seed and number of runs."""
 SLOWEST, FASTEST = 2.2, 3.8
 """Least and largest speed of a run, m/s."""
 DISTANCE = 60.0
@@ -148,13 +144,6 @@ def cells(
         figures = [f"{factor * one:.{digits}f}" for one in (fsum(values) / len(values), bias, spread)]
     cycles = sum([len(score.measured) for score in scores])
     return [sensors, f"{label}, {unit}", f"{len(errors)} of {cycles}", *figures]
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "runs", "measures of runners against the truth", __doc__ or "")
-    add_seeds(command, RUNS, FIRST_SEED, "runs")
-    command.set_defaults(run=run)
 
 
 def run(options: Namespace) -> int:

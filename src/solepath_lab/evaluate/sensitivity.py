@@ -30,7 +30,6 @@ from solepath.foot.stance.cycle import Cycle
 from solepath.recipes import DEFAULT, Recipe
 
 from ..measures.score import Scored
-from ..options import add_command, add_folder, add_only, add_processes
 from ..processes import run_jobs
 from ..tables.columns import SCALES
 from .ablation import SENSITIVITY_COLUMNS, Column
@@ -188,18 +187,6 @@ def table(rows: Iterator[tuple[Number | None, float, list[float | None]]], shown
             for column, a, b, base in zip(shown, half, double, default, strict=True)
         ]
         yield f"| {number.part} `{number.name}` | {number.value:g} | {number.meaning} | {' | '.join(changes)} |"
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands, "sensitivity", "each number of the default recipe at half and at twice", __doc__ or ""
-    )
-    add_folder(command)
-    add_only(command)
-    command.add_argument("--number", metavar="NAME", action="append", default=[], help="only this number")
-    add_processes(command)
-    command.set_defaults(run=run)
 
 
 def run(options: Namespace) -> int:

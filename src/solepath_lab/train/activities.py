@@ -15,7 +15,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from copy import deepcopy
 from operator import attrgetter
 from pathlib import Path
-from typing import Any
 
 import attrs
 import numpy as np
@@ -48,7 +47,6 @@ from solepath.recording.samples import load_samples
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from solepath.types.vector import TIME_EPSILON
 
-from ..options import add_command, add_folder
 from . import emulated
 from .activities_course import FootEvidence, LabelledCourse, chances, shifts
 from .activities_net import CLASSES, feature_statistics, fit_networks, to_json
@@ -253,13 +251,6 @@ def fit_model(sources: Iterable[Blocks], note: str) -> MotionModel:
     courses = [blocks.course for blocks in used if blocks.course is not None]
     model = MotionModel(note, full_network, accelerometer_network, means, deviations, chances(courses), ())
     return attrs.evolve(model, shifts=shifts(courses, model))
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "activities", "network of the activities", __doc__ or "")
-    add_folder(command)
-    command.set_defaults(run=run)
 
 
 def run(options: Namespace) -> int:
