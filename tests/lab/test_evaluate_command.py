@@ -1,6 +1,7 @@
 """Tests `solepath-lab evaluate`: tables, JSON and Markdown of a made data set, and what it needs."""
 
 import json
+import re
 from math import radians
 from pathlib import Path
 
@@ -48,6 +49,11 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path, monkey
     assert figures["end_error_2d"] < 0.5
     assert scores["summary"]["all"]["mean"]["end_error"] == figures["end_error"]
     assert f"{figures['end_error']:.3f}" in result.stdout
+
+
+def test_the_laboratory_says_its_version():
+    done = run("--version", program=lab)
+    assert done.returncode == 0 and re.fullmatch(r"solepath-lab \S+, (pure|compiled)\n", done.stdout)
 
 
 def test_evaluate_without_data_names_what_it_needs(data, tmp_path, monkeypatch):

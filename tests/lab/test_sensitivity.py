@@ -9,9 +9,10 @@ from quoted import below
 
 from solepath.calibration import Calibration
 from solepath.foot.cues import inertial
+from solepath_lab.evaluate.ablation import SENSITIVITY_COLUMNS
 from solepath_lab.evaluate.jobs import EvaluationJob
 from solepath_lab.evaluate.run import Meta, RunSettings
-from solepath_lab.evaluate.sensitivity import TABLE_COLUMNS, SensitivityJob, numbers
+from solepath_lab.evaluate.sensitivity import SensitivityJob, numbers
 from solepath_lab.measures.score import Scored
 
 NUMBERS = {number.name: number for number in numbers()}
@@ -20,7 +21,7 @@ NUMBERS = {number.name: number for number in numbers()}
 def test_the_page_has_each_number_with_its_value_and_its_meaning() -> None:
     rows = [[cell.strip() for cell in line.split("|")[1:]] for line in below("settings")[3:]]
     assert [row[:3] for row in rows] == [[f"{n.part} `{n.name}`", f"{n.value:g}", n.meaning] for n in numbers()]
-    assert {len(row) for row in rows} == {4 + len(TABLE_COLUMNS)}
+    assert {len(row) for row in rows} == {4 + len(SENSITIVITY_COLUMNS)}
 
 
 def score(path: Path, meta: Meta, settings: RunSettings) -> Scored:

@@ -20,18 +20,14 @@ from solepath.recording.samples import load_samples
 from solepath.session import Session
 from solepath.types import OTHER, Foot, Sample
 
+from ..descriptions import KNOWN
 from ..emulated.heading import LENGTHS
 from ..emulated.heading_walks import heading_route, insoles_of, wearer_of
 from ..evaluate.insoles import force_sensors, switches
 
 PAUSE = 2.5
 """Time between two contacts of a foot above which the wearer did not walk, s."""
-KNOWN_APART = {
-    "tripod_treadmill": "the light barrier of the treadmill shows 75 ms in PWS and 19 ms in PWS_minus20",
-    "felius_2min_walk": "the sensors have no common clock",
-    "smart_insole_35": "each stream is stamped from its own start, and they start 60 to 290 ms apart",
-    "ms_patient": "the feet are not synchronised, says the source",
-}
+KNOWN_APART: dict[str, str] = KNOWN["clocks_apart"]
 """Data sets and recordings whose feet have separate clocks, and the reason."""
 CALIBRATIONS = {"marpino_heel_toe": switches, "gaitpdb_vgrf": force_sensors}
 """Functions that return the calibration of a data set's insoles."""
@@ -61,6 +57,11 @@ class ClockWalk:
     """Times of the first and the last sample of each foot with both inertial sensors, s."""
     end: float
     """Time of the last sample, s."""
+
+    @property
+    def name(self) -> str:
+        """Names of data set and recording."""
+        return f"{self.job.data_set}/{self.job.name}"
 
     @property
     def is_known_apart(self) -> bool:

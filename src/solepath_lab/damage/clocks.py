@@ -13,11 +13,10 @@ processor."""
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from math import ceil, inf, isfinite
 from pathlib import Path
 from statistics import median
-from typing import Any
 
 import numpy as np
 from attrs import evolve, frozen
@@ -26,7 +25,7 @@ from solepath.body.checks.foot_clocks import FootClocks
 from solepath.events import DefectFound, GaitEvent, HeelStrike, StrideTaken
 from solepath.types import OTHER, Foot
 
-from ..options import add_command, add_folder, add_only, add_processes
+from .. import markdown
 from ..processes import run_jobs
 from .clock_walks import KNOWN_APART, PAUSE, ClockJob, ClockWalk, FootEvent, error_between, foot_of, read_walk
 
@@ -114,23 +113,21 @@ def set_newest(part: FootClocks, event: GaitEvent, spans: dict[Foot, list[tuple[
         standing.is_known, standing.stood_since = True, times[-1]
 
 
-def row(data: str, damage: str, outcomes: Sequence[ClockOutcome], limit: float) -> str:
-    """Return a row of the table as Markdown; the clocks have to be reported within `limit` s of walking."""
+def row(data: str, damage: str, outcomes: Sequence[ClockOutcome], limit: float) -> list[str]:
+    """Return the cells of a row of the table; the clocks have to be reported within `limit` s of walking."""
     found = [(one.walked, one) for one in outcomes if one.walked is not None and one.walked <= limit]
     short = sum(one.walking < limit for one in outcomes)
-    is_mirrored = bool(outcomes) and abs(outcomes[0].offset) in OFFSETS
-    errors = [abs(one.reported + one.offset) for _, one in found if one.reported is not None and is_mirrored]
-    undone = [one.undone for _, one in found if one.undone is not None and is_mirrored]
-    cells = [
+    mirrored = [one for _, one in found if abs(one.offset) in OFFSETS]
+    errors = [abs(one.reported + one.offset) for one in mirrored if one.reported is not None]
+    undone = [one.undone for one in mirrored if one.undone is not None]
+    return [
         data,
         damage,
         f"{len(found)} of {len(outcomes)}",
         str(short) if isfinite(limit) else "-",
         f"{median([walked for walked, _ in found]):.0f} s" if found else "-",
-        _errors(errors),
-        _errors(undone),
+        *map(_errors, (errors, undone)),
     ]
-    return f"| {' | '.join(cells)} |"
 
 
 def _errors(values: Sequence[float]) -> str:
@@ -140,10 +137,10 @@ def _errors(values: Sequence[float]) -> str:
     return f"{1e3 * median(values):.0f} / {1e3 * float(np.percentile(values, 95)):.0f} ms"
 
 
-HEADER = """\
-| walks | right foot's clock | reported | shorter than limit | walked before, median | offset wrong, median / 95 % \
-| step time, double support wrong once undone |
-|---|---|---|---|---|---|---|"""
+HEADER = (
+    "walks", "right foot's clock", "reported", "shorter than limit", "walked before, median",
+    "offset wrong, median / 95 %", "step time, double support wrong once undone",
+)  # fmt: skip
 
 
 def find_jobs(folder: Path, names: Sequence[str]) -> list[ClockJob]:
@@ -157,56 +154,46 @@ def find_jobs(folder: Path, names: Sequence[str]) -> list[ClockJob]:
     return jobs + [ClockJob(EMULATED, str(seed)) for seed in SEEDS if EMULATED in names]
 
 
-def table(folder: Path, names: Sequence[str], processes: int) -> Iterator[str]:
-    """Yield the lines of the table and of the lists below it."""
-    walks = [
-        one for one in run_jobs(read_walk, find_jobs(folder, names), processes=processes) if isinstance(one, ClockWalk)
-    ]
-    usual = {walk.job: find_outcome(walk) for walk in walks}
-    scored = [walk for walk in walks if usual[walk.job].walking >= MIN_WALKING and not walk.is_known_apart]
-    long = [walk for walk in scored if usual[walk.job].walking >= MINUTE]
+def table(folder: Path, names: Sequence[str], processes: int) -> list[str]:
+    """Return the lines of the table and of the lists below it."""
+    read = run_jobs(read_walk, find_jobs(folder, names), processes=processes)
+    walks = [(walk, find_outcome(walk)) for walk in read if isinstance(walk, ClockWalk)]
+    scored = [walk for walk, usual in walks if usual.walking >= MIN_WALKING and not walk.is_known_apart]
+    long = [walk for walk, usual in walks if usual.walking >= MINUTE and not walk.is_known_apart]
     groups = {"all": scored, "of a minute": long}
-    yield HEADER
-    for name, of_group in groups.items():
-        yield row(name, "undamaged", [usual[walk.job] for walk in of_group], inf)
+    rows = [row(name, "undamaged", list(map(find_outcome, group)), inf) for name, group in groups.items()]
     for size in OFFSETS + SECONDS_APART:
         text = f"{1e3 * size:.0f} ms" if size < 1.0 else f"{size:.0f} s"
-        for name, of_group in groups.items():
-            outcomes = [find_outcome(walk, sign * size) for walk in of_group for sign in (1.0, -1.0)]
-            yield row(name, f"{text} early or late", outcomes, MINUTE)
-    yield row("of a minute", "undamaged, ten minutes", [find_outcome(walk, duration=LONG) for walk in long], inf)
+        for name, group in groups.items():
+            outcomes = [find_outcome(walk, sign * size) for walk in group for sign in (1.0, -1.0)]
+            rows.append(row(name, f"{text} early or late", outcomes, MINUTE))
+    outcomes = [find_outcome(walk, duration=LONG) for walk in long]
+    rows.append(row("of a minute", "undamaged, ten minutes", outcomes, inf))
     outcomes = [find_outcome(walk, rate=sign * RATE, duration=LONG) for walk in long for sign in (1.0, -1.0)]
-    yield row("of a minute", "200 ppm fast or slow, ten minutes", outcomes, LONG)
-    alarms = [walk.job for walk in walks if usual[walk.job].walked is not None and not walk.is_known_apart]
-    yield (
-        "\nReported although undamaged: " + (", ".join(f"{job.data_set}/{job.name}" for job in alarms) or "none") + "."
-    )
-    yield "\nKnown to have separate clocks, and not scored:\n"
-    for walk in walks:
-        if walk.is_known_apart:
-            job, one = walk.job, usual[walk.job]
-            lone = "not reported" if one.walked is None else "one foot walked while the other one stood"
-            result = lone if one.reported is None else f"{1e3 * one.reported:+.0f} ms reported"
-            reason = KNOWN_APART.get(job.data_set) or KNOWN_APART[job.name]
-            yield f"- {job.data_set}/{job.name}, {one.walking:.0f} s of walking: {result}; {reason}"
-    few = sum(one.walking < MIN_WALKING for one in usual.values())
-    yield (
+    rows.append(row("of a minute", "200 ppm fast or slow, ten minutes", outcomes, LONG))
+    alarms = [walk.name for walk, usual in walks if usual.walked is not None and not walk.is_known_apart]
+    few = sum(usual.walking < MIN_WALKING for _, usual in walks)
+    return [
+        *markdown.table(HEADER, rows, left=len(HEADER)),
+        f"\nReported although undamaged: {', '.join(alarms) or 'none'}.",
+        "\nKnown to have separate clocks, and not scored:\n",
+        *[_apart(walk, usual) for walk, usual in walks if walk.is_known_apart],
         f"\n{few} recordings of both feet with less than {MIN_WALKING:.0f} s of walking are not scored, but searched "
-        "for reports."
-    )
+        "for reports.",
+    ]
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "clocks", "separate clocks of the feet", __doc__ or "")
-    add_folder(command)
-    add_only(command)
-    add_processes(command)
-    command.set_defaults(run=run)
+def _apart(walk: ClockWalk, usual: ClockOutcome) -> str:
+    """Return the line about a recording whose feet have separate clocks already."""
+    result = "not reported" if usual.walked is None else "one foot walked while the other one stood"
+    if usual.reported is not None:
+        result = f"{1e3 * usual.reported:+.0f} ms reported"
+    reason = KNOWN_APART.get(walk.job.data_set) or KNOWN_APART[walk.job.name]
+    return f"- {walk.name}, {usual.walking:.0f} s of walking: {result}; {reason}"
 
 
 def run(options: Namespace) -> int:
     """Print the table; return the exit status."""
-    for line in table(options.dir, options.only or [*DATA_SETS, EMULATED], options.processes):
-        print(line, flush=True)
+    names = options.only or [*DATA_SETS, EMULATED]
+    print("\n".join(table(options.dir, names, options.processes)))
     return 0

@@ -16,7 +16,6 @@ import random
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from attrs import frozen
@@ -26,10 +25,10 @@ from solepath.cli.common.failure import Failure
 from solepath.recording.samples import load_samples
 from solepath.validate.alignment import Floats, at_times
 
+from .. import markdown
 from ..evaluate.jobs import find_data_sets, recordings
 from ..evaluate.run import Arrays, truth_of
 from ..measures.strides import END_TOLERANCE
-from ..options import add_command, add_folder, add_processes
 from ..processes import run_jobs
 
 DATA_SETS = ("pyshoe_vicon", "gumushane_surveyed")
@@ -40,9 +39,9 @@ BURSTS = (0.05, 0.1, 0.2, 0.4, 0.8)
 BETWEEN_BURSTS = (1.5, 4.0)
 """Shortest and longest time between two bursts, s."""
 HEADER = (
-    "| lost | strides | missing % | mean error m | within 1 sigma % | within 2 sigma % | with flaws % |"
-    " error with flaws m | without m |"
-)
+    "lost", "strides", "missing %", "mean error m", "within 1 sigma %", "within 2 sigma %", "with flaws %",
+    "error with flaws m", "without m",
+)  # fmt: skip
 
 
 @frozen
@@ -101,7 +100,7 @@ def examine(path: Path) -> list[ScoredStride]:
 
 def table(strides: Sequence[ScoredStride]) -> list[str]:
     """Return the lines of the table: a row for each kind of loss, and one for all."""
-    lines = [HEADER, f"|---|{'---:|' * (HEADER.count('|') - 2)}"]
+    rows = []
     for loss in [*dict.fromkeys(one.loss for one in strides), "all"]:
         of_loss = [one for one in strides if loss in (one.loss, "all")]
         flawed = [one.error for one in of_loss if one.flaws]
@@ -110,17 +109,8 @@ def table(strides: Sequence[ScoredStride]) -> list[str]:
         within = [float(np.mean([one.error <= factor * one.sigma for one in of_loss])) for factor in (1.0, 2.0)]
         percents = [f"{100.0 * share:.1f}" for share in (missing, *within, len(flawed) / len(of_loss))]
         means = [f"{np.mean(errors):.3f}" if errors else "-" for errors in ([*flawed, *sound], flawed, sound)]
-        row = (loss, str(len(of_loss)), percents[0], means[0], *percents[1:], *means[1:])
-        lines.append(f"| {' | '.join(row)} |")
-    return lines
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "losses", "lengths of strides with samples cut out", __doc__ or "")
-    add_folder(command)
-    add_processes(command)
-    command.set_defaults(run=run)
+        rows.append((loss, len(of_loss), percents[0], means[0], *percents[1:], *means[1:]))
+    return markdown.table(HEADER, rows)
 
 
 def run(options: Namespace) -> int:

@@ -12,16 +12,14 @@ from __future__ import annotations
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 from pathlib import Path
 from statistics import median
-from typing import Any
 
 import numpy as np
 from attrs import frozen
 
 from solepath.body.checks.stances import StanceFinder
-from solepath.events import Defect, DefectFound, Event
+from solepath.events import Defect, DefectFound
 from solepath.recording import RecordingError
 from solepath.recording.samples import load_samples
 from solepath.session import Session
@@ -29,7 +27,7 @@ from solepath.types import SITE_OF_FOOT, Foot, Sample, Vec3
 from solepath.types.vector import GRAVITY
 from solepath.validate.alignment import Floats
 
-from ..options import add_command, add_folder, add_only, add_processes
+from .. import markdown
 from ..processes import run_jobs
 
 KNOWN: dict[str, set[Defect]] = {
@@ -46,19 +44,18 @@ MS = 1e3
 """Number of ms in a second."""
 BEFORE, WALKING, LEAST_WALKING = 3.0, 20.0, 15.0
 """Time kept before the first stride, time of walking that is damaged, and the least that counts, s."""
-CLIP_ACC, CLIP_GYRO, BEYOND = 2.0 * GRAVITY, float(np.radians(250.0)), 1.05
-"""Ranges of the sensor that clips, m/s^2 and rad/s, and part of them that the motion must exceed for it to be cut."""
+LIMITS, BEYOND = np.array([np.inf, *[2.0 * GRAVITY] * 3, *[np.radians(250.0)] * 3]), 1.05
+"""Limits of time and of a sensor that clips, s, m/s^2 and rad/s, and part of its range that motion must exceed."""
 CORRECTION_RATE = 0.5
 """Rate at which the device that removes gravity pulls its attitude towards the specific force, 1/s."""
+AXES = np.eye(3)
 TILT = float(np.radians(10.0))
 """Angle by which the accelerometer is turned against the gyroscope, rad."""
 SEED = 19
 """Seed of the rotations of the whole sensor."""
 
-Damaged = tuple[Floats, Floats, Floats]
-"""Times, (n,), s, specific force, (n,3), m/s^2, and angular rate, (n,3), rad/s."""
-Make = Callable[[Floats, Floats, Floats], Damaged]
-"""Function of undamaged times, specific force and angular rate."""
+Make = Callable[[Floats], Floats]
+"""Function of undamaged samples, (n,7): time, s, specific force, m/s^2, and angular rate, rad/s."""
 
 
 @frozen
@@ -69,8 +66,8 @@ class Damage:
     defect: Defect | None
     """None when nothing has to be reported."""
     make: Make
-    changes: Callable[[Floats, Floats], bool] = lambda acc, gyro: True
-    """Function of the undamaged values that returns whether the damage changes them."""
+    changes: Callable[[Floats], bool] = lambda samples: True
+    """Function of the undamaged samples that returns whether the damage changes them."""
 
 
 @frozen
@@ -92,50 +89,18 @@ class DefectOutcome:
     """For each damage: name, reported or not, time since the first stride, s, and names of all that was reported."""
 
 
-Change = Callable[[Floats], Floats]
-"""Function of the values of one sensor."""
-
-
-def _same(values: Floats) -> Floats:
-    return values
-
-
-def _turn(values: Floats, rotation: Floats) -> Floats:
-    turned: Floats = values @ rotation.T
-    return turned
-
-
-def _mirror(values: Floats, axis: int) -> Floats:
-    mirrored = values.copy()
-    mirrored[:, axis] *= -1.0
-    return mirrored
-
-
-def _swap(values: Floats, first: int, second: int) -> Floats:
-    swapped = values.copy()
-    swapped[:, [first, second]] = values[:, [second, first]]
-    return swapped
-
-
-def _hold(values: Floats) -> Floats:
-    """Return the values of a sensor that measures at half the rate: each one twice."""
-    held = values.copy()
-    held[1::2] = values[0::2][: len(held[1::2])]
-    return held
-
-
-def remove_gravity(t: Floats, acc: Floats, gyro: Floats) -> Floats:
+def remove_gravity(samples: Floats) -> Floats:
     """Return what a device sends that subtracts gravity by its own attitude, in its own frame, m/s^2."""
-    up = acc[: max(1, int(np.searchsorted(t, t[0] + 0.5)))].mean(axis=0)
+    removed, t = samples.copy(), samples[:, 0]
+    up = samples[: max(1, int(np.searchsorted(t, t[0] + 0.5))), 1:4].mean(axis=0)
     up /= np.linalg.norm(up)
-    removed = np.empty_like(acc)
-    for i, dt in enumerate(np.diff(t, prepend=t[0])):
-        up = up - np.cross(gyro[i] * dt, up)
-        norm = float(np.linalg.norm(acc[i]))
+    for row, dt in zip(removed, np.diff(t, prepend=t[0]), strict=True):
+        up = up - np.cross(row[4:] * dt, up)
+        norm = float(np.linalg.norm(row[1:4]))
         if norm > 0.0:
-            up = up + CORRECTION_RATE * dt * (acc[i] / norm - up)
+            up = up + CORRECTION_RATE * dt * (row[1:4] / norm - up)
         up /= np.linalg.norm(up)
-        removed[i] = acc[i] - GRAVITY * up
+        row[1:4] -= GRAVITY * up
     return removed
 
 
@@ -146,85 +111,85 @@ def _rotation(axis: Sequence[float], angle: float) -> Floats:
     return rotation
 
 
-def _with(acc: Change = _same, gyro: Change = _same) -> Make:
-    def make(t: Floats, a: Floats, g: Floats) -> Damaged:
-        return t, acc(a), gyro(g)
+def _linear(acc: Floats = AXES, gyro: Floats = AXES, time: float = 1.0) -> Make:
+    """Return the function that multiplies time, specific force and angular rate by a number and matrices."""
+    matrix = np.diag([time, *[0.0] * 6])
+    matrix[1:4, 1:4], matrix[4:, 4:] = acc, gyro
+    return lambda samples: samples @ matrix.T
 
-    return make
+
+def _held(columns: slice) -> Make:
+    """Return the function that repeats values as of a sensor that measures at half the rate: each one twice."""
+
+    def hold(samples: Floats) -> Floats:
+        held = samples.copy()
+        held[:, columns] = samples[np.arange(len(samples)) // 2 * 2, columns]
+        return held
+
+    return hold
 
 
 def _damages() -> Iterator[Damage]:
-    for axis, name in enumerate("xyz"):
-        mirror = partial(_mirror, axis=axis)
-        yield Damage(f"gyroscope {name} mirrored", Defect.AXES, _with(gyro=mirror))
-        yield Damage(f"accelerometer {name} mirrored", Defect.AXES, _with(acc=mirror))
-    for first, second in ((0, 1), (0, 2), (1, 2)):
-        name, swap = f"{'xyz'[first]} and {'xyz'[second]} exchanged", partial(_swap, first=first, second=second)
-        yield Damage(f"gyroscope {name}", Defect.AXES, _with(gyro=swap))
-        yield Damage(f"accelerometer {name}", Defect.AXES, _with(acc=swap))
-    yield Damage("specific force in g", Defect.ACC_UNIT, lambda t, a, g: (t, a / GRAVITY, g))
-    yield Damage("angular rate in deg/s", Defect.GYRO_UNIT, lambda t, a, g: (t, a, np.degrees(g)))
-    yield Damage("times in ms", Defect.TIME_UNIT, lambda t, a, g: (MS * t, a, g))
-    yield Damage("gravity removed", Defect.NO_GRAVITY, lambda t, a, g: (t, remove_gravity(t, a, g), g))
+    changed = {f"{name} mirrored": AXES - 2.0 * np.outer(axis, axis) for name, axis in zip("xyz", AXES, strict=True)}
+    for a, b in ((0, 1), (0, 2), (1, 2)):
+        order = [b if k == a else a if k == b else k for k in range(3)]
+        changed[f"{'xyz'[a]} and {'xyz'[b]} exchanged"] = AXES[order]
+    for name, matrix in changed.items():
+        yield Damage(f"gyroscope {name}", Defect.AXES, _linear(gyro=matrix))
+        yield Damage(f"accelerometer {name}", Defect.AXES, _linear(acc=matrix))
+    yield Damage("specific force in g", Defect.ACC_UNIT, _linear(acc=AXES / GRAVITY))
+    yield Damage("angular rate in deg/s", Defect.GYRO_UNIT, _linear(gyro=np.degrees(AXES)))
+    yield Damage("times in ms", Defect.TIME_UNIT, _linear(time=MS))
+    yield Damage("gravity removed", Defect.NO_GRAVITY, remove_gravity)
     yield Damage(
         "clipped at 2 g and 250 deg/s",
         Defect.CLIPPED,
-        lambda t, a, g: (t, np.clip(a, -CLIP_ACC, CLIP_ACC), np.clip(g, -CLIP_GYRO, CLIP_GYRO)),
-        lambda a, g: bool(np.abs(a).max() > BEYOND * CLIP_ACC or np.abs(g).max() > BEYOND * CLIP_GYRO),
+        lambda samples: np.clip(samples, -LIMITS, LIMITS),
+        lambda samples: bool((np.abs(samples) > BEYOND * LIMITS).any()),
     )
-    yield Damage("half the rate, both repeated", Defect.REPEATED, _with(acc=_hold, gyro=_hold))
-    yield Damage("half the rate, accelerometer alone", Defect.REPEATED, _with(acc=_hold))
-    yield Damage("half the rate, gyroscope alone", Defect.REPEATED, _with(gyro=_hold))
-    tilt = partial(_turn, rotation=_rotation((1.0, 1.0, 0.0), TILT))
-    yield Damage("accelerometer turned by 10 degrees", Defect.AXES, _with(acc=tilt))
+    yield Damage("half the rate, both repeated", Defect.REPEATED, _held(slice(1, 7)))
+    yield Damage("half the rate, accelerometer alone", Defect.REPEATED, _held(slice(1, 4)))
+    yield Damage("half the rate, gyroscope alone", Defect.REPEATED, _held(slice(4, 7)))
+    tilt = _rotation((1.0, 1.0, 0.0), TILT)
+    yield Damage("accelerometer turned by 10 degrees", Defect.AXES, _linear(acc=tilt))
     random = np.random.default_rng(SEED)
     for number in (1, 2):
-        turn = partial(_turn, rotation=_rotation(random.normal(size=3).tolist(), random.uniform(0.0, np.pi)))
-        yield Damage(f"whole sensor turned, {number}", None, _with(turn, turn))
+        turn = _rotation(random.normal(size=3).tolist(), random.uniform(0.0, np.pi))
+        yield Damage(f"whole sensor turned, {number}", None, _linear(turn, turn))
 
 
-def _columns(piece: WalkingFoot) -> Damaged:
-    """Return the samples of the foot, which are finite."""
-    (table,) = [table for table in load_samples(piece.path).tables if table.foot is piece.foot]
-    acc, gyro = (np.column_stack(table.columns[quantity]) for quantity in ("acc", "gyro"))
-    return np.array(table.t), acc, gyro
+def _rows(samples: Floats) -> list[tuple[float, Vec3, Vec3]]:
+    return [(t, (a, b, c), (x, y, z)) for t, a, b, c, x, y, z in samples.tolist()]
 
 
-def _vectors(values: Floats) -> list[Vec3]:
-    return [(x, y, z) for x, y, z in values.tolist()]
-
-
-def _reported(values: Damaged, foot: Foot) -> list[DefectFound]:
+def _reported(samples: Floats, foot: Foot) -> list[DefectFound]:
     """Return the defects that a session of the default recipe reports while the samples come, not at their end."""
-    t, acc, gyro = values
-    session, events = Session(), list[Event]()
-    site = SITE_OF_FOOT[foot]
-    for time, force, rate in zip(t.tolist(), _vectors(acc), _vectors(gyro), strict=True):
-        events += session.feed(Sample(time, site, force, rate))
+    session, site = Session(), SITE_OF_FOOT[foot]
+    events = [event for row in _rows(samples) for event in session.feed(Sample(row[0], site, row[1], row[2]))]
     return [event for event in events if isinstance(event, DefectFound)]
 
 
 def examine(piece: WalkingFoot) -> DefectOutcome | None:
     """Return what is reported for one foot, whole and with each damage; None when it walks for less than 4 strides."""
-    t, acc, gyro = _columns(piece)
-    rows = zip(t.tolist(), _vectors(acc), _vectors(gyro), strict=True)
-    strides = [(time, stride) for time, stride in StanceFinder().add(rows) if len(stride.intervals) > 1]
+    (table,) = [table for table in load_samples(piece.path).tables if table.foot is piece.foot]
+    samples = np.column_stack([table.t, *table.columns["acc"], *table.columns["gyro"]])
+    strides = [(time, stride) for time, stride in StanceFinder().add(_rows(samples)) if len(stride.intervals) > 1]
     if len(strides) < 4:
         return None
-    whole = tuple(_reported((t, acc, gyro), piece.foot))
+    whole = tuple(_reported(samples, piece.foot))
     start = strides[0][0] - strides[0][1].duration
-    kept = (t >= start - BEFORE) & (t <= start + WALKING)
-    if t[kept][-1] - start < LEAST_WALKING:
+    t = samples[:, 0]
+    samples = samples[(t >= start - BEFORE) & (t <= start + WALKING)]
+    if samples[-1, 0] - start < LEAST_WALKING:
         return DefectOutcome(piece, whole)
-    t, acc, gyro = t[kept], acc[kept], gyro[kept]
     known = KNOWN.get(piece.path.parent.name, set())
     outcomes = []
     for damage in _damages():
-        if damage.defect in known or not damage.changes(acc, gyro):
+        if damage.defect in known or not damage.changes(samples):
             continue
         if damage.defect is None and Defect.CLIPPED in known:
             continue  # once turned, cut peaks no longer end at the range of an axis, which no sensor does
-        found = _reported(damage.make(t, acc, gyro), piece.foot)
+        found = _reported(damage.make(samples), piece.foot)
         names = tuple([event.defect.name for event in found if event.defect not in known])
         unit = MS if damage.defect is Defect.TIME_UNIT else 1.0
         first = next((event.t / unit for event in found if event.defect is damage.defect), None)
@@ -261,29 +226,22 @@ def table(outcomes: Sequence[DefectOutcome]) -> list[str]:
         f"- {outcome.piece.path.parent.name}/{outcome.piece.path.stem}, {outcome.piece.foot}: {event.what}"
         for outcome, event in alarms
     ]
-    lines += ["", "| damage | feet | reported | after, median | what else is reported |", "|---|---|---|---|---|"]
+    rows = []
     for damage in _damages():
-        rows = [row for outcome in outcomes for row in outcome.damaged if row[0] == damage.name]
-        if not rows:
+        found = [row for outcome in outcomes for row in outcome.damaged if row[0] == damage.name]
+        if not found:
             continue
-        hits = [row for row in rows if row[1]]
+        hits = [row for row in found if row[1]]
         delays = [row[2] for row in hits if row[2] is not None]
-        others = Counter(name for row in rows for name in row[3] if damage.defect is None or name != damage.defect.name)
+        wanted = damage.defect and damage.defect.name
+        others = Counter(name for row in found for name in row[3] if name != wanted)
         words = ", ".join(f"{name.lower().replace('_', ' ')} {count}" for name, count in others.most_common())
-        share = 100.0 * len(hits) / len(rows)
-        result = f"silent {share:.1f} %" if damage.defect is None else f"{share:.1f} %"
+        silent = "silent " * (damage.defect is None)
+        share = 100.0 * len(hits) / len(found)
         after = f"{median(delays):.1f} s" if delays else "-"
-        lines.append(f"| {damage.name} | {len(rows)} | {result} | {after} | {words or '-'} |")
-    return lines
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "sensors", "damaged sensors", __doc__ or "")
-    add_folder(command)
-    add_only(command)
-    add_processes(command)
-    command.set_defaults(run=run)
+        rows.append((damage.name, len(found), f"{silent}{share:.1f} %", after, words or "-"))
+    header = ("damage", "feet", "reported", "after, median", "what else is reported")
+    return [*lines, "", *markdown.table(header, rows, left=len(header))]
 
 
 def run(options: Namespace) -> int:

@@ -8,7 +8,7 @@ deviations, which is 68 and 95 % for errors that are normal.
 
 The second is of walks of 250 m along corridors (emulated/heading_walks.py) by wearers whose two sensors were calibrated
 by a clumsy hand the day before. Bias and noise are other ones on the day of the walk: a tenth of the bias of the sheet
-is new (assumed; with `--bias-change 1` all of it). The error at the end is a share of the path.
+is new (assumed). The error at the end is a share of the path.
 
     solepath-lab emulated by-hand --record FILE [--seed S]
 
@@ -19,8 +19,8 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Sequence
 from functools import partial
+from itertools import product
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from attrs import evolve, frozen
@@ -41,7 +41,8 @@ from solepath.recording import PacketWriter
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 
-from ..options import add_command, add_processes, add_seeds
+from .. import markdown
+from ..options import option, seeds
 from ..processes import run_jobs
 from .handling import CLUMSY, STEADY, Clumsiness, Handling
 from .heading import follow, heading_figures
@@ -85,10 +86,10 @@ class HandErrors:
     """Reason of a rejection."""
 
 
-def specimen(chip: Imu, number: int, bias_change: float = BIAS_CHANGE) -> Imu:
+def specimen(chip: Imu, number: int) -> Imu:
     """Return the chip as the specimen of a number, with the sensitivity to force that some sheets give."""
-    acc = evolve(chip.acc, specimen=2 * number, bias_change=bias_change)
-    return Imu(chip.name, acc, evolve(chip.gyro, specimen=2 * number + 1, bias_change=bias_change, g_effect=G_EFFECT))
+    acc = evolve(chip.acc, specimen=2 * number, bias_change=BIAS_CHANGE)
+    return Imu(chip.name, acc, evolve(chip.gyro, specimen=2 * number + 1, bias_change=BIAS_CHANGE, g_effect=G_EFFECT))
 
 
 def true_corrections(imu: Imu) -> tuple[Floats, Floats]:
@@ -136,27 +137,23 @@ def hand_errors(job: HandJob) -> HandErrors:
 
 def hand_table(results: Sequence[HandErrors]) -> list[str]:
     """Return the lines of the first table."""
-    lines = [
-        "| chip | hand | sensors | rejected | gyroscope scale, %: median, 95 %, largest | axes, degrees | "
-        "accelerometer scale, % | axes, degrees | within 1 and 2 sigma: gyroscope | accelerometer |",
-        "|---|---|---|---|---|---|---|---|---|---|",
-    ]
-    apart = ~np.eye(3, dtype=np.bool_)
-    for chip in CHIPS:
-        for hand in HANDS:
-            every = [one for one in results if (one.job.chip, one.job.hand) == (chip, hand)]
-            good = [one for one in every if one.gyro is not None]
-            if not good:
-                continue
-            gyro, acc = np.array([one.gyro for one in good]), np.array([one.acc for one in good])
-            gyro_share = np.abs(gyro / np.array([one.gyro_sigma for one in good]))
-            acc_share = np.abs(acc / np.array([one.acc_sigma for one in good]))
-            cells = [
-                _spread(100.0 * gyro[:, ~apart]), _spread(np.degrees(gyro[:, apart])), _spread(100.0 * acc[:, :3]),
-                _spread(np.degrees(acc[:, 3:])), _within(gyro_share), _within(acc_share),
-            ]  # fmt: skip
-            lines.append(f"| {chip} | {hand} | {len(every)} | {len(every) - len(good)} | {' | '.join(cells)} |")
-    return lines
+    header = (
+        "chip", "hand", "sensors", "rejected", "gyroscope scale, %: median, 95 %, largest", "axes, degrees",
+        "accelerometer scale, %", "axes, degrees", "within 1 and 2 sigma: gyroscope", "accelerometer",
+    )  # fmt: skip
+    rows, apart = [], ~np.eye(3, dtype=np.bool_)
+    for chip, hand in product(CHIPS, HANDS):
+        every = [one for one in results if (one.job.chip, one.job.hand) == (chip, hand)]
+        good = [one for one in every if one.gyro is not None]
+        if not good:
+            continue
+        gyro, acc, gyro_sigma, acc_sigma = (
+            np.array([getattr(one, name) for one in good]) for name in ("gyro", "acc", "gyro_sigma", "acc_sigma")
+        )
+        values = (100.0 * gyro[:, ~apart], np.degrees(gyro[:, apart]), 100.0 * acc[:, :3], np.degrees(acc[:, 3:]))
+        within = [_within(np.abs(gyro / gyro_sigma)), _within(np.abs(acc / acc_sigma))]
+        rows.append((chip, hand, len(every), len(every) - len(good), *map(_spread, values), *within))
+    return markdown.table(header, rows, left=len(header))
 
 
 def _spread(values: Floats) -> str:
@@ -186,15 +183,15 @@ class WalkErrors:
     heading: tuple[float, float]
 
 
-def walk_errors(job: WalkJob, bias_change: float = BIAS_CHANGE, least: float = LENGTH) -> WalkErrors:
-    """Return the errors of one walk of a length of at least `least` m."""
-    imus = {foot: specimen(CHIPS[job.chip], 2 * job.seed + k, bias_change) for k, foot in enumerate(Foot)}
+def walk_errors(job: WalkJob) -> WalkErrors:
+    """Return the errors of one walk."""
+    imus = {foot: specimen(CHIPS[job.chip], 2 * job.seed + k) for k, foot in enumerate(Foot)}
     sensors = {
         foot: sensor_calibration(fit_sensors(handled(imu, CLUMSY, OTHER_DAY + 2 * job.seed + k, foot))).sensors[foot]
         for k, (foot, imu) in enumerate(imus.items())
     }
     insoles = {SITE_OF_FOOT[foot]: Insole(cells=24, chip=imu) for foot, imu in imus.items()}
-    route = heading_route(KIND, job.seed, lambda length, seconds: length >= least)
+    route = heading_route(KIND, job.seed, lambda length, seconds: length >= LENGTH)
     walk = sampled(route, wearer=wearer_of(job.seed), insoles=insoles, seed=job.seed)
     figures = [
         heading_figures(follow(Session(recipes.by_name(job.recipe), calibration=calibration), walk), walk.truth)
@@ -207,39 +204,30 @@ def walk_errors(job: WalkJob, bias_change: float = BIAS_CHANGE, least: float = L
 
 def walk_table(results: Sequence[WalkErrors]) -> list[str]:
     """Return the lines of the second table."""
-    lines = [
-        "| chip | recipe | walks | error at the end, % of the path: median, largest | with it | heading at the end, "
-        "degrees | with it | better in |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
+    header = (
+        "chip", "recipe", "walks", "error at the end, % of the path: median, largest", "with it",
+        "heading at the end, degrees", "with it", "better in",
+    )  # fmt: skip
+    table = []
     for chip, recipe in dict.fromkeys((one.job.chip, one.job.recipe) for one in results):
         rows = [one for one in results if (one.job.chip, one.job.recipe) == (chip, recipe)]
         end, heading = np.array([one.end for one in rows]), np.array([one.heading for one in rows])
-        cells = [_both(100.0 * end[:, 0]), _both(100.0 * end[:, 1])]
-        cells += [_both(np.degrees(heading[:, 0])), _both(np.degrees(heading[:, 1]))]
+        spreads = map(_both, [*(100.0 * end.T), *np.degrees(heading.T)])
         better = int((end[:, 1] < end[:, 0]).sum())
-        lines.append(f"| {chip} | `{recipe}` | {len(rows)} | {' | '.join(cells)} | {better} of {len(rows)} |")
-    return lines
+        table.append((chip, f"`{recipe}`", len(rows), *spreads, f"{better} of {len(rows)}"))
+    return markdown.table(header, table, left=len(header))
 
 
 def _both(values: Floats) -> str:
     return f"{float(np.median(values)):.2f}, {float(values.max()):.2f}"
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "by-hand", "worth of a calibration by hand", __doc__ or "")
-    command.add_argument("--sensors", metavar="N", type=int, default=SENSORS, help="of each kind in each hand; or 0")
-    add_seeds(command, WALKS, FIRST_SEED, may_be_none=True)
-    add_recipe_name(command, action="append", default=[], help="may be given again")
-    command.add_argument(
-        "--chip", metavar="NAME", action="append", default=[], choices=list(CHIPS), help="of the walks"
-    )
-    command.add_argument("--length", metavar="M", type=float, default=LENGTH, help="of each walk, m")
-    command.add_argument("--bias-change", metavar="X", type=float, default=BIAS_CHANGE, help="share that is new")
-    add_processes(command)
-    command.add_argument("--record", metavar="FILE", type=Path, help="record a sensor in a hand instead")
-    command.set_defaults(run=run)
+OPTIONS = (
+    option("--sensors", metavar="N", type=int, default=SENSORS, help="of each kind in each hand; or 0"),
+    seeds(WALKS, FIRST_SEED, may_be_none=True),
+    partial(add_recipe_name, action="append", default=[], help="may be given again"),
+    option("--record", metavar="FILE", type=Path, help="record a sensor in a hand instead"),
+)
 
 
 def run(options: Namespace) -> int:
@@ -247,9 +235,8 @@ def run(options: Namespace) -> int:
     if options.record is not None:
         record_hand(options.record, options.seed)
         return 0
-    hands = [
-        HandJob(chip, hand, options.seed + k) for chip in CHIPS for hand in HANDS for k in range(options.sensors)
-    ]  # fmt: skip
+    numbers = range(options.seed, options.seed + options.sensors)
+    hands = [HandJob(chip, hand, seed) for chip in CHIPS for hand in HANDS for seed in numbers]
     results = list(run_jobs(hand_errors, hands, processes=options.processes))
     if results:
         print("\n".join(hand_table(results)))
@@ -258,12 +245,11 @@ def run(options: Namespace) -> int:
             print(f"rejected: {one.job.chip}, {one.job.hand}, seed {one.job.seed}: {one.why}")
     walks = [
         WalkJob(chip, recipe, options.seed + k)
-        for chip in options.chip or [LSM6DSOX.name, MPU9250.name]
+        for chip in (LSM6DSOX.name, MPU9250.name)
         for recipe in options.recipe or [recipes.DEFAULT.name]
         for k in range(options.walks)
     ]
-    work = partial(walk_errors, bias_change=options.bias_change, least=options.length)
-    walked = list(run_jobs(work, walks, processes=options.processes))
+    walked = list(run_jobs(walk_errors, walks, processes=options.processes))
     if walked:
         print("\n".join([*[""] * bool(results), *walk_table(walked)]))
     return 0

@@ -1,6 +1,6 @@
 """Activities and place of emulated walks with pieces of evidence taken away: what each kind of evidence earns.
 
-    solepath-lab emulated evidence [--walks N] [--seed S] [--only ROW] [--processes P] [--json FILE]
+    solepath-lab emulated evidence [--walks N] [--seed S] [--only ROW] [--processes P]
 
 prints the tables of docs/activities.md as Markdown. For each seed a wearer walks a route of stairs, elevators and
 corridors (train/emulated.py), which gives the activities, and another one through the emulated building (ways.py),
@@ -9,13 +9,13 @@ heading, the floor plan."""
 
 from __future__ import annotations
 
-import json
 from argparse import Namespace
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 import numpy as np
-from attrs import asdict, evolve, field, frozen
+from attrs import evolve, field, frozen
 
 from solepath import recipes
 from solepath.emulate.routes.building import BUILDING
@@ -34,14 +34,12 @@ from solepath.types import SITE_OF_FOOT, Activity, Foot, Packet, Sample, Site
 from solepath.validate.place import score
 from solepath.walk.walk import Walk
 
+from .. import markdown
 from ..evaluate.activity import score_rides, score_windows
 from ..measures.confusion import ActivityScore
-from ..options import add_command, add_json, add_only, add_processes, add_seeds
 from ..processes import run_jobs
 from ..train.emulated import RATE, draw_route
 
-FIRST_SEED, WALKS = 5001, 12
-"""First seed, none of those for training, and number of walks."""
 HEADING_ERROR = 0.1
 """Standard deviation of the first heading that is given, rad: 6 degrees, as a phone's compass may have."""
 CELLS = 24
@@ -49,8 +47,6 @@ CELLS = 24
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
 
 Item = Packet | Sample
-Removal = Callable[[Item], Item | None]
-"""Function that returns what remains of a packet or sample, None for nothing."""
 
 
 @frozen
@@ -58,12 +54,25 @@ class Evidence:
     """A row of the tables: what is taken away."""
 
     name: str
-    remove: Removal | None = None
-    """None when packets and samples stay as they are."""
+    quantity: str = ""
+    """Field of samples that is not known."""
+    channel: str = ""
+    """Channel of packets that are left out."""
+    site: Site | None = None
+    """The only site whose packets and samples are left; None leaves all."""
     heading: bool = True
     """Flag: the session has the first heading of the walk through the building."""
     plan: bool = True
     """Flag: the session has the floor plan; without it, the height of the track decides on which level it ends."""
+
+    def remove(self, item: Item) -> Item | None:
+        """Return what remains of a packet or sample, None for nothing."""
+        if self.site not in (None, item.site):
+            return None
+        if isinstance(item, Packet):
+            return None if item.channel == self.channel else item
+        missing: dict[str, Any] = {self.quantity: None} if self.quantity else {}
+        return evolve(item, **missing)
 
 
 @frozen
@@ -91,8 +100,6 @@ class WalkOutcome:
     """Number of walks that never lose the true candidate after the first place."""
     off: tuple[float, ...] = field(default=(), repr=False)
     """Errors of the place after each scored stride (place.py), m."""
-    nearest: tuple[float, ...] = field(default=(), repr=False)
-    """The same errors of the candidate nearest to the truth, m."""
 
     def __add__(self, other: WalkOutcome) -> WalkOutcome:
         return WalkOutcome(
@@ -101,33 +108,13 @@ class WalkOutcome:
             self.levels_right + other.levels_right,
             self.kept + other.kept,
             self.off + other.off,
-            self.nearest + other.nearest,
         )
 
 
-def _no_gyroscope(item: Item) -> Item | None:
-    if isinstance(item, Sample):
-        return evolve(item, gyro=None)
-    return None if item.channel == "cc2541/gyroscope" else item
-
-
-def _no_air_pressure(item: Item) -> Item | None:
-    if isinstance(item, Sample):
-        return evolve(item, air_pressure=None)
-    return None if item.channel == "cc2541/barometer" else item
-
-
-def _no_cells(item: Item) -> Item | None:
-    return evolve(item, pressure=None) if isinstance(item, Sample) else item
-
-
-def _left_foot(item: Item) -> Item | None:
-    return item if item.site is Site.LEFT_FOOT else None
-
-
-EVERYTHING, NO_GYROSCOPE = Evidence("everything"), Evidence("no gyroscope", _no_gyroscope)
-ONE_FOOT, NO_AIR_PRESSURE = Evidence("one foot", _left_foot), Evidence("no air pressure", _no_air_pressure)
-NO_CELLS = Evidence("no pressure cells", _no_cells)
+EVERYTHING, NO_GYROSCOPE = Evidence("everything"), Evidence("no gyroscope", "gyro", "cc2541/gyroscope")
+ONE_FOOT = Evidence("one foot", site=Site.LEFT_FOOT)
+NO_AIR_PRESSURE = Evidence("no air pressure", "air_pressure", "cc2541/barometer")
+NO_CELLS = Evidence("no pressure cells", "pressure")
 NO_HEADING = Evidence("no first heading", heading=False)
 NO_PLAN = Evidence("no floor plan: levels by heights alone", plan=False)
 
@@ -155,8 +142,6 @@ _ELEVATIONS = {level.id: level.elevation for level in BUILDING.levels}
 
 def _items(walk: EmulatedWalk | SampledWalk, evidence: Evidence) -> Iterable[Item]:
     items: Iterable[Item] = walk.packets if isinstance(walk, EmulatedWalk) else walk.samples
-    if evidence.remove is None:
-        return items
     return [left for left in map(evidence.remove, items) if left is not None]
 
 
@@ -188,7 +173,6 @@ def _score_place(
         levels_right=int(place is not None and place.level == true_level),
         kept=int(scored.strides > 0 and scored.dropped == 0),
         off=scored.off,
-        nearest=scored.nearest,
     )
 
 
@@ -215,74 +199,36 @@ COLUMNS = (
 """Titles of the columns after the first one."""
 
 
-def line(name: str, outcome: WalkOutcome, walks: int, placed: bool = True) -> str:
-    """Return a row of a table as Markdown; `placed` is False without a floor plan."""
-    activity = outcome.activity
-    cells = ["", "", "", ""]
+def cells(name: str, outcome: WalkOutcome, walks: int, placed: bool = True) -> list[str]:
+    """Return the cells of a row; `placed` is False without a floor plan."""
+    activity, found = outcome.activity, [""] * 4
     if activity.samples:
         down = activity.reported_for(Activity.STAIRS_DOWN)
-        cells = [
+        found = [
             f"{100.0 * (activity.accuracy or 0.0):.1f} %",
             f"{down.get(Activity.STAIRS_DOWN, 0)} of {sum(down.values())}",
             f"{activity.rides_found} of {activity.rides_true}, {activity.rides_invented}",
             f"{outcome.flights_right} of {walks}",
         ]
-    cells.append(f"{outcome.levels_right} of {walks}")
     distances = f"{np.mean(outcome.off):.2f}, {np.quantile(outcome.off, 0.95):.2f} m" if outcome.off else "none"
-    cells += [distances, f"{outcome.kept} of {walks}"] if placed else ["", ""]
-    return f"| {name} | {' | '.join(cells)} |"
+    place = [distances, f"{outcome.kept} of {walks}"] if placed else ["", ""]
+    return [name, *found, f"{outcome.levels_right} of {walks}", *place]
 
 
 def table(sensors: Sensors, outcomes: dict[str, WalkOutcome], walks: int) -> list[str]:
     """Return the lines of one table as Markdown."""
-    lines = [f"| {sensors.title} | {' | '.join(COLUMNS)} |", "|---|" + "---:|" * len(COLUMNS)]
-    return lines + [line(row.name, outcomes[row.name], walks, row.plan) for row in sensors.rows]
-
-
-def _score_job(job: tuple[Sensors, int]) -> dict[str, WalkOutcome]:
-    return score_seed(*job)
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "evidence", "activities and place with evidence taken away", __doc__ or "")
-    add_seeds(command, WALKS, FIRST_SEED)
-    add_only(command, "row, such as 'everything'")
-    add_processes(command)
-    add_json(command)
-    command.set_defaults(run=run)
+    rows = [cells(row.name, outcomes[row.name], walks, row.plan) for row in sensors.rows]
+    return markdown.table([sensors.title, *COLUMNS], rows)
 
 
 def run(options: Namespace) -> int:
     """Print the tables; return the exit status."""
-    figures: dict[str, dict[str, object]] = {}
-    for number, every_row in enumerate(TABLES):
-        rows = tuple([row for row in every_row.rows if not options.only or row.name in options.only])
-        sensors, total = evolve(every_row, rows=rows), {row.name: WalkOutcome() for row in rows}
+    for number, whole in enumerate(TABLES):
+        rows = tuple([row for row in whole.rows if not options.only or row.name in options.only])
+        sensors = evolve(whole, rows=rows)
+        total = {row.name: WalkOutcome() for row in sensors.rows}
         seeds = range(options.seed, options.seed + options.walks)
-        jobs = [(sensors, seed) for seed in seeds]
-        for outcomes in run_jobs(_score_job, jobs, processes=options.processes):
+        for outcomes in run_jobs(partial(score_seed, sensors), seeds, processes=options.processes):
             total = {name: total[name] + outcome for name, outcome in outcomes.items()}
-        lines = table(sensors, total, options.walks)
-        print("\n".join(([""] if number else []) + lines), flush=True)
-        figures[sensors.title] = {name: _figures(outcome) for name, outcome in total.items()}
-    if options.json is not None:
-        options.json.write_text(json.dumps({"walks": options.walks, "seed": options.seed, "tables": figures}, indent=1))
+        print("\n".join([*[""] * bool(number), *table(sensors, total, options.walks)]), flush=True)
     return 0
-
-
-def _figures(outcome: WalkOutcome) -> dict[str, object]:
-    """Return the figures of a row for JSON."""
-    counts = asdict(
-        outcome, recurse=False, filter=lambda attribute, _: attribute.name not in ("activity", "off", "nearest")
-    )
-    down = outcome.activity.reported_for(Activity.STAIRS_DOWN)
-    return {
-        **(outcome.activity.figures if outcome.activity.samples else {}),
-        "stairs_down": sum(down.values()),
-        "stairs_down_right": down.get(Activity.STAIRS_DOWN, 0),
-        **counts,
-        "place_mean": float(np.mean(outcome.off)) if outcome.off else None,
-        "nearest_candidate_mean": float(np.mean(outcome.nearest)) if outcome.nearest else None,
-        "place_95": float(np.quantile(outcome.off, 0.95)) if outcome.off else None,
-    }

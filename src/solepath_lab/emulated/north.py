@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from math import cos, fsum, hypot, pi, radians, sin
-from typing import Any
 
 import numpy as np
 from attrs import evolve
@@ -30,11 +30,10 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import NEAR_DISTANCE, PlaceScore, score
 
-from ..options import add_command, add_seeds
+from .. import markdown
+from ..options import option
 from .buildings import HALF_TURN
 
-FIRST_SEED, WALKS = 7001, 24
-"""First seed and number of walks."""
 DECLINATION = radians(4.0)
 """Angle from true to magnetic north, clockwise, rad: that of Central Europe (WMM2025)."""
 DISTURBANCE = 20.0
@@ -72,8 +71,8 @@ def score_north(way: BuildingWalk, walk: SampledWalk, bearing: float | None, rec
     return score(way, walk.walker, walk.truth, events), contradicted
 
 
-def row(name: str, scores: Sequence[tuple[PlaceScore, bool]]) -> str:
-    """Return a row of the table."""
+def cells(name: str, scores: Sequence[tuple[PlaceScore, bool]]) -> list[str]:
+    """Return the cells of a row of the table."""
     walks = len(scores)
     off = [distance for one, _ in scores for distance in one.off]
     kept = sum([one.strides > 0 and not one.dropped for one, _ in scores])
@@ -81,18 +80,14 @@ def row(name: str, scores: Sequence[tuple[PlaceScore, bool]]) -> str:
     near = sum([distance < NEAR_DISTANCE for distance in off]) / max(len(off), 1)
     contradicted = sum([contradicted for _, contradicted in scores])
     quantile = float(np.quantile(off, 0.95)) if off else 0.0
-    cells = (f"{kept} of {walks}", f"{right} of {walks}", f"{100.0 * near:.0f} %",
-             f"{fsum(off) / max(len(off), 1):.2f} m", f"{quantile:.2f} m", str(contradicted))  # fmt: skip
-    return f"| {name} | {' | '.join(cells)} |"
+    return [name, f"{kept} of {walks}", f"{right} of {walks}", f"{100.0 * near:.0f} %",
+            f"{fsum(off) / max(len(off), 1):.2f} m", f"{quantile:.2f} m", str(contradicted)]  # fmt: skip
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "north", "worth of a compass on a plan that knows its north", __doc__ or "")
-    add_seeds(command, WALKS, FIRST_SEED)
-    command.add_argument("--disturbance", metavar="DEGREES", type=float, default=DISTURBANCE, help="of the field")
-    add_recipe_name(command, default="default", help="recipe of the sessions")
-    command.set_defaults(run=run)
+OPTIONS = (
+    option("--disturbance", metavar="DEGREES", type=float, default=DISTURBANCE, help="of the field"),
+    partial(add_recipe_name, default="default", help="recipe of the sessions"),
+)
 
 
 def run(options: Namespace) -> int:
@@ -103,8 +98,6 @@ def run(options: Namespace) -> int:
         walk = walk_with_compass(way, radians(options.disturbance), seed)
         for name, bearing in BEARINGS.items():
             scores[name].append(score_north(way, walk, bearing, options.recipe))
-    print("| plan | true place kept | right at the end | strides within 3 m | mean error | 95 % | contradicted |")
-    print("|---|---:|---:|---:|---:|---:|---:|")
-    for name, found in scores.items():
-        print(row(name, found))
+    header = ("plan", "true place kept", "right at the end", "strides within 3 m", "mean error", "95 %", "contradicted")
+    print("\n".join(markdown.table(header, [cells(name, found) for name, found in scores.items()])))
     return 0

@@ -1,18 +1,16 @@
 """Weights of candidates against how often such a candidate is the true one, in the emulated building.
 
-    solepath-lab emulated reliability [--walks N] [--seed S] [--apart] [--json FILE]
+    solepath-lab emulated reliability [--walks N] [--seed S]
 
 prints the table of docs/accuracy.md as Markdown. Every candidate of every scored stride (place.py) of walks without a
 known start is counted in the bin of its weight. Candidates near a heavier one on its level are one place with it, and
-their weights are added, unless each is counted `--apart`. Weights are calibrated when the share of true places in a bin
+their weights are added. Weights are calibrated when the share of true places in a bin
 is their mean weight. Strides of one walk are far from independent: the number of walks says how much a bin shows."""
 
 from __future__ import annotations
 
-import json
 from argparse import Namespace
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
 
 import numpy as np
 from attrs import define, field
@@ -31,10 +29,8 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import is_near, is_on_floor
 
-from ..options import add_command, add_json, add_seeds
+from .. import markdown
 
-FIRST_SEED, WALKS = 5001, 25
-"""First seed and number of walks."""
 BINS = 10
 """Number of bins of equal width; a place that is the only one has a bin of its own after them."""
 DEVICES: dict[str, Device] = {"default": Insole(cells=8), "footstep-tracker": CC2541(rate=20.0, mounting=IN_SOLE)}
@@ -55,14 +51,11 @@ class WeightBin:
     """Seeds of the walks that have one of them."""
 
     @property
-    def mean_weight(self) -> float | None:
-        """Mean weight; None without places."""
-        return self.weight_sum / self.count if self.count else None
-
-    @property
-    def share_true(self) -> float | None:
-        """Share that was true; None without places."""
-        return self.true / self.count if self.count else None
+    def text(self) -> str:
+        """Mean weight, share that was true, and numbers of places and walks; empty without places."""
+        if not self.count:
+            return ""
+        return f"{self.weight_sum / self.count:.3f}: {self.true / self.count:.3f} ({self.count} in {len(self.seeds)})"
 
 
 def join(candidates: Sequence[Candidate]) -> list[list[Candidate]]:
@@ -78,7 +71,7 @@ def join(candidates: Sequence[Candidate]) -> list[list[Candidate]]:
     return groups
 
 
-def scored_places(recipe: str, seed: int, apart: bool) -> Iterator[tuple[float, bool, bool]]:
+def scored_places(recipe: str, seed: int) -> Iterator[tuple[float, bool, bool]]:
     """Yield the weight of each scored place, whether it is the only one, and whether it is the true one."""
     way = wandering(seed)
     walk = emulate(way.route, devices={SITE_OF_FOOT[foot]: DEVICES[recipe] for foot in Foot}, seed=seed)
@@ -87,7 +80,7 @@ def scored_places(recipe: str, seed: int, apart: bool) -> Iterator[tuple[float, 
     places = way.places(walk.walker, np.array([one.t for one in placed])) if placed else []
     for one, place in zip(placed, places, strict=True):
         if is_on_floor(walk.truth, one.t):
-            groups = [[candidate] for candidate in one.candidates] if apart else join(one.candidates)
+            groups = join(one.candidates)
             for group in groups:
                 weight = sum([candidate.weight for candidate in group])
                 yield weight, len(groups) == 1, any([is_near(candidate, *place) for candidate in group])
@@ -106,43 +99,16 @@ def count(walks: Iterable[tuple[int, Iterable[tuple[float, bool, bool]]]]) -> li
 
 def table(results: dict[str, list[WeightBin]]) -> list[str]:
     """Return the table as Markdown: for each recipe mean weight, share true, and numbers of places and walks."""
-    lines = ["| weight | " + " | ".join(TITLES[recipe] for recipe in results) + " |", "|---|" + "---:|" * len(results)]
-    for k in range(BINS + 1):
+    rows = []
+    for k, bins in enumerate(zip(*results.values(), strict=True)):
         name = "the only one" if k == BINS else f"{k / BINS:.1f} to {(k + 1) / BINS:.1f}"
-        cells = []
-        for bins in results.values():
-            weight, share = bins[k].mean_weight, bins[k].share_true
-            if weight is None or share is None:
-                cells.append("")
-            else:
-                cells.append(f"{weight:.3f}: {share:.3f} ({bins[k].count} in {len(bins[k].seeds)})")
-        lines.append(f"| {name} | {' | '.join(cells)} |")
-    return lines
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "reliability", "weights of candidates and how often they are true", __doc__ or "")
-    add_seeds(command, WALKS, FIRST_SEED)
-    command.add_argument("--apart", action="store_true", help="count each candidate by itself")
-    add_json(command)
-    command.set_defaults(run=run)
+        rows.append([name, *(one.text for one in bins)])
+    return markdown.table(["weight", *(TITLES[recipe] for recipe in results)], rows)
 
 
 def run(options: Namespace) -> int:
     """Print the table; return the exit status."""
     seeds = range(options.seed, options.seed + options.walks)
-    results = {
-        recipe: count([(seed, scored_places(recipe, seed, options.apart)) for seed in seeds]) for recipe in DEVICES
-    }
+    results = {recipe: count([(seed, scored_places(recipe, seed)) for seed in seeds]) for recipe in DEVICES}
     print("\n".join(table(results)))
-    if options.json is not None:
-        figures = {
-            recipe: [
-                {"count": one.count, "true": one.true, "mean_weight": one.mean_weight, "walks": len(one.seeds)}
-                for one in bins
-            ]
-            for recipe, bins in results.items()
-        }
-        options.json.write_text(json.dumps({"walks": options.walks, "seed": options.seed, "bins": figures}, indent=1))
     return 0

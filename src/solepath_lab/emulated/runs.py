@@ -12,7 +12,6 @@ from argparse import Namespace
 from collections.abc import Sequence
 from math import degrees, fsum, sqrt
 from operator import attrgetter
-from typing import Any
 
 import numpy as np
 from attrs import evolve, frozen
@@ -27,11 +26,9 @@ from solepath.show.report.running import Running, running_cycle
 from solepath.types import OTHER, Foot
 from solepath.types.vector import GRAVITY
 
-from ..options import add_command, add_seeds
+from .. import markdown
 from .heading_walks import insoles_of, wearer_of
 
-FIRST_SEED, RUNS = 1, 12
-"""First seed and number of runs."""
 SLOWEST, FASTEST = 2.2, 3.8
 """Least and largest speed of a run, m/s."""
 DISTANCE = 60.0
@@ -135,33 +132,28 @@ def errors_of(scores: Sequence[RunScore], name: str) -> tuple[list[float], list[
     return errors, values
 
 
-def row(sensors: str, scores: Sequence[RunScore], label: str, name: str, unit: str, factor: float, digits: int) -> str:
-    """Return a row of the table."""
+def cells(
+    sensors: str, scores: Sequence[RunScore], label: str, name: str, unit: str, factor: float, digits: int
+) -> list[str]:
+    """Return the cells of a row of the table."""
     errors, values = errors_of(scores, name)
-    cycles = sum([len(score.measured) for score in scores])  # whole numbers
-    if not errors:
-        return f"| {sensors} | {label}, {unit} | 0 of {cycles} | - | - | - |"
-    bias = fsum(errors) / len(errors)
-    spread = sqrt(fsum([(error - bias) ** 2 for error in errors]) / len(errors))
-    figures = [f"{factor * one:.{digits}f}" for one in (fsum(values) / len(values), bias, spread)]
-    return f"| {sensors} | {label}, {unit} | {len(errors)} of {cycles} | {' | '.join(figures)} |"
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "runs", "measures of runners against the truth", __doc__ or "")
-    add_seeds(command, RUNS, FIRST_SEED, "runs")
-    command.set_defaults(run=run)
+    figures = ["-"] * 3
+    if errors:
+        bias = fsum(errors) / len(errors)
+        spread = sqrt(fsum([(error - bias) ** 2 for error in errors]) / len(errors))
+        figures = [f"{factor * one:.{digits}f}" for one in (fsum(values) / len(values), bias, spread)]
+    cycles = sum([len(score.measured) for score in scores])
+    return [sensors, f"{label}, {unit}", f"{len(errors)} of {cycles}", *figures]
 
 
 def run(options: Namespace) -> int:
     """Print the table; return the exit status."""
     speeds = np.linspace(SLOWEST, FASTEST, options.runs).tolist()
     walkers = [run_of(options.seed + number, speed) for number, speed in enumerate(speeds)]
-    print("| sensors | measure | cycles | true mean | mean error | SD of the errors |")
-    print("|---|---|---:|---:|---:|---:|")
+    rows = []
     for sensors, with_cells in (("insoles", True), ("inertial only", False)):
         scores = [score_run(walker, with_cells) for walker in walkers]
-        for one in ROWS:
-            print(row(sensors, scores, *one))
+        rows += [cells(sensors, scores, *one) for one in ROWS]
+    header = ("sensors", "measure", "cycles", "true mean", "mean error", "SD of the errors")
+    print("\n".join(markdown.table(header, rows, left=2)))
     return 0

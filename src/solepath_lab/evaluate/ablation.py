@@ -1,7 +1,7 @@
 """Ablation: the main figures of the default recipe without each of its parts.
 
 Each row of the table is the default recipe with one part switched off by its settings, or replaced by the simpler part
-that came before it. COLUMNS lists the main figures."""
+that came before it. main_figures.csv lists the main figures."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from solepath.foot.settings import CycleSettings, ErrorStateSettings
 from solepath.foot.stance.cycle import Cycle
 from solepath.recipes import DEFAULT, Recipe
 
+from ..descriptions import read_rows
 from .report import Result
 
 UNREACHABLE_LIMIT = 1e12
@@ -67,11 +68,11 @@ class Column:
     data_set: str
     figure: str
     """Name of the figure in JSON."""
-    unit: str = "m"
+    unit: str
     """Unit in which the table shows the figure: m, %, ms, or empty for F1."""
-    pooled: bool = False
-    """True for a figure over the pooled events of all recordings, False for the mean of the recordings' figures."""
-    group: str = "all"
+    pooled: str
+    """"pooled" for a figure over the events of all recordings; empty for the mean of the recordings' figures."""
+    group: str
 
     def find_figure(self, results: Sequence[Result], recipe: str) -> float | None:
         """Return the figure of one recipe in SI units; None when the recipe was not scored."""
@@ -83,24 +84,11 @@ class Column:
         return None
 
 
-COLUMNS = (
-    Column("pyshoe ARMSE2d", "pyshoe_vicon", "armse_2d"),
-    Column("bipedal", "pyshoe_vicon", "armse_2d", group="bipedal"),
-    Column("RMS 3D", "pyshoe_vicon", "rms_3d"),
-    Column("gumushane position", "gumushane_surveyed", "position_mean"),
-    Column("strides", "gumushane_surveyed", "stride_error", "%", pooled=True),
-    Column("corner legs", "gumushane_counted", "leg_error_median", "%", pooled=True),
-    Column("height at end", "gumushane_counted", "end_height"),
-    Column("xio end", "xio_closed_walks", "end_error"),
-    Column("openshoe end", "openshoe_loops", "end_error"),
-    Column("insole strides", "smart_insole_35", "stride_error", "%", pooled=True),
-    Column("ipol legs", "ipol_10m_uturn", "leg_error_median", "%", pooled=True),
-    Column("HS F1", "ipol_10m_uturn", "heel_strike_f1", "", pooled=True),
-    Column("TO F1", "ipol_10m_uturn", "toe_off_f1", "", pooled=True),
-    Column("gaitmap HS", "gaitmap_examples", "heel_strike_bias", "ms", pooled=True),
-    Column("tripod stride time", "tripod_treadmill", "stride_time_error_median", "ms", pooled=True),
-    Column("500 m", "emulated_any_angles_500m", "end_relative", "%"),
-    Column("30 min", "emulated_any_angles_30min", "end_relative", "%"),
-    Column("four floors", "emulated_four_floors", "height_max"),
-)
-"""The main figures, in the order of the table."""
+def _columns(table: str) -> tuple[Column, ...]:
+    """Return the columns of a table: "ablation" or "sensitivity"."""
+    rows = [row for row in read_rows(__file__, "main_figures.csv") if table in row.pop("tables").split()]
+    return tuple([Column(**row) for row in rows])
+
+
+COLUMNS, SENSITIVITY_COLUMNS = _columns("ablation"), _columns("sensitivity")
+"""The main figures, in the order of the tables."""

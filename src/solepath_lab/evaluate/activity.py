@@ -14,9 +14,10 @@ from solepath.events import ActivityChanged, LiftRidden
 from solepath.types import Activity
 from solepath.walk.timeline import Timeline
 
+from ..descriptions import KNOWN
 from ..measures.confusion import DELAYS, ActivityScore
 from ..measures.score import Figures, Scored
-from ..train.hugadb import FOLDS, Span, fold_of, labels, spans
+from ..train.hugadb import FOLDS, Span, fold_of, known_spans, labels, spans
 from .run import Meta, RunSettings, run, scored
 
 ELEVATOR_IS_UP = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
@@ -106,20 +107,8 @@ def score_labelled(path: Path, meta: Meta, settings: RunSettings, corrected: boo
     return scored(path, result, activity=score, groups=("all", f"of wearers {wearers}"))
 
 
-UP, LEVEL = Activity.STAIRS_UP, Activity.WALKING
-STAIR_SPANS: dict[str, tuple[Span, ...]] = {
-    "stair_up": ((6.4, 12.7, UP), (15.2, 20.6, UP)),
-    "spiralStairs": ((7.0, 36.6, UP), (38.0, 44.0, LEVEL)),
-    "walk_4x10m_ic": ((4.6, 37.0, LEVEL),),
-    "straightLine": ((8.5, 24.0, LEVEL),),
-    "long_walk": ((12.5, 55.0, LEVEL),),
-}
-"""Spans of time, s, in which the wearer was certainly on stairs or certainly walking on the level, by recording.
-
-Nobody labelled these recordings. The description of the data names the activity of each. In recordings with stairs and
-level ways the strides show where stairs start and end. A stride over two risers is 0.3 m high and 0.65 m long, a stride
-over one riser of the spiral stairs 0.2 m high and 0.3 m long. Level strides are longer and do not rise. The first and
-last stride of a flight, with one foot on the level, are left out."""
+STAIR_SPANS = known_spans(KNOWN["stairs"])
+"""Spans in which the wearer was certainly on stairs or certainly walking on the level, by recording."""
 
 
 def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:

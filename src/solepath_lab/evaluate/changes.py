@@ -1,121 +1,51 @@
 """Compares the figures of an evaluation with those in the JSON file of an earlier one.
 
-The better direction depends on the figure. Errors, spreads and numbers of invented events should be small. Biases
-should be near zero. F1 and shares found should be large. Numbers of true events, path lengths and other people's
-results have no better direction. Two figures that agree in DIGITS significant digits are the same."""
+tables/columns.csv has the better direction of each figure. Two figures that agree in DIGITS significant digits are
+the same."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
-from enum import Enum
+from collections import Counter
+from collections.abc import Container, Iterable, Mapping
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from attrs import frozen
-
 from solepath.recording import RecordingError
 from solepath.saving.files import FileTooLarge, read_bounded
+from solepath.show.tables.table import table
 
-from ..measures.confusion import CHECKS, CLASSES
+from ..tables.columns import FIGURES
 
 DIGITS = 3
 """Number of significant digits to which figures are compared."""
-
-
-class Better(Enum):
-    """Direction in which a figure is better."""
-
-    LESS = "less"
-    NEARER_ZERO = "nearer to zero"
-    MORE = "more"
-
-
-_LESS = (
-    "armse_2d", "rms_2d", "rms_3d", "rms_z", "relative", "position_mean", "position_end", "position_max",
-    "end_error", "end_error_2d", "end_height", "end_relative", "largest_relative", "height_end", "height_max",
-    "strides_invented", "stride_error", "stride_error_median", "stride_error_track", "heel_strike_mad",
-    "heel_strike_scatter", "heel_strike_off", "toe_off_mad", "toe_off_scatter", "toe_off_off", "stride_time_error",
-    "stride_time_error_median", "leg_error", "leg_error_median", "body_leg_error", "body_leg_error_median",
-    "leg_spread", "uturn_angle", "uturn_invented", "rides_invented", "level_called", "heading_end", "radius_error",
-    "drift", "drift_left", "drift_right", "drift_stride", "end_without", "end_return", "way_places",
-)  # fmt: skip
-_NEARER_ZERO = ("heel_strike_bias", "toe_off_bias", "stride_time_bias", "leg_bias", "body_leg_bias")
-_MORE = (
-    "strides_found", "heel_strike_f1", "toe_off_f1", "authors_beaten", "uturn_found", "accuracy", *CHECKS,
-    "rides_found",
-    "stairs_called", "stairs_direction",
-    "rejected_first", "rejected_later", "used", *(f"f1_{activity.value.lower()}" for activity in CLASSES),
-)  # fmt: skip
-BETTER: dict[str, Better] = {
-    **dict.fromkeys(_LESS, Better.LESS),
-    **dict.fromkeys(_NEARER_ZERO, Better.NEARER_ZERO),
-    **dict.fromkeys(_MORE, Better.MORE),
-}
-"""Better direction by the figure's name in JSON. Figures that are not listed have no better direction."""
-
-
-class Verdict(Enum):
-    """Result of comparing a figure with its earlier value."""
-
-    BETTER = "better"
-    WORSE = "worse"
-    SAME = "the same"
-    CHANGED = "changed"
-    """The figure changed and has no better direction, or only one of the two evaluations has it."""
-
-
-def verdict(figure: str, earlier: float | None, present: float | None) -> Verdict:
-    """Return the verdict on one figure; None stands for a figure that could not be measured."""
-    if earlier is None or present is None:
-        return Verdict.SAME if earlier is present else Verdict.CHANGED
-    direction = BETTER.get(figure)
-    if direction is Better.NEARER_ZERO:
-        earlier, present = abs(earlier), abs(present)
-    if f"{earlier:.{DIGITS}g}" == f"{present:.{DIGITS}g}":
-        return Verdict.SAME
-    if direction is None:
-        return Verdict.CHANGED
-    return Verdict.BETTER if (present > earlier) is (direction is Better.MORE) else Verdict.WORSE
-
-
-@frozen
-class Change:
-    """The earlier and present value of one figure."""
-
-    row: str
-    """Name of a recording, or a key of SUMMARY_ROWS with the name of a group."""
-    figure: str
-    """Name of the figure in JSON."""
-    earlier: float | None
-    present: float | None
-
-    @property
-    def verdict(self) -> Verdict:
-        """Verdict on the present value."""
-        return verdict(self.figure, self.earlier, self.present)
-
-
-@frozen
-class Changes:
-    """The changes of the figures of one recipe on one data set."""
-
-    recipe: str
-    data_set: str
-    changes: tuple[Change, ...]
-    removed: tuple[str, ...]
-    """Recordings that were scored earlier and are not scored now."""
-    new: tuple[str, ...]
-    """Recordings that are scored now and were not scored earlier."""
-
-
+BETTER, WORSE, SAME, CHANGED = "better", "worse", "the same", "changed"
+"""Verdicts on a figure; one that only changed has no better direction, or only one of the two evaluations has it."""
 Scores = dict[str, dict[str, Any]]
 """Scores of an evaluation in the form that report.as_json returns."""
 MAX_FILE_SIZE = 64_000_000
 """Largest size of a file of scores, bytes: some ten times that of all recipes on all data sets."""
 SUMMARY_ROWS = {"mean": "mean", "median": "median", "pooled": "together"}
 """Key in JSON of each row of a group's summary."""
+
+
+def verdict(figure: str, earlier: float | None, present: float | None) -> str:
+    """Return the verdict on one figure; None stands for a figure that could not be measured."""
+    if earlier is None or present is None:
+        return SAME if earlier is present else CHANGED
+    better = FIGURES[figure].better if figure in FIGURES else ""
+    if better == "nearer to zero":
+        earlier, present = abs(earlier), abs(present)
+    if _format(earlier) == _format(present):
+        return SAME
+    if not better:
+        return CHANGED
+    return BETTER if (present > earlier) is (better == "more") else WORSE
+
+
+def _format(value: float | None) -> str:
+    return "-" if value is None else f"{value:.{DIGITS}g}"
 
 
 def read_scores(path: Path) -> Scores:
@@ -131,7 +61,7 @@ def read_scores(path: Path) -> Scores:
     try:
         for data_sets in document.values():
             for part in data_sets.values():
-                for _, figures in _rows(part):
+                for figures in _rows(part).values():
                     if not all(value is None or isfinite(value) for value in figures.values()):
                         raise TypeError
     except (AttributeError, KeyError, OverflowError, TypeError):
@@ -140,42 +70,57 @@ def read_scores(path: Path) -> Scores:
     return scores
 
 
-def _rows(part: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, float | None]]]:
-    """Yield name and figures of each row of one data set: first the groups, then the recordings."""
-    for group, summary in part["summary"].items():
-        of = "" if group == "all" else f" {group}"
-        for row, key in SUMMARY_ROWS.items():
-            yield f"{row}{of}", summary[key]
-    yield from part["recordings"].items()
+def _rows(part: Mapping[str, Any]) -> dict[str, Mapping[str, float | None]]:
+    """Return the figures of one data set by the name of their row: first the groups, then the recordings."""
+    summaries = {
+        row if group == "all" else f"{row} {group}": summary[key]
+        for group, summary in part["summary"].items()
+        for row, key in SUMMARY_ROWS.items()
+    }
+    return {**summaries, **part["recordings"]}
 
 
-def compare_scores(earlier: Scores, present: Scores) -> list[Changes]:
-    """Return the changes of each data set of each recipe that is in both evaluations, in the order of `present`."""
-    found: list[Changes] = []
-    for recipe, data_sets in present.items():
-        for name, part in data_sets.items():
-            before = earlier.get(recipe, {}).get(name)
-            if before is None:
-                continue
-            old = dict(_rows(before))
-            changes = [
-                Change(row, figure, old[row].get(figure), figures.get(figure))
-                for row, figures in _rows(part)
-                if row in old
-                for figure in dict.fromkeys([*figures, *old[row]])
-            ]
-            then, today = before["recordings"], part["recordings"]
-            removed, new = (tuple(x for x in a if x not in b) for a, b in ((then, today), (today, then)))
-            found.append(Changes(recipe, name, tuple(changes), removed, new))
-    return found
+def comparison_tables(earlier: Scores, present: Scores) -> str:
+    """Return a table for each data set of both evaluations, and the names of data sets that only one of them has."""
+    parts = [
+        _changes_table(f"{name}, {recipe}", earlier[recipe][name], part)
+        for recipe, data_sets in present.items()
+        for name, part in data_sets.items()
+        if name in earlier.get(recipe, {})
+    ]
+    parts += _lacking("evaluated then and not now", _names(earlier, present), _names(present, earlier))
+    parts += _lacking("not evaluated then", _names(present, earlier), _names(earlier, present))
+    return "\n\n".join(parts)
 
 
-def names_missing(scores: Scores, other: Scores) -> list[str]:
-    """Return the recipes and data sets of `scores` that `other` lacks, as `recipe` or `recipe: data set`."""
-    found: list[str] = []
-    for recipe, data_sets in scores.items():
-        if recipe not in other:
-            found.append(recipe)
-        else:
-            found += [f"{recipe}: {name}" for name in data_sets if name not in other[recipe]]
-    return found
+def _changes_table(title: str, before: Mapping[str, Any], now: Mapping[str, Any]) -> str:
+    """Return the table of summaries and of changed figures of recordings; removed and new recordings are below it."""
+    rows, counts, old_rows = [], Counter[str](), _rows(before)
+    for row, figures in _rows(now).items():
+        old = old_rows.get(row, {})
+        for figure in dict.fromkeys([*figures, *old]) if row in old_rows else ():
+            values = old.get(figure), figures.get(figure)
+            found = verdict(figure, *values)
+            counts[found] += 1
+            if found != SAME or row.split()[0] in SUMMARY_ROWS:
+                rows.append((f"{figure} ({row})", *map(_format, values), found))
+    numbers = ", ".join(f"{counts[one]} {one}" for one in (BETTER, WORSE, SAME))
+    lines = [f"{title}, compared: {numbers} (SI units)"]
+    lines += [table(("figure", "was", "is", ""), rows)] if rows else []
+    lines += _lacking("scored then and not now", before["recordings"], now["recordings"])
+    return "\n".join(lines + _lacking("not scored then", now["recordings"], before["recordings"]))
+
+
+def _names(scores: Scores, other: Scores) -> list[str]:
+    """Return the recipes of `scores`, and `recipe: data set` for those that `other` has too."""
+    return [
+        name
+        for recipe, data_sets in scores.items()
+        for name in ([f"{recipe}: {data_set}" for data_set in data_sets] if recipe in other else [recipe])
+    ]
+
+
+def _lacking(words: str, names: Iterable[str], others: Container[str]) -> list[str]:
+    """Return a line about the names that are none of the others, if there are any."""
+    lacking = [name for name in names if name not in others]
+    return [f"{words}: {', '.join(lacking)}"] if lacking else []

@@ -1,10 +1,11 @@
-"""`solepath-lab evaluate [DIR]`: scores recipes on recorded data with a truth, on emulated walks, or on both."""
+"""Score recipes on a directory of recorded data with a truth, on long emulated walks, or on both; print the tables."""
 
 from __future__ import annotations
 
 import argparse
 import os
 from collections.abc import Iterator
+from functools import partial
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -16,11 +17,11 @@ from solepath.cli.common.inputs import add_calibration, add_recipe_name, calibra
 from solepath.recipes import DEFAULT, NAMES, by_name
 from solepath.show.tables.progress import progress_bar
 
-from ..options import add_json, add_only, add_processes, add_seeds
+from ..options import JSON, ONLY, PROCESSES, option, seeds
 from ..tables.markdown import accuracy_table
-from ..tables.scores import ablation_table, comparison_tables, score_table
+from ..tables.scores import ablation_table, score_table
 from . import ablation
-from .changes import read_scores
+from .changes import comparison_tables, read_scores
 from .datasets import DATASETS, EMULATED
 from .jobs import evaluate, evaluate_emulated, find_data_sets
 from .report import Result, as_json
@@ -29,44 +30,37 @@ ENVIRONMENT = "SOLEPATH_DATA"
 """Environment variable that names the data directory."""
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
-        "evaluate",
-        help="score recipes on recorded data with a truth, and on emulated walks",
-        description="Score recipes on a directory of recorded data with a truth, on long emulated walks, or on both, "
-        "and print the tables.",
-        epilog="example: solepath-lab evaluate --emulated --walks 1",
-    )
-    command.add_argument("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})")
-    add_only(command)
-    add_recipe_name(command, action="append", default=[], help="this recipe only; may be given again")
-    add_calibration(command)
-    command.add_argument(
+OPTIONS = (
+    option("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})"),
+    ONLY,
+    partial(add_recipe_name, action="append", default=[], help="this recipe only; may be given again"),
+    add_calibration,
+    option(
         "--emulated",
         action="store_true",
         help="on emulated walks too (without DIR on them alone): 500 m, 30 minutes, four floors of stairs; with the "
         "recipe default where no --recipe is named",
-    )
-    add_seeds(command, 3, 1)
-    command.add_argument(
+    ),
+    seeds(3, 1),
+    option(
         "--ablation",
         action="store_true",
         help="the default recipe with one part at a time switched off, and what becomes of its main figures",
-    )
-    command.add_argument(
+    ),
+    option(
         "--markdown", action="store_true", help="print one table of the averages only, as docs/accuracy.md quotes it"
-    )
-    add_json(command)
-    add_force(command)
-    command.add_argument(
+    ),
+    JSON,
+    add_force,
+    option(
         "--compare",
         metavar="OLD",
         type=Path,
         help="the JSON of an earlier evaluation: say of every figure what it was, and whether it is better or worse",
-    )
-    add_processes(command)
-    command.set_defaults(run=run)
+    ),
+    PROCESSES,
+)
+EXAMPLE = "example: solepath-lab evaluate --emulated --walks 1"
 
 
 def run(options: argparse.Namespace) -> int:
@@ -111,8 +105,8 @@ def run(options: argparse.Namespace) -> int:
         if folder is not None and (recorded or not options.only):
             evaluations.append(evaluate(folder, chosen or all_recipes, only=recorded, **common_options))
         if emulated:
-            seeds = range(options.seed, options.seed + options.walks)
-            evaluations.append(evaluate_emulated(chosen or [DEFAULT], seeds, only=walked, **common_options))
+            numbers = range(options.seed, options.seed + options.walks)
+            evaluations.append(evaluate_emulated(chosen or [DEFAULT], numbers, only=walked, **common_options))
         for result in chain(*evaluations):
             results.append(result)
             if not options.markdown and not options.ablation:

@@ -11,18 +11,10 @@ from solepath.calibration import Calibration, InsoleCalibration
 from solepath.recording import RecordingError
 from solepath.types import Cell, Foot, Layout
 
-from ..descriptions import read_description
+from ..descriptions import KNOWN, read_description
 
 SWITCH_LAYOUT = 2
 """Layout number of marpino_heel_toe, whose first cell is a switch below the toe and the second one below the heel."""
-
-FORCE_SENSORS = (
-    (-500, -800), (-700, -400), (-300, -400), (-700, 0), (-300, 0), (-700, 400), (-300, 400), (-500, 800)
-)  # fmt: skip
-"""Sensors L1 to L8 below the left foot of gaitpdb: x to the wearer's right, y to the toe, in an unknown unit.
-
-The source is "Gait in Parkinson's Disease", PhysioNet, description of the format. The sole is taken to reach from y =
--1000 to 1000, with its midline at x = -500. The right foot is the mirror image."""
 
 
 def switches() -> Calibration:
@@ -37,7 +29,7 @@ def force_sensors(length: float = 0.26) -> Calibration:
     layouts = {}
     for foot in Foot:
         side = 1.0 if foot is Foot.LEFT else -1.0
-        cells = tuple([Cell((y + 1000) * unit, -(x + 500) * side * unit) for x, y in FORCE_SENSORS])
+        cells = tuple([Cell((y + 1000) * unit, -(x + 500) * side * unit) for x, y in KNOWN["gaitpdb_vgrf"]["sensors"]])
         layouts[foot] = Layout(len(cells), foot, cells, length, scale=1.0, full_scale=10_000.0)
     return _calibration(layouts)
 

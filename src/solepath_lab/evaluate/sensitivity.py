@@ -30,33 +30,15 @@ from solepath.foot.stance.cycle import Cycle
 from solepath.recipes import DEFAULT, Recipe
 
 from ..measures.score import Scored
-from ..options import add_command, add_folder, add_only, add_processes
 from ..processes import run_jobs
-from .ablation import COLUMNS, Column
+from ..tables.columns import SCALES
+from .ablation import SENSITIVITY_COLUMNS, Column
 from .jobs import EvaluationJob, find_data_sets, recordings
 from .report import Result
 from .run import RunSettings
 
 FACTORS = (0.5, 2.0)
 """Factors by which each number is multiplied."""
-ABLATION_TITLES = (
-    "pyshoe ARMSE2d",
-    "gumushane position",
-    "strides",
-    "xio end",
-    "openshoe end",
-    "ipol legs",
-    "HS F1",
-    "TO F1",
-    "gaitmap HS",
-)
-"""Titles of the columns of ablation.COLUMNS that this table has too."""
-TABLE_COLUMNS = (
-    *(column for column in COLUMNS if column.title in ABLATION_TITLES),
-    Column("ipol HS", "ipol_10m_uturn", "heel_strike_bias", "ms", pooled=True),
-    Column("ipol TO", "ipol_10m_uturn", "toe_off_bias", "ms", pooled=True),
-)
-"""The columns of the table."""
 PARTS: dict[str, tuple[Any, Any]] = {
     "detector": (CycleSettings, Cycle),
     "corrector": (ErrorStateSettings, ErrorStateFilter),
@@ -144,7 +126,7 @@ class SensitivityJob:
 
 def columns(names: Sequence[str] = ()) -> list[Column]:
     """Return the columns of the table: those of the data sets `names`, or all when `names` is empty."""
-    return [column for column in TABLE_COLUMNS if not names or column.data_set in names]
+    return [column for column in SENSITIVITY_COLUMNS if not names or column.data_set in names]
 
 
 def evaluate(
@@ -173,10 +155,6 @@ def evaluate(
             scores = tuple([one for one in outcomes_of_set if isinstance(one, Scored)])
             results.append(Result(data_set, "", scores, ()))
         yield number, factor, [column.find_figure(results, "") for column in shown]
-
-
-SCALES = {"": 1.0, "m": 1.0, "%": 100.0, "ms": 1000.0}
-"""Factor from SI units to each unit of a column."""
 
 
 def _change(column: Column, value: float | None, default: float | None) -> str:
@@ -209,18 +187,6 @@ def table(rows: Iterator[tuple[Number | None, float, list[float | None]]], shown
             for column, a, b, base in zip(shown, half, double, default, strict=True)
         ]
         yield f"| {number.part} `{number.name}` | {number.value:g} | {number.meaning} | {' | '.join(changes)} |"
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands, "sensitivity", "each number of the default recipe at half and at twice", __doc__ or ""
-    )
-    add_folder(command)
-    add_only(command)
-    command.add_argument("--number", metavar="NAME", action="append", default=[], help="only this number")
-    add_processes(command)
-    command.set_defaults(run=run)
 
 
 def run(options: Namespace) -> int:

@@ -12,6 +12,7 @@ from solepath.validate.alignment import at_times, path_length, position_errors, 
 from solepath.validate.foot_run import FootRun
 from solepath.validate.matching import Errors
 
+from ..descriptions import KNOWN
 from ..measures.consistency import consistency_at_end
 from ..measures.drift import drift_figures, drift_of_strides, drift_that_opens
 from ..measures.legs import leg_errors
@@ -63,13 +64,8 @@ def score_loop(path: Path, meta: Meta, settings: RunSettings) -> Scored:
 
 EIGHT_LENGTH = 78.0
 """Length of each figure of eight in openshoe_loops, m, from the description of the data."""
-EIGHT_STRIDES = {"m02": 47, "m30": 51, "m32": 50, "m34": 50, "m36": 51, "m38": 51, "m44": 43}
-"""Number of strides of each recording of openshoe_loops.
-
-They were counted by eye in plots of |gyro| and |acc| against time, without any detector. A stride is a swing (two humps
-of |gyro| and the spike of |acc| at heel-strike) from one stance (|gyro| near 0 and |acc| near 1 g) to the next one. The
-first swing leaves the rest before the walk and the last one, a shorter step to the other foot's side, ends in the rest
-after it. Shuffling on the spot after that is no stride."""
+EIGHT_STRIDES: dict[str, int] = KNOWN["openshoe_loops"]
+"""Number of strides of each recording of openshoe_loops."""
 
 
 def score_eight(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -100,20 +96,13 @@ def _closing_errors(first: Any, last: Any) -> Figures:
     }
 
 
-AUTHORS_ERRORS = {"exp31": 0.31, "exp33": 1.17, "exp37": 2.31, "exp39": 1.11, "exp41": 0.94, "exp45": 1.80}
-"""Mean position error of the authors' own system at the surveyed strides, m.
-
-The system is an INS with an LSTM as zero-velocity detector (log in the repository mtahakoroglu/LLIO-aided-iPyShoe).
-Trials in which it lost strides are not listed."""
-
-
 def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score positions and strides against the survey of every footprint."""
     truth, result = truth_of(path), run(path, settings, body=True)
     foot, body = result.feet[Foot.RIGHT], result.body
     figures: Figures = {}
     if len(foot.t):
-        times, authors = truth["t"][truth["gt_stride_index"]], AUTHORS_ERRORS.get(path.stem)
+        times, authors = truth["t"][truth["gt_stride_index"]], KNOWN["gumushane_authors"].get(path.stem)
         errors = position_errors(times, truth["gt_stride_xy"], foot.t, foot.positions)
         heights = np.interp(times, foot.t, foot.positions[:, 2])
         surveyed = path_length(truth["gt_stride_xy"])

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
+from operator import add
 
-from attrs import field, frozen
+from attrs import astuple, field, frozen
 
 from solepath.types import Activity
 
@@ -20,7 +21,7 @@ CHECKS = ("right_inside", *DELAYS)
 class ActivityScore:
     """The counts of labelled samples and of elevator rides. Scores of several recordings can be added."""
 
-    samples: dict[tuple[Activity, Activity], int] = field(factory=dict)
+    samples: Counter[tuple[Activity, Activity]] = field(factory=Counter)
     """Number of samples by (true activity, reported activity)."""
     rides_true: int = 0
     """Number of true rides."""
@@ -28,17 +29,11 @@ class ActivityScore:
     """Number of true rides that were found with the right direction."""
     rides_invented: int = 0
     """Number of reported rides that match no true one."""
-    checks: dict[tuple[str, bool], int] = field(factory=dict)
+    checks: Counter[tuple[str, bool]] = field(factory=Counter)
     """Number of samples by the name of a figure of `CHECKS` and by whether the right activity was reported."""
 
     def __add__(self, other: ActivityScore) -> ActivityScore:
-        return ActivityScore(
-            Counter(self.samples) + Counter(other.samples),
-            self.rides_true + other.rides_true,
-            self.rides_found + other.rides_found,
-            self.rides_invented + other.rides_invented,
-            Counter(self.checks) + Counter(other.checks),
-        )
+        return ActivityScore(*map(add, astuple(self, recurse=False), astuple(other, recurse=False)))
 
     def reported_for(self, true: Activity) -> dict[Activity, int]:
         """Return the number of samples by reported activity, for the samples of one true activity."""
@@ -46,27 +41,24 @@ class ActivityScore:
 
     def f1(self, activity: Activity) -> float | None:
         """Return 2 x right / (true + reported); None when the activity is neither true nor reported."""
-        right = self.samples.get((activity, activity), 0)
-        true = sum(self.reported_for(activity).values())
-        reported = sum([count for (_, answer), count in self.samples.items() if answer is activity])
-        return 2.0 * right / (true + reported) if true + reported else None
+        count = sum([count * of.count(activity) for of, count in self.samples.items()])
+        return 2.0 * self.samples[activity, activity] / count if count else None
 
     @property
     def accuracy(self) -> float | None:
         """Share of labelled samples for which the right activity was reported."""
-        total = sum(self.samples.values())
         right = sum([count for (was, reported), count in self.samples.items() if was is reported])
-        return right / total if total else None
+        return right / self.samples.total() if self.samples else None
 
     @property
     def most_frequent(self) -> float | None:
         """Accuracy of a method that always reports the most frequent activity."""
-        total = sum(self.samples.values())
-        return max([sum(self.reported_for(activity).values()) for activity in Activity]) / total if total else None
+        counts = [sum(self.reported_for(activity).values()) for activity in Activity]
+        return max(counts) / self.samples.total() if self.samples else None
 
     def share_right(self, check: str) -> float | None:
         """Return the share of samples of a figure of `CHECKS` with the right activity; None without any."""
-        right, wrong = self.checks.get((check, True), 0), self.checks.get((check, False), 0)
+        right, wrong = self.checks[check, True], self.checks[check, False]
         return right / (right + wrong) if right + wrong else None
 
     @property

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import reduce
 from operator import add
+from typing import Any
 
 import numpy as np
 from attrs import field, frozen
@@ -16,6 +17,13 @@ from .strides import StrideScore
 
 Figures = dict[str, float | None]
 """Figures by name, in SI units; None for a figure that could not be measured."""
+
+
+EVENT_FIGURES = {
+    "true": "n_true", "found": "n_found", "f1": "f1", "bias": "bias", "mad": "mad", "scatter": "scatter",
+    "off": "median_magnitude",
+}  # fmt: skip
+"""Attribute of matched events by the end of the figure's name."""
 
 
 @frozen
@@ -41,25 +49,9 @@ class Scored:
         """Return every figure of this recording by its name in tables and JSON."""
         flat = dict(self.figures)
         for kind, matching in self.events.items():
-            flat |= {
-                f"{kind}_true": matching.n_true,
-                f"{kind}_found": matching.n_found,
-                f"{kind}_f1": matching.f1,
-                f"{kind}_bias": matching.bias,
-                f"{kind}_mad": matching.mad,
-                f"{kind}_scatter": matching.scatter,
-                f"{kind}_off": matching.median_magnitude,
-            }
+            flat |= {f"{kind}_{name}": getattr(matching, of) for name, of in EVENT_FIGURES.items()}
         if self.strides is not None:
-            flat |= {
-                "strides_true": self.strides.n_true,
-                "strides_found": self.strides.n_found,
-                "strides_invented": self.strides.n_invented,
-                "stride_error": self.strides.errors.mean,
-                "stride_error_median": self.strides.errors.median,
-                "stride_error_track": self.strides.track_errors.mean,
-                "stride_longest": self.strides.longest,
-            }
+            flat |= self.strides.figures
         if self.activity is not None:
             flat |= self.activity.figures
         for kind, pooled in self.errors.items():
@@ -91,18 +83,22 @@ def summarise(scores: Sequence[Scored], group: str) -> Summary:
     members = [score for score in scores if group in score.groups]
     keys = list(dict.fromkeys(key for score in members for key in score.figures))
     values = {key: [v for s in members if (v := s.figures.get(key)) is not None] for key in keys}
-    kinds = list(dict.fromkeys(kind for score in members for kind in score.events))
-    events = {kind: reduce(add, [s.events[kind] for s in members if kind in s.events]) for kind in kinds}
-    strides = [score.strides for score in members if score.strides is not None]
-    activities = [score.activity for score in members if score.activity is not None]
-    activity = reduce(add, activities) if activities else None
-    pools = list(dict.fromkeys(kind for score in members for kind in score.errors))
-    errors = {kind: reduce(add, [s.errors[kind] for s in members if kind in s.errors]) for kind in pools}
+    events, errors = (_pooled([getattr(one, name) for one in members]) for name in ("events", "errors"))
+    strides, activity = (
+        reduce(add, found) if (found := [of for one in members if (of := getattr(one, name)) is not None]) else None
+        for name in ("strides", "activity")
+    )
     return Summary(
         group=group,
         count=len(members),
         mean={key: float(np.mean(v)) for key, v in values.items() if v},
         median={key: float(np.median(v)) for key, v in values.items() if v},
-        together=Scored(group, {}, events, reduce(add, strides) if strides else None, activity, errors).flat(),
+        together=Scored(group, {}, events, strides, activity, errors).flat(),
         confusion=None if activity is None else activity.table,
     )
+
+
+def _pooled(scores: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the sums of what recordings have of each kind."""
+    kinds = dict.fromkeys(kind for one in scores for kind in one)
+    return {kind: reduce(add, [one[kind] for one in scores if kind in one]) for kind in kinds}

@@ -49,6 +49,19 @@ class StrideScore:
     longest: float | None = None
     """Length of the longest found stride, m; None where each stride has a true one of its own."""
 
+    @property
+    def figures(self) -> dict[str, float | None]:
+        """Figures by name, as in tables and JSON."""
+        return {
+            "strides_true": self.n_true,
+            "strides_found": self.n_found,
+            "strides_invented": self.n_invented,
+            "stride_error": self.errors.mean,
+            "stride_error_median": self.errors.median,
+            "stride_error_track": self.track_errors.mean,
+            "stride_longest": self.longest,
+        }
+
     def __add__(self, other: StrideScore) -> StrideScore:
         return StrideScore(
             self.n_true + other.n_true,

@@ -1,4 +1,4 @@
-"""`solepath-lab reproduce NAME`: repeats a paper's experiment on the emulator, beside the paper's table."""
+"""Walk the experiment of a paper again with emulated wearers and sensors, and print its table beside the paper's."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import argparse
 import sys
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from solepath.cli.common.closest import unknown
 from solepath.cli.common.failure import Failure, parse_count, parse_whole_number, require
@@ -23,7 +22,7 @@ from solepath.cli.completion import complete_with
 from solepath.recording import printable
 from solepath.saving.files import replace_whole
 
-from ..options import add_json, add_processes
+from ..options import JSON, PROCESSES, option
 from ..tables.comparison import comparison_with_paper
 from . import footstep_tracker, kupt_dfpc, pressure_contour, shoe_sensing, walking_modes
 from .done_jobs import DoneJobs, DoneJobsError
@@ -43,43 +42,32 @@ NAMES = tuple(EXPERIMENTS)
 """Names of the experiments."""
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
-        "reproduce",
-        help="walk a paper's experiment again on the emulator",
-        description="Walk the experiment of a paper again with emulated wearers and emulated sensors, and print its "
-        "table beside the paper's.",
-        epilog="example: solepath-lab reproduce kupt-dfpc --walks 5 --figure kupt.png",
-    )
-    complete_with(command.add_argument("name", metavar="NAME", help=", ".join(NAMES)), lambda: NAMES)
-    command.add_argument(
-        "--walks", metavar="N", type=parse_count, help="so many walks, or wearers (default: as many as the paper)"
-    )
-    command.add_argument(
+OPTIONS = (
+    lambda parser: complete_with(parser.add_argument("name", metavar="NAME", help=", ".join(NAMES)), lambda: NAMES),
+    option("--walks", metavar="N", type=parse_count, help="so many walks, or wearers (default: as many as the paper)"),
+    option(
         "--seed", metavar="N", type=parse_whole_number, default=1, help="other walks and other sensors (default: 1)"
-    )
-    command.add_argument(
-        "--seeds", metavar="N", type=parse_count, default=1, help="so many seeds, from --seed on (default: 1)"
-    )
-    command.add_argument(
+    ),
+    option("--seeds", metavar="N", type=parse_count, default=1, help="so many seeds, from --seed on (default: 1)"),
+    option(
         "--resume",
         metavar="FILE",
         type=Path,
         help="append the result of each walk to this file, and do not walk again what it already has",
-    )
-    add_json(command)
-    command.add_argument(
+    ),
+    JSON,
+    option(
         "--figure",
         metavar="FILE",
         nargs="?",
         const=Path(),
         type=Path,
         help="draw the paper's main figure into this file, .png, .svg or .pdf (default: NAME.png)",
-    )
-    add_force(command)
-    add_processes(command)
-    command.set_defaults(run=run)
+    ),
+    add_force,
+    PROCESSES,
+)
+EXAMPLE = "example: solepath-lab reproduce kupt-dfpc --walks 5 --figure kupt.png"
 
 
 def run(options: argparse.Namespace) -> int:

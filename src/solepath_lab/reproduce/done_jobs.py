@@ -15,10 +15,9 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
-from attrs import AttrsInstance, define, field, fields_dict, make_class
+from attrs import define, field, make_class
 
 from solepath.saving.codec import Json, SnapshotError, load, save
-from solepath.saving.schema import is_record
 
 Job = TypeVar("Job")
 JobResult = TypeVar("JobResult")
@@ -38,25 +37,11 @@ def source_checksum() -> int:
     return checksum
 
 
-def named_values(job: AttrsInstance) -> str:
-    """Return the values of a job's fields, for its `key`; a setting counts by its `name`, which no other one has."""
-    values = {one: getattr(job, one) for one in fields_dict(type(job))}
-    return str({one: getattr(value, "name", value) for one, value in values.items()})
-
-
 def describe_job(work: Callable[[Any], Any], job: object) -> str:
     """Return a text that is the same for equal jobs of the same function, in every process.
 
-    It names the function, and has a checksum of all that the job is made of, recipes included; of its `key` if it has
-    one, a string or number that is another for each other job of the experiment."""
-    key = getattr(job, "key", None)
-    content = json.dumps(key or (save(job) if is_record(type(job)) else job), sort_keys=True)
-    return f"{work.__module__}.{work.__qualname__} {sha256(content.encode()).hexdigest()}"
-
-
-def _reject_constant(name: str) -> float:
-    """Raise ValueError for NaN and infinity, which no result has."""
-    raise ValueError(f"{name} is no result")
+    It names the function, and has a checksum of all that the job is made of, recipes included."""
+    return f"{work.__module__}.{work.__qualname__} {sha256(repr(job).encode()).hexdigest()}"
 
 
 @cache
@@ -80,55 +65,31 @@ class DoneJobs:
         Raises DoneJobsError for a file of another experiment, other code or other content, and OSError."""
         header = json.dumps({"experiment": self.experiment, "source": source_checksum()})
         try:
-            text = self.path.read_text(encoding="utf-8")
-        except FileNotFoundError:
-            text = ""
-        except UnicodeDecodeError:
-            raise DoneJobsError("has no results of walks") from None
-        whole = text[: text.rfind("\n") + 1]
-        if not whole:
-            if text and not header.startswith(text):
-                raise DoneJobsError("has no results of walks")
-            self.path.write_text(header + "\n", encoding="utf-8")
-            return
-        first, *lines = whole.splitlines()
-        if first != header:
-            self._reject(first)
-        try:
-            for line in lines:
-                entry = json.loads(line, parse_constant=_reject_constant)
-                self._results[entry["job"]] = {"result": entry["result"]["result"]}
-        except (ValueError, TypeError, KeyError, RecursionError):
-            raise DoneJobsError(f"line {len(self._results) + 2} is no result of a walk") from None
-        if whole != text:
-            self.path.write_text(whole, encoding="utf-8")
-
-    def _reject(self, header: str) -> None:
-        """Raise the DoneJobsError that says what the file is instead."""
-        try:
-            found = json.loads(header)
-            experiment = found["experiment"]
+            text = self.path.read_text(encoding="utf-8") if self.path.exists() else ""
+            whole = text[: text.rfind("\n") + 1] or (f"{header}\n" if header.startswith(text) else text)
+            first, *lines = [json.loads(line) for line in whole.splitlines()]
+            experiment, is_same_code = first["experiment"], first == json.loads(header)
+            self._results = {line["job"]: line["result"] for line in lines}
         except (ValueError, TypeError, KeyError, RecursionError):
             raise DoneJobsError("has no results of walks") from None
         if experiment != self.experiment:
             raise DoneJobsError(f"has walks of {experiment!r}, not of {self.experiment!r}")
-        raise DoneJobsError("has walks that other code of solepath scored: use another file")
+        if not is_same_code:
+            raise DoneJobsError("has walks that other code of solepath scored: use another file")
+        if whole != text:
+            self.path.write_text(whole, encoding="utf-8")
 
     def find(self, work: Callable[[Job], JobResult], job: Job) -> JobResult | None:
         """Return the result of the job if the file has it, else None. Raises DoneJobsError if it cannot be read."""
         saved = self._results.get(describe_job(work, job))
-        if saved is None:
-            return None
         try:
-            result: JobResult = load(_record_class(work), saved).result
+            result: JobResult | None = None if saved is None else load(_record_class(work), saved).result
         except SnapshotError as error:
             raise DoneJobsError(f"has a result that cannot be read: {error}") from None
         return result
 
     def add(self, work: Callable[[Job], JobResult], job: Job, result: JobResult) -> None:
         """Append the result of a job to the file; raises OSError when that fails."""
-        saved = save(_record_class(work)(result))
-        name = describe_job(work, job)
+        line = {"job": describe_job(work, job), "result": save(_record_class(work)(result))}
         with self.path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps({"job": name, "result": saved}) + "\n")
-        self._results[name] = saved
+            file.write(json.dumps(line) + "\n")

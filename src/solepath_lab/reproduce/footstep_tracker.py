@@ -9,23 +9,27 @@ of them have no paper's figure beside them. The paper's "step" is the stride of 
 from __future__ import annotations
 
 from functools import partial
+from math import degrees
 
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
-from solepath.types import Activity, Turn
+from solepath.types import Turn
 
-from . import published
-from .footstep.activities import STAIRS, VARIANTS, ActivityResults, score_activities
-from .footstep.corridor import CORRIDOR_LENGTH, CorridorResults, score_corridor
-from .footstep.figures import CLASSES, class_shares, panels, share_right
-from .footstep.places import PlaceResults, score_places
-from .footstep.turning import TurnResults, score_turns
+from .footstep.activities import CLASSES, STAIRS, VARIANTS, score_activities, variant_title
+from .footstep.corridor import CORRIDOR_LENGTH, score_corridor
+from .footstep.figures import mean, mean_series, panels
+from .footstep.places import score_places
+from .footstep.turning import TURN_ANGLES, score_turns
 from .footstep.wearers import IN_WEATHER, LENGTH_RECIPES, SETTINGS, STANDARD, WearerJob
+from .published import PUBLISHED, rows_of
 from .runner import Runner
-from .tables import FigureRow, Reproduction, row_of
+from .tables import FigureRow, Reproduction, WalkResults, pooled, row_of
 
 NAME = FOOTSTEP_TRACKER.name
 FIRST_SEED = 100_000
 """First seed of the wearers; training uses only smaller seeds (lab/train/emulated.py)."""
+TURN_ROWS = (
+    "turn angle deg", "turn angle, (7) printed deg", "curve of 360 deg", "curve of 360, filter printed deg"
+)  # fmt: skip
 WEARERS = 8
 """Number of wearers; section V-E: "we invited eight different users"."""
 
@@ -37,160 +41,108 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     jobs = {setting.name: [WearerJob(one, setting) for one in seeds] for setting in (STANDARD, *SETTINGS, IN_WEATHER)}
     standard = jobs[STANDARD.name]
     others = [job for setting in SETTINGS for job in jobs[setting.name]]
-    with_activities = [job for setting in (*SETTINGS, IN_WEATHER) if setting.activities for job in jobs[setting.name]]
+    with_activities = [setting.name for setting in (*SETTINGS, IN_WEATHER) if setting.activities]
+    activity_jobs = standard + [job for name in with_activities for job in jobs[name]]
     corridors = runner.run(score_corridor, standard + others, _describe_corridor)
-    activities = runner.run(score_activities, standard + with_activities, _describe_activities)
-    turns = runner.run(score_turns, standard, _describe_turns)
+    activities = runner.run(score_activities, activity_jobs, _describe_activities)
+    turns = runner.run(score_turns, standard, lambda one: f"turns off by {mean(one.values[TURN_ROWS[0]]):.1f} degrees")
     places = runner.run(score_places, standard, _describe_places)
     rows = [
         *_corridor_rows(corridors[:count]),
         *_activity_rows(activities[:count]),
-        *_turn_rows(turns),
+        *[_row(name, pooled(turns, name), 1) for name in TURN_ROWS],
+        _row("turn classes %", [mean(pooled([one], *[turn.value for turn in Turn])) for one in turns]),
         *_place_rows(places),
     ]
     for k, setting in enumerate(SETTINGS, 1):
         of_setting = corridors[k * count :][:count]
-        rows.append(_row(f"{setting.name}: one foot %", _one_foot(of_setting, "ours")))
-        rows.append(_row(f"{setting.name}: two feet %", _two_feet(of_setting, "ours")))
-    for k, name in enumerate([one.name for one in (*SETTINGS, IN_WEATHER) if one.activities], 1):
-        scores = [one.scores["ours"] for one in activities[k * count :][:count]]
-        rows.append(_row(f"{name}: activities %", [100.0 * (one.accuracy or 0.0) for one in scores], 1))
-        rows.append(_row(f"{name}: STAIRS_DOWN %", class_shares(scores, Activity.STAIRS_DOWN), 1))
+        rows.append(_row(f"{setting.name}: one foot %", _shares(of_setting, "one foot: ours")))
+        rows.append(_row(f"{setting.name}: two feet %", _shares(of_setting, "two feet")))
+    for k, name in enumerate(with_activities, 1):
+        for row in ("activities %", "STAIRS_DOWN %"):
+            rows.append(_row(f"{name}: {row}", pooled(activities[k * count :][:count], row), 1))
     return Reproduction(
         name=NAME,
-        paper_title=published.FOOTSTEP_TRACKER_TITLE,
+        paper_title=PUBLISHED[NAME]["title"],
         emulation=f"{count} wearers with a CC2541 at 20 Hz in each worn insole, two floors of 56 m by 63 m",
         unit="as named",
         rows=tuple(rows),
         panels=panels(corridors[:count], activities[:count], turns, places),
-        notes=_notes(corridors[:count], activities[:count], turns, places),
+        notes=_notes(corridors[:count], turns),
     )
 
 
-_row = partial(row_of, published.FOOTSTEP_TRACKER)
+_row = partial(row_of, rows_of(NAME))
 
 
-def _one_foot(corridors: list[CorridorResults], variant: str) -> list[float]:
-    return [100.0 * abs(off) / CORRIDOR_LENGTH for one in corridors for off in one.one_foot[variant]]
+def _shares(corridors: list[WalkResults], name: str) -> list[float]:
+    """Return the sizes of errors of a length as shares of that of the corridor, %."""
+    return [100.0 * abs(off) / CORRIDOR_LENGTH for off in pooled(corridors, name)]
 
 
-def _two_feet(corridors: list[CorridorResults], variant: str) -> list[float]:
-    return [100.0 * abs(one.two_feet[variant]) / CORRIDOR_LENGTH for one in corridors]
-
-
-def _corridor_rows(corridors: list[CorridorResults]) -> list[FigureRow]:
-    rows = [
-        _row("corridor, one foot %", _one_foot(corridors, "ours")),
-        _row("corridor, by height %", [100.0 * abs(one.stature) / CORRIDOR_LENGTH for one in corridors]),
-        _row("corridor, two feet %", _two_feet(corridors, "ours")),
-    ]
+def _corridor_rows(corridors: list[WalkResults]) -> list[FigureRow]:
+    shares = {"one foot": "one foot: ours", "by height": "by height", "two feet": "two feet"}
+    rows = [_row(f"corridor, {name} %", _shares(corridors, key)) for name, key in shares.items()]
     for name in ("one foot", "one-metre rule", "two feet"):
-        off = [100.0 * abs(off) / CORRIDOR_LENGTH for one in corridors for off in one.ends[name]]
-        rows.append(_row(f"corridor's end, {name} %", off))
+        rows.append(_row(f"corridor's end, {name} %", _shares(corridors, f"end: {name}")))
     for name in LENGTH_RECIPES:
-        rows.append(_row(f"corridor, {name} %", _one_foot(corridors, name)))
-        rows.append(_row(f"strides, {name} %", [one.strides_found[name] for one in corridors], 1))
+        rows.append(_row(f"corridor, {name} %", _shares(corridors, f"one foot: {name}")))
+        rows.append(_row(f"strides, {name} %", pooled(corridors, f"strides, {name} %"), 1))
     for name in ("one foot", "two feet"):
-        rows.append(_row(f"step, {name} m", [abs(off) for one in corridors for off in one.stride_errors[name]]))
-    rows += [
-        _row("toe-out deg", [off for one in corridors for off in one.toe_outs], 1),
-        _row("toe-out, printed deg", [off for one in corridors for off in one.toe_outs_printed], 1),
-        _row("zones by the loose rule %", [100.0 * one.zones[0] / max(1, one.zones[1]) for one in corridors], 1),
-        _row("zones within 0, 0, g %", [100.0 * one.literal[0] / max(1, one.literal[1]) for one in corridors], 1),
-    ]
-    return rows
+        rows.append(_row(f"step, {name} m", map(abs, pooled(corridors, f"step: {name}"))))
+    names = ("toe-out deg", "toe-out, printed deg", "zones by the loose rule %", "zones within 0, 0, g %")
+    return rows + [_row(name, pooled(corridors, name), 1) for name in names]
 
 
-def _activity_rows(activities: list[ActivityResults]) -> list[FigureRow]:
+def _activity_rows(activities: list[WalkResults]) -> list[FigureRow]:
     rows = []
     for variant in VARIANTS:
-        scores = [one.scores[variant] for one in activities]
-        title = "" if variant == "ours" else f", {variant}"
-        rows.append(_row(f"activities{title} %", [100.0 * (one.accuracy or 0.0) for one in scores]))
+        title = variant_title(variant)
+        rows.append(_row(f"activities{title} %", pooled(activities, f"activities{title} %")))
         for activity in CLASSES if variant in ("ours", "printed") else STAIRS:
-            rows.append(_row(f"{activity.value}{title} %", class_shares(scores, activity), 1))
+            name = f"{activity.value}{title} %"
+            rows.append(_row(name, pooled(activities, name), 1))
     return rows
 
 
-def _turn_rows(turns: list[TurnResults]) -> list[FigureRow]:
-    return [
-        _row("turn angle deg", [off for one in turns for off in one.errors.values()], 1),
-        _row("turn angle, (7) printed deg", [off for one in turns for off in one.printed_errors.values()], 1),
-        _row("curve of 360 deg", [one.curve for one in turns], 1),
-        _row("curve of 360, filter printed deg", [one.printed_curve for one in turns], 1),
-        _row("turn classes %", [share_right(list(one.classes.values())) for one in turns]),
-    ]
+def _place_rows(places: list[WalkResults]) -> list[FigureRow]:
+    rows = [_row("place m", pooled(places, "place, case study, two feet m"))]
+    names = [name for name in places[0].values if name.startswith(("place, ", "true one kept, "))]
+    rows += [_row(name, pooled(places, name), 2 if name.startswith("place") else 1) for name in names]
+    return [*rows, _row("steps until decided", pooled(places, "steps until decided"), 0)]
 
 
-def _place_rows(places: list[PlaceResults]) -> list[FigureRow]:
-    rows = []
-    for name in places[0].scores:
-        scores = [one.scores[name] for one in places]
-        rows.append(_row(f"place, {name} m", [sum(one.off) / len(one.off) for one in scores if one.off]))
-        kept = [100.0 if one.strides and not one.dropped else 0.0 for one in scores]
-        rows.append(_row(f"true one kept, {name} %", kept, 1))
-    decided = [one.scores["case study, two feet"].decided for one in places]
-    rows.append(_row("steps until decided", [float(one) for one in decided if one is not None], 0))
-    means = [one.scores["case study, two feet"].off for one in places]
-    return [_row("place m", [sum(off) / len(off) for off in means if off]), *rows]
+def _describe_corridor(one: WalkResults) -> str:
+    left, right = one.values["one foot: ours"]
+    return f"corridor off by {left:+.2f} and {right:+.2f} m with one foot, {one.values['two feet'][0]:+.2f} m with two"
 
 
-def _describe_corridor(one: CorridorResults) -> str:
-    left, right = one.one_foot["ours"]
-    return f"corridor off by {left:+.2f} and {right:+.2f} m with one foot, {one.two_feet['ours']:+.2f} m with two"
+def _describe_activities(one: WalkResults) -> str:
+    return ", ".join([f"{name} {of[0]:.1f}" for name, of in one.values.items() if name.startswith("activities")])
 
 
-def _describe_activities(one: ActivityResults) -> str:
-    return ", ".join([f"{100.0 * (of.accuracy or 0.0):.1f} % of activities {name}" for name, of in one.scores.items()])
+def _describe_places(one: WalkResults) -> str:
+    return ", ".join([f"{name} {of[0]:.2f}" for name, of in one.values.items() if name.startswith("place") and of])
 
 
-def _describe_turns(one: TurnResults) -> str:
-    return f"turns off by {sum(one.errors.values()) / len(one.errors):.1f} degrees"
-
-
-def _describe_places(one: PlaceResults) -> str:
-    off = {name: sum(of.off) / len(of.off) for name, of in one.scores.items() if of.off}
-    return "places off by " + ", ".join([f"{of:.2f} m ({name})" for name, of in off.items()])
-
-
-def _notes(
-    corridors: list[CorridorResults], activities: list[ActivityResults], turns: list[TurnResults],
-    places: list[PlaceResults],
-) -> tuple[str, ...]:  # fmt: skip
-    lines = []
-    one_foot, two_feet = _one_foot(corridors, "ours"), _two_feet(corridors, "ours")
-    ratio = _rms(two_feet) / _rms(one_foot)
-    signed = [sum(one.one_foot["ours"]) / 2.0 for one in corridors]
-    apart = [0.5 * (one.one_foot["ours"][0] - one.one_foot["ours"][1]) for one in corridors]
-    lines.append(
-        f"Corridor, two feet over one foot, RMS over {len(corridors)} pairs: {ratio:.2f}. The mean of both feet is off "
-        f"by {sum(signed) / len(signed):+.2f} m on average; half of their difference is {_rms(apart):.2f} m (RMS), "
-        f"which is what the mean takes away; {_rms(signed):.2f} m are common to both feet, which it does not."
-    )
-    n_angles = sum([len(one.toe_outs) for one in corridors])
-    lines.append(
+def _notes(corridors: list[WalkResults], turns: list[WalkResults]) -> tuple[str, ...]:
+    one_foot, two_feet = pooled(corridors, "one foot: ours"), pooled(corridors, "two feet")
+    apart = [0.5 * (left - right) for left, right in (one.values["one foot: ours"] for one in corridors)]
+    n_angles, n_printed = (len(pooled(corridors, name)) for name in ("toe-out deg", "toe-out, printed deg"))
+    by_angle = zip(TURN_ANGLES, mean_series(turns, TURN_ROWS[0]), strict=True)
+    return (
+        f"Corridor, two feet over one foot, RMS over {len(corridors)} pairs: {_rms(two_feet) / _rms(one_foot):.2f}. "
+        f"The mean of both feet is off by {mean(two_feet):+.2f} m on average; half of their difference is "
+        f"{_rms(apart):.2f} m (RMS), which is what the mean takes away; {_rms(two_feet):.2f} m are common to both "
+        f"feet, which it does not.",
         f"Toe-out: {n_angles} angles are twice their error or more, {2 * len(corridors) - n_angles} are not; by the "
-        f"printed formula {sum([len(one.toe_outs_printed) for one in corridors])} feet have an angle at all."
-    )
-    for turn in Turn:
-        lines.append(f"Turn {turn.value}: {share_right([one.classes[turn] for one in turns]):.1f} % right.")
-    angles = sorted(turns[0].errors)
-    by_angle = [(angle, [one.errors[angle] for one in turns]) for angle in angles]
-    lines.append(
+        f"printed formula {n_printed} feet have an angle at all.",
+        *[f"Turn {turn.value}: {mean(pooled(turns, turn.value)):.1f} % right." for turn in Turn],
         "Mean error of the turn angle, degrees: "
-        + ", ".join([f"{a:.0f}: {sum(v) / len(v):.1f}" for a, v in by_angle])
-        + "."
+        + ", ".join([f"{degrees(angle):.0f}: {error:.1f}" for angle, error in by_angle])
+        + ".",
+        "After how many steps it is decided is a matter of the building: six in the paper's, for one user.",
     )
-    for name in places[0].scores:
-        scores = [one.scores[name] for one in places]
-        n_missing, n_wrong = sum([one.dropped > 0 for one in scores]), sum([one.wrong > 0 for one in scores])
-        n_undecided = sum([one.decided is None for one in scores])
-        lines.append(
-            f"{name}: of {len(scores)} walks the true candidate was missing at some step in {n_missing}, a wrong one "
-            f"was alone at some step in {n_wrong}, and in {n_undecided} it never came down to the true one."
-        )
-    lines.append("After how many steps it is decided is a matter of the building: six in the paper's, for one user.")
-    return tuple(lines)
 
 
 def _rms(values: list[float]) -> float:

@@ -15,7 +15,7 @@ goes once around the inner block of a floor (solepath_lab/emulated/laps.py)."""
 from __future__ import annotations
 
 import numpy as np
-from attrs import field, frozen
+from attrs import frozen
 
 from solepath.emulate.wearers.truth import Truth
 from solepath.events import Event, StrideFused
@@ -24,9 +24,7 @@ from solepath.recipes import Recipe
 from solepath.types import Foot
 from solepath.validate.alignment import Floats
 
-from . import published
 from .contour.runs import sign_test
-from .done_jobs import named_values
 from .kupt.figures import coverage, panels, watch
 from .kupt.walks import (
     ABLATIONS,
@@ -42,8 +40,20 @@ from .kupt.walks import (
     Setting,
     prepare,
 )  # fmt: skip
+from .published import PUBLISHED, rows_of
 from .runner import Runner
-from .tables import BoxPlots, Curves, DrawStyle, FigureRow, FloorPanel, PictureTrack, Reproduction, row_of, statistics
+from .tables import (
+    BoxPlots,
+    DrawStyle,
+    FigureRow,
+    PictureTrack,
+    Plot,
+    Reproduction,
+    Values,
+    WalkResults,
+    pooled,
+    row_of,
+)
 from .walks import align_track, final_strides, run_session, thin_out
 
 NAME = KUPT_DFPC.name
@@ -51,6 +61,11 @@ WALKS = 20
 WALKS_PER_CORRIDOR = 4
 """Number of walks of 20 m for each corridor walk. The paper has a single corridor walk, too few for a mean."""
 FOOT_LETTERS = {Foot.LEFT: "L", Foot.RIGHT: "R"}
+TRUE = {foot: f"true {letter}" for foot, letter in FOOT_LETTERS.items()}
+"""Names of the true distances."""
+PAPER, PAPER_ROWS = PUBLISHED[NAME], rows_of(NAME)
+TABLE_I = ("ZUPT-L", "ZUPT-R", "KUPT-L", "KUPT-R", "KUPT+DFPC")
+"""Rows of table I and of fig. 12."""
 PRINTED_ROWS = ("KUPT-L, printed", "KUPT-R, printed", "KUPT+DFPC, printed")
 SAME_ROW, SAME_FUSED_ROW = "ZUPT (+ bias)", "ZUPT+DFPC, same additions"
 """Rows of ZUPT with all our additions to KUPT, of both feet and of their fusion."""
@@ -69,24 +84,6 @@ class KuptJob:
     drawn: bool = False
     """True for the walk of figs. 11 and 14."""
 
-    key = property(named_values)
-
-
-@frozen
-class KuptResults:
-    """The results of one walk."""
-
-    distances: dict[str, tuple[float, ...]]
-    """Measured distance by row of the table, m; two for a row of both feet."""
-    true: dict[Foot, float]
-    """True distance of each foot, m."""
-    tracks: tuple[PictureTrack, ...] = ()
-    """True path and then the stride ends by each method; only of a corridor walk."""
-    end_distances: dict[str, float] = field(factory=dict)
-    """Distance from the start to the end of each track, m; only of a corridor walk, which is a closed loop."""
-    panels: tuple[Curves, ...] = ()
-    """Panels of figs. 11 and 14; only of the walk that is drawn."""
-
 
 def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     """Return the results of `walks` walks of 20 m, and of one corridor walk for every WALKS_PER_CORRIDOR of them."""
@@ -98,68 +95,52 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     jobs += [KuptJob(1000 * seed + k, setting=setting) for setting in SETTINGS for k in range(1, count + 1)]
     results = runner.run(walk, jobs, _describe)
     corridor_walks, results = results[: len(laws) * corridors], results[len(laws) * corridors :]
-    short_walks, others = results[:count], results[count:]
-    paper = published.KUPT_DFPC
-    rows = [_row(name, short_walks) for name in short_walks[0].distances]
-    for number, setting in enumerate(SETTINGS):
-        walks_of_setting = others[number * count :][:count]
-        rows += [_row(name, walks_of_setting, f"{setting.name}: {name}") for name in walks_of_setting[0].distances]
+    short_walks = results[:count]
+    rows = []
+    for number, start in enumerate(["", *(f"{setting.name}: " for setting in SETTINGS)]):
+        walks_of_setting = results[number * count :][:count]
+        for name in walks_of_setting[0].values:
+            if name not in TRUE.values():
+                digits = 1 if name in COVERAGE_ROWS else 2
+                rows.append(row_of(PAPER_ROWS, start + name, pooled(walks_of_setting, name), digits))
     return Reproduction(
         name=NAME,
-        paper_title=published.KUPT_DFPC_TITLE,
+        paper_title=PAPER["title"],
         emulation=f"{count} walks of {WALK_LENGTH:g} m at {RATE:g} Hz, another pair of insoles each time",
         unit="m",
         rows=tuple(rows),
         panels=(
-            BoxPlots(f"distance of {count} walks of {WALK_LENGTH:g} m (fig. 12)", tuple(paper), "m", WALK_LENGTH),
-            FloorPanel(
-                f"{CORRIDOR_LENGTH:g} m of corridors (fig. 13)", corridor_walks[0].tracks, (("start", 0.0, 0.0),)
-            ),
+            BoxPlots(f"distance of {count} walks of {WALK_LENGTH:g} m (fig. 12)", TABLE_I, "m", WALK_LENGTH),
+            *corridor_walks[0].panels,
             *short_walks[0].panels,
         ),
         notes=(
             *_notes(rows, short_walks),
             *_corridor_notes("", corridor_walks[:corridors]),
             *_corridor_notes(f" with {OTHER_LAW.name}", corridor_walks[corridors:]),
-            f"The paper contradicts itself: the mean of KUPT-L is {published.KUPT_DFPC['KUPT-L'].mean} m in table I "
-            f"and {published.KUPT_L_MEAN_IN_TEXT} m in the text below it.",
+            f"The paper contradicts itself: the mean of KUPT-L is {PAPER_ROWS['KUPT-L'].mean} m in table I "
+            f"and {PAPER['KUPT-L-in-text']} m in the text below it.",
         ),
     )
 
 
-def _describe(one: KuptResults) -> str:
-    return ", ".join(f"{name} {one.distances[name][0]:.2f}" for name in published.KUPT_DFPC) + " m"
+def _describe(one: WalkResults) -> str:
+    return ", ".join(f"{name} {one.values[name][0]:.2f}" for name in TABLE_I) + " m"
 
 
-def _row(name: str, walks: list[KuptResults], shown: str | None = None) -> FigureRow:
-    values = [value for one in walks for value in one.distances[name]]
-    digits = 1 if name in COVERAGE_ROWS else 2
-    return row_of(published.KUPT_DFPC_ROWS, name if shown is None else shown, values, digits)
-
-
-def _notes(rows: list[FigureRow], short_walks: list[KuptResults]) -> list[str]:
-    squares = {
-        row.name: float(np.sqrt(np.mean([(value - WALK_LENGTH) ** 2 for value in row.values])))
-        for row in rows
-        if row.name not in COVERAGE_ROWS
-    }
-    own = [f"{name} {off:.2f}" for name, off in squares.items() if ": " not in name]
-    paths = statistics([one.true[foot] for one in short_walks for foot in Foot])
+def _notes(rows: list[FigureRow], short_walks: list[WalkResults]) -> list[str]:
+    off = {row.name: np.array(row.values) - WALK_LENGTH for row in rows if row.name not in COVERAGE_ROWS}
+    squares = {name: float(np.sqrt(np.mean(of**2))) for name, of in off.items()}
+    own = [f"{name} {of:.2f}" for name, of in squares.items() if ": " not in name]
     lines = [f"Root mean square of the error of {len(short_walks)} walks, m: {', '.join(own)}."]
     for setting in SETTINGS:
         start = f"{setting.name}: "
-        off = [f"{name[len(start) :]} {value:.2f}" for name, value in squares.items() if name.startswith(start)]
-        zero, known = (
-            sum(squares[f"{setting.name}: {method}-{letter}"] ** 2 for letter in "LR") ** 0.5
-            for method in ("ZUPT", "KUPT")
-        )
-        lines.append(f"With {setting.name}: {', '.join(off)}; KUPT over ZUPT, both feet: {known / zero:.2f}.")
-    lines.append(f"The feet really went {paths.mean:.2f} m on average.")
-    with_known, without = (
-        np.abs(np.array([value for one in short_walks for value in one.distances[name]]) - WALK_LENGTH)
-        for name in ("KUPT (+ bias)", SAME_ROW)
-    )
-    test = sign_test(with_known, without)
+        of_setting = {name.removeprefix(start): of for name, of in squares.items() if name.startswith(start)}
+        zero, known = (sum([of_setting[f"{one}-{letter}"] ** 2 for letter in "LR"]) ** 0.5 for one in ("ZUPT", "KUPT"))
+        found = ", ".join([f"{name} {of:.2f}" for name, of in of_setting.items()])
+        lines.append(f"With {setting.name}: {found}; KUPT over ZUPT, both feet: {known / zero:.2f}.")
+    lines.append(f"The feet really went {np.mean(pooled(short_walks, *TRUE.values())):.2f} m on average.")
+    test = sign_test(np.abs(off["KUPT (+ bias)"]), np.abs(off[SAME_ROW]))
     lines.append(
         f"The known velocity alone: KUPT errs less than ZUPT with the same additions in {test.smaller} of {test.pairs} "
         f"walks of a foot (sign test, p = {test.probability:.2g})."
@@ -167,47 +148,44 @@ def _notes(rows: list[FigureRow], short_walks: list[KuptResults]) -> list[str]:
     return lines
 
 
-def _corridor_notes(condition: str, walks: list[KuptResults]) -> list[str]:
+def _corridor_notes(condition: str, walks: list[WalkResults]) -> list[str]:
     lines = []
-    for name, drift in published.CORRIDOR_DRIFT.items():
-        off_by = [one.distances[name][0] - _true_distance(one, name) for one in walks]
-        share = 100.0 * float(np.mean(np.abs(off_by))) / CORRIDOR_LENGTH
-        worst = 100.0 * float(np.max(np.abs(off_by))) / CORRIDOR_LENGTH
-        ends = float(np.mean([one.end_distances[name] for one in walks]))
+    for name, drift in PAPER["corridor"].items():
+        feet = [true for foot, true in TRUE.items() if name.endswith(f"-{FOOT_LETTERS[foot]}")] or list(TRUE.values())
+        off = np.array([one.values[name][0] - np.mean(pooled([one], *feet)) for one in walks])
+        shares = 100.0 * np.abs(off) / CORRIDOR_LENGTH
         lines.append(
             f"{CORRIDOR_LENGTH:g} m of corridors{condition}, {name}: distance off by "
-            f"{', '.join(f'{off:+.2f}' for off in off_by)} m, {share:.2f} % of it on average, {worst:.2f} % at worst, "
-            f"end {ends:.2f} m from the start of this closed way; paper {drift:.2f} m, "
-            f"{100.0 * drift / CORRIDOR_LENGTH:.2f} %."
+            f"{', '.join(f'{one:+.2f}' for one in off)} m, {shares.mean():.2f} % of it on average, "
+            f"{shares.max():.2f} % at worst, end {np.mean(pooled(walks, f'end: {name}')):.2f} m from the start of this "
+            f"closed way; paper {drift:.2f} m, {100.0 * drift / CORRIDOR_LENGTH:.2f} %."
         )
     return lines
 
 
-def _true_distance(one: KuptResults, name: str) -> float:
-    """Return the true distance, m, of the foot in the row's name; the mean of both feet when it names none."""
-    feet = [foot for foot, letter in FOOT_LETTERS.items() if name.endswith(f"-{letter}")] or list(Foot)
-    return float(np.mean([one.true[foot] for foot in feet]))
+def walk(job: KuptJob) -> WalkResults:
+    """Emulate one walk, calibrate on its first part and run each recipe on the second.
 
-
-def walk(job: KuptJob) -> KuptResults:
-    """Emulate one walk, calibrate on its first part and run each recipe on the second."""
+    Values are measured distances by row, m, of both feet in a row of both, and true ones (`TRUE`). A corridor walk,
+    which is a closed loop, has distances from the start to the end of tracks, "end: ROW", m."""
     prepared = prepare(job.seed, job.setting, job.corridor)
     zupt, known = _run(ZUPT, prepared), _run(KUPT_DFPC, prepared)
-    true = {foot: prepared.true_distance(foot) for foot in Foot}
-    distances: dict[str, tuple[float, ...]] = {
+    distances: Values = {
         f"{name}-{letter}": (_distance(events, foot),)
         for name, events in (("ZUPT", zupt), ("KUPT", known))
         for foot, letter in FOOT_LETTERS.items()
     }
     distances["KUPT+DFPC"] = (_fused_distance(known),)
+    distances |= {name: (prepared.true_distance(foot),) for foot, name in TRUE.items()}
     if job.corridor:
-        tracks, end_distances = _tracks(prepared.walk.truth, prepared.t_halt, zupt, known)
-        return KuptResults(distances, true, tracks, end_distances)
+        tracks, ends = _tracks(prepared.walk.truth, prepared.t_halt, zupt, known)
+        title = f"{CORRIDOR_LENGTH:g} m of corridors (fig. 13)"
+        return WalkResults(distances | ends, (Plot(title, tracks, marks=(("start", 0.0, 0.0),)),))
     same = _run(SAME_ADDITIONS, prepared)
     distances[SAME_ROW] = tuple([_distance(same, foot) for foot in Foot])
     distances[SAME_FUSED_ROW] = (_fused_distance(same),)
     if not job.setting.with_additions:
-        return KuptResults(distances, true)
+        return WalkResults(distances)
     printed = _run(KUPT_DFPC_PRINTED, prepared)
     values = (*(_distance(printed, foot) for foot in Foot), _fused_distance(printed))
     distances.update({name: (value,) for name, value in zip(PRINTED_ROWS, values, strict=True)})
@@ -217,12 +195,12 @@ def walk(job: KuptJob) -> KuptResults:
     by_index = _run(BY_ERROR_INDEX, prepared)
     distances[BY_ERROR_INDEX.name] = (_fused_distance(by_index),)
     if job.setting != STANDARD:
-        return KuptResults(distances, true)
+        return WalkResults(distances)
     seen = watch(prepared.parts.after, prepared.calibration)
     shares = [coverage(seen[foot]) for foot in Foot]
     distances.update({name: tuple([share[k] for share in shares]) for k, name in enumerate(COVERAGE_ROWS)})
     drawn = panels(seen, {"ZUPT": zupt, "KUPT+DFPC": known}, by_index) if job.drawn else ()
-    return KuptResults(distances, true, panels=drawn)
+    return WalkResults(distances, drawn)
 
 
 def _run(recipe: Recipe, prepared: PreparedWalk) -> list[Event]:
@@ -239,7 +217,7 @@ def _fused_distance(events: list[Event]) -> float:
 
 def _tracks(
     truth: Truth, t_halt: float, zupt: list[Event], known: list[Event]
-) -> tuple[tuple[PictureTrack, ...], dict[str, float]]:
+) -> tuple[tuple[PictureTrack, ...], Values]:
     """Return tracks of stride ends, aligned with the truth over two metres, and distances from start to end, m."""
     ends = {
         f"ZUPT-{letter}": [(stride.t_end, foot, stride.position) for stride in final_strides(zupt, foot)]
@@ -251,7 +229,7 @@ def _tracks(
     ]
     path = _true_path(truth, t_halt)
     start = path[0].copy()
-    tracks, end_distances = [PictureTrack("true path", thin_out(path - start), DrawStyle.TRUTH)], {}
+    tracks, distances = [PictureTrack("true path", thin_out(path - start), DrawStyle.TRUTH)], Values()
     for name, places in ends.items():
         if len(places) < 2:
             continue
@@ -260,8 +238,8 @@ def _tracks(
             [_true_places(truth, foot, t)[0] for t, foot in [(t_halt, places[0][1]), *(p[:2] for p in places)]]
         )
         tracks.append(PictureTrack(name, thin_out(align_track(track, true) - start), DrawStyle.DOTS))
-        end_distances[name] = float(np.linalg.norm(track[-1] - track[0]))
-    return tuple(tracks), end_distances
+        distances[f"end: {name}"] = (float(np.linalg.norm(track[-1] - track[0])),)
+    return tuple(tracks), distances
 
 
 def _true_places(truth: Truth, foot: Foot, t: float | Floats) -> Floats:

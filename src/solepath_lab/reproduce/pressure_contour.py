@@ -15,14 +15,12 @@ Short walks show what each of our additions gains, and how the results depend on
 from __future__ import annotations
 
 from collections.abc import Sequence
-from operator import attrgetter
 
 import numpy as np
+from attrs import evolve
 
 from solepath.papers.pressure_contour.recipe import PRESSURE_CONTOUR
-from solepath.validate.alignment import Floats
 
-from . import published
 from .contour.runs import sign_test
 from .contour.variants import (
     GYROSCOPE_PRINTED_ROW,
@@ -37,11 +35,23 @@ from .contour.variants import (
     VARIANTS,
     WITHOUT_BIAS_ROW,
 )
-from .contour.walks import HALF_HOUR, NOT_FOUND, ContourJob, ContourResults, walk
+from .contour.walks import HALF_HOUR, LOOPS, NOT_FOUND, ContourJob, walk
+from .published import PUBLISHED, rows_of
 from .runner import Runner
-from .tables import Curves, FigureRow, FloorPanel, Panel, Reproduction, row_of
+from .tables import FigureRow, Plot, Reproduction, Table, WalkResults, pooled, row_of, statistics
 
 NAME = PRESSURE_CONTOUR.name
+PAPER_ROWS: Table = {
+    **rows_of(NAME),
+    "Gyroscope m": statistics([loop.gyroscope for loop in LOOPS]),
+    "Pressure m": statistics([loop.pressure for loop in LOOPS]),
+    "Gyroscope %": statistics([100.0 * loop.gyroscope / loop.distance for loop in LOOPS]),
+    "Pressure %": statistics([100.0 * loop.pressure / loop.distance for loop in LOOPS]),
+}
+"""Table II, and statistics of LOOPS: loop-closing error in m and in % of the path.
+
+Means and standard deviations in m are those that the paper prints (4.87 +- 2.75 and 4.30 +- 3.15). The paper's mean
+percentages, 0.40 and 0.35, are its mean errors divided by its mean distance instead."""
 WALKS = 6
 WALK_DURATION = HALF_HOUR
 """Duration of each emulated walk, s. Tests shorten it; the lengths of LOOPS are scaled with it."""
@@ -67,21 +77,21 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     loops, shorts, setups = results[:count], results[count : 2 * count], results[2 * count :]
     return Reproduction(
         name=NAME,
-        paper_title=published.PRESSURE_CONTOUR_TITLE,
+        paper_title=PUBLISHED[NAME]["title"],
         emulation=f"{count} walks of {WALK_DURATION / 60.0:g} min at {RATE:g} Hz, another device each time",
         unit="as named",
-        rows=(*_loop_rows(loops), *_short_rows(shorts)),
+        rows=tuple([*_loop_rows(loops), *_short_rows(shorts)]),
         panels=_panels(loops, shorts),
         notes=(*_loop_notes(loops), *_velocity_notes(loops), *_setup_notes(setups)),
     )
 
 
-def _describe(one: ContourResults) -> str:
-    names = [name for name in MAIN if name in one.biases]
-    errors = ", ".join(
-        f"{name.lower()} {one.closing_errors[name]:.2f} m and {_mean_bias(one, name):.2f} mm/s" for name in names
-    )
-    return f"{one.distance:.0f} m, closing error and velocity of the heel: {errors}"
+def _describe(one: WalkResults) -> str:
+    names = [name for name in MAIN if f"{name} m" in one.values]
+    errors = [
+        f"{name.lower()} {one.values[f'{name} m'][0]:.2f} m and {_mean_bias(one, name):.2f} mm/s" for name in names
+    ]
+    return f"{one.values['distance'][0]:.0f} m, closing error and velocity of the heel: {', '.join(errors)}"
 
 
 def loop_jobs(count: int, seed: int) -> list[ContourJob]:
@@ -110,54 +120,46 @@ def setup_jobs(seed: int) -> list[ContourJob]:
     ]
 
 
-def _loop_rows(loops: Sequence[ContourResults]) -> list[FigureRow]:
-    paper = {**published.PRESSURE_CONTOUR, **published.PRESSURE_VELOCITY}
-    rows = [row_of(paper, f"{name} m", [one.closing_errors[name] for one in loops]) for name in MAIN]
+def _loop_rows(loops: Sequence[WalkResults]) -> list[FigureRow]:
+    rows = [row_of(PAPER_ROWS, f"{name} m", pooled(loops, f"{name} m")) for name in MAIN]
+    distances = pooled(loops, "distance")
     for name in (GYROSCOPE_ROW, PRESSURE_ROW):
-        shares = [100.0 * one.closing_errors[name] / one.distance for one in loops]
-        rows.append(row_of(paper, f"{name} %", shares, 3))
-    rows += [row_of(paper, f"{name} mm/s", [_mean_bias(one, name) for one in loops]) for name in MAIN]
-    rows += [
-        row_of(paper, f"{name}, stances found %", [100.0 * one.found[name] for one in loops], 1)
-        for name in (PRESSURE_ROW, PRESSURE_PRINTED_ROW)
-    ]
+        shares = 100.0 * np.divide(pooled(loops, f"{name} m"), distances)
+        rows.append(row_of(PAPER_ROWS, f"{name} %", shares.tolist(), 3))
+    rows += [row_of(PAPER_ROWS, f"{name} mm/s", [_mean_bias(one, name) for one in loops]) for name in MAIN]
+    for name in (PRESSURE_ROW, PRESSURE_PRINTED_ROW):
+        rows.append(row_of(PAPER_ROWS, f"{name}, stances found %", pooled(loops, f"{name} found"), 1))
     return rows
 
 
-def _short_rows(shorts: Sequence[ContourResults]) -> list[FigureRow]:
+def _short_rows(shorts: Sequence[WalkResults]) -> list[FigureRow]:
     names = (PRESSURE_ROW, *LESS, PRESSURE_PRINTED_ROW, GYROSCOPE_ROW, GYROSCOPE_PRINTED_ROW)
-    rows = [row_of({}, f"short: {name} m", [one.closing_errors[name] for one in shorts]) for name in names]
+    rows = [row_of({}, f"short: {name} m", pooled(shorts, f"{name} m")) for name in names]
     return rows + [row_of({}, f"short: {name} mm/s", [_mean_bias(one, name) for one in shorts]) for name in names]
 
 
-def _mean_bias(result: ContourResults, name: str) -> float:
+def _mean_bias(result: WalkResults, name: str) -> float:
     """Return the mean velocity of the heel over the stances that were found, mm/s; 0 when none was."""
-    found = [bias for bias in result.biases[name] if bias != NOT_FOUND]
+    found = [bias for bias in result.values[f"{name} biases"] if bias != NOT_FOUND]
     return 1e3 * float(np.mean(found)) if found else 0.0
 
 
-def _panels(loops: Sequence[ContourResults], shorts: Sequence[ContourResults]) -> tuple[Panel, ...]:
-    panels: list[Panel] = [
-        FloorPanel(FIGURE_TITLES[one.number], one.tracks, (("start", 0, 0),)) for one in loops[: len(FIGURE_TITLES)]
-    ]
-    first = loops[0]
-    if first.stance:
-        panels.append(Curves("a stance (fig. 7)", first.stance, "ms since foot-flat", "mm/s or mrad/s", (-50.0, 50.0)))
-    if first.bias_filter:
-        panels.append(Curves("bias filter (fig. 9)", first.bias_filter, "min", "mg"))
+def _panels(loops: Sequence[WalkResults], shorts: Sequence[WalkResults]) -> tuple[Plot, ...]:
+    drawn = [evolve(one.panels[0], title=FIGURE_TITLES[int(one.values["number"][0])]) for one in loops[:2]]
     compared = ("true path", PRESSURE_PRINTED_ROW.lower(), WITHOUT_BIAS_ROW.lower())
-    tracks = tuple([track for track in shorts[0].tracks if track.name in compared])
-    panels.append(FloorPanel("with and without the bias filter (fig. 10)", tracks, (("start", 0, 0),)))
-    return tuple(panels)
+    tracks = tuple([track for track in shorts[0].panels[0].tracks if track.name in compared])
+    title = "with and without the bias filter (fig. 10)"
+    return (*drawn, *loops[0].panels[1:], evolve(shorts[0].panels[0], title=title, tracks=tracks))
 
 
-def _loop_notes(loops: Sequence[ContourResults]) -> list[str]:
+def _loop_notes(loops: Sequence[WalkResults]) -> list[str]:
     lines = []
-    for one in sorted(loops, key=attrgetter("number")):
-        paper = published.LOOPS[one.number]
-        ours = ", ".join(f"{name.lower()} {error:.2f} m" for name, error in one.closing_errors.items())
+    for one in sorted(loops, key=lambda one: one.values["number"]):
+        number = int(one.values["number"][0])
+        paper = LOOPS[number]
+        ours = ", ".join(f"{name.lower()} {one.values[f'{name} m'][0]:.2f} m" for name in MAIN)
         lines.append(
-            f"Like experiment {one.number + 1}, {one.distance:.0f} m: {ours}; paper, {paper.distance:.0f} m: "
+            f"Like experiment {number + 1}, {one.values['distance'][0]:.0f} m: {ours}; paper, {paper.distance:.0f} m: "
             f"gyroscope {paper.gyroscope:.2f} m, pressure {paper.pressure:.2f} m."
         )
     lines.append(
@@ -167,17 +169,15 @@ def _loop_notes(loops: Sequence[ContourResults]) -> list[str]:
     return lines
 
 
-def _velocity_notes(loops: Sequence[ContourResults]) -> list[str]:
+def _velocity_notes(loops: Sequence[WalkResults]) -> list[str]:
     """Return the comparisons of detectors by the velocity of the heel, stance by stance, and by loops."""
     pairs = ((PRESSURE_ROW, GYROSCOPE_ROW), (PRESSURE_PRINTED_ROW, GYROSCOPE_PRINTED_ROW))
     lines = []
     for first, second in pairs:
-        steps = sign_test(_all_biases(loops, first), _all_biases(loops, second))
+        biases = [np.array(pooled(loops, f"{name} biases")) for name in (first, second)]
+        steps = sign_test(*[np.where(of == NOT_FOUND, np.nan, of) for of in biases])
         walks = sum([_mean_bias(one, first) < _mean_bias(one, second) for one in loops])
-        ends = sign_test(
-            np.array([one.closing_errors[first] for one in loops]),
-            np.array([one.closing_errors[second] for one in loops]),
-        )
+        ends = sign_test(*[np.array(pooled(loops, f"{name} m")) for name in (first, second)])
         lines.append(
             f"{first} against {second.lower()}: the heel is slower while taken to be at rest in {steps.smaller} of "
             f"{steps.pairs} stances (sign test, p {_probability(steps.probability)}) and on average in {walks} of "
@@ -187,24 +187,20 @@ def _velocity_notes(loops: Sequence[ContourResults]) -> list[str]:
     return lines
 
 
-def _all_biases(loops: Sequence[ContourResults], name: str) -> Floats:
-    """Return the velocity of the heel in all stances of a recipe, m/s; nan for one that was not found."""
-    biases = np.array([bias for one in loops for bias in one.biases[name]])
-    return np.where(biases == NOT_FOUND, np.nan, biases)
-
-
 def _probability(p: float) -> str:
     return f"= {p:.2g}" if p >= 1e-12 else "< 1e-12"
 
 
-def _setup_notes(results: Sequence[ContourResults]) -> list[str]:
+def _setup_notes(results: Sequence[WalkResults]) -> list[str]:
     lines = [
         f"Walks of {SHORT_DURATION / 60.0:g} min, of which all but the first change one thing: velocity of the heel, "
         f"stances found and loop-closing error of {', '.join(name.lower() for name in COMPARED)}."
     ]
     for setup, one in zip(SETUPS, results, strict=True):
         velocities = ", ".join(f"{_mean_bias(one, name):.2f}" for name in COMPARED)
-        found = ", ".join(f"{100.0 * one.found[name]:.0f}" for name in COMPARED)
-        ends = ", ".join(f"{one.closing_errors[name]:.2f}" for name in COMPARED)
+        found, ends = (
+            ", ".join(f"{one.values[f'{name} {what}'][0]:.{digits}f}" for name in COMPARED)
+            for what, digits in (("found", 0), ("m", 2))
+        )
         lines.append(f"With {setup.name}: {velocities} mm/s; {found} %; {ends} m.")
     return lines

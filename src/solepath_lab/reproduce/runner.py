@@ -37,7 +37,8 @@ class Runner:
         """Return the result of the module-level function `work` for every job, in the order of the jobs.
 
         `describe` returns the findings of a job in a few words, for its line."""
-        known = {k: result for k, job in enumerate(jobs) if (result := self._find(work, job)) is not None}
+        done = [None if self.done_jobs is None else self.done_jobs.find(work, job) for job in jobs]
+        known = {k: result for k, result in enumerate(done) if result is not None}
         missing = [k for k in range(len(jobs)) if k not in known]
         if known:
             self.report(f"{self.title}{len(known)} of {len(jobs)} were already done")
@@ -48,6 +49,3 @@ class Runner:
             known[k] = result
             self.report(f"{self.title}{count} of {len(jobs)}: {describe(result)}")
         return [known[k] for k in range(len(jobs))]
-
-    def _find(self, work: Callable[[Job], JobResult], job: Job) -> JobResult | None:
-        return None if self.done_jobs is None else self.done_jobs.find(work, job)

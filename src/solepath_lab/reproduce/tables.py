@@ -8,7 +8,7 @@ from typing import Any
 
 import attrs
 import numpy as np
-from attrs import frozen
+from attrs import field, frozen
 
 
 class DrawStyle(Enum):
@@ -20,21 +20,29 @@ class DrawStyle(Enum):
     DOTS = "dots"
 
 
+Points = tuple[tuple[float, ...], ...]
+
+
 @frozen
 class PictureTrack:
-    """A track or a cloud of points to draw, with its name. `points` are (x, y) in m, in order of time."""
+    """A track, a curve or a cloud of points to draw, with its name; points are (x, y), or (x, y, z) with z up."""
 
     name: str
-    points: tuple[tuple[float, float], ...]
+    points: Points
     style: DrawStyle = DrawStyle.LINE
 
 
 @frozen
-class FloorPanel:
-    """A panel with tracks or clouds of points seen from above. `marks` are named places (name, x, y), m."""
+class Plot:
+    """A panel with tracks on the floor, seen from above, or in space, or with curves over the x axis.
+
+    `marks` are named places (name, x, y); `limits` are those of the y axis, None: all of the tracks."""
 
     title: str
     tracks: tuple[PictureTrack, ...]
+    x_label: str = "x, m"
+    y_label: str = "y, m"
+    limits: tuple[float, float] | None = None
     marks: tuple[tuple[str, float, float], ...] = ()
 
 
@@ -49,17 +57,6 @@ class BoxPlots:
 
 
 @frozen
-class Curves:
-    """A panel with curves over the x axis. `limits` are those of the y axis; None: all of the curves."""
-
-    title: str
-    curves: tuple[PictureTrack, ...]
-    x_label: str
-    y_label: str
-    limits: tuple[float, float] | None = None
-
-
-@frozen
 class Bars:
     """A panel with a group of bars for each name; a series is its title and its value for each name."""
 
@@ -69,24 +66,7 @@ class Bars:
     label: str
 
 
-@frozen
-class SpaceTrack:
-    """A track in space to draw, with its name. `points` are (x, y, z) in m, z up, in order of time."""
-
-    name: str
-    points: tuple[tuple[float, float, float], ...]
-    style: DrawStyle = DrawStyle.LINE
-
-
-@frozen
-class SpacePanel:
-    """A panel with tracks in space, seen obliquely from above."""
-
-    title: str
-    tracks: tuple[SpaceTrack, ...]
-
-
-Panel = FloorPanel | BoxPlots | Curves | Bars | SpacePanel
+Panel = Plot | BoxPlots | Bars
 
 
 @frozen
@@ -127,6 +107,24 @@ class FigureRow:
     paper: Statistics
     digits: int = 2
     """Number of digits after the point, as the paper prints it."""
+
+
+Values = dict[str, tuple[float, ...]]
+
+
+@frozen
+class WalkResults:
+    """The results of one walk, or of what else is one job of an experiment."""
+
+    values: Values = field(repr=False)
+    """Values by name: of a row, or of what rows and notes are computed from."""
+    panels: tuple[Plot, ...] = ()
+    """Panels of the walks that are drawn."""
+
+
+def pooled(walks: Iterable[WalkResults], *names: str) -> list[float]:
+    """Return the values of these names of all walks, in one list; a walk may lack them."""
+    return [value for name in names for one in walks for value in one.values.get(name, ())]
 
 
 def row_of(paper: Table, name: str, values: Iterable[float], digits: int = 2) -> FigureRow:

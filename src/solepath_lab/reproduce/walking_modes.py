@@ -13,7 +13,8 @@ piece (`VARIANTS`). Then come recognition of the modes under two load laws, and 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from itertools import islice
 from math import radians
 
 import numpy as np
@@ -23,7 +24,7 @@ from solepath.calibration import Calibration
 from solepath.emulate.wearers.gait import LoadLaw
 from solepath.emulate.wearers.soles.contact import SLIPPING, WORN
 from solepath.papers.walking_modes.calibrate import MODES
-from solepath.papers.walking_modes.compensation import Compensation
+from solepath.papers.walking_modes.compensation import TABLE_1, Compensation
 from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import (
     TOUCHDOWN_ACCELERATION,
@@ -38,7 +39,6 @@ from solepath.types import Foot
 
 from ..emulated.laps import ACROSS, ALONG
 from ..emulated.wearers import SUBJECTS
-from . import published
 from .modes.figures import CORNER_POSITIONS, panels
 from .modes.walks import (
     LOAD_VARIATION,
@@ -46,19 +46,21 @@ from .modes.walks import (
     USUAL,
     BendsJob,
     Conditions,
-    Corners,
     MarkedWalks,
     ModesJob,
+    corner_row,
+    deviations,
     learn,
     recognise,
     walk,
     with_compensation,
 )
-from .published import corner_row, table_1_row
+from .published import PUBLISHED, rows_of
 from .runner import Runner
-from .tables import FigureRow, Reproduction, row_of, statistics
+from .tables import FigureRow, Reproduction, Statistics, WalkResults, pooled, row_of, statistics
 
 NAME = WALKING_MODES.name
+PAPER_ROWS = rows_of(NAME)
 WALKS = 40
 MARKED_STEPS, MARKED_REPEATS = 50, 3
 """Number of steps of a walk over marks, and number of its repetitions.
@@ -103,46 +105,51 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     count = WALKS if walks is None else walks
     wearers = list(range(min(count, len(SUBJECTS))))
     few = min(count, WALKS_PER_CONDITION)
-    marked_walks = [
-        MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, MARKED_STEPS, MARKED_REPEATS) for subject in wearers
-    ]
-    calibrations = runner.run(learn, marked_walks, lambda _: "walks over marks of one wearer")
-    ours = _mean_table(calibrations)
-    jobs = [
-        ModesJob(k % len(wearers), 1000 * seed + k, _methods(calibrations[k % len(wearers)], ours))
-        for k in range(count)
-    ]
+
+    def marked_walks(steps: int, repeats: int, conditions: Conditions = USUAL) -> list[MarkedWalks]:
+        seeds = [1000 * seed + 500 + 10 * subject for subject in wearers]
+        return [MarkedWalks(subject, seeds[subject], steps, repeats, conditions) for subject in wearers]
+
+    full_walks = marked_walks(MARKED_STEPS, MARKED_REPEATS)
+    calibrations = runner.run(learn, full_walks, lambda _: "walks over marks of one wearer")
+    methods = [_methods(calibration, _mean_table(calibrations)) for calibration in calibrations]
+    jobs = [ModesJob(k % len(wearers), 1000 * seed + k, methods[k % len(wearers)]) for k in range(count)]
     results = runner.run(walk, jobs, _describe)
     bends = [
         BendsJob(subject, 1000 * seed + 700 + subject, BEND_STEPS, c) for c in BENDS.values() for subject in wearers
     ]
     shares = runner.run(recognise, bends, lambda _: "modes in bends")
-    again = [
-        MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, BEND_STEPS, 1, c)
-        for c in CONDITIONS.values()
-        for subject in wearers
-    ]
-    learnt = runner.run(learn, again, lambda _: "one walk over marks")
-    condition_jobs = [
-        ModesJob(
-            k % len(wearers), 1000 * seed + k, _two_methods(learnt[n * len(wearers) + k % len(wearers)]), condition
-        )
-        for n, condition in enumerate(CONDITIONS.values())
-        for k in range(few)
-    ]
+    again = [job for condition in CONDITIONS.values() for job in marked_walks(BEND_STEPS, 1, condition)]
+    learnt = iter(runner.run(learn, again, lambda _: "one walk over marks"))
+    condition_jobs = []
+    for condition in CONDITIONS.values():
+        of_wearers = list(islice(learnt, len(wearers)))
+        two = [{name: (METHODS[name], calibration) for name in ("III", "IV")} for calibration in of_wearers]
+        condition_jobs += [
+            ModesJob(k % len(wearers), 1000 * seed + k, two[k % len(wearers)], condition) for k in range(few)
+        ]
     found = runner.run(walk, condition_jobs, _describe)
-    by_condition = [found[n * few : (n + 1) * few] for n in range(len(CONDITIONS))]
 
     rows = [
-        *_corner_rows(results),
-        *_gain_rows(results),
-        *_table_1_rows(calibrations),
-        *_mode_rows(shares, len(wearers)),
-        *_condition_rows(by_condition),
+        row_of(PAPER_ROWS, name, pooled(results, name), digits=4)
+        for point in CORNER_POSITIONS
+        for method in METHODS
+        for name in (corner_row(point, method, axis) for axis in "xy")
     ]
+    for method in (*METHODS, *VARIANTS):
+        rows.append(row_of({}, f"corners, {method}", _lengths(results, method), digits=3))
+    rows += _table_1_rows(calibrations)
+    for rule, rule_name in RULES.items():
+        for n, name in enumerate(BENDS):
+            of_bends = pooled(shares[n * len(wearers) : (n + 1) * len(wearers)], rule.name)
+            rows.append(row_of({}, f"modes {rule_name} %, {name}", of_bends, digits=1))
+    for n, name in enumerate(CONDITIONS):
+        for method in ("III", "IV"):
+            lengths = _lengths(found[n * few : (n + 1) * few], method)
+            rows.append(row_of({}, f"corners, {method}, {name}", lengths, digits=3))
     return Reproduction(
         name=NAME,
-        paper_title=published.WALKING_MODES_TITLE,
+        paper_title=PUBLISHED[NAME]["title"],
         emulation=f"{count} rectangles of {ALONG} m by {ACROSS} m by {len(wearers)} wearers at {RATE:g} Hz",
         unit="m",
         rows=tuple(rows),
@@ -151,9 +158,16 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     )
 
 
-def _describe(one: Mapping[str, Corners]) -> str:
-    lengths = {method: np.mean([np.hypot(*off) for off in by_corner.values()]) for method, by_corner in one.items()}
-    return "mean deviation " + ", ".join(f"{method} {100.0 * off:.1f}" for method, off in lengths.items()) + " cm"
+def _describe(one: WalkResults) -> str:
+    lengths = {method: _lengths([one], method) for method in METHODS if corner_row("A", method, "x") in one.values}
+    return "mean deviation " + ", ".join(f"{method} {100.0 * off:.1f}" for method, (off,) in lengths.items()) + " cm"
+
+
+def _lengths(results: Sequence[WalkResults], method: str) -> list[float]:
+    """Return the mean length of the deviations at all corners, m, for each walk."""
+    off = [np.hypot(*deviations(results, point, method).T) for point in CORNER_POSITIONS]
+    lengths: list[float] = np.mean(off, axis=0).tolist()
+    return lengths
 
 
 def _methods(calibration: Calibration, ours: Compensation) -> dict[str, tuple[Recipe, Calibration]]:
@@ -172,10 +186,6 @@ def _methods(calibration: Calibration, ours: Compensation) -> dict[str, tuple[Re
     return {name: (recipe, calibration) for name, recipe in recipes.items()}
 
 
-def _two_methods(calibration: Calibration) -> dict[str, tuple[Recipe, Calibration]]:
-    return {name: (METHODS[name], calibration) for name in ("III", "IV")}
-
-
 def _mean(pairs: Sequence[tuple[float, float]]) -> tuple[float, float]:
     return float(np.mean([x for x, _ in pairs])), float(np.mean([y for _, y in pairs]))
 
@@ -186,76 +196,32 @@ def _mean_table(calibrations: Sequence[Calibration]) -> Compensation:
     return {foot: {mode: _mean([table[foot][mode] for table in tables]) for mode in MODES} for foot in Foot}
 
 
-def _corner_rows(results: Sequence[Mapping[str, Corners]]) -> list[FigureRow]:
-    return [
-        row_of(
-            published.WALKING_MODES,
-            corner_row(point, method, axis),
-            [one[method][point][k] for one in results],
-            digits=4,
-        )
-        for point in CORNER_POSITIONS
-        for method in METHODS
-        for k, axis in enumerate("xy")
-    ]
-
-
-def _lengths(results: Sequence[Mapping[str, Corners]], method: str, points: Sequence[str]) -> list[float]:
-    """Return the mean length of the deviations at these corners, m, for each walk."""
-    return [float(np.mean([np.hypot(*one[method][point]) for point in points])) for one in results]
-
-
-def _gain_rows(results: Sequence[Mapping[str, Corners]]) -> list[FigureRow]:
-    """Return the mean distance over all corners by method and variant."""
-    return [
-        row_of({}, f"corners, {method}", _lengths(results, method, tuple(CORNER_POSITIONS)), digits=3)
-        for method in (*METHODS, *VARIANTS)
-    ]
-
-
-def _condition_rows(by_condition: Sequence[Sequence[Mapping[str, Corners]]]) -> list[FigureRow]:
-    return [
-        row_of({}, f"corners, {method}, {name}", _lengths(walked, method, tuple(CORNER_POSITIONS)), digits=3)
-        for name, walked in zip(CONDITIONS, by_condition, strict=True)
-        for method in ("III", "IV")
-    ]
-
-
 def _table_1_rows(calibrations: Sequence[Calibration]) -> list[FigureRow]:
     """Return the compensation of the wearers as table 1 has it: x to the right, y ahead."""
     tables = [calibration.modes or {} for calibration in calibrations]
     return [
-        row_of(published.TABLE_1, table_1_row(foot, mode, axis), [sign * t[foot][mode][k] for t in tables], digits=4)
+        FigureRow(
+            f"table 1 {foot.value} {mode.value} {axis}",
+            tuple([sign * t[foot][mode][k] for t in tables]),
+            Statistics(mean=sign * TABLE_1[foot][mode][k]),
+            digits=4,
+        )
         for foot in Foot
         for mode in MODES
         for axis, k, sign in (("x", 1, -1.0), ("y", 0, 1.0))
     ]
 
 
-def _mode_rows(shares: Sequence[Mapping[ModeRule, Sequence[float]]], wearers: int) -> list[FigureRow]:
-    return [
-        row_of(
-            {},
-            f"modes {rule_name} %, {name}",
-            [share for one in shares[n * wearers : (n + 1) * wearers] for share in one[rule]],
-            digits=1,
-        )
-        for rule, rule_name in RULES.items()
-        for n, name in enumerate(BENDS)
-    ]
-
-
-def _notes(results: Sequence[Mapping[str, Corners]], rows: Sequence[FigureRow]) -> tuple[str, ...]:
+def _notes(results: Sequence[WalkResults], rows: Sequence[FigureRow]) -> tuple[str, ...]:
     lines = []
     for point in CORNER_POSITIONS:
-        of_mean, mean_of, paper = [], [], []
-        for method in (*METHODS, *VARIANTS):
-            deviations = np.array([one[method][point] for one in results])
-            of_mean.append(f"{method} {100.0 * float(np.hypot(*deviations.mean(axis=0))):.1f}")
-            mean_of.append(f"{method} {100.0 * float(np.hypot(*deviations.T).mean()):.1f}")
-            if method in METHODS:
-                paper.append(f"{method} {100.0 * float(np.hypot(*published.CORNERS[point][method][0])):.1f}")
-        better = sum(np.hypot(*one["IV"][point]) < np.hypot(*one["III"][point]) for one in results)
+        off = {method: deviations(results, point, method) for method in (*METHODS, *VARIANTS)}
+        of_mean = [f"{method} {100.0 * float(np.hypot(*of.mean(axis=0))):.1f}" for method, of in off.items()]
+        mean_of = [f"{method} {100.0 * float(np.hypot(*of.T).mean()):.1f}" for method, of in off.items()]
+        names = {method: [corner_row(point, method, axis) for axis in "xy"] for method in METHODS}
+        printed = {method: [PAPER_ROWS[name].mean or 0.0 for name in of] for method, of in names.items()}
+        paper = [f"{method} {100.0 * float(np.linalg.norm(of)):.1f}" for method, of in printed.items()]
+        better = int(np.sum(np.hypot(*off["IV"].T) < np.hypot(*off["III"].T)))
         lines.append(f"{point}: the length of our mean deviation, the paper's statistic, is {', '.join(of_mean)} cm; "
                      f"that of the paper is {', '.join(paper)} cm.")  # fmt: skip
         lines.append(f"{point}: the mean length of our deviations is {', '.join(mean_of)} cm; IV is nearer than III in "

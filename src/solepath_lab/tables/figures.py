@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -10,17 +11,7 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..reproduce.tables import (
-    Bars,
-    BoxPlots,
-    Curves,
-    DrawStyle,
-    FloorPanel,
-    PictureTrack,
-    Reproduction,
-    SpacePanel,
-    Statistics,
-)
+from ..reproduce.tables import Bars, BoxPlots, DrawStyle, Plot, Reproduction, Statistics
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 """Colours that colour-blind people can distinguish (Okabe and Ito 2008)."""
@@ -50,20 +41,18 @@ def draw(reproduction: Reproduction, path: Path, extension: str) -> None:
     columns = -(-count // rows)
     figure = Figure(figsize=(PANEL_SIZE * columns, PANEL_SIZE * rows), layout="constrained")
     for number, panel in enumerate(reproduction.panels, 1):
-        if isinstance(panel, SpacePanel):
-            ax = figure.add_subplot(rows, columns, number, projection="3d")
-            _draw_space(ax, panel)
-            ax.set_title(panel.title, fontsize=10)
-            continue
-        ax = figure.add_subplot(rows, columns, number)
+        in_space = isinstance(panel, Plot) and any(len(point) > 2 for track in panel.tracks for point in track.points)
+        ax = figure.add_subplot(rows, columns, number, projection="3d" if in_space else None)
         if isinstance(panel, BoxPlots):
             _draw_boxes(ax, panel, reproduction)
-        elif isinstance(panel, Curves):
-            _draw_curves(ax, panel)
         elif isinstance(panel, Bars):
             _draw_bars(ax, panel)
         else:
-            _draw_floor(ax, panel)
+            _draw_plot(ax, panel)
+        if in_space:
+            _level(ax)
+        elif isinstance(panel, Plot) and panel.x_label == "x, m":
+            ax.set_aspect("equal", adjustable="datalim")
         ax.set_title(panel.title, fontsize=10)
     figure.suptitle(f"{reproduction.name}, emulated ({reproduction.paper_title})", fontsize=11)
     metadata = {METADATA_KEYS[extension]: "solepath"} if extension in METADATA_KEYS else None
@@ -106,63 +95,36 @@ def _draw_paper_box(ax: Axes, left: float, paper: Statistics) -> None:
     ax.autoscale_view()
 
 
-def _draw_floor(ax: Axes, panel: FloorPanel) -> None:
-    n_drawn = 0
+def _draw_plot(ax: Axes, panel: Plot) -> None:
+    styles = cycle(zip(COLOURS, MARKERS, strict=True))
     for track in panel.tracks:
+        columns = list(zip(*track.points, strict=True)) or [(), ()]
         if track.style is DrawStyle.TRUTH:
-            ax.plot(*_columns(track), color="0.3", linestyle="--", linewidth=1.0, label=track.name, zorder=3)
+            ax.plot(*columns, color="0.3", linestyle="--", linewidth=1.0, label=track.name)
             continue
-        colour, marker = COLOURS[n_drawn % len(COLOURS)], MARKERS[n_drawn % len(MARKERS)]
-        n_drawn += 1
+        colour, marker = next(styles)
         if track.style is DrawStyle.DOTS:
-            ax.scatter(*_columns(track), s=14, color=colour, marker=marker, alpha=0.7, label=track.name, zorder=2)
+            ax.scatter(columns[0], columns[1], s=14, color=colour, marker=marker, alpha=0.7, label=track.name)
         else:
-            ax.plot(*_columns(track), color=colour, linewidth=0.9, label=track.name, zorder=2)
-            x, y = track.points[-1] if track.points else (0.0, 0.0)
-            ax.plot([x], [y], marker="x", color=colour, markersize=7, zorder=4)
+            ax.plot(*columns, color=colour, linewidth=1.0, label=track.name)
     for name, x, y in panel.marks:
         ax.plot([x], [y], marker="*", color="black", markersize=9, linestyle="none", zorder=5)
         ax.annotate(name, (x, y), textcoords="offset points", xytext=(6, 6), fontsize=9)
-    ax.set_aspect("equal", adjustable="datalim")
-    ax.set_xlabel("x, m")
-    ax.set_ylabel("y, m")
-    ax.grid(color="0.92")
-    ax.set_axisbelow(True)
-    ax.legend(fontsize=8, loc="center" if len(panel.marks) > 1 else "best")
-
-
-def _draw_space(ax: Any, panel: SpacePanel) -> None:
-    # `Any`: matplotlib's axes in space have no types
-    for k, track in enumerate(panel.tracks):
-        is_truth = track.style is DrawStyle.TRUTH
-        colour = "0.3" if is_truth else COLOURS[(k - 1) % len(COLOURS)]
-        x, y, z = zip(*track.points, strict=True)
-        ax.plot(x, y, z, color=colour, linestyle="--" if is_truth else "-", linewidth=1.0, label=track.name)
-    heights = [z for track in panel.tracks for _, _, z in track.points]
-    middle = 0.5 * (min(heights) + max(heights))
-    half = max(0.5 * (max(heights) - min(heights)), LEAST_HALF_HEIGHT)
-    ax.set_zlim(middle - half, middle + half)
-    ax.set_xlabel("x, m")
-    ax.set_ylabel("y, m")
-    ax.set_zlabel("z, m")
-    ax.legend(fontsize=8)
-
-
-def _draw_curves(ax: Axes, panel: Curves) -> None:
-    for k, curve in enumerate(panel.curves):
-        colour, line = COLOURS[k % len(COLOURS)], "--" if curve.style is DrawStyle.TRUTH else "-"
-        if curve.style is DrawStyle.DOTS:
-            marker = MARKERS[k % len(MARKERS)]
-            ax.scatter(*_columns(curve), s=14, color=colour, marker=marker, alpha=0.7, label=curve.name)
-        else:
-            ax.plot(*_columns(curve), color=colour, linestyle=line, linewidth=1.2, label=curve.name)
     if panel.limits is not None:
         ax.set_ylim(*panel.limits)
     ax.set_xlabel(panel.x_label)
     ax.set_ylabel(panel.y_label)
     ax.grid(color="0.92")
     ax.set_axisbelow(True)
-    ax.legend(fontsize=8)
+    ax.legend(fontsize=8, loc="center" if len(panel.marks) > 1 else "best")
+
+
+def _level(ax: Any) -> None:
+    """Show at least twice LEAST_HALF_HEIGHT of heights; matplotlib's axes in space have no types."""
+    low, high = ax.get_zlim()
+    half = max(0.5 * (high - low), LEAST_HALF_HEIGHT)
+    ax.set_zlim(0.5 * (low + high) - half, 0.5 * (low + high) + half)
+    ax.set_zlabel("z, m")
 
 
 def _draw_bars(ax: Axes, panel: Bars) -> None:
@@ -173,7 +135,3 @@ def _draw_bars(ax: Axes, panel: Bars) -> None:
     ax.set_xticks(list(range(len(panel.names))), list(panel.names), fontsize=7)
     ax.set_ylabel(panel.label)
     ax.legend(fontsize=8, loc="lower right")
-
-
-def _columns(track: PictureTrack) -> tuple[list[float], list[float]]:
-    return [x for x, _ in track.points], [y for _, y in track.points]

@@ -1,9 +1,8 @@
 """Learns the network of `Activities` from blocks of half a second whose activity is known.
 
-    solepath-lab train activities DATA_DIR [--out FILE] [--without FOLD]
+    solepath-lab train activities DATA_DIR
 
-writes activities.json beside the part, or FILE. The same data give the same file. `--without` leaves out the wearers of
-a fold of hugadb (numbers from 0, as in hugadb.py), so that the part can be scored on them.
+writes activities.json beside the part. The same data give the same file.
 
 The training data are hugadb, as recorded and at other rates; level walks of other wearers, sensors and mountings; and
 emulated wearers with seeds from 101. In the level walks the wearers also stood, unlabelled, so only blocks with a
@@ -11,13 +10,11 @@ stride are used. The recorded stairs of gaitmap_examples and xio_closed_walks ar
 
 from __future__ import annotations
 
-import json
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from copy import deepcopy
 from operator import attrgetter
 from pathlib import Path
-from typing import Any
 
 import attrs
 import numpy as np
@@ -50,11 +47,10 @@ from solepath.recording.samples import load_samples
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from solepath.types.vector import TIME_EPSILON
 
-from ..options import add_command, add_folder
 from . import emulated
 from .activities_course import FootEvidence, LabelledCourse, chances, shifts
 from .activities_net import CLASSES, feature_statistics, fit_networks, to_json
-from .hugadb import FOLDS, Span, labels, recordings, spans
+from .hugadb import Span, labels, recordings, spans
 from .resampling import resampled
 
 Floats = NDArray[np.float64]
@@ -72,7 +68,7 @@ VARIANTS: tuple[tuple[float | None, Recipe], ...] = (
 )
 """Rate in Hz (None: as recorded) and recipe with which each recording is processed."""
 MISLABELLED = ("various_03_05", "various_03_06")
-"""Recordings that are left out because most of their labels are mistakes (`CORRECTIONS` in hugadb.py says why).
+"""Recordings that are left out because most of their labels are mistakes (known.toml says why).
 
 The other corrections are of rides, in which feet stand; these recordings are learnt with their labels as they are."""
 LEVEL_WALKS = ("ipol_10m_uturn", "gumushane_gcp", "felius_2min_walk", "tripod_treadmill")
@@ -257,38 +253,12 @@ def fit_model(sources: Iterable[Blocks], note: str) -> MotionModel:
     return attrs.evolve(model, shifts=shifts(courses, model))
 
 
-def train_model(data: Path, without: int | None) -> MotionModel:
-    """Return the model that is fitted to all training data but the wearers of the fold `without`."""
-    left_out = frozenset[int]() if without is None else FOLDS[without]
-    fold = "all wearers" if without is None else f"the wearers but {sorted(left_out)}"
-    note = (
-        f"{fold} of HuGaDB (without {' and '.join(MISLABELLED)}) as recorded and at 100, 20 and 10 Hz; level walks of "
-        f"{', '.join(LEVEL_WALKS)}; emulated wearers, seeds {EMULATED[0]} to {EMULATED[-1]}"
-    )
-    return fit_model([*hugadb(data / "hugadb", left_out), *level_walks(data), *emulated_walks()], note)
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "activities", "network of the activities", __doc__ or "")
-    add_folder(command)
-    command.add_argument("--out", metavar="FILE", type=Path, default=Path(motion.__file__).with_name("activities.json"))
-    command.add_argument("--without", metavar="FOLD", type=int, choices=range(len(FOLDS)), help="leave out its wearers")
-    command.set_defaults(run=run)
-
-
 def run(options: Namespace) -> int:
-    """Train the activity model and write it; return the exit status."""
-    options.out.write_text(_lines(to_json(train_model(options.dir, options.without)), 0) + "\n", encoding="utf-8")
+    """Train the activity model on all training data and write it; return the exit status."""
+    note = (
+        f"all wearers of HuGaDB (without {' and '.join(MISLABELLED)}) as recorded and at 100, 20 and 10 Hz; level "
+        f"walks of {', '.join(LEVEL_WALKS)}; emulated wearers, seeds {EMULATED[0]} to {EMULATED[-1]}"
+    )
+    sources = [*hugadb(options.dir / "hugadb", frozenset()), *level_walks(options.dir), *emulated_walks()]
+    Path(motion.__file__).with_name("activities.json").write_text(to_json(fit_model(sources, note)), encoding="utf-8")
     return 0
-
-
-def _lines(value: object, depth: int) -> str:
-    """Return JSON with a line for each row of numbers."""
-    inner, close = "\n" + " " * (depth + 1), "\n" + " " * depth
-    if isinstance(value, dict):
-        rows = [f"{json.dumps(key)}: {_lines(one, depth + 1)}" for key, one in value.items()]
-        return "{" + inner + ("," + inner).join(rows) + close + "}"
-    if isinstance(value, list) and value and isinstance(value[0], list):
-        return "[" + inner + ("," + inner).join([json.dumps(row) for row in value]) + close + "]"
-    return json.dumps(value)

@@ -7,8 +7,10 @@ Numbers without a source were chosen by hand; no sweep of them is recorded."""
 
 from __future__ import annotations
 
-from typing import Any
+import json
+import re
 
+import attrs
 import numpy as np
 from numpy.typing import NDArray
 
@@ -138,23 +140,7 @@ def rounded_row(values: Floats) -> Row:
     return tuple([float(f"{value:.5g}") for value in values.tolist()])
 
 
-def to_json(model: MotionModel) -> dict[str, Any]:
-    """Return the model in the form that `load_released_model` reads."""
-    return {
-        "trained_on": model.trained_on,
-        "whole": _network_json(model.whole),
-        "alone": _network_json(model.alone),
-        "usual": [list(row) for row in model.usual],
-        "spread": [list(row) for row in model.spread],
-        "chances": [list(row) for row in model.chances],
-        "shifts": [[a.value, b.value, shift] for a, b, shift in model.shifts],
-    }
-
-
-def _network_json(network: Network) -> dict[str, Any]:
-    return {
-        "hidden": [list(row) for row in network.hidden],
-        "hidden_bias": list(network.hidden_bias),
-        "output": [list(row) for row in network.output],
-        "output_bias": list(network.output_bias),
-    }
+def to_json(model: MotionModel) -> str:
+    """Return the model in the form that `load_released_model` reads, with a line for each row of numbers."""
+    fields = attrs.asdict(model, value_serializer=lambda _, __, value: getattr(value, "value", value))
+    return re.sub(r"\[[^][]*\]", lambda row: json.dumps(json.loads(row[0])), json.dumps(fields, indent=1)) + "\n"

@@ -38,7 +38,6 @@ from solepath.recording.decoded import decode_recording
 from solepath.recording.samples import load_samples
 from solepath.types import Activity, Foot, Sample
 
-from ..options import add_command, add_folder
 from . import emulated
 from .hugadb import labels, recordings
 
@@ -231,13 +230,6 @@ def of_emulated(seed: int) -> RecordingWindows:
     truth = walked.truth
     t = np.arange(0.0, truth.duration, 1.0 / emulated.RATE)
     return features("emulated", decode_recording(walked.packets).samples, t, [truth.activity(float(at)) for at in t])
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "footstep-activity", "thresholds and model of TwoSecondWindows", __doc__ or "")
-    add_folder(command)
-    command.set_defaults(run=run)
 
 
 def run(options: Namespace) -> int:

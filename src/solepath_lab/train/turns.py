@@ -14,7 +14,6 @@ from argparse import Namespace
 from collections.abc import Iterable
 from math import degrees, radians
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from attrs import frozen
@@ -30,7 +29,6 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Turn
 
 from ..emulated.wearers import random_wearer
-from ..options import add_command
 
 TURNS_FILE = Path(__file__).with_name("turns.csv")
 FIRST_TRAINING_SEED = 101
@@ -132,13 +130,6 @@ def write(examples: list[Example], path: Path = TURNS_FILE) -> None:
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(["seed", "class", "left", "right"])
         rows.writerows([[one.seed, one.turn.name, one.left, one.right] for one in examples])
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(commands, "turns", "weights of the classifier of turns", __doc__ or "")
-    command.add_argument("--emulate", action="store_true", help="write turns.csv again")
-    command.set_defaults(run=run)
 
 
 def run(options: Namespace) -> int:

@@ -18,7 +18,6 @@ def packet(channel: str) -> Packet:
 
 def test_evidence_is_taken_from_samples_and_from_packets_and_the_rest_stays() -> None:
     gyro, air, acc = map(packet, ("cc2541/gyroscope", "cc2541/barometer", "cc2541/accelerometer"))
-    assert NO_GYROSCOPE.remove is not None and NO_AIR_PRESSURE.remove is not None and ONE_FOOT.remove is not None
     assert NO_GYROSCOPE.remove(SAMPLE) == evolve(SAMPLE, gyro=None)
     assert [NO_GYROSCOPE.remove(one) for one in (gyro, air, acc)] == [None, air, acc]
     assert NO_AIR_PRESSURE.remove(SAMPLE) == evolve(SAMPLE, air_pressure=None)
@@ -37,5 +36,5 @@ def test_candidates_near_a_heavier_one_on_its_level_are_one_place() -> None:
 def test_weights_are_counted_in_bins_and_the_only_place_by_itself() -> None:
     bins = count([(7, [(0.25, False, False), (0.75, False, True)]), (8, [(1.0, True, True), (0.25, False, True)])])
     assert [k for k, one in enumerate(bins) if one.count] == [2, 7, BINS]
-    assert bins[2] == WeightBin(2, 1, 0.5, {7, 8}) and bins[2].mean_weight == 0.25 and bins[2].share_true == 0.5
+    assert bins[2] == WeightBin(2, 1, 0.5, {7, 8}) and bins[2].text == "0.250: 0.500 (2 in 2)"
     assert bins[BINS] == WeightBin(1, 1, 1.0, {8})

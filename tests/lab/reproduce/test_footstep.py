@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import pytest
 
 from solepath.events import ActivityChanged
@@ -9,9 +11,8 @@ from solepath.types import Activity, Site
 from solepath.types.vector import GRAVITY, ZERO
 from solepath.walk.timeline import Timeline
 from solepath_lab.measures.confusion import ActivityScore
-from solepath_lab.reproduce.footstep.activities import fitted_climb, stair_stretches
+from solepath_lab.reproduce.footstep.activities import class_share, fitted_climb, stair_stretches
 from solepath_lab.reproduce.footstep.corridor import WatchedZones
-from solepath_lab.reproduce.footstep.figures import class_shares, share_right
 
 UP, DOWN, WALK = Activity.STAIRS_UP, Activity.STAIRS_DOWN, Activity.WALKING
 
@@ -31,9 +32,8 @@ def test_the_climb_is_the_slope_of_both_barometers_whatever_their_offsets() -> N
 
 
 def test_shares_leave_out_walks_without_the_class() -> None:
-    scores = [ActivityScore({(UP, UP): 3, (UP, DOWN): 1}), ActivityScore({(DOWN, DOWN): 2})]
-    assert class_shares(scores, UP) == [75.0]
-    assert share_right([(3, 4), (1, 4)]) == 50.0
+    scores = [ActivityScore(Counter({(UP, UP): 3, (UP, DOWN): 1})), ActivityScore(Counter({(DOWN, DOWN): 2}))]
+    assert [class_share(score, UP) for score in scores] == [(75.0,), ()]
 
 
 def test_a_zone_counts_as_strict_when_six_samples_were_at_rest_in_it() -> None:

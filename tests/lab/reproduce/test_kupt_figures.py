@@ -70,13 +70,13 @@ def test_figure_11_has_the_weights_and_adds_up_the_strides_and_figure_14_shows_t
     ]
     seen = dict.fromkeys(Foot, tuple(series(8)))
     velocity, weights, distance, drift = panels(seen, {"ZUPT": [], "KUPT+DFPC": [*fused]}, [*fused])
-    similarity, index, coefficient = (curve.points for curve in weights.curves)
+    similarity, index, coefficient = (curve.points for curve in weights.tracks)
     assert similarity == ((0.0, 0.9), (1.0, 0.9), (2.0, 0.9)) and index == ((1.0, 0.1), (2.0, 0.2))
     assert coefficient == ((0.0, 0.6), (1.0, 0.6), (2.0, 0.6))
-    sums = {curve.name: curve.points for curve in distance.curves}
+    sums = {curve.name: curve.points for curve in distance.tracks}
     assert sums["KUPT + 1st stage DFPC"] == ((0.0, 1.3), (1.0, 2.6), (2.0, pytest.approx(3.9)))
     assert sums["KUPT+DFPC"] == ((0.0, 0.0), (1.0, 1.3), (2.0, 2.6))
-    (raw, reference, zupt, kupt), (shown, *_) = velocity.curves, drift.curves
+    (raw, reference, zupt, kupt), (shown, *_) = velocity.tracks, drift.tracks
     assert [one.name for one in (raw, reference, zupt, kupt)] == ["V-raw", "V-ref", "ZUPT", "KUPT"]
     stands = [t for t, v in shown.points if v == 0.0]
     assert len(stands) == 7 and shown.points[-1][0] - shown.points[0][0] == pytest.approx(3.0)

@@ -12,7 +12,7 @@ from solepath.papers.pressure_contour.printed import printed_contours
 from solepath.types import Foot, Layout
 from solepath.types.vector import GRAVITY
 
-from ..tables import DrawStyle, PictureTrack
+from ..tables import DrawStyle, PictureTrack, Plot
 from ..walks import thin_out
 from .runs import ContourRun
 
@@ -20,8 +20,8 @@ STANCE_SHOWN = 20
 """Number of the stance after the halt that figure 7 shows."""
 
 
-def stance_curves(walked: SampledWalk, layout: Layout, foot: Foot, after: float) -> tuple[PictureTrack, ...]:
-    """Return the curves of figure 7 over one stance: time, ms, since foot-flat, and velocities.
+def stance_curves(walked: SampledWalk, layout: Layout, foot: Foot, after: float) -> tuple[Plot, ...]:
+    """Return figure 7, the curves over one stance: time, ms, since foot-flat, and velocities; nothing without cells.
 
     They are the forward velocity v_x of the heel, mm/s, by the emulator in place of the optical tracker, the pitch rate
     of the sensor, mrad/s, and the speeds of the contours, mm/s: those of shares, which are ours, and those of 20 to 70
@@ -52,21 +52,18 @@ def stance_curves(walked: SampledWalk, layout: Layout, foot: Foot, after: float)
             if velocity is not None:
                 speeds[name].append((moment, 1e3 * hypot(*velocity)))
     rates = [(moment, 1e3 * one.gyro[1]) for moment, one in zip(since, samples, strict=True) if one.gyro is not None]
-    return (
-        PictureTrack(
-            "v_x of the heel, true, mm/s", tuple(zip(since, (1e3 * forward).tolist(), strict=True)), DrawStyle.TRUTH
-        ),
+    true_velocity = tuple(zip(since, (1e3 * forward).tolist(), strict=True))
+    tracks = (
+        PictureTrack("v_x of the heel, true, mm/s", true_velocity, DrawStyle.TRUTH),
         PictureTrack("pitch rate by the gyroscope, mrad/s", tuple(rates)),
-        *(PictureTrack(f"speed of the contours, {name}, mm/s", tuple(points)) for name, points in speeds.items()),
+        *[PictureTrack(f"speed of the contours, {name}, mm/s", tuple(points)) for name, points in speeds.items()],
     )
+    return (Plot("a stance (fig. 7)", tracks, "ms since foot-flat", "mm/s or mrad/s", (-50.0, 50.0)),)
 
 
-def bias_curves(run: ContourRun) -> tuple[PictureTrack, ...]:
-    """Return the curves of figure 9: time, min, and the bias of each axis of the accelerometer, mg."""
+def bias_curves(run: ContourRun) -> tuple[Plot, ...]:
+    """Return figure 9: time, min, and the bias of each axis of the accelerometer, mg."""
     minutes = (run.t - run.t[0]) / 60.0
-    return tuple(
-        [
-            PictureTrack(f"bias of {axis}", thin_out(np.stack([minutes, run.bias[:, k] / GRAVITY * 1e3], axis=1), 600))
-            for k, axis in enumerate("xyz")
-        ]
-    )
+    points = [np.stack([minutes, run.bias[:, k] / GRAVITY * 1e3], axis=1) for k in range(3)]
+    tracks = [PictureTrack(f"bias of {axis}", thin_out(of, 600)) for axis, of in zip("xyz", points, strict=True)]
+    return (Plot("bias filter (fig. 9)", tuple(tracks), "min", "mg"),)

@@ -24,14 +24,25 @@ from solepath.types import SITE_OF_FOOT, Layout, Sample
 from solepath.validate.alignment import Floats
 
 from ...emulated.laps import MARKS_PER_LAP, field_walk, square
-from .. import published
-from ..done_jobs import named_values
-from ..tables import DrawStyle, PictureTrack
+from ..published import PUBLISHED
+from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults
 from ..walks import align_track, find_halt, join_routes, thin_out
 from .figures import bias_curves, stance_curves
 from .runs import ContourRun, run_foot, stance_velocities
-from .variants import FOOT, MAIN, PACE, PRESSURE_ROW, VARIANTS, WITHOUT_BIAS_ROW, WITHOUT_GATE_ROW, Setup
+from .variants import FOOT, MAIN, PACE, PRESSURE_ROW, VARIANTS, WITHOUT_BIAS_ROW, Setup
 
+
+@frozen
+class Loop:
+    """A half-hour walk of table I: its length and its loop-closing errors, m."""
+
+    distance: float
+    gyroscope: float
+    pressure: float
+
+
+LOOPS = tuple([Loop(*loop) for loop in PUBLISHED["pressure-contour"]["loops"]])
+"""Experiments 1 to 6 of table I."""
 HALF_HOUR = 1800.0
 """Duration of the paper's walks, s."""
 XY = tuple[float, float]
@@ -54,41 +65,15 @@ class ContourJob:
     uncalibrated: bool = False
     """True if the track as printed is drawn as well without bias filter and laps: "position" in figs. 14 and 15."""
 
-    key = property(named_values)
-
     @property
     def square(self) -> bool:
         """True for laps of the square, False for a random walk."""
-        return published.LOOPS[self.number].distance < PACE * HALF_HOUR
-
-
-@frozen(eq=False)
-class ContourResults:
-    """The results of one walk, by key of VARIANTS where they are those of a recipe."""
-
-    number: int
-    """Index in LOOPS."""
-    distance: float
-    """Length of the walk, m."""
-    closing_errors: dict[str, float]
-    """Loop-closing error, m."""
-    drifts: dict[str, XY]
-    """Drift that was subtracted, m/s; zero where the laps could not be used."""
-    biases: dict[str, tuple[float, ...]]
-    """Velocity of the heel in each stance while it was taken to be at rest, m/s; NOT_FOUND where it never was."""
-    found: dict[str, float]
-    """Share of the stances that were found."""
-    tracks: tuple[PictureTrack, ...]
-    """True path, then the tracks of MAIN and of the printed recipe without its filter or without calibration."""
-    stance: tuple[PictureTrack, ...]
-    """Curves of figure 7: time in a stance, ms, and velocities, mm/s."""
-    bias_filter: tuple[PictureTrack, ...]
-    """Curves of figure 9: time, min, and the estimated bias, mg."""
+        return LOOPS[self.number].distance < PACE * HALF_HOUR
 
 
 def route_of(job: ContourJob) -> tuple[Route, Route]:
     """Return the route of the calibration laps with a halt of half a minute, and the whole route."""
-    distance = published.LOOPS[job.number].distance * job.duration / HALF_HOUR
+    distance = LOOPS[job.number].distance * job.duration / HALF_HOUR
     pace = job.setup.speed
     if pace != PACE:
         distance = pace * job.duration
@@ -106,45 +91,40 @@ def route_of(job: ContourJob) -> tuple[Route, Route]:
     return laps, join_routes(laps, after.turn(atan2(-sin(heading), cos(heading))).stand(2.0))
 
 
-def walk(job: ContourJob) -> ContourResults:
-    """Emulate one walk, calibrate each recipe on the laps and run it on the rest."""
+def walk(job: ContourJob) -> WalkResults:
+    """Emulate one walk, calibrate each recipe on the laps and run it on the rest.
+
+    Values are "number", the index in LOOPS, "distance", m, and of each recipe "ROW m", the loop-closing error, "ROW
+    biases", the velocity of the heel in each stance while it was taken to be at rest, m/s (NOT_FOUND where it never
+    was), and "ROW found", the share of the stances that were found, %. Panels are the tracks of MAIN and of the printed
+    recipe without its filter or without calibration, and figs. 7 and 9."""
     laps, whole = route_of(job)
     setup = job.setup
     walked = sampled(whole, wearer=setup.wearer, insoles={SITE_OF_FOOT[FOOT]: setup.device}, seed=job.seed)
     t_halt = find_halt(walked.walker, laps)
     before = [one for one in walked.samples if one.t < t_halt]
     after = [one for one in walked.samples if one.t >= t_halt]
-    insole = _layout(setup)
+    cells, shoe = setup.device.cells, setup.wearer.shoe
+    insole = cells if isinstance(cells, Layout) else sole_layout(cells, FOOT, shoe.length, shoe.width)
     known = Calibration(insoles={FOOT: InsoleCalibration(layout=insole)})
     marks = _marks(walked, t_halt)
-    runs: dict[str, ContourRun] = {}
-    drifts: dict[str, XY] = {}
+    shown: dict[str, ContourRun] = {}
+    values: Values = {"number": (float(job.number),), "distance": (whole.length - laps.length,)}
+    panels = stance_curves(walked, insole, FOOT, t_halt)
     for name in job.variants:
-        recipe = VARIANTS[name]
-        drifts[name] = drift = _drift(recipe, before, known, marks)
-        same = next((other for other in runs if _same_run(other, name) and drifts[other] == drift), None)
-        runs[name] = (
-            runs[same]
-            if same is not None
-            else run_foot(recipe, FOOT, after, merged(known, Calibration(drift={FOOT: drift})))
-        )
-    velocities = {name: stance_velocities(run, walked.truth, FOOT, t_halt) for name, run in runs.items()}
-    shown = {name: run for name, run in runs.items() if name in MAIN or name == WITHOUT_BIAS_ROW}
+        drift = _drift(VARIANTS[name], before, known, marks)
+        run = run_foot(VARIANTS[name], FOOT, after, merged(known, Calibration(drift={FOOT: drift})))
+        velocities = stance_velocities(run, walked.truth, FOOT, t_halt)
+        values[f"{name} m"] = (float(np.linalg.norm(_track(run)[-1])),)
+        values[f"{name} biases"] = tuple(np.where(np.isnan(velocities.bias), NOT_FOUND, velocities.bias).tolist())
+        values[f"{name} found"] = (100.0 * velocities.found_share,)
+        if name in MAIN or name == WITHOUT_BIAS_ROW:
+            shown[name] = run
+        if name == PRESSURE_ROW:
+            panels += bias_curves(run)
     if job.uncalibrated:
         shown["Pressure as printed, uncalibrated"] = run_foot(VARIANTS[WITHOUT_BIAS_ROW], FOOT, after, known)
-    return ContourResults(
-        number=job.number,
-        distance=whole.length - laps.length,
-        closing_errors={name: float(np.linalg.norm(_track(run)[-1])) for name, run in runs.items()},
-        drifts=drifts,
-        biases={
-            name: tuple(np.where(np.isnan(one.bias), NOT_FOUND, one.bias).tolist()) for name, one in velocities.items()
-        },
-        found={name: one.found_share for name, one in velocities.items()},
-        tracks=_tracks(walked, t_halt, shown),
-        stance=stance_curves(walked, insole, FOOT, t_halt),
-        bias_filter=bias_curves(runs[PRESSURE_ROW]) if PRESSURE_ROW in runs else (),
-    )
+    return WalkResults(values, (Plot("", _tracks(walked, t_halt, shown), marks=(("start", 0.0, 0.0),)), *panels))
 
 
 def _layout(setup: Setup) -> Layout:
@@ -164,11 +144,6 @@ def _drift(recipe: Recipe, laps: list[Sample], known: Calibration, marks: tuple[
         return square_drift(laps, foot=FOOT, marks=marks, recipe=recipe, calibration=known, lenient=True).kept
     except CalibrationError:
         return (0.0, 0.0)
-
-
-def _same_run(one: str, other: str) -> bool:
-    """Return True for recipes that differ in the drift of the laps only."""
-    return {one, other} == {PRESSURE_ROW, WITHOUT_GATE_ROW}
 
 
 def _track(run: ContourRun) -> Floats:

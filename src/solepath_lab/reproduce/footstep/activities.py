@@ -7,7 +7,6 @@ strides' rises. So these rows show what either evidence decides alone; our activ
 from __future__ import annotations
 
 import numpy as np
-from attrs import frozen
 
 from solepath.body.altitude import height_of
 from solepath.events import ActivityChanged, Event
@@ -19,28 +18,24 @@ from solepath.walk.timeline import Timeline
 from ...evaluate.activity import score_windows
 from ...measures.confusion import ActivityScore
 from ...train.emulated import draw_route
+from ..tables import Values, WalkResults
 from ..walks import final_strides, run_session
 from .wearers import WearerJob, without_barometer
 
+CLASSES = (
+    Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP, Activity.STAIRS_DOWN, Activity.ELEVATOR_UP,
+    Activity.ELEVATOR_DOWN,
+)  # fmt: skip
+"""Activities of fig. 13 (a)."""
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
-Span = tuple[float, float, Activity]
-"""Start and end of an activity, s."""
-
-
-@frozen
-class ActivityResults:
-    """The results of one wearer on a route with stairs, elevators and corridors."""
-
-    scores: dict[str, ActivityScore]
-    """Score of the windows by variant: "ours", and for STANDARD all of `VARIANTS`."""
-
-
 VARIANTS = ("ours", "no barometer", "printed", "printed + air pressure", "printed + slope")
 """Ours with and without air pressure, the printed ones, and these with another direction on stairs."""
 
 
-def score_activities(job: WearerJob) -> ActivityResults:
-    """Return the results of one wearer; only STANDARD has all variants."""
+def score_activities(job: WearerJob) -> WalkResults:
+    """Return the rows of one wearer on a route with stairs, elevators and corridors; STANDARD has all variants.
+
+    They are the shares of the windows that are right, %, of all and of those of an activity."""
     route, wearer = draw_route(job.seed)
     walk = job.walk(route, wearer=wearer)
     true, until = walk.truth.activities, walk.truth.duration
@@ -61,7 +56,23 @@ def score_activities(job: WearerJob) -> ActivityResults:
                 printed, until, [(s, e, sum([rise for t, rise in rises if s <= t <= e])) for s, e in stretches]
             ),
         }
-    return ActivityResults({name: score_windows(true, timeline) for name, timeline in timelines.items()})
+    values = Values()
+    for variant, timeline in timelines.items():
+        score, title = score_windows(true, timeline), variant_title(variant)
+        values[f"activities{title} %"] = (100.0 * (score.accuracy or 0.0),)
+        values |= {f"{activity.value}{title} %": class_share(score, activity) for activity in CLASSES}
+    return WalkResults(values)
+
+
+def variant_title(variant: str) -> str:
+    """Return how a variant is named within a row."""
+    return "" if variant == "ours" else f", {variant}"
+
+
+def class_share(score: ActivityScore, activity: Activity) -> tuple[float, ...]:
+    """Return the share of windows of an activity that are right, %; nothing for a walk without the activity."""
+    count = sum(score.reported_for(activity).values())
+    return (100.0 * score.samples.get((activity, activity), 0) / count,) if count else ()
 
 
 def _timeline(events: list[Event]) -> Timeline:

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from itertools import accumulate
 from math import degrees, hypot
 
-from attrs import field, frozen
-
 from solepath.calibration import Calibration, CalibrationError
 from solepath.emulate.routes.route import Route
 from solepath.emulate.routes.ways import corridor
@@ -20,11 +18,11 @@ from solepath.papers.footstep_tracker.toe_out import ToeOut, printed_angle, toe_
 from solepath.recipes import Recipe
 from solepath.recording.decoded import decode_recording
 from solepath.session import Session
-from solepath.types import SITE_OF_FOOT, Foot, Packet, Quat, Vec3
-from solepath.types.attrs import define, evolve
-from solepath.types.attrs import field as state_field
+from solepath.types import OTHER, SITE_OF_FOOT, Foot, Packet, Quat, Vec3
+from solepath.types.attrs import define, evolve, field
 from solepath.types.vector import GRAVITY, IDENTITY
 
+from ..tables import PictureTrack, Plot, WalkResults
 from ..walks import final_strides
 from .wearers import LENGTH_RECIPES, ONE_METRE_RULE, WearerJob
 
@@ -40,47 +38,16 @@ paper does not give the rule. This is the factor that pedometers use for a woman
 REST_TOLERANCE, REST_SAMPLES = 0.5, 6
 """Largest difference from (0, 0, 1 g), m/s^2, and number of samples of a static zone as printed (section IV.B)."""
 
-Curve = tuple[tuple[float, float], ...]
-"""Points (true distance, error), m."""
-
-
-@frozen
-class CorridorResults:
-    """The results of one wearer in the corridor."""
-
-    one_foot: dict[str, tuple[float, ...]]
-    """Error of the sum of each foot's strides, m, by variant; "ours" is with the toe-out."""
-    two_feet: dict[str, float]
-    """Mean of both feet's errors, m, by variant."""
-    stature: float
-    """Error of the length by the wearer's stature, m."""
-    ends: dict[str, tuple[float, ...]]
-    """Error of the distance from first to last position, m: of each foot, of both, by the rule; with toe-out."""
-    strides_found: dict[str, float]
-    """Number of strides as a share of the true ones, by variant, %."""
-    stride_errors: dict[str, tuple[float, ...]] = field(repr=False)
-    """Errors of the single stride lengths, m: "one foot", and "two feet" for means with the other foot's last one."""
-    zones: tuple[int, int] = (0, 0)
-    """Number of zones that the looser rule alone found, without six samples at rest in them, and of all zones."""
-    literal: tuple[int, int] = (0, 0)
-    """Number of stances with a static zone as printed, and of all stances."""
-    toe_outs: tuple[float, ...] = ()
-    """Error of each toe-out angle that is known, degrees."""
-    toe_outs_printed: tuple[float, ...] = ()
-    """Error of each angle by the printed formula, degrees."""
-    curves: dict[str, Curve] = field(factory=dict, repr=False)
-    """Error along the corridor by name."""
-
 
 @define
 class WatchedZones(StaticZones):
     """Detector that counts its zones; it is for figures only."""
 
-    zones: int = state_field(default=0, init=False)
+    zones: int = field(default=0, init=False)
     """Number of zones."""
-    strict_zones: int = state_field(default=0, init=False)
+    strict_zones: int = field(default=0, init=False)
     """Number of zones in which six samples were at rest sooner or later."""
-    is_strict: bool = state_field(default=False, init=False)
+    is_strict: bool = field(default=False, init=False)
     """Flag: six samples were at rest in the present zone."""
 
     def update(
@@ -96,44 +63,44 @@ class WatchedZones(StaticZones):
         return stance
 
 
-def score_corridor(job: WearerJob) -> CorridorResults:
-    """Return the results of one wearer; only STANDARD has all variants and the toe-out."""
+def score_corridor(job: WearerJob) -> WalkResults:
+    """Return the results of one wearer; only STANDARD has all variants and the toe-out.
+
+    "one foot: VARIANT" are the errors of the sum of each foot's strides, m; "ours" is with the toe-out. "two feet" is
+    their mean, "by height" the error of the length by the stature. "end: VARIANT" are errors of the distance from first
+    to last position, m; "step: one foot" errors of single stride lengths, m, and "step: two feet" of means with the
+    other foot's last one. The other values are rows."""
     found = _calibrate(job) if job.is_standard else []
     calibration = toe_out_calibration(found)
-    walk = job.walk(corridor().route)
-    ours = evolve(FOOTSTEP_TRACKER, detector=WatchedZones())
-    events, session = _run(ours, walk.packets, calibration)
-    true = {foot: len(walk.truth.strides(foot)) for foot in Foot}
-    n_true = true[Foot.LEFT] + true[Foot.RIGHT]
+    walk, length = job.walk(corridor().route), corridor().route.length
+    events, session = _run(evolve(FOOTSTEP_TRACKER, detector=WatchedZones()), walk.packets, calibration)
+    n_true = sum([len(walk.truth.strides(foot)) for foot in Foot])
     strides = final_strides(events)
-    sums, found_share = {"ours": _sums(strides)}, {"ours": 100.0 * len(strides) / n_true}
-    ends: dict[str, tuple[float, ...]] = {"two feet": (_end(session),)}
+    values = {"one foot: ours": _off(strides, length), "end: two feet": (_end(session) - length,)}
+    values["two feet"] = (0.5 * sum(values["one foot: ours"]),)
+    values["by height"] = (len(strides) * STEP_LENGTH_SHARE * job.stature - length,)
     if job.is_standard:
         for name, recipe in LENGTH_RECIPES.items():
             variant = final_strides(_run(recipe, walk.packets)[0])
-            sums[name], found_share[name] = _sums(variant), 100.0 * len(variant) / n_true
-        for foot in Foot:
-            packets = [packet for packet in walk.packets if packet.site is SITE_OF_FOOT[foot]]
-            ends["one foot"] = (*ends.get("one foot", ()), _end(_run(FOOTSTEP_TRACKER, packets, calibration)[1]))
-        ends["one-metre rule"] = (_end(_run(ONE_METRE_RULE, walk.packets, calibration)[1]),)
-    length = corridor().route.length
-    off = {name: tuple([one - length for one in of]) for name, of in sums.items()}
+            values[f"one foot: {name}"] = _off(variant, length)
+            values[f"strides, {name} %"] = (100.0 * len(variant) / n_true,)
+        packets = [[packet for packet in walk.packets if packet.site is SITE_OF_FOOT[foot]] for foot in Foot]
+        values["end: one foot"] = tuple(
+            [_end(_run(FOOTSTEP_TRACKER, of_foot, calibration)[1]) - length for of_foot in packets]
+        )
+        values["end: one-metre rule"] = (_end(_run(ONE_METRE_RULE, walk.packets, calibration)[1]) - length,)
     zones = [tracker.detector for tracker in session.feet.values() if isinstance(tracker.detector, WatchedZones)]
-    wearer = job.wearer
+    n_zones = sum([one.zones for one in zones])
+    loose = n_zones - sum([one.strict_zones for one in zones])
     printed = [printed_angle(one.along, CALIBRATION_LENGTH) for one in found]
-    return CorridorResults(
-        one_foot=off,
-        two_feet={name: 0.5 * (left + right) for name, (left, right) in off.items()},
-        stature=len(strides) * STEP_LENGTH_SHARE * job.stature - length,
-        ends={name: tuple([one - length for one in of]) for name, of in ends.items()},
-        strides_found=found_share,
-        stride_errors=_stride_errors(walk, strides),
-        zones=(sum([one.zones - one.strict_zones for one in zones]), sum([one.zones for one in zones])),
-        literal=_literal_zones(walk),
-        toe_outs=tuple([degrees(one.angle - wearer.toe_out) for one in found if one.is_known]),
-        toe_outs_printed=tuple([degrees(one[0] - wearer.toe_out) for one in printed if one is not None]),
-        curves=_curves(walk, strides, job.stature) if job.is_standard else {},
-    )
+    toe_out = job.wearer.toe_out
+    values |= _stride_errors(walk, strides) | {
+        "zones by the loose rule %": (100.0 * loose / max(1, n_zones),),
+        "zones within 0, 0, g %": (_literal_share(walk),),
+        "toe-out deg": tuple([degrees(one.angle - toe_out) for one in found if one.is_known]),
+        "toe-out, printed deg": tuple([degrees(one[0] - toe_out) for one in printed if one is not None]),
+    }
+    return WalkResults(values, (_curves(walk, strides, job.stature),) if job.is_standard else ())
 
 
 def _calibrate(job: WearerJob) -> list[ToeOut]:
@@ -152,9 +119,9 @@ def _run(
     return session.feed(packets) + session.finish(), session
 
 
-def _sums(strides: list[StrideTaken]) -> tuple[float, float]:
-    left, right = (sum([one.length for one in strides if one.foot is foot]) for foot in Foot)
-    return left, right
+def _off(strides: list[StrideTaken], length: float) -> tuple[float, ...]:
+    """Return the error of the sum of each foot's strides, m."""
+    return tuple([sum([one.length for one in strides if one.foot is foot]) - length for foot in Foot])
 
 
 def _end(session: Session) -> float:
@@ -183,14 +150,14 @@ def _stride_errors(walk: EmulatedWalk, strides: list[StrideTaken]) -> dict[str, 
             continue
         error = stride.length - true
         one_foot.append(error)
-        other = last_errors.get(Foot.LEFT if stride.foot is Foot.RIGHT else Foot.RIGHT)
+        other = last_errors.get(OTHER[stride.foot])
         if other is not None:
             two_feet.append(0.5 * (error + other))
         last_errors[stride.foot] = error
-    return {"one foot": tuple(one_foot), "two feet": tuple(two_feet)}
+    return {"step: one foot": tuple(one_foot), "step: two feet": tuple(two_feet)}
 
 
-def _curves(walk: EmulatedWalk, strides: list[StrideTaken], stature: float) -> dict[str, Curve]:
+def _curves(walk: EmulatedWalk, strides: list[StrideTaken], stature: float) -> Plot:
     """Return the errors along the corridor: of the right foot, of the mean of both feet, and by the stature."""
     walked: dict[Foot, list[tuple[float, float]]] = {}
     for foot in Foot:
@@ -199,15 +166,17 @@ def _curves(walk: EmulatedWalk, strides: list[StrideTaken], stature: float) -> d
     right = walked[Foot.RIGHT]
     both = list(zip(walked[Foot.LEFT], right, strict=False))
     step = STEP_LENGTH_SHARE * stature
-    return {
-        "one foot": tuple([(true, abs(ours - true)) for ours, true in right]),
-        "double feet": tuple([(0.5 * (b + d), abs(0.5 * (a + c - b - d))) for (a, b), (c, d) in both]),
-        "common method": tuple([(true, abs((2.0 * k + 2.0) * step - true)) for k, (_, true) in enumerate(right)]),
+    curves = {
+        "one foot": [(true, abs(ours - true)) for ours, true in right],
+        "double feet": [(0.5 * (b + d), abs(0.5 * (a + c - b - d))) for (a, b), (c, d) in both],
+        "common method": [(true, abs((2.0 * k + 2.0) * step - true)) for k, (_, true) in enumerate(right)],
     }
+    tracks = tuple([PictureTrack(name, tuple(points)) for name, points in curves.items()])
+    return Plot(f"{CORRIDOR_LENGTH:g} m of corridor (b)", tracks, "distance, m", "error, m")
 
 
-def _literal_zones(walk: EmulatedWalk) -> tuple[int, int]:
-    """Return the number of stances with six samples within 0.5 m/s^2 of (0, 0, 1 g), and that of all stances.
+def _literal_share(walk: EmulatedWalk) -> float:
+    """Return the share of the stances that have six samples within 0.5 m/s^2 of (0, 0, 1 g), %.
 
     The sensors lie in the foot's axes, as in fig. 3; the samples are as they come, with the offset of the chip."""
     samples = decode_recording(walk.packets).samples
@@ -226,4 +195,4 @@ def _literal_zones(walk: EmulatedWalk) -> tuple[int, int]:
                     run = run + 1 if at_rest else 0
                     longest = max(longest, run)
             found, count = found + (longest >= REST_SAMPLES), count + 1
-    return found, count
+    return 100.0 * found / max(1, count)

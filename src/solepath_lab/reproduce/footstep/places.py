@@ -9,9 +9,8 @@ from collections.abc import Sequence
 from math import hypot
 
 import numpy as np
-from attrs import evolve, field, frozen
 
-from solepath.emulate.routes.building import FOUR_LOOPS
+from solepath.emulate.routes.building import BUILDING, FOUR_LOOPS
 from solepath.emulate.routes.ways import BuildingWalk, case_study, wandering
 from solepath.emulate.walk import EmulatedWalk
 from solepath.events import Event, Placed, TurnMade
@@ -25,26 +24,18 @@ from solepath.validate.place import PlaceScore, is_on_floor
 
 from ...emulated.buildings import HALF_TURN
 from ...emulated.evidence import HEADING_ERROR
+from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults
 from .wearers import DROPS_AT_WALLS, WearerJob
 
 BUILDINGS = {"asymmetric": FOUR_LOOPS, "half turn": HALF_TURN}
 """Buildings of the wearers' own ways."""
 
 
-@frozen
-class PlaceResults:
-    """The places of one wearer."""
+def score_places(job: WearerJob) -> WalkResults:
+    """Return the places of one wearer: the rows by the way and the variant, such as "case study, two feet".
 
-    scores: dict[str, PlaceScore]
-    """Score by the way and the variant, such as "case study, two feet"."""
-    by_stride: dict[str, tuple[float, ...]] = field(factory=dict, repr=False)
-    """Error after each placed stride of the case study, m, by variant."""
-    by_turn: dict[str, tuple[float, ...]] = field(factory=dict, repr=False)
-    """Mean error between each turn of the case study and the next one, m, by variant."""
-
-
-def score_places(job: WearerJob) -> PlaceResults:
-    """Return the places of one wearer."""
+    "by stride: VARIANT" are errors after each placed stride of the case study, m, and "by turn: VARIANT" mean errors
+    between each of its turns and the next one."""
     way = case_study()
     walk = job.walk(way.route)
     one_foot = [packet for packet in walk.packets if packet.site is Site.RIGHT_FOOT]
@@ -54,10 +45,10 @@ def score_places(job: WearerJob) -> PlaceResults:
         "dropped at walls": _run(DROPS_AT_WALLS, walk.packets, way),
         "printed": _run(FOOTSTEP_TRACKER_PRINTED, walk.packets, way),
     }
-    scores = {f"case study, {name}": _scored(way, walk, events, name == "two feet") for name, events in runs.items()}
-    by_stride, by_turn = {}, {}
+    found = {f"case study, {name}": _score(way, walk, events) for name, events in runs.items()}
+    values = Values()
     for name in ("two feet", "one foot"):
-        by_stride[name], by_turn[name] = _errors(way, walk, runs[name])
+        values[f"by stride: {name}"], values[f"by turn: {name}"] = _errors(way, walk, runs[name])
     for title, building in BUILDINGS.items():
         way = wandering(job.seed, building)
         walk = job.walk(way.route, more=800)
@@ -68,8 +59,13 @@ def score_places(job: WearerJob) -> PlaceResults:
             "dropped at walls": _run(DROPS_AT_WALLS, walk.packets, way),
             "first heading": _run(FOOTSTEP_TRACKER, walk.packets, way, start),
         }
-        scores |= {f"{title}, {name}": _scored(way, walk, events, False) for name, events in runs.items()}
-    return PlaceResults(scores, by_stride, by_turn)
+        found |= {f"{title}, {name}": _score(way, walk, events) for name, events in runs.items()}
+    for name, one in found.items():
+        values[f"place, {name} m"] = (sum(one.off) / len(one.off),) if one.off else ()
+        values[f"true one kept, {name} %"] = (100.0 if one.strides and not one.dropped else 0.0,)
+    drawn = found["case study, two feet"]
+    values["steps until decided"] = () if drawn.decided is None else (float(drawn.decided),)
+    return WalkResults(values, (_floor(drawn),))
 
 
 def _run(recipe: Recipe, packets: Sequence[Packet], way: BuildingWalk, start: Start | None = None) -> list[Event]:
@@ -77,9 +73,15 @@ def _run(recipe: Recipe, packets: Sequence[Packet], way: BuildingWalk, start: St
     return session.feed(packets) + session.finish()
 
 
-def _scored(way: BuildingWalk, walk: EmulatedWalk, events: list[Event], drawn: bool) -> PlaceScore:
-    found = emulated_place.score(way, walk.walker, walk.truth, events)
-    return found if drawn else evolve(found, path=(), track=(), before=())
+def _score(way: BuildingWalk, walk: EmulatedWalk, events: list[Event]) -> PlaceScore:
+    return emulated_place.score(way, walk.walker, walk.truth, events)
+
+
+def _floor(place: PlaceScore) -> Plot:
+    walls = tuple([PictureTrack("", (wall.start, wall.end), DrawStyle.TRUTH) for wall in BUILDING.levels[0].walls])
+    candidates = PictureTrack("candidates", place.before, DrawStyle.DOTS)
+    tracks = (*walls, candidates, PictureTrack("true path", place.path), PictureTrack("place", place.track))
+    return Plot("the way of fig. 15", tracks)
 
 
 def _errors(way: BuildingWalk, walk: EmulatedWalk, events: list[Event]) -> tuple[tuple[float, ...], tuple[float, ...]]:

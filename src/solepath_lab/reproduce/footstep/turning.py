@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import degrees, fsum, pi, radians, remainder
 
 import numpy as np
-from attrs import frozen
 
 from solepath.emulate.routes.route import Route
 from solepath.events import TurnMade
@@ -13,6 +12,7 @@ from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.recipes import Recipe
 from solepath.types import Packet, Turn
 
+from ..tables import Values, WalkResults
 from ..walks import final_strides, run_session
 from .wearers import PRINTED_FILTER, PRINTED_TURN, WearerJob
 
@@ -30,43 +30,27 @@ CURVE_RADIUS = 6.0
 """Radius of a curve that no corridor of the building has, m: a stride turns by some 12 degrees."""
 
 
-@frozen
-class TurnResults:
-    """The turns of one wearer."""
+def score_turns(job: WearerJob) -> WalkResults:
+    """Return the turns of one wearer.
 
-    errors: dict[float, float]
-    """Error of the turn angle, degrees, by true angle, degrees."""
-    printed_errors: dict[float, float]
-    """The same with (7) as printed."""
-    classes: dict[Turn, tuple[int, int]]
-    """Number of turns classified right and number of all, by class."""
-    curve: float
-    """Error of the sum of the strides' turns on a full circle, degrees; mean of both feet."""
-    printed_curve: float
-    """The same with the low-pass filter of turns alone."""
-
-
-def score_turns(job: WearerJob) -> TurnResults:
-    """Return the turns of one wearer."""
+    They are rows, the errors of TURN_ANGLES in their order among them, and the share of each class that is right, %."""
     rng = np.random.default_rng([job.seed, 18])
-    errors, printed_errors = {}, {}
-    for k, angle in enumerate(TURN_ANGLES):
-        packets = _packets(job, angle, rng, 600 + k)
-        name = float(round(degrees(angle)))
-        errors[name] = _error(_turns(packets), angle)
-        printed_errors[name] = _error(_turns(packets, printed=True), angle)
-    classes = {}
-    for turn, angles in CLASS_ANGLES.items():
+    values = Values()
+    angles = [(angle, _packets(job, angle, rng, 600 + k)) for k, angle in enumerate(TURN_ANGLES)]
+    for name, printed in (("turn angle deg", False), ("turn angle, (7) printed deg", True)):
+        values[name] = tuple([_error(_turns(packets, printed), angle) for angle, packets in angles])
+    for turn, angles_of_class in CLASS_ANGLES.items():
         n_right = 0
         for k in range(TURNS_PER_CLASS):
-            angle = angles[k % len(angles)] + float(rng.normal(0.0, TURN_SPREAD))
+            angle = angles_of_class[k % len(angles_of_class)] + float(rng.normal(0.0, TURN_SPREAD))
             packets = _packets(job, angle, rng, 700 + k)
             n_right += [one.turn for one in _turns(packets) if one.turn is not None] == [turn]
-        classes[turn] = (n_right, TURNS_PER_CLASS)
+        values[turn.value] = (100.0 * n_right / TURNS_PER_CLASS,)
     circle = Route(speed=1.2).stand(2.5).walk(6.0).turn(2.0 * pi, CURVE_RADIUS).walk(6.0).stop(3.0)
     packets = job.walk(circle, 800).packets
-    curve, printed_curve = (_curve_error(recipe, packets) for recipe in (FOOTSTEP_TRACKER, PRINTED_FILTER))
-    return TurnResults(errors, printed_errors, classes, curve, printed_curve)
+    for name, recipe in (("curve of 360 deg", FOOTSTEP_TRACKER), ("curve of 360, filter printed deg", PRINTED_FILTER)):
+        values[name] = (_curve_error(recipe, packets),)
+    return WalkResults(values)
 
 
 def _packets(job: WearerJob, angle: float, rng: np.random.Generator, more: int) -> tuple[Packet, ...]:

@@ -25,7 +25,6 @@ from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZon
 from solepath.types import SITE_OF_FOOT, Packet
 
 from ...emulated.wearers import random_wearer
-from ..done_jobs import named_values
 
 RATE = 20.0
 """Sampling rate, Hz."""
@@ -102,12 +101,10 @@ BAROMETERS = ("cc2541/barometer", "cc2650/barometer")
 
 @frozen
 class WearerJob:
-    """One wearer in one setting; `key` is another for each other job of an experiment."""
+    """One wearer in one setting."""
 
     seed: int
     setting: FootstepSetting = STANDARD
-
-    key = property(named_values)
 
     @property
     def is_standard(self) -> bool:

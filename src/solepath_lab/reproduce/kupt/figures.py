@@ -18,7 +18,7 @@ from solepath.session import Session
 from solepath.types import Foot, Phase, Sample
 from solepath.types.attrs import define, evolve, field
 
-from ..tables import Curves, DrawStyle, PictureTrack
+from ..tables import DrawStyle, PictureTrack, Plot
 from ..walks import final_strides
 
 LEAST_MOTION_TIME = 0.3
@@ -91,7 +91,7 @@ def _stance_ends(seen: Sequence[KnownSample]) -> list[int]:
 
 def panels(
     seen: dict[Foot, tuple[KnownSample, ...]], events: dict[str, list[Event]], by_index: list[Event]
-) -> tuple[Curves, ...]:
+) -> tuple[Plot, ...]:
     """Return the panels of fig. 11, for the left foot, and fig. 14.
 
     `events` are those of ZUPT and KUPT+DFPC; `by_index` are those of the recipe whose coefficients are (11)."""
@@ -117,10 +117,10 @@ def panels(
     middle = len(ends) // 2
     shown = left[ends[middle] : ends[min(middle + SHOWN_STRIDES, len(ends) - 1)] + 1] if ends else left
     return (
-        Curves("velocity, left foot (fig. 11 a)", _velocities(left), "time, s", "velocity, m/s"),
-        Curves("weights, left foot (fig. 11 c)", tuple(indices), "time, s", "no unit or m/s"),
-        Curves("distance, left foot (fig. 11 e)", tuple(walked), "time, s", "distance, m"),
-        Curves("drift in three strides (fig. 14)", _velocities(shown), "time, s", "velocity, m/s"),
+        Plot("velocity, left foot (fig. 11 a)", _velocities(left), "time, s", "velocity, m/s"),
+        Plot("weights, left foot (fig. 11 c)", tuple(indices), "time, s", "no unit or m/s"),
+        Plot("distance, left foot (fig. 11 e)", tuple(walked), "time, s", "distance, m"),
+        Plot("drift in three strides (fig. 14)", _velocities(shown), "time, s", "velocity, m/s"),
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -12,9 +12,9 @@ from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.types import Foot
 
 from ...emulated.laps import ACROSS, ALONG, straight
-from ..published import corner_row
-from ..tables import BoxPlots, DrawStyle, FloorPanel, Panel, PictureTrack
-from .walks import USUAL, Corners
+from ..tables import BoxPlots, DrawStyle, Panel, PictureTrack, Plot, WalkResults
+from ..walks import thin_out
+from .walks import USUAL, corner_row, deviations
 
 CORNER_POSITIONS = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
 """Positions (x, y) of the corners, m; x along the first side, y to the left. The walk starts and ends at A."""
@@ -22,32 +22,29 @@ ROD_COUNT, ROD_DISTANCE = 9, 0.35
 """Number of pictures of the rods over one stride, and distance between two in the panel, m."""
 
 
-def panels(results: Sequence[Mapping[str, Corners]], methods: tuple[str, ...], seed: int) -> tuple[Panel, ...]:
+def panels(results: Sequence[WalkResults], methods: tuple[str, ...], seed: int) -> tuple[Panel, ...]:
     """Return the panels of an experiment."""
     closed_path = tuple(CORNER_POSITIONS[point] for point in "ABCDA")
-    tracks = [PictureTrack("rectangle", closed_path, DrawStyle.TRUTH)]
-    deviation_tracks = []
+    tracks, deviation_tracks = [PictureTrack("rectangle", closed_path, DrawStyle.TRUTH)], []
     for method in methods:
-        deviations = [(point, one[method][point]) for one in results for point in CORNER_POSITIONS]
-        estimated_positions = tuple(
-            (CORNER_POSITIONS[point][0] + dx, CORNER_POSITIONS[point][1] + dy) for point, (dx, dy) in deviations
-        )
-        tracks.append(PictureTrack(method, estimated_positions, DrawStyle.DOTS))
-        deviation_tracks.append(PictureTrack(method, tuple(deviation for _, deviation in deviations), DrawStyle.DOTS))
+        off = {point: deviations(results, point, method) for point in CORNER_POSITIONS}
+        places = [CORNER_POSITIONS[point] + of for point, of in off.items()]
+        tracks.append(PictureTrack(method, thin_out(np.concatenate(places)), DrawStyle.DOTS))
+        deviation_tracks.append(PictureTrack(method, thin_out(np.concatenate([*off.values()])), DrawStyle.DOTS))
     marks = tuple((point, x, y) for point, (x, y) in CORNER_POSITIONS.items())
     boxes = [
         BoxPlots(f"deviation in {axis} at C (fig. 16)", tuple(corner_row("C", m, axis) for m in methods), "m", 0.0)
         for axis in "xy"
     ]
     return (
-        FloorPanel("corners as estimated by the four methods (fig. 15a)", tuple(tracks), marks),
-        FloorPanel("deviations at all corners (fig. 15b)", tuple(deviation_tracks), (("", 0.0, 0.0),)),
+        Plot("corners as estimated by the four methods (fig. 15a)", tuple(tracks), marks=marks),
+        Plot("deviations at all corners (fig. 15b)", tuple(deviation_tracks), marks=(("", 0.0, 0.0),)),
         *boxes,
         rods(seed),
     )
 
 
-def rods(seed: int) -> FloorPanel:
+def rods(seed: int) -> Plot:
     """Return the rods of both legs over one stride, from the left, by equation (7) from the sensors' attitudes.
 
     x is ahead and y is up. The pictures are `ROD_DISTANCE` apart, whatever the wearer walked between them."""
@@ -69,4 +66,4 @@ def rods(seed: int) -> FloorPanel:
         if sample.quat is not None:
             chain.set_attitude(sample.site, sample.t, sample.quat)
     tracks = tuple(PictureTrack(f"{foot.value} leg", tuple(points[:-1])) for foot, points in sides.items())
-    return FloorPanel("rods of the legs over one stride, from the left, y up (fig. 8)", tracks)
+    return Plot("rods of the legs over one stride, from the left, y up (fig. 8)", tracks)

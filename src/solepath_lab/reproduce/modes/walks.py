@@ -6,7 +6,7 @@ by the law of the literature and by chance, not by that of the rules of table 2.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from attrs import evolve, frozen
@@ -28,11 +28,13 @@ from solepath.recipes import Recipe
 from solepath.recording.decoded import DecodedRecording
 from solepath.types import SITE_OF_FOOT, Foot, Sample
 from solepath.types.vector import GRAVITY
+from solepath.validate.alignment import Floats
 
 from ...emulated.laps import LapCorner, corners, marked, rectangle
 from ...emulated.laps import marks as marks_of
 from ...emulated.limb_samples import limb_samples
 from ...emulated.wearers import SUBJECTS
+from ..tables import Values, WalkResults, pooled
 from ..walks import run_session
 
 RATE = 50.0
@@ -47,8 +49,6 @@ A joint found by regression is 12.3 mm off in space, with images as the truth (M
 44): 7 mm on one axis, and 10 mm for the distance of two. The others are assumed for a tape over the skin."""
 MAX_TIME_DIFFERENCE = 0.4
 """Largest time between a reported touchdown and the true one that it matches, s."""
-Corners = dict[str, tuple[float, float]]
-"""Deviation (x, y) by corner, m."""
 
 
 @frozen
@@ -159,17 +159,29 @@ class ModesJob:
     conditions: Conditions = USUAL
 
 
-def walk(job: ModesJob) -> dict[str, Corners]:
-    """Emulate one rectangle and return the deviations at its corners by method."""
+def walk(job: ModesJob) -> WalkResults:
+    """Emulate one rectangle and return the deviations at its corners by method, m, as `corner_row` names them."""
     conditions = job.conditions
     walker = Walker(rectangle(), conditions.wearer(job.subject), job.seed)
     samples = conditions.samples(walker, conditions.calibration(job.subject), job.seed)
     corner_passes = corners(walker)
-    deviations = {}
+    values = Values()
     for method, (recipe, calibration) in job.methods.items():
         touchdown_events = _touchdowns(recipe, samples, calibration)
-        deviations[method] = {corner.name: _deviation(walker, corner, touchdown_events) for corner in corner_passes}
-    return deviations
+        for corner in corner_passes:
+            deviation = _deviation(walker, corner, touchdown_events)
+            values |= {corner_row(corner.name, method, axis): (off,) for axis, off in zip("xy", deviation, strict=True)}
+    return WalkResults(values)
+
+
+def corner_row(point: str, method: str, axis: str) -> str:
+    """Return the name of the row of a corner, a touchdown method and an axis ("x" or "y")."""
+    return f"{point} {method} {axis}"
+
+
+def deviations(walks: Iterable[WalkResults], point: str, method: str) -> Floats:
+    """Return the deviations (n, 2), m, of a method at a corner."""
+    return np.array([pooled(walks, corner_row(point, method, axis)) for axis in "xy"]).T
 
 
 def with_compensation(recipe: Recipe, compensation: Compensation) -> Recipe:
@@ -203,15 +215,11 @@ def _deviation(
 def _place(walker: Walker, foot: Foot, t: float, touchdown_events: Sequence[TouchedDown]) -> tuple[float, float]:
     """Return the position (x, y), m, of the touchdown near `t` s, else of the last one before, else of the start."""
     near = [one for one in touchdown_events if abs(one.t - t) < MAX_TIME_DIFFERENCE]
-    if near:
-        x, y, _ = min(near, key=lambda one: abs(one.t - t)).position
-        return x, y
     before = [one for one in touchdown_events if one.t < t]
-    if before:
-        x, y, _ = before[-1].position
-        return x, y
-    start = walker.plan.starts[foot]
-    return start.x, start.y
+    if not near and not before:
+        return walker.plan.starts[foot].x, walker.plan.starts[foot].y
+    x, y, _ = (min(near, key=lambda one: abs(one.t - t)) if near else before[-1]).position
+    return x, y
 
 
 @frozen
@@ -224,11 +232,11 @@ class BendsJob:
     conditions: Conditions
 
 
-def recognise(job: BendsJob) -> dict[ModeRule, list[float]]:
+def recognise(job: BendsJob) -> WalkResults:
     """Return the share of touchdowns, in percent, with the right mode in each of the five walks, by rule."""
     conditions = job.conditions
     calibration = conditions.calibration(job.subject)
-    shares: dict[ModeRule, list[float]] = {rule: [] for rule in ModeRule}
+    shares: Values = dict.fromkeys([rule.name for rule in ModeRule], ())
     for k, mode in enumerate(MODES):
         walker = Walker(marked(mode, job.steps), conditions.wearer(job.subject), 10 * job.seed + k)
         samples = conditions.samples(walker, calibration, job.seed)
@@ -240,5 +248,5 @@ def recognise(job: BendsJob) -> dict[ModeRule, list[float]]:
                 any(down.mode is mode and abs(down.t - mark.t) < MAX_TIME_DIFFERENCE for down in found[mark.foot])
                 for mark in true
             )
-            shares[rule].append(100.0 * right / len(true))
-    return shares
+            shares[rule.name] += (100.0 * right / len(true),)
+    return WalkResults(shares)

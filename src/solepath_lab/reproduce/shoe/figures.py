@@ -17,7 +17,7 @@ from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude
 from solepath.session import Session
 from solepath.types import Phase, Sample
 
-from ..tables import Curves, DrawStyle, PictureTrack
+from ..tables import DrawStyle, PictureTrack, Plot
 from .scores import states_of
 from .variants import FOOT, STATES, WINDOWS
 
@@ -50,7 +50,7 @@ def _run(detector: Detector, samples: Sequence[Sample]) -> list[tuple[float, flo
     return found
 
 
-def window_curves(samples: Sequence[Sample], truth: Truth) -> Curves:
+def window_curves(samples: Sequence[Sample], truth: Truth) -> Plot:
     """Return figure 3: the short-time energy of a walk with windows of several lengths."""
     start, shown = _shown(samples, truth, "walking")
     curves = [
@@ -63,10 +63,10 @@ def window_curves(samples: Sequence[Sample], truth: Truth) -> Curves:
     curves = [evolve(curve, points=tuple([point for point in curve.points if point[0] >= 0.0])) for curve in curves]
     threshold = EnergySettings().threshold
     curves.append(PictureTrack("threshold", ((0.0, threshold), (SHOWN, threshold)), DrawStyle.TRUTH))
-    return Curves("energy by window (fig. 3)", tuple(curves), "s", "g^2", (0.0, LARGEST_ENERGY))
+    return Plot("energy by window (fig. 3)", tuple(curves), "s", "g^2", (0.0, LARGEST_ENERGY))
 
 
-def posture_curves(samples: Sequence[Sample]) -> Curves:
+def posture_curves(samples: Sequence[Sample]) -> Plot:
     """Return figure 7: the tilt error over the samples in which the first attitude is found, degrees."""
     session, points = Session(SHOE_SENSING_PRINTED), []
     for one in samples:
@@ -77,10 +77,10 @@ def posture_curves(samples: Sequence[Sample]) -> Curves:
         assert isinstance(corrector, GatedTilt)
         x, y, z = gravity_error(corrector.attitude, corrector.last_acc)
         points.append((one.t, degrees(asin(min(1.0, sqrt(x * x + y * y + z * z))))))
-    return Curves("first attitude (fig. 7)", (PictureTrack("tilt error", tuple(points)),), "s", "degrees")
+    return Plot("first attitude (fig. 7)", (PictureTrack("tilt error", tuple(points)),), "s", "degrees")
 
 
-def extraction_curves(samples: Sequence[Sample], truth: Truth) -> tuple[Curves, ...]:
+def extraction_curves(samples: Sequence[Sample], truth: Truth) -> tuple[Plot, ...]:
     """Return figure 20: in which samples the foot stands by energy, by magnitude, and truly, in each state."""
     panels = []
     for state in STATES:
@@ -98,7 +98,7 @@ def extraction_curves(samples: Sequence[Sample], truth: Truth) -> tuple[Curves, 
                 for name, of in flags.items()
             ]
         )
-        panels.append(Curves(f"{state}, stands (fig. 20)", curves, "s", "higher: stands", (-0.1, 1.4)))
+        panels.append(Plot(f"{state}, stands (fig. 20)", curves, "s", "higher: stands", (-0.1, 1.4)))
     return tuple(panels)
 
 

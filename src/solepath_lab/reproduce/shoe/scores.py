@@ -8,15 +8,16 @@ from collections.abc import Sequence
 from math import atan2, degrees, hypot, remainder
 
 import numpy as np
-from attrs import frozen
 
 from solepath.emulate.routes.styles import StrideKind
 from solepath.emulate.wearers.truth import TrueStride, Truth
 from solepath.events import StrideTaken
 from solepath.papers.shoe_sensing.steepness import angle_per_metre, steepness
 from solepath.types import Foot
-from solepath.validate.alignment import ALIGNMENT_LENGTH
+from solepath.validate.alignment import ALIGNMENT_LENGTH, Floats
 from solepath.validate.matching import pairs
+
+from ..tables import Values
 
 MATCHING_TIME = 0.3
 """Largest time between the ends of a found stride and the true one that it matches, s."""
@@ -27,58 +28,12 @@ LEAST_LEVEL_LENGTH = 0.3
 DIRECTIONS = {"upstairs": 1, "downstairs": -1}
 """Steepness (papers/shoe_sensing/steepness.py) by state; 0 for the others."""
 
-Pair = tuple[float, float]
+Scores = Values
+"""Figures of one session by name: one value for each stride, leg or walk.
 
-
-@frozen
-class StrideErrors:
-    """The comparison of the strides of one session in one state with the truth."""
-
-    angles: tuple[float, ...]
-    """Angle per metre of each matched stride (papers/shoe_sensing/steepness.py), degrees/m, positive upwards."""
-    lengths: tuple[Pair, ...]
-    """Error and true value of the length of each matched stride, m."""
-    heights: tuple[Pair, ...]
-    """Error and true value of the height change of each matched stride, m."""
-    right: tuple[bool, ...]
-    """True for each matched stride whose state (level, upstairs, downstairs) is right."""
-    start_offsets: tuple[float, ...]
-    """Start of each matched stride minus the true start, s."""
-    not_found: int
-    """Number of true strides without a match."""
-    invented: int
-    """Number of reported strides without a match."""
-
-    @property
-    def found(self) -> int:
-        """Number of matched strides."""
-        return len(self.lengths)
-
-    @property
-    def merged(self) -> int:
-        """Number of strides that were reported as one with the stride before, whose end was not found."""
-        return sum([offset < -MATCHING_TIME for offset in self.start_offsets])
-
-    @property
-    def split(self) -> int:
-        """Number of strides that were reported in two pieces, of which the last counts as found."""
-        return sum([offset > MATCHING_TIME for offset in self.start_offsets])
-
-    @property
-    def whole(self) -> tuple[float, ...]:
-        """Length errors of the strides that are neither merged nor split, m."""
-        pairs_of_stride = zip(self.lengths, self.start_offsets, strict=True)
-        return tuple([error for (error, _), offset in pairs_of_stride if abs(offset) <= MATCHING_TIME])
-
-    @property
-    def right_share(self) -> float:
-        """Percentage of the found strides whose state is right."""
-        return 100.0 * sum(self.right) / max(1, len(self.right))
-
-    @property
-    def stride_f1(self) -> float:
-        """F1 of the strides, %: 2 x found / (true + reported)."""
-        return 100.0 * self.found / max(1.0, self.found + 0.5 * (self.not_found + self.invented))
+"STATE steps": F1 of the strides of a state, %; "STATE right": 1 for each stride found whose state is right; "STATE
+angles": angle per metre (papers/shoe_sensing/steepness.py), degrees/m, positive upwards; "STATE lengths", "STATE
+heights": errors, m; "STATE true lengths", "STATE true heights", m."""
 
 
 def states_of(truth: Truth, foot: Foot) -> list[str | None]:
@@ -103,8 +58,8 @@ def matched(found: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tu
     return [(found[j], true[i]) for i, j in pairs(*ends, MATCHING_TIME)]
 
 
-def score_strides(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> dict[str, StrideErrors]:
-    """Return the scores of the strides of a foot by state, for the states that the walk has.
+def score_strides(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> Scores:
+    """Return the figures of the strides of a foot by state, for the states that the walk has.
 
     A reported stride without a match counts to the state of the true stride in which it ends."""
     true = truth.strides(foot)
@@ -112,68 +67,52 @@ def score_strides(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> d
     matches = matched(strides, true)
     used = {id(stride) for stride, _ in matches}
     extra = [stride for stride in strides if id(stride) not in used]
-    result = {}
+    result: Scores = {}
     for state in dict.fromkeys([state for state in states if state is not None]):
         expected = [one for one, of in zip(true, states, strict=True) if of == state]
         numbers = {one.number for one in expected}
         counted = [(stride, one) for stride, one in matches if one.number in numbers]
-        direction = DIRECTIONS.get(state, 0)
-        result[state] = StrideErrors(
-            angles=tuple([degrees(angle_per_metre(stride.length, stride.height_change)) for stride, _ in counted]),
-            lengths=tuple([(stride.length - one.length, one.length) for stride, one in counted]),
-            heights=tuple(
-                [(stride.height_change - one.displacement[2], one.displacement[2]) for stride, one in counted]
-            ),
-            right=tuple([steepness(stride.length, stride.height_change) == direction for stride, _ in counted]),
-            start_offsets=tuple([stride.t_start - one.t_start for stride, one in counted]),
-            not_found=len(expected) - len(counted),
-            invented=sum([any(one.t_start < stride.t < one.t_end for one in expected) for stride in extra]),
-        )
+        invented = sum([any(one.t_start < stride.t < one.t_end for one in expected) for stride in extra])
+        reported = len(counted) + 0.5 * (len(expected) - len(counted) + invented)
+        ours = [(stride.length, stride.height_change) for stride, _ in counted]
+        lengths, heights = [one.length for _, one in counted], [one.displacement[2] for _, one in counted]
+        values = {
+            "steps": [100.0 * len(counted) / max(1.0, reported)],
+            "right": [float(steepness(*one) == DIRECTIONS.get(state, 0)) for one in ours],
+            "angles": [degrees(angle_per_metre(*one)) for one in ours],
+            "lengths": [one[0] - length for one, length in zip(ours, lengths, strict=True)],
+            "true lengths": lengths,
+            "heights": [one[1] - height for one, height in zip(ours, heights, strict=True)],
+            "true heights": heights,
+        }
+        result |= {f"{state} {name}": tuple(of) for name, of in values.items()}
     return result
 
 
-@frozen
-class LegErrors:
-    """The comparison of one straight leg with the truth."""
+def score_legs(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> Scores:
+    """Return the figures of all legs: strides on the level between turns on the spot.
 
-    length: Pair
-    """Error and true value of the distance from its start to its end, m."""
-    height: float
-    """Error of the height gained, m."""
-    courses: tuple[float, ...]
-    """Direction error of each matched stride, degrees, after alignment over the leg's first two metres."""
-    heading: float
-    """Direction of the leg minus the true one, degrees, positive to the left; the first leg is aligned with it."""
-
-
-def score_legs(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> tuple[LegErrors, ...]:
-    """Return the scores of all legs: strides on the level between turns on the spot."""
+    "legs" and "true legs": distances from their starts to their ends, m; "courses": direction error of each matched
+    stride, degrees, after alignment over its leg's first two metres; "heading": direction of the last leg minus the
+    true one, degrees, positive to the left; the first leg is aligned with it."""
     legs: list[list[TrueStride]] = [[]]
     for one, state in zip(truth.strides(foot), states_of(truth, foot), strict=True):
         if state is not None:
             legs[-1].append(one)
         elif legs[-1]:
             legs.append([])
-    scores: list[LegErrors] = []
-    first = 0.0
+    found, courses, headings = [], [], []
     for leg in [leg for leg in legs if leg]:
         start, end = leg[0].t_start, leg[-1].t_end
         inside = [stride for stride in strides if start + 0.05 < stride.t_end < end + MATCHING_TIME]
-        if not inside:
-            continue
-        ours, true = (np.sum([one.displacement for one in part], axis=0) for part in (inside, leg))
-        heading = _angle(ours) - _angle(true)
-        first = first if scores else heading
-        error = float(hypot(*ours[:2]) - hypot(*true[:2]))
-        scores.append(
-            LegErrors(
-                length=(error, float(hypot(*true[:2]))),
-                height=float(ours[2] - true[2]),
-                courses=_courses(matched(inside, leg)),
-                heading=degrees(_wrapped(heading - first)),
-            )
-        )
-    return tuple(scores)
+        if inside:
+            ours, true = (np.sum([one.displacement for one in part], axis=0) for part in (inside, leg))
+            found.append([float(hypot(*way[:2])) for way in (ours, true)])
+            courses += _courses(matched(inside, leg))
+            headings.append(_angle(ours) - _angle(true))
+    lengths, true_lengths = zip(*found, strict=True) if found else ((), ())
+    heading = tuple([degrees(_wrapped(headings[-1] - headings[0]))]) if headings else ()
+    return {"legs": lengths, "true legs": true_lengths, "courses": tuple(courses), "heading": heading}
 
 
 def _angle(displacement: Sequence[float]) -> float:
@@ -184,19 +123,18 @@ def _wrapped(angle: float) -> float:
     return remainder(angle, 2.0 * np.pi)
 
 
-def _courses(matches: Sequence[tuple[StrideTaken, TrueStride]]) -> tuple[float, ...]:
+def _courses(matches: Sequence[tuple[StrideTaken, TrueStride]]) -> list[float]:
     """Return the direction of each stride minus the true one, degrees; the first two metres are laid on the truth."""
     if not matches:
-        return ()
+        return []
     errors = [_wrapped(_angle(stride.displacement) - _angle(true.displacement)) for stride, true in matches]
     travelled = np.cumsum([true.length for _, true in matches])
     count = 1 + int(np.sum(travelled < ALIGNMENT_LENGTH))
     ours, true_way = (np.sum([one[k].displacement for one in matches[:count]], axis=0) for k in (0, 1))
     aligned = _angle(ours) - _angle(true_way)
-    return tuple([degrees(_wrapped(error - aligned)) for error in errors])
+    return [degrees(_wrapped(error - aligned)) for error in errors]
 
 
-def relative_error(errors: Sequence[Pair]) -> float:
-    """Return the mean magnitude of the error over the mean true value, as the paper computes it; 0 for none."""
-    sizes, true = (float(np.mean(np.abs(values))) for values in zip(*errors, strict=True))
-    return sizes / true if true else 0.0
+def relative_error(errors: Sequence[float] | Floats, true: Sequence[float] | Floats) -> float:
+    """Return the mean magnitude of the error over the mean true value, as the paper computes it."""
+    return float(np.mean(np.abs(errors)) / np.mean(np.abs(true)))

@@ -5,7 +5,8 @@ sensor errors and other strides."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from math import hypot, radians
 
 import numpy as np
@@ -16,15 +17,14 @@ from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.shoe import Shoe
 from solepath.emulate.wearers.truth import Truth
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import Event, FlightClimbed, StrideTaken
+from solepath.events import Event, StrideTaken
 from solepath.types import Sample
 from solepath.validate.alignment import Floats
 
-from ..done_jobs import named_values
-from ..tables import Curves, DrawStyle, SpaceTrack
+from ..tables import DrawStyle, PictureTrack, Plot
 from ..walks import align_track, final_strides, run_session
 from .figures import extraction_curves, posture_curves, window_curves
-from .scores import LegErrors, StrideErrors, score_legs, score_strides
+from .scores import Scores, score_legs, score_strides
 from .variants import BY_ANGLE, DEFAULT_ROW, FOOT, MAIN, OURS, PRINTED, RECIPES, SHORT, TABLE, ShoeSetup
 
 WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
@@ -54,19 +54,12 @@ def _standing(setup: ShoeSetup) -> Route:
     return Route().stand(setup.standing)
 
 
-def walking_route(setup: ShoeSetup = TABLE, rounds: int | None = None) -> Route:
-    """Return the line there and back, with a turn on the spot at either end."""
+def line_route(setup: ShoeSetup = TABLE, rounds: int | None = None, jogs: bool = False) -> Route:
+    """Return the line there and back, at a walk or at a jog, with a turn on the spot at either end."""
     route = _standing(setup)
     for _ in range(2 * (ROUNDS if rounds is None else rounds)):
-        route = route.walk(LEG, WALKING_SPEED).turn(HALF_TURN).stand(1.0)
-    return route
-
-
-def jogging_route(setup: ShoeSetup = TABLE, rounds: int | None = None) -> Route:
-    """Return the same at a jog."""
-    route = _standing(setup)
-    for _ in range(2 * (ROUNDS if rounds is None else rounds)):
-        route = route.jog(LEG, JOGGING_SPEED).turn(HALF_TURN).stand(1.0)
+        route = route.jog(LEG, JOGGING_SPEED) if jogs else route.walk(LEG, WALKING_SPEED)
+        route = route.turn(HALF_TURN).stand(1.0)
     return route
 
 
@@ -79,14 +72,9 @@ def stairs_route(setup: ShoeSetup = TABLE, rounds: int | None = None) -> Route:
     return route
 
 
-def long_route(setup: ShoeSetup = TABLE) -> Route:
-    """Return the line there and back twenty times."""
-    return walking_route(setup, MANY_ROUNDS)
-
-
 def short_route(setup: ShoeSetup = TABLE) -> Route:
     """Return one round of each: walking, jogging, stairs."""
-    parts = (walking_route(setup, 1), jogging_route(setup, 1), stairs_route(setup, 1))
+    parts = (line_route(setup, 1), line_route(setup, 1, True), stairs_route(setup, 1))
     actions = [action for k, part in enumerate(parts) for action in part.actions[1 if k else 0 :]]
     return Route(tuple(actions))
 
@@ -122,11 +110,11 @@ def tour_route(setup: ShoeSetup = TABLE) -> Route:
     return route.stop(3.0)
 
 
-ROUTES = {
-    "walking": walking_route,
-    "jogging": jogging_route,
+ROUTES: dict[str, Callable[[ShoeSetup], Route]] = {
+    "walking": line_route,
+    "jogging": partial(line_route, jogs=True),
     "stairs": stairs_route,
-    "twenty rounds": long_route,
+    "twenty rounds": lambda setup: line_route(setup, MANY_ROUNDS),
     "short": short_route,
     "rectangle": rectangle_route,
     "ramps": ramps_route,
@@ -154,48 +142,17 @@ class ShoeJob:
     drawn: bool = False
     """True for the walks of which curves are drawn."""
 
-    key = property(named_values)
-
-
-@frozen
-class TrackErrors:
-    """The comparison of the whole track of one session with the truth."""
-
-    end_error: float
-    """Horizontal distance between the estimated and the true end, m."""
-    height_error: float
-    """Estimated minus true height of the end, m."""
-    heading_error: float
-    """Median error of the direction of the last strides, degrees, positive to the left."""
-    flights: tuple[bool, ...]
-    """Direction of each flight that was reported: True for up."""
-
-
-@frozen
-class SessionScores:
-    """The scores of one session on one walk."""
-
-    states: dict[str, StrideErrors]
-    """Scores of the strides by state."""
-    legs: tuple[LegErrors, ...]
-    """Scores of the legs between turns on the spot; empty for a walk without such turns."""
-    rises: tuple[tuple[float, float], ...]
-    """Error and true value of the height gained on each ramp and kerb of the walk over ramps, m."""
-    track: TrackErrors
-
 
 @frozen
 class ShoeResults:
     """The results of one walk, by name of the recipe."""
 
-    scores: dict[str, SessionScores]
+    scores: dict[str, Scores]
     path_length: float
     """Horizontal length of the true path of the foot, m."""
-    true_flights: tuple[bool, ...]
-    """Direction of each flight that was climbed: True for up."""
-    tracks: tuple[SpaceTrack, ...] = ()
+    tracks: tuple[PictureTrack, ...] = ()
     """True track, and those of ours and the printed recipe; only of a walk that is drawn."""
-    curves: tuple[Curves, ...] = ()
+    curves: tuple[Plot, ...] = ()
     """Curves of figs. 3, 7 and 20; only of the short walk that is drawn."""
 
 
@@ -204,14 +161,13 @@ def walk(job: ShoeJob) -> ShoeResults:
     samples, truth = sample_walk(ROUTES[job.walk](job.setup), job.seed, job.setup)
     names = WALK_RECIPES[job.walk] if job.setup == TABLE else (OURS, PRINTED)
     sessions = {name: run_session(RECIPES[name], samples) for name in names}
-    curves: tuple[Curves, ...] = ()
+    curves: tuple[Plot, ...] = ()
     if job.drawn and job.walk == "short":
         curves = (window_curves(samples, truth), posture_curves(samples), *extraction_curves(samples, truth))
     true_path = truth.pose(FOOT, np.arange(0.0, truth.duration, 0.1)).position
     return ShoeResults(
         scores={name: _score(job, events, truth) for name, events in sessions.items()},
         path_length=float(np.sum(np.linalg.norm(np.diff(true_path[:, :2], axis=0), axis=1))),
-        true_flights=tuple([flight.up for flight in truth.flights]),
         tracks=_tracks(sessions, truth) if job.drawn else (),
         curves=curves,
     )
@@ -224,32 +180,32 @@ def sample_walk(route: Route, seed: int, setup: ShoeSetup = TABLE) -> tuple[list
     return samples, walker.truth({FOOT: setup.mounting})
 
 
-def _score(job: ShoeJob, events: Sequence[Event], truth: Truth) -> SessionScores:
+def _score(job: ShoeJob, events: Sequence[Event], truth: Truth) -> Scores:
+    """Return the figures of strides and legs, of each ramp and kerb, and of the track (`_score_track`)."""
     strides = final_strides(events, FOOT)
-    turns = job.walk in ("walking", "jogging", "rectangle", "twenty rounds")
-    return SessionScores(
-        states=score_strides(strides, truth, FOOT),
-        legs=score_legs(strides, truth, FOOT) if turns else (),
-        rises=_rises(strides, truth) if job.walk == "ramps" else (),
-        track=_score_track(strides, events, truth),
-    )
+    scores = score_strides(strides, truth, FOOT) | _score_track(strides, truth)
+    if job.walk in ("walking", "jogging", "rectangle", "twenty rounds"):
+        scores |= score_legs(strides, truth, FOOT)
+    return scores | ({"rises": _rises(strides, truth)} if job.walk == "ramps" else {})
 
 
-def _score_track(strides: Sequence[StrideTaken], events: Sequence[Event], truth: Truth) -> TrackErrors:
-    flights = tuple([event.up for event in events if isinstance(event, FlightClimbed)])
+def _score_track(strides: Sequence[StrideTaken], truth: Truth) -> Scores:
+    """Return the figures of the whole track.
+
+    "end": horizontal distance from the true end, m; "end height": error of its height, m; "end heading": median error
+    of the direction of the last strides, degrees, positive to the left."""
     if len(strides) < 2:
         x, y, z = truth.pose(FOOT, truth.duration).position[0]
-        return TrackErrors(float(hypot(x, y)), float(-z), 0.0, flights)
+        return {"end": (float(hypot(x, y)),), "end height": (float(-z),), "end heading": (0.0,)}
     ours, true = _positions(strides, truth)
     directions = [np.arctan2(d[:, 1], d[:, 0]) for d in (np.diff(ours, axis=0), np.diff(true, axis=0))]
     turned = directions[0] - directions[1]
     heading = np.degrees(np.arctan2(np.sin(turned), np.cos(turned)))
-    return TrackErrors(
-        end_error=float(hypot(*(ours[-1, :2] - true[-1, :2]))),
-        height_error=float(ours[-1, 2] - true[-1, 2]),
-        heading_error=float(np.median(heading[-LAST_STRIDES:])),
-        flights=flights,
-    )
+    return {
+        "end": (float(hypot(*(ours[-1, :2] - true[-1, :2]))),),
+        "end height": (float(ours[-1, 2] - true[-1, 2]),),
+        "end heading": (float(np.median(heading[-LAST_STRIDES:])),),
+    }
 
 
 def _positions(strides: Sequence[StrideTaken], truth: Truth) -> tuple[Floats, Floats]:
@@ -263,8 +219,8 @@ def _positions(strides: Sequence[StrideTaken], truth: Truth) -> tuple[Floats, Fl
     return ours, true
 
 
-def _rises(strides: Sequence[StrideTaken], truth: Truth) -> tuple[tuple[float, float], ...]:
-    """Return error and true value of the height between the levels before and after each ramp and kerb, m."""
+def _rises(strides: Sequence[StrideTaken], truth: Truth) -> tuple[float, ...]:
+    """Return the error of the height between the levels before and after each ramp and kerb, m."""
     rise = [slope * RAMP * sign for slope in SLOPES for sign in (1.0, -1.0)] + [KERB, -KERB]
     ramp_lengths = [RAMP] * 2 * len(SLOPES) + [0.3] * 2
     true_strides, x, result = truth.strides(FOOT), 20.0, []
@@ -274,19 +230,19 @@ def _rises(strides: Sequence[StrideTaken], truth: Truth) -> tuple[tuple[float, f
         # the middle of the level metres before and after; a foot that stands astride an edge is in neither
         before, after = (float(np.interp(place, places, times)) for place in (x - 2.0, x + length + 2.5))
         z = [next((one.position[2] for one in reversed(strides) if one.t_end <= t), 0.0) for t in (before, after)]
-        result.append((z[1] - z[0] - true_rise, true_rise))
+        result.append(z[1] - z[0] - true_rise)
         x += length + 5.0
     return tuple(result)
 
 
-def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> tuple[SpaceTrack, ...]:
+def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> tuple[PictureTrack, ...]:
     t = np.array([0.0, *(stride.t_end for stride in truth.strides(FOOT)[-MAX_POINTS:])])
     position = truth.pose(FOOT, t).position
-    tracks = [SpaceTrack("true path", _points(position - position[0]), DrawStyle.TRUTH)]
+    tracks = [PictureTrack("true path", _points(position - position[0]), DrawStyle.TRUTH)]
     for name in (OURS, PRINTED):
         strides = final_strides(sessions[name], FOOT)
         if len(strides) > 1:
-            tracks.append(SpaceTrack(name, _points(_positions(strides, truth)[0][-MAX_POINTS:])))
+            tracks.append(PictureTrack(name, _points(_positions(strides, truth)[0][-MAX_POINTS:])))
     return tuple(tracks)
 
 
