@@ -8,8 +8,9 @@ from array import array
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import compress, pairwise, repeat
-from math import isfinite, isnan, sqrt
+from math import hypot, isfinite, isnan
 from pathlib import Path
+from statistics import median
 
 from attrs import define, field
 
@@ -58,7 +59,7 @@ class FootTable:
 
     @property
     def signed(self) -> dict[str, tuple[str, ...]]:
-        """Names of the columns of each sensor, with "-" before one whose sign is changed; empty for an archive."""
+        """Names of the columns of each sensor, with "-" before one whose sign is changed."""
         return {
             quantity: tuple([("-" if one.sign < 0.0 else "") + one.name for one in its_columns])
             for quantity, its_columns in self.sources.items()
@@ -70,9 +71,13 @@ class FootTable:
         """Usual time between two samples, s; 0 with fewer than two."""
         return median([b - a for a, b in pairwise(self.t)]) if len(self) > 1 else 0.0
 
-    def set_quantity(self, quantity: str, columns: Iterable[Iterable[float]], unit: str) -> None:
-        """Set the components of a quantity, or the times, from numbers in a unit."""
-        factor = UNITS[quantity][unit]
+    def lengths(self, quantity: str) -> list[float]:
+        """Return the length of each vector of a quantity; none for a quantity that is not there."""
+        return [hypot(*vector) for vector in zip(*self.columns.get(quantity, ()), strict=True)]
+
+    def set_quantity(self, quantity: str, columns: Iterable[Iterable[float]]) -> None:
+        """Set the components of a quantity, or the times, from numbers in the unit of the file."""
+        factor = UNITS[quantity][self.units.get(quantity, "s")]
         scaled = [floats(column if factor == 1.0 else [value * factor for value in column]) for column in columns]
         if quantity == "t":
             (self.t,) = scaled
@@ -96,17 +101,6 @@ class FootTable:
         values = [zip(*self.columns[q], strict=True) if q in self.columns else repeat(None) for q in MEASURED]
         for t, acc, gyro, pressure in zip(self.t, *values):  # noqa: B905 - what repeats has no end
             yield Sample(t, site, acc, gyro, pressure)
-
-
-def median(values: Sequence[float]) -> float:
-    """Return the median of some numbers."""
-    ordered, middle = sorted(values), len(values) // 2
-    return ordered[middle] if len(values) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle])
-
-
-def lengths(vectors: Sequence[Sequence[float]]) -> list[float]:
-    """Return the length of each vector of which these are the components x, y and z."""
-    return [sqrt(x * x + y * y + z * z) for x, y, z in zip(*vectors, strict=True)]
 
 
 def remove_bad_rows(table: FootTable) -> list[tuple[int, str, str]]:
