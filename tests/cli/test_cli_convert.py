@@ -41,8 +41,8 @@ def test_a_phones_log_becomes_a_recording_that_track_takes(log, tmp_path):
     frames = [p for p in walks.insoles().packets if p.channel == "insole/frame"]
     half = sum(p.site is Site.LEFT_FOOT for p in frames)
     assert result.stdout.splitlines() == [
-        f"{RIGHT}  right_foot, insole: {len(frames) - half} notifications",
         f"{LEFT}  left_foot, insole: {half} notifications",
+        f"{RIGHT}  right_foot, insole: {len(frames) - half} notifications",
         f"{len(frames) + 2} packets written to {out}",
     ]
     packets = list(read_packets(out))
