@@ -45,6 +45,7 @@ class UnknownTable(RecordingError):
 
 def guess_mapping(layout: SheetLayout, rows: Iterator[Row]) -> UnknownTable:
     """Return the error for a table of no known format, with the options that may fit it."""
+    where = layout.where or ("line 1" if layout.first else "")
     columns = {} if layout.holds_numbers else _guess_columns(layout)
     if not columns.keys() - {"t"}:
         return UnknownTable(
@@ -54,7 +55,7 @@ def guess_mapping(layout: SheetLayout, rows: Iterator[Row]) -> UnknownTable:
     if units.get("t") == "":
         del columns["t"], units["t"]
     what = f"is of no known format ({layout.list_names()})"
-    return UnknownTable(layout.path, what, layout.where, TableMapping(columns, units))
+    return UnknownTable(layout.path, what, where, TableMapping(columns, units))
 
 
 def merge_guesses(problems: Sequence[RecordingError], feet: str = "") -> list[RecordingError]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -14,11 +14,10 @@ from numpy.lib.format import read_array
 from numpy.typing import NDArray
 
 from ..errors import RecordingError, describe_error, open_file, printable
-from ..mapping.mapping import KEYS, QUANTITIES, TableMapping
+from ..mapping.mapping import KEYS, TableMapping
 from .columns import TableColumns
-from .numbers import fill_table
 from .sheet import SheetLayout
-from .table import MAX_VALUES, FootTable
+from .table import MAX_VALUES
 
 MAX_PIPED = 256_000_000
 """Largest size of an archive that comes through a pipe, bytes; which is kept whole, as its list is at its end."""
@@ -26,45 +25,46 @@ FLOAT_SIZE = 8
 """Size of a number in memory, bytes."""
 
 
-def read_npz(path: Path, mapping: TableMapping) -> tuple[SheetLayout, TableMapping, dict[str, NDArray[Any]]]:
-    """Return the keys of an archive as a header of columns, the mapping with their names, and the used columns.
+def open_npz(path: Path, mapping: TableMapping) -> tuple[SheetLayout, TableMapping, dict[int, list[float]]]:
+    """Return the keys of an archive as a header of columns, the mapping with their names, and the columns in use.
 
     A key holds all components of a quantity, which become columns such as acc_0, or one of them. RecordingError as for
     `read_arrays`, and for an array that is used and does not hold columns of numbers."""
     given = {name.lstrip("-") for names in mapping.columns.values() for name in names}
-    names: dict[str, list[str]] = {}
-    columns: dict[str, NDArray[Any]] = {}
+    parts: dict[str, list[str]] = {}
+    names: list[str] = []
+    columns: dict[int, list[float]] = {}
     for key, array in _read_members(path, {*KEYS, *given}.__contains__).items():
-        if array is None:
-            names[key] = [key]
-            continue
-        if array.dtype.kind not in "fiu" or array.ndim not in (1, 2):
-            what = f"holds {printable(str(array.dtype), 40)} of the shape {array.shape}, not columns of numbers"
-            raise RecordingError(path, what, key)
-        names[key] = [key] if array.ndim == 1 else [f"{key}_{k}" for k in range(array.shape[1])]
-        columns |= zip(names[key], array.astype(np.float64).reshape(len(array), len(names[key])).T, strict=True)
+        parts[key] = [key]
+        if array is not None:
+            if array.dtype.kind not in "fiu" or array.ndim not in (1, 2):
+                what = f"holds {printable(str(array.dtype), 40)} of the shape {array.shape}, not columns of numbers"
+                raise RecordingError(path, what, key)
+            if array.ndim == 2:
+                parts[key] = [f"{key}_{k}" for k in range(array.shape[1])]
+            values = array.astype(np.float64).reshape(len(array), len(parts[key]))
+            columns |= enumerate(values.T.tolist(), len(names))
+        names += parts[key]
 
     def expand(name: str) -> list[str]:
         key = name.lstrip("-")
-        return ["-" * (key != name) + part for part in names.get(key, [key])]
+        return ["-" * (key != name) + part for part in parts.get(key, [key])]
 
-    expanded = {key: [part for name in given for part in expand(name)] for key, given in mapping.columns.items()}
-    layout = SheetLayout(path, tuple(name for its_names in names.values() for name in its_names))
-    return layout, evolve(mapping, columns=expanded), columns
+    expanded = {
+        key: [part for name in its_names for part in expand(name)] for key, its_names in mapping.columns.items()
+    }
+    return SheetLayout(path, tuple(names)), evolve(mapping, columns=expanded), columns
 
 
-def fill_tables(found: TableColumns, columns: Mapping[str, NDArray[Any]]) -> list[FootTable]:
-    """Return the tables of the feet with the values of these columns; RecordingError for columns of other lengths."""
+def check_lengths(found: TableColumns, columns: Mapping[int, Sequence[float]]) -> list[float]:
+    """Return the numbers of the rows; RecordingError for a foot whose columns differ in length."""
     for table in found.feet:
-        values = [one.sign * columns[one.name] for q in QUANTITIES for one in table.sources.get(q, ())]
-        if "t" not in table.sources:
-            values.insert(0, np.arange(float(len(values[0]))))
-        for quantity, (first, *_) in table.sources.items():
-            if len(columns[first.name]) != len(values[0]):
-                what = f"has {len(columns[first.name])} rows but {table.names['t']} has {len(values[0])}"
+        lengths = {quantity: len(columns[first.index]) for quantity, (first, *_) in table.sources.items()}
+        for quantity, length in lengths.items():
+            if length != lengths.get("t", length):
+                what = f"has {length} rows but {table.names['t']} has {lengths['t']}"
                 raise RecordingError(table.path, what, table.names[quantity])
-        fill_table(table, found, [one.tolist() for one in values])
-    return found.feet
+    return [float(row) for row in range(min(map(len, columns.values())))]
 
 
 def read_arrays(path: Path, is_used: Callable[[str], bool]) -> dict[str, NDArray[Any]]:

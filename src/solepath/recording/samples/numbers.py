@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import accumulate, pairwise
-from typing import Any
-
-from attrs import define, field
+from math import isnan, nan
 
 from ..bad_rows import BadRows
 from ..errors import RecordingError, printable
 from ..exports import OWN
-from ..mapping.mapping import MEASURED, QUANTITIES, NamedColumn
-from ..mapping.units import DATETIME
+from ..mapping.units import DATETIME, UNITS
 from .columns import TableColumns
-from .sheet import Cells, Row, cut, is_blank, read_datetime, read_number
+from .sheet import Row, cut, is_blank, read_datetime, read_number
 from .table import MAX_VALUES, FootTable, floats
 
 SECONDS_OF_DAY = 86400.0
@@ -29,14 +25,28 @@ def read_rows(rows: Iterator[Row], found: TableColumns, bad_rows: BadRows) -> li
     An incomplete last line is reported and left out. It is not detected if only digits of its last column are missing,
     because the row is then complete."""
     header = found.header
-    feet = [_FootRows(table, header.decimal, len(found.feet) == 1) for table in found.feet]
+    columns = {one.index: one.name for table in found.feet for its in table.sources.values() for one in its}
+    datetimes = {table.sources["t"][0].index for table in found.feet if table.units.get("t") == DATETIME}
+    values = {index: floats() for index in columns}
+    lines, counts = array("q"), floats()
     width = max((k + 1 for k, name in enumerate(header.names) if name), default=0)
     for count, row in enumerate(rows):
+        numbers = []
         try:
             cells = cut(row.content, header.separator)
             if len(cells) < width or not all(map(is_blank, cells[len(header.names) :])):
                 raise ValueError(f"has {len(cells)} columns instead of {len(header.names)}")
-            parsed = [foot.parse(cells, float(count)) for foot in feet]
+            for index, name in columns.items():
+                cell = cells[index] if index < len(cells) else None
+                try:
+                    if is_blank(cell) and len(found.feet) > 1:
+                        numbers.append(nan)  # this row may be of the other foot
+                    else:
+                        numbers.append(read_datetime(cell) if index in datetimes else read_number(cell, header.decimal))
+                except (ValueError, TypeError):
+                    text = "blank" if is_blank(cell) else f'"{printable(str(cell), 20)}"'
+                    kind = "time" if index in datetimes else "number"
+                    raise ValueError(f"{name} is {text}, not a {kind}") from None
         except ValueError as error:
             if row.is_cut:
                 text = f"line {row.number}: cut off in the middle; everything before it is used"
@@ -45,78 +55,47 @@ def read_rows(rows: Iterator[Row], found: TableColumns, bad_rows: BadRows) -> li
             bad_rows.add(f"line {row.number}", str(error))
             continue
         bad_rows.good += 1
-        for foot, numbers in zip(feet, parsed, strict=True):
-            if numbers:
-                foot.values.extend(numbers)
-                foot.lines.append(row.number)
-        if sum([len(foot.values) for foot in feet]) > MAX_VALUES:
+        lines.append(row.number)
+        counts.append(count)
+        for column, number in zip(values.values(), numbers, strict=True):
+            column.append(number)
+        if len(lines) * len(values) > MAX_VALUES:
             raise RecordingError(header.path, f"holds more than {MAX_VALUES:,} numbers")
-    for foot in feet:
-        foot.table.lines = foot.lines
-        fill_table(foot.table, found, [foot.values[k :: foot.width] for k in range(foot.width)])
-    return [foot.table for foot in feet if foot.lines]
+    return fill_tables(found, values, counts, lines) if lines else []
 
 
-@define
-class _FootRows:
-    """The numbers of one foot, row by row."""
+def fill_tables(
+    found: TableColumns, values: Mapping[int, Sequence[float]], counts: Sequence[float], lines: Sequence[int] | None
+) -> list[FootTable]:
+    """Return the tables of the feet, with the values of columns by their index.
 
-    table: FootTable
-    decimal: str
-    is_only: bool
-    """Flag: the table has no other foot."""
-    values: array[float] = field(factory=floats)
-    lines: array[int] = field(factory=lambda: array("q"))
-    cells: list[tuple[NamedColumn, Callable[[Any], float], str]] = field(init=False)
-    """Each column in the order of the quantities, the function from its cells to numbers, and what these are."""
-
-    @cells.default
-    def _choose_readers(self) -> list[tuple[NamedColumn, Callable[[Any], float], str]]:
-        number = partial(read_number, decimal=self.decimal)
-        return [
-            (column, read_datetime, "a time")
-            if (quantity, self.table.units[quantity]) == ("t", DATETIME)
-            else (column, number, "a number")
-            for quantity in QUANTITIES
-            for column in self.table.sources.get(quantity, ())
-        ]
-
-    @property
-    def width(self) -> int:
-        """Number of numbers in a row, the first of which is its time."""
-        return len(self.cells) + ("t" not in self.table.sources)
-
-    def parse(self, cells: Cells, count: float) -> list[float]:
-        """Return the numbers of a row, or its number in place of a time; none if all cells of sensors are blank.
-
-        ValueError for a row with another fault."""
-        numbers = [count] if "t" not in self.table.sources else []
-        sensors = self.cells[1 - len(numbers) :]
-        if not self.is_only and all(is_blank(cells[column.index]) for column, _, _ in sensors):
-            return []
-        for column, read, what in self.cells:
-            cell = cells[column.index] if column.index < len(cells) else None
-            try:
-                numbers.append(column.sign * read(cell))
-            except (ValueError, TypeError):
-                found = "blank" if is_blank(cell) else f'"{printable(str(cell), 20)}"'
-                raise ValueError(f"{column.name} is {found}, not {what}") from None
-        return numbers
-
-
-def fill_table(table: FootTable, found: TableColumns, columns: Sequence[Iterable[float]]) -> None:
-    """Set the values of a table from its times, or the numbers of its rows, and its columns in order of quantities."""
-    t, *rest = columns
-    unit, times, values = table.units.get("t"), list(t), iter(rest)
-    for quantity in filter(table.sources.__contains__, MEASURED):
-        table.set_quantity(quantity, [next(values) for _ in table.sources[quantity]])
-    if unit is None:
-        times = [number / (found.mapping.rate or 1.0) for number in times]
-    elif times:
-        wrap = SECONDS_OF_DAY if unit == DATETIME and times[0] < SECONDS_OF_DAY else found.mapping.wrap
-        if wrap is not None:
-            turns = accumulate([b - a < -0.5 * wrap for a, b in pairwise(times)], initial=0)
-            times = [number + wrap * turn for number, turn in zip(times, turns, strict=True)]
-    table.set_quantity("t", [times])
+    `counts` numbers the rows, for a table with a rate; `lines` has the line of each. In a table of both feet, a row
+    that is blank for one of them has no sample of it."""
     has_own_time = found.mapping.columns.get("t", ("t",))[0].lower() == "t"
-    table.is_own = found.export is OWN and has_own_time and unit == "s"
+    for table in found.feet:
+        table.lines = lines
+        table.columns = {
+            quantity: [_scaled(values[one.index], one.sign * UNITS[quantity][table.units[quantity]]) for one in columns]
+            for quantity, columns in table.sources.items()
+        }
+        if "t" in table.sources:
+            unit, t = table.units["t"], values[table.sources["t"][0].index]
+            wrap = (
+                SECONDS_OF_DAY if unit == DATETIME and max(t[:1], default=0.0) < SECONDS_OF_DAY else found.mapping.wrap
+            )
+            if wrap is not None:
+                turns = accumulate([b - a < -0.5 * wrap for a, b in pairwise(t)], initial=0)
+                t = [number + wrap * turn for number, turn in zip(t, turns, strict=False)]
+            table.t = _scaled(t, UNITS["t"][unit])
+            table.is_own = found.export is OWN and has_own_time and unit == "s"
+            del table.columns["t"]
+        else:
+            table.t = floats([count / (found.mapping.rate or 1.0) for count in counts])
+        if len(found.feet) > 1:
+            measured = [column for columns in table.columns.values() for column in columns]
+            table.select([not all(map(isnan, row)) for row in zip(*measured, strict=True)])
+    return found.feet
+
+
+def _scaled(values: Sequence[float], factor: float) -> array[float]:
+    return floats(values if factor == 1.0 else [value * factor for value in values])

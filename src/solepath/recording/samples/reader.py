@@ -21,7 +21,7 @@ from ..mapping.words import foot_of_text
 from .columns import TableColumns, find_columns
 from .guess import UnknownTable, guess_mapping, merge_guesses
 from .join import join_files
-from .numbers import read_rows
+from .numbers import fill_tables, read_rows
 from .plausible import list_unit_problems
 from .sheet import open_sheet
 from .table import FootTable, floats, remove_bad_rows
@@ -132,12 +132,12 @@ def read_file(
 
     There are none for a sheet whose columns have faults."""
     if path.suffix.lower() == ".npz":
-        from .npz import fill_tables, read_npz  # imports numpy, which text does not need
+        from .npz import check_lengths, open_npz  # imports numpy, which text does not need
 
-        layout, mapping, columns = read_npz(path, mapping)
+        layout, mapping, columns = open_npz(path, mapping)
         sheet: Any = nullcontext((layout, iter(())))
     else:
-        sheet, columns = open_sheet(path, mapping), None
+        sheet, columns = open_sheet(path, mapping), {}
     with sheet as (layout, rows):
         found = find_columns(layout, mapping, foot, is_alone=is_alone)
         if not found.feet and not found.faults:
@@ -145,7 +145,10 @@ def read_file(
         headers.append(found)
         if found.is_empty or found.list_problems(found.elsewhere):
             return []
-        tables = read_rows(rows, found, bad_rows) if columns is None else fill_tables(found, columns)
+        if columns:
+            tables = fill_tables(found, columns, check_lengths(found, columns), None)
+        else:
+            tables = read_rows(rows, found, bad_rows)
     for flaw in [] if found.export is None else found.export.list_flaws(layout):
         bad_rows.report(f"{printable(str(path))}: {flaw}")
     if not any(map(len, tables)):

@@ -17,7 +17,6 @@ from attrs import define, field
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ..errors import RecordingError
 from ..mapping.mapping import MEASURED, NamedColumn, TableMapping
-from ..mapping.units import UNITS
 
 MAX_VALUES = 100_000_000
 """Largest count of numbers in a file of samples, which take 0.8 GB: three hours of two feet with 16 cells at 200 Hz."""
@@ -45,7 +44,7 @@ class FootTable:
     """Flag: nothing says of which foot the table is."""
     is_named: bool = True
     """Flag: the file itself says of which foot the table is, not its name alone."""
-    is_own: bool = True
+    is_own: bool = False
     """Flag: the times are in the unit s and under the name of this project, so that they stay as they are."""
     sources: dict[str, tuple[NamedColumn, ...]] = field(factory=dict)
     """Columns of the file that hold each quantity; without `t` in a table that has a rate instead."""
@@ -74,15 +73,6 @@ class FootTable:
     def lengths(self, quantity: str) -> list[float]:
         """Return the length of each vector of a quantity; none for a quantity that is not there."""
         return [hypot(*vector) for vector in zip(*self.columns.get(quantity, ()), strict=True)]
-
-    def set_quantity(self, quantity: str, columns: Iterable[Iterable[float]]) -> None:
-        """Set the components of a quantity, or the times, from numbers in the unit of the file."""
-        factor = UNITS[quantity][self.units.get(quantity, "s")]
-        scaled = [floats(column if factor == 1.0 else [value * factor for value in column]) for column in columns]
-        if quantity == "t":
-            (self.t,) = scaled
-        else:
-            self.columns[quantity] = scaled
 
     def locate_value(self, row: int, quantity: str) -> str:
         """Return a text that says where in the file the value of `quantity` in row `row` is."""
