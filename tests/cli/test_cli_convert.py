@@ -62,7 +62,7 @@ def test_either_becomes_mcap(log, tmp_path):
         with out.open("rb") as file:
             summary = reader.make_reader(file).get_summary()
         topics = {channel.topic for channel in summary.channels.values()}
-        assert {"/left_foot/packets/insole/frame", "/left_foot/samples", "/left_foot/pose"} <= topics
+        assert {"/left_foot/packets/insole/frame", "/left_foot/samples", "/left_foot/FootMoved"} <= topics
         assert summary.statistics.message_start_time > 1_700_000_000 * 10**9
 
 
