@@ -57,7 +57,9 @@ class PacketWriter:
         self._torn = False
         """True when an incomplete line is in the file and could not be removed."""
         self._is_new = not self._path.exists()
-        self._file, self._had_content = open_target(self._path, "" if replace else "PacketWriter(..., replace=True) does")
+        self._file, self._had_content = open_target(
+            self._path, "" if replace else "PacketWriter(..., replace=True) does"
+        )
         if not self._had_content:
             try:
                 self._write_header()

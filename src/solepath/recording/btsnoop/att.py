@@ -147,35 +147,35 @@ class Conversation:
             for entry in body if opcode == AttOpcode.NOTIFICATIONS else [body]:
                 yield AttValue(AttOperation.NOTIFIED, entry.handle, entry.value)
             return
-        (request, asked), self._request = self._request, (0, None)
+        (request, request_body), self._request = self._request, (0, None)
         match opcode, request:  # no request: it came before the log started
             case AttOpcode.ERROR, _:
                 if request == body.request == AttOpcode.WRITE:
                     self.flaws["writes that were rejected"] += 1
                 yield from self.end_read()
             case AttOpcode.MTU_RESPONSE, AttOpcode.MTU_REQUEST:
-                self.mtu = max(SMALLEST_MTU, min(body.mtu, asked.mtu))
+                self.mtu = max(SMALLEST_MTU, min(body.mtu, request_body.mtu))
             case AttOpcode.INFORMATION, AttOpcode.FIND_INFORMATION:
                 for entry in body.entries:
                     self._add_type(entry.handle, entry.type)
             case AttOpcode.VALUES_BY_TYPE, AttOpcode.READ_BY_TYPE:
                 for entry in body.entries:
-                    if uuid_text(asked.type) == DECLARATION_TYPE:
+                    if uuid_text(request_body.type) == DECLARATION_TYPE:
                         declared = parse_whole(DECLARATION, entry.value)
                         self._add_type(declared.handle, declared.type)
                     else:
-                        self._add_type(entry.handle, asked.type)
+                        self._add_type(entry.handle, request_body.type)
                         yield AttValue(AttOperation.READ, entry.handle, entry.value)
             case (AttOpcode.VALUE, AttOpcode.READ) | (AttOpcode.BLOB, AttOpcode.READ_BLOB):
                 if request == AttOpcode.READ:
-                    self._read = AttValue(AttOperation.READ, asked.handle, b"")
+                    self._read = AttValue(AttOperation.READ, request_body.handle, b"")
                 if self._read is not None:
-                    self._read = AttValue(AttOperation.READ, asked.handle, self._read.value + body)
+                    self._read = AttValue(AttOperation.READ, request_body.handle, self._read.value + body)
                     # an answer that fills the MTU may be the first part of the value
                     if len(body) < self.mtu - 1 or len(self._read.value) >= LONGEST_VALUE:
                         yield from self.end_read()
             case AttOpcode.WRITTEN, AttOpcode.WRITE:
-                yield AttValue(AttOperation.WRITTEN, asked.handle, asked.value)
+                yield AttValue(AttOperation.WRITTEN, request_body.handle, request_body.value)
 
     def _add_type(self, handle: int, octets: bytes) -> None:
         self.device.attribute(handle, self.flaws).uuid = uuid_text(octets)

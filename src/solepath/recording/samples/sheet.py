@@ -226,12 +226,12 @@ def _find_separator(head: Sequence[Row]) -> str:
         found = 0 if separator == " " else max(row.content.count(separator) for row in head)
         return len(counts), max(counts, default=0), found
 
-    return max(",;\t| ", key=rank)
+    return max(SEPARATORS, key=rank)
 
 
 def _find_layout(path: Path, head: Sequence[Row], mapping: TableMapping) -> SheetLayout:
     """Return the layout of a table from its first rows; `mapping` may state parts of it."""
-    separator = SEPARATORS[mapping.separator] if mapping.separator else _find_separator(head)
+    separator = mapping.separator or _find_separator(head)
     filled = [(row.number, texts) for row in head if any(texts := _texts(row.content, separator))]
     start = next((k for k, (_, texts) in enumerate(filled) if _count_numbers(texts)), None)
     named = 0 if start is None else _find_names(filled, start)
