@@ -41,8 +41,8 @@ def test_a_phones_log_becomes_a_recording_that_track_takes(log, tmp_path):
     frames = [p for p in walks.insoles().packets if p.channel == "insole/frame"]
     half = sum(p.site is Site.LEFT_FOOT for p in frames)
     assert result.stdout.splitlines() == [
-        f"{RIGHT}  right_foot, insole: {len(frames) - half} notifications",
         f"{LEFT}  left_foot, insole: {half} notifications",
+        f"{RIGHT}  right_foot, insole: {len(frames) - half} notifications",
         f"{len(frames) + 2} packets written to {out}",
     ]
     packets = list(read_packets(out))
@@ -62,7 +62,7 @@ def test_either_becomes_mcap(log, tmp_path):
         with out.open("rb") as file:
             summary = reader.make_reader(file).get_summary()
         topics = {channel.topic for channel in summary.channels.values()}
-        assert {"/left_foot/packets/insole/frame", "/left_foot/samples", "/left_foot/pose"} <= topics
+        assert {"/left_foot/packets/insole/frame", "/left_foot/samples", "/left_foot/FootMoved"} <= topics
         assert summary.statistics.message_start_time > 1_700_000_000 * 10**9
 
 

@@ -194,10 +194,10 @@ def test_a_row_that_cannot_be_costs_itself_and_is_named(tmp_path: Path, old: str
     ("changed", "old", "new", "complaint"),
     [
         ("channels", "z\tACCEL", "w\tACCEL", "L_motion.tsv: acc of LeftFoot has no x, y and z"),
-        ("channels", "mg", "deg/s", r"acc is in deg/s, not in one of m/s\^2, g, mg"),
+        ("channels", "mg", "deg/s", r"L_motion.tsv: 'deg/s' is no unit of acc: m/s\^2, g, mg"),
         ("channels", "type", "kind", "L_channels.tsv: describes no channels, each with a type"),
         ("channels", "LeftFoot", "r_toe", "several tracked points are on the right foot: r_toe, r-shoe"),
-        ("motion", "1000.0", "x", "L_motion.tsv: is no table of numbers"),
+        ("motion", "1000.0", "x", "L_motion.tsv: line 1: 4 is \"x\", not a number; 3 of 4 rows cannot be used"),
         ("motion", "\n", "\t1\n", "L_motion.tsv: has 10 columns, and channels.tsv describes 9"),
         ("motion", "1000.0", "30.0", r"L_motion.tsv: acc_left: the median of \|acc\| is 0.294 m/s\^2"),
     ],

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from changes import LEFT, RIGHT, draws
 from corpus import Case, given, plain
-from snooped import H1, MONITOR, Log, insoles_log
+from snooped import MONITOR, Log, insoles_log
 
 from solepath import Foot, Packet, Session, Site
 from solepath.recording import PacketWriter, RecordingError, TableMapping, open_source, read_mapping, read_start_time
@@ -349,7 +349,7 @@ def shared() -> Iterator[Any]:
 def logs() -> Iterator[Any]:
     """Yield a phone's log of two insoles in every form, and with one record or byte changed."""
     frames = [item for item in given("insole") if item.t < 0.12]
-    wholes = [insoles_log(frames, log) for log in (None, Log(H1), Log(MONITOR), Log(piece=27))]
+    wholes = [insoles_log(frames, log) for log in (None, Log(MONITOR), Log(piece=27))]
     contents = [log.bytes() for log in wholes]
     log, whole = wholes[0], contents[0]
     head = whole[:16]

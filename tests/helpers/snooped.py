@@ -17,7 +17,7 @@ from solepath.recording.btsnoop import open_btsnoop
 EPOCH = 0x00DCDDB30F2F8000
 T_START = 1_790_000_000_250_000
 """Start of the logs, us since 1970: 2026-09-21."""
-H1, H4, MONITOR = 1001, 1002, 2001
+H4, MONITOR = 1002, 2001
 LEFT, RIGHT, TAG, OTHER = "C1:00:00:00:00:0A", "C1:00:00:00:00:0B", "C1:00:00:00:00:0C", "C1:00:00:00:00:0D"
 COMMAND, ACL, EVENT = 1, 2, 4
 

@@ -9,7 +9,6 @@ import walks
 from snooped import (
     BATTERY,
     FRAME,
-    H1,
     H4,
     INSOLE,
     LEFT,
@@ -35,7 +34,7 @@ from solepath.types.vector import GRAVITY
 from solepath.wire.fragment import split
 
 
-@pytest.mark.parametrize("datalink", [H4, H1, MONITOR])
+@pytest.mark.parametrize("datalink", [H4, MONITOR])
 def test_the_packets_of_a_walk_in_two_insoles_come_with_their_times(tmp_path, datalink):
     """The time of the first record is 0 s; the start of the log is known to the microsecond."""
     path = insoles_log(walks.insoles().packets, Log(datalink)).save(tmp_path / "phone.log")
@@ -174,48 +173,28 @@ def test_two_frames_prove_an_insole(tmp_path, count, known):
             read(log, tmp_path)
 
 
-@pytest.mark.parametrize("address", ["random", "public"])
-def test_the_log_of_a_devices_own_host_names_the_device(tmp_path, address):
-    """There the host answers, and the phone asks; the phone's own values are not the device's."""
-    log, octets = Log(H1), bytes.fromhex(LEFT.replace(":", ""))[::-1]
-    log.event(0x0E, b"\x01\x09\x10\x00" + (octets if address == "public" else bytes(6)))
-    log.event(0x0E, b"\x01\x09\x10\x01" + bytes(6))
-    log.event(0x0E, b"\x01\x0a\x10\x00" + bytes(6))
-    if address == "random":
-        log.command(0x2005, octets)
-    log.connect(0x40, OTHER)
-    first = len(log.records)
-    log.mtu(0x40, 247)
-    log.discover(0x40, INSOLE)
-    log.add_request(0x40, "1217000100", "13")
+def test_what_the_host_itself_serves_is_no_device(tmp_path):
+    log = start_connection(Log())
     log.notify(0x40, FRAME, frames()[0])
-    for k, record in enumerate(log.records[first:], first):
-        log.records[k] = record[:11] + bytes([record[11] ^ 1]) + record[12:]
+    log.acl(0x40, b"\x1b\x12\x00" + frames()[1], sent=True)
+    log.acl(0x40, b"\x52\x17\x00\x01", sent=False)
     packets, reports = read(log, tmp_path)
-    assert [packet for packet in packets if not packet[2].startswith("receiver/")] == [
-        (LEFT, "left_foot", "insole/control", b"\x01\x00"), (LEFT, "left_foot", "insole/frame", frames()[0])
-    ]  # fmt: skip
+    assert data_of(packets, "insole/frame") == [frames()[0]] and data_of(packets, "insole/control") == []
     assert reports == []
 
 
-def test_a_reset_ends_the_connections_of_its_adapter_alone(tmp_path):
+def test_adapters_have_connections_of_their_own(tmp_path):
     log = Log(MONITOR)
     for adapter, address in ((0, LEFT), (1, RIGHT)):
         log.adapter = adapter
         start_connection(log, 0x40, address)
         log.notify(0x40, FRAME, frames((Site.LEFT_FOOT, Site.RIGHT_FOOT)[adapter])[0])
-    log.adapter = 0
-    log.command(0x0C03)
-    packets, reports = read(log, tmp_path)
-    assert [(device, channel) for device, _, channel, _ in packets] == [
-        (LEFT, "receiver/connected"), (LEFT, "insole/frame"), (RIGHT, "receiver/connected"), (RIGHT, "insole/frame"),
-        (LEFT, "receiver/disconnected"),
-    ]  # fmt: skip
-    assert reports == []
     log.adapter = 2
     for frame in frames()[:2]:
         log.notify(0x40, FRAME, frame)
-    assert {device for device, *_ in read(log, tmp_path)[0]} == {LEFT, RIGHT, "connection-0x0040-hci2"}
+    packets, reports = read(log, tmp_path)
+    assert {device for device, *_ in packets} == {LEFT, RIGHT, "connection-0x0040-hci2"}
+    assert len(reports) == 1 and "a session listens to the first alone" in reports[0]
 
 
 def test_unknown_attributes_may_be_named_by_the_caller(tmp_path):

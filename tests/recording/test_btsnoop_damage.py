@@ -5,10 +5,9 @@ from __future__ import annotations
 import struct
 
 import pytest
-from snooped import ACL, COMMAND, EVENT, FRAME, Log, data_of, frames, read, start_connection
+from snooped import ACL, EVENT, FRAME, Log, data_of, frames, read, start_connection
 
-from solepath.recording.btsnoop import log as module  # their limits are those of hours
-from solepath.recording.btsnoop import open_btsnoop, values
+from solepath.recording.btsnoop import devices, open_btsnoop, values  # their limits are those of hours
 
 
 def test_pieces_that_were_not_logged_cost_their_packet_and_are_counted(tmp_path):
@@ -47,18 +46,19 @@ def test_an_insole_is_found_among_connections_that_never_end(tmp_path):
 
 def test_what_is_kept_of_a_log_is_limited_whatever_its_size(tmp_path, monkeypatch):
     monkeypatch.setattr(values, "MOST_DEVICES", 20)
-    monkeypatch.setattr(module, "MOST_ATTRIBUTES", 60)
+    monkeypatch.setattr(devices, "MOST_ATTRIBUTES", 10)
     log = start_connection(Log())
     log.notify(0x40, FRAME, frames()[0])
     for number in range(30):
         log.connect(number, f"D1:00:00:00:00:{number:02X}")
-        for handle in range(4):
+        for handle in range(12):
             log.notify(number, handle, b"x")
     packets, reports = read(log, tmp_path)
     assert data_of(packets, "insole/frame") == [frames()[0]]
-    assert {"packets of more than 20 devices, left out: 44", "values of more than 60 attributes, left out: 17"} <= set(
-        reports
-    )
+    assert {
+        "packets of more than 20 devices, left out: 132",
+        "what is known of more than 10 attributes of a device, left out: 38",
+    } <= set(reports)
 
 
 def test_the_types_of_a_device_are_limited(tmp_path):
@@ -69,7 +69,7 @@ def test_the_types_of_a_device_are_limited(tmp_path):
     log.notify(0x40, FRAME, frames()[0])
     packets, reports = read(log, tmp_path)
     assert data_of(packets, "insole/frame") == [frames()[0]]
-    assert reports == [f"types of more than 500 attributes of a device, left out: {0x800 - 0x100 - 496}"]
+    assert reports == [f"what is known of more than 500 attributes of a device, left out: {0x800 - 0x100 - 496}"]
 
 
 def drop(log):
@@ -95,7 +95,6 @@ FLAWS = {
     ),
     "half a header": (NO_HCI, lambda log: log.record(ACL, b"\x40\x20\x04", False)),
     "a wrong size": (NO_HCI, lambda log: log.record(ACL, b"\x40\x20\x05\0\x01\0\x04\0", False)),
-    "half a command": (NO_HCI, lambda log: log.record(COMMAND, b"\x03", True)),
     "half an event": (NO_HCI, lambda log: log.record(EVENT, b"\x05\x04\0\x40", False)),
     "a dropped record": ("records that the logger says it dropped", drop),
     "another channel": (

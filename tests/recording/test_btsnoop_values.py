@@ -30,8 +30,8 @@ from snooped import (
 )
 
 from solepath import Site
-from solepath.recording.btsnoop.att import AttOperation
-from solepath.recording.btsnoop.values import LoggedValue, ValueListener
+from solepath.recording.btsnoop.devices import AttOperation
+from solepath.recording.btsnoop.values import ValueListener
 from solepath.types import Foot
 from solepath.wire.insole_info import build_info, parse_info
 
@@ -128,12 +128,10 @@ def notified_by_tshark(path: Path) -> list[tuple[int, int, int, bytes]]:
 def notified_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
     listener = ValueListener(path, pytest.fail)
     values = [
-        item
-        for item in listener.listen()
-        if isinstance(item, LoggedValue) and item.att_value.operation is AttOperation.NOTIFIED
+        item for item in listener.listen() if item.value is not None and item.value.operation is AttOperation.NOTIFIED
     ]
     assert not listener.flaws
-    return [(value.t, value.connection.handle, value.att_value.handle, value.att_value.value) for value in values]
+    return [(item.t, item.connection.handle, item.value.handle, item.value.value) for item in values]
 
 
 @needs_tshark

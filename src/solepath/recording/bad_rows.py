@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import IO, AnyStr
+from typing import IO, AnyStr, Generic
 
-from attrs import define, field
+from attrs import define, field, frozen
 
 from .errors import RecordingError, Report, printable
 
@@ -20,14 +20,40 @@ MAX_SKIPPED = 16_000_000
 """Largest part of a damaged line that is skipped, bytes: a power failure may leave some megabytes of zeros."""
 
 
-def skip_line(file: IO[AnyStr], end: AnyStr) -> tuple[int, bool]:
-    """Skip the rest of a line, up to MAX_SKIPPED; return the size skipped, and whether the line has an end."""
-    skipped = 0
-    while skipped < MAX_SKIPPED and (part := file.readline(LONGEST_LINE)):
-        skipped += len(part)
-        if part.endswith(end):
-            return skipped, True
-    return skipped, False
+@frozen
+class Line(Generic[AnyStr]):
+    """A line of a file."""
+
+    number: int
+    """Number of the line, counted from 1."""
+    data: AnyStr
+    """Content, of which at most LONGEST_LINE + 1 bytes or characters are kept."""
+    is_whole: bool
+    """Flag: the line has an end."""
+    end: int
+    """Size of the file up to the end of this line, bytes or characters."""
+
+    @property
+    def is_too_long(self) -> bool:
+        """True for a line that is longer than a recording may have."""
+        return len(self.data) > LONGEST_LINE
+
+    @property
+    def is_cut(self) -> bool:
+        """True for the last line of a file that ends in the middle of it."""
+        return not self.is_whole and not self.is_too_long
+
+
+def read_lines(file: IO[AnyStr], line_feed: AnyStr) -> Iterator[Line[AnyStr]]:
+    """Yield each line of a file, which ends early after MAX_SKIPPED of a line that is too long."""
+    number = size = skipped = 0
+    while skipped < MAX_SKIPPED and (data := file.readline(LONGEST_LINE + 1)):
+        number, size, skipped, part = number + 1, size + len(data), 0, data
+        while len(data) > LONGEST_LINE and part and not part.endswith(line_feed) and skipped < MAX_SKIPPED:
+            part = file.readline(LONGEST_LINE)
+            skipped += len(part)
+        size += skipped
+        yield Line(number, data, part.endswith(line_feed), size)
 
 
 @define

@@ -16,7 +16,7 @@ from attrs import evolve, field, frozen
 from .mapping.mapping import MEASURED, TableMapping, match_name
 
 if TYPE_CHECKING:
-    from .samples.layout import SheetLayout
+    from .samples.sheet import SheetLayout
 
 
 @frozen
@@ -93,42 +93,32 @@ class _OwnExport(Export):
         return any((name.lower() if has_time else name) in MEASURED for name in names)
 
     def read_mapping(self, header: SheetLayout) -> TableMapping:
-        found: dict[str, dict[int, str]] = {}
+        found: dict[str, dict[str, str]] = {}
         for name in header.names:
             match = _OWN_NAME.fullmatch(name)
             if match is None or (match[2] and match[4]) or (match[1].lower() == "t" and match[3]):
                 continue
             quantity, foot, axis = (text.lower() for text in (match[1], match[2] or match[4] or "", match[3] or "0"))
-            numbers = found.setdefault("_".join(filter(None, (quantity, foot))), {})
-            component = "xyz".index(axis) if axis in "xyz" else int(axis)
-            if component in numbers:
-                raise ValueError(f"names the column {name} twice")
-            numbers[component] = name
+            if quantity in ("acc", "gyro"):
+                axis = {"0": "x", "1": "y", "2": "z"}.get(axis, axis)
+            found.setdefault("_".join(filter(None, (quantity, foot))), {})[axis] = name
         measured = [key for key in found if not key.startswith("t")]
         if 0 < sum("_" in key for key in measured) < len(measured):
             raise ValueError("has columns with and without a foot's name: is it of one foot or of two?")
-        for key in measured:
-            _check_components(key, sorted(found[key]))
-        return TableMapping({key: [names[k] for k in sorted(names)] for key, names in found.items()})
+        columns = {}
+        for key, names in found.items():
+            quantity, _, foot = key.partition("_")
+            first = int("0" not in names and len(names) > 1)
+            axes = {"t": ["0"], "pressure": map(str, range(first, first + len(names)))}.get(quantity, "xyz")
+            # a component that is missing has the name that it should have
+            columns[key] = [names.pop(axis, "_".join(filter(None, (quantity, axis, foot)))) for axis in axes]
+            columns[key] += names.values()
+        return TableMapping(columns)
 
 
 _OWN_NAME = re.compile(
     r"(t|acc|gyro|pressure)(?:_(left|right))?(?:_([xyz]|[0-9]{1,4}))?(?:_(left|right))?", re.IGNORECASE
 )
-
-
-def _check_components(key: str, numbers: list[int]) -> None:
-    quantity, _, foot = key.partition("_")
-    first = min(1, *numbers) if quantity == "pressure" and len(numbers) > 1 else 0
-    count = len(numbers) if quantity == "pressure" else 3
-    for component in range(first, first + count):
-        if component not in numbers:
-            name = str(component) if quantity == "pressure" else "xyz"[component]
-            raise ValueError(f"names no column {'_'.join(filter(None, (quantity, name, foot)))}")
-    if len(numbers) > count:
-        raise ValueError(f"names more than three columns of {key}")
-
-
 OWN = _OwnExport()
 """The format with this project's own names."""
 EXPORTS: dict[str, Export] = {}

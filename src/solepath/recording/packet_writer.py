@@ -57,7 +57,9 @@ class PacketWriter:
         self._torn = False
         """True when an incomplete line is in the file and could not be removed."""
         self._is_new = not self._path.exists()
-        self._file, self._had_content = open_target(self._path, "" if replace else "PacketWriter")
+        self._file, self._had_content = open_target(
+            self._path, "" if replace else "PacketWriter(..., replace=True) does"
+        )
         if not self._had_content:
             try:
                 self._write_header()
@@ -172,17 +174,17 @@ def _format_line(fields: dict[str, Any]) -> bytes:
     return encoded
 
 
-def open_target(path: Path, keeper: str = "") -> tuple[io.FileIO, bool]:
+def open_target(path: Path, hint: str = "") -> tuple[io.FileIO, bool]:
     """Return the file of a writer, open and locked, and whether it has content; RecordingError when it cannot be used.
 
-    `keeper` is the name of a writer that does not replace a file with content; "" for one that does."""
+    `hint` says what replaces a file with content; "" for a writer that does."""
     try:
         file, has_content = open_locked(path)
     except OSError as error:
         raise RecordingError(path, os_error_text(error)) from error
-    if has_content and keeper:
+    if has_content and hint:
         file.close()
-        raise RecordingError(path, f"exists, and is not replaced; {keeper}(..., replace=True) does")
+        raise RecordingError(path, f"exists, and is not replaced; {hint}")
     return file, has_content
 
 

@@ -17,7 +17,7 @@ from typing import Any, BinaryIO
 from attrs import frozen
 
 from ..types import Packet, Site
-from .bad_rows import LONGEST_LINE, MAX_SKIPPED, BadRows, skip_line
+from .bad_rows import LONGEST_LINE, BadRows, Line, read_lines
 from .errors import RecordingError, Report, open_file, printable, warn
 
 FORMAT = "solepath-packets"
@@ -31,7 +31,7 @@ def read_header(path: Path | str) -> dict[str, Any]:
     """Return the header of a recording, which is its first line; RecordingError when that line is no header."""
     path = Path(path)
     with open_file(path) as file:
-        return _parse_header(path, _read_lines(file))
+        return _parse_header(path, read_lines(file, b"\n"))
 
 
 def read_start_time(header: Mapping[str, Any]) -> tuple[datetime, float | None] | None:
@@ -85,17 +85,19 @@ def open_packets(
     path = Path(path)
     file = open_file(path)
     try:
-        lines = _read_lines(file, progress)
+        lines = read_lines(file, b"\n")
         header = _parse_header(path, lines)
     except BaseException:
         file.close()
         raise
     bad_lines = BadRows(path, report)
-    return OpenRecording(header, _parse_packets(path, file, lines, bad_lines), bad_lines, file)
+    return OpenRecording(header, _parse_packets(path, file, lines, bad_lines, progress), bad_lines, file)
 
 
-def _parse_header(path: Path, lines: Iterator[_Line]) -> dict[str, Any]:
+def _parse_header(path: Path, lines: Iterator[Line[bytes]]) -> dict[str, Any]:
     for line in lines:
+        if not line.data.strip():
+            continue
         try:
             fields = _parse_object(line)
             fault = header_fault(fields)
@@ -109,15 +111,21 @@ def _parse_header(path: Path, lines: Iterator[_Line]) -> dict[str, Any]:
     raise RecordingError(path, "is empty")
 
 
-def _parse_packets(path: Path, file: BinaryIO, lines: Iterator[_Line], bad_lines: BadRows) -> Iterator[Packet]:
+def _parse_packets(
+    path: Path, file: BinaryIO, lines: Iterator[Line[bytes]], bad_lines: BadRows, progress: Callable[[int], None] | None
+) -> Iterator[Packet]:
     with file:
         for line in lines:
+            if progress is not None:
+                progress(line.end)
+            if not line.data.strip():
+                continue
             where = f"line {line.number}"
             try:
                 packet = _parse_packet(_parse_object(line))
             except _LineError as flaw:
                 # a line that was cut off lacks its last brace, so it is never an object
-                if isinstance(flaw, _NoObjectError) and not line.is_whole and not line.is_too_long:
+                if isinstance(flaw, _NoObjectError) and line.is_cut:
                     text = f"{where}: cut off in the middle; everything before it is used"
                     bad_lines.report(f"{printable(str(path))}: {text}")
                     break
@@ -128,40 +136,6 @@ def _parse_packets(path: Path, file: BinaryIO, lines: Iterator[_Line], bad_lines
         bad_lines.finish()
 
 
-@frozen
-class _Line:
-    """A line of a file; `data` has at most LONGEST_LINE + 1 bytes of it."""
-
-    number: int
-    data: bytes
-    is_whole: bool
-    """Flag: the line ends with a line feed."""
-
-    @property
-    def is_too_long(self) -> bool:
-        """True for a line that is longer than a recording may have."""
-        return len(self.data) > LONGEST_LINE
-
-
-def _read_lines(file: BinaryIO, progress: Callable[[int], None] | None = None) -> Iterator[_Line]:
-    """Yield each line that is not blank, and report the number of bytes read up to its end.
-
-    Of a line that is too long only the start is kept in memory; after MAX_SKIPPED bytes of it the file ends there."""
-    bytes_read = number = 0
-    while data := file.readline(LONGEST_LINE + 1):
-        number, bytes_read = number + 1, bytes_read + len(data)
-        is_whole, skipped = data.endswith(b"\n"), 0
-        if len(data) > LONGEST_LINE and not is_whole:
-            skipped, is_whole = skip_line(file, b"\n")
-            bytes_read += skipped
-        if progress is not None:
-            progress(bytes_read)
-        if data.strip():
-            yield _Line(number, data, is_whole)
-        if skipped >= MAX_SKIPPED and not is_whole:
-            return
-
-
 class _LineError(Exception):
     """Error that describes the flaw of one line."""
 
@@ -170,7 +144,7 @@ class _NoObjectError(_LineError):
     """Error for a line that is not a JSON object."""
 
 
-def _parse_object(line: _Line) -> dict[str, Any]:
+def _parse_object(line: Line[bytes]) -> dict[str, Any]:
     if line.is_too_long:
         raise _NoObjectError(f"is longer than {LONGEST_LINE} bytes")
     try:

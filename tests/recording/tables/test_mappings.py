@@ -137,7 +137,7 @@ middle = "*.csv"
         "acc has no names of columns",
         "'hours' is no unit of t: s, ms, us, ns, datetime",
         "rate is -3, not a number above 0",
-        "fitbit is none of the known formats movella-dot, mbientlab",
+        "format is 'fitbit', not one of the known formats movella-dot, mbientlab",
         "middle is not left or right",
     ):
         assert any(fault in line for line in lines), fault

@@ -117,9 +117,9 @@ def test_usual_names_are_understood(tmp_path: Path, header: str) -> None:
         ("{two},0,0,1,0,0,300", "", "ms,g,deg/s"),
         ("{us},0,0,1000,0,0,39", "", "us,mg,rad/s"),
         ("{s},0,0,5.5,0,0,41", "", "s,m/s^2,deg/s"),
-        ("{s},0,0,5.3,0,0,2000000", "", "s,mdeg/s"),
+        ("{s},0,0,5.3,0,0,2000000", "", "s,m/s^2,mdeg/s"),
         ("2026-03-01T09:30:{s},0,0,17.5,0,0,1", "", "datetime,m/s^2,rad/s"),
-        ("{us}000,0,0,18,0,0,1", "", "ns,rad/s"),
+        ("{us}000,0,0,18,0,0,1", "", "ns,m/s^2,rad/s"),
     ],
 )
 def test_units_are_guessed_by_the_size_of_the_numbers(tmp_path: Path, row: str, rate: str, units: str) -> None:

@@ -131,6 +131,6 @@ def test_archives_and_tables_of_two_feet_may_be_mixed(tmp_path: Path) -> None:
     assert [sample.t for sample in right] == pytest.approx(t) and right[3].acc == pytest.approx((0.0, 0.0, 9.80665))
     assert right[5].gyro == pytest.approx((t[5], t[5], t[5])) and {sample.site for sample in right} == {Site.RIGHT_FOOT}
     with pytest.raises(
-        RecordingError, match=r"has no key zeiten \(it holds A, gx, gy, gz, zeit\); repair: --columns t=KEY"
+        RecordingError, match=r"names no column zeiten \(it names zeit, A_0, A_1, A_2, gx, gy, gz\); repair: --co"
     ):
         load_samples(tmp_path / "right.npz", mapping=TableMapping.parse("t=zeiten,acc=A", "g,ms"))

@@ -8,27 +8,25 @@ the folders above (BIDS, "The Inheritance Principle")."""
 from __future__ import annotations
 
 import re
-from array import array
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from datetime import datetime
-from math import isnan, nan
+from itertools import pairwise
+from math import isnan
 from pathlib import Path
 from typing import Any
-
-from attrs import define, field
 
 from ...types import Foot
 from ..bad_rows import BadRows
 from ..errors import RecordingError, Report, os_error_text, printable, warn
-from ..mapping.units import UNITS, unit_of
+from ..mapping.mapping import TableMapping
 from ..mapping.words import foot_of_text
-from ..samples.reader import SampleRecording, use_tables
+from ..samples.columns import TableColumns
+from ..samples.plausible import list_unit_problems
+from ..samples.reader import SampleRecording, clean, read_file
 from ..samples.table import FootTable, floats
 from .columns import read_json, read_table
-from .names import MOTION_END, TSV_MISSING, recording_of
+from .names import MOTION_END, recording_of
 
-CELL_UNITS = ("N", TSV_MISSING)
-"""Units of pressure cells, whose values are taken as they are."""
 _QUANTITY_OF_TYPE = {"ACCEL": "acc", "GYRO": "gyro"}
 ON_FOOT = re.compile(r"foot|shoe|ankle|heel|toe|insole|instep|calcn|lf\b|rf\b", re.IGNORECASE)
 """Pattern of the tracked points that are on a foot."""
@@ -46,128 +44,101 @@ def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = 
     if not path.is_file():
         raise RecordingError(path, "no such file")
     beside = sorted(path.parent.glob(f"*{MOTION_END}"))
-    systems = [_TrackingSystem(one) for one in beside if recording_of(one) == recording_of(path)]
+    systems = [(one, _read_channels(one)) for one in beside if recording_of(one) == recording_of(path)]
     points = [
         (system, point, foot_of_text(point) if ON_FOOT.search(point) else None)
-        for system in systems
-        for point in system.points
+        for system, channels in systems
+        for point in dict.fromkeys(one.get("tracked_point", "") for one in channels if one["type"] in _QUANTITY_OF_TYPE)
     ]
     if len(points) == 1:
         points = [(system, point, side or foot or Foot.RIGHT) for system, point, side in points]
-    named = [(system, point, side) for system, point, side in points if side is not None]
+    named = sorted([(side.value, system, point) for system, point, side in points if side is not None])
     if not named:
         found = printable(", ".join(sorted({point for _, point, _ in points})) or "none")
         raise RecordingError(path, f"no tracked point with ACCEL or GYRO is a foot; there are: {found}")
-    for side in Foot:
-        same = [point for _, point, other in named if other is side]
-        if len(same) > 1:
-            where = printable(", ".join(same))
-            raise RecordingError(path, f"several tracked points are on the {side.value} foot: {where}")
+    for (one, _, first), (other, _, second) in pairwise(named):
+        if one == other:
+            where = printable(f"{first}, {second}")
+            raise RecordingError(path, f"several tracked points are on the {one} foot: {where}")
     # without the start of every file, all are taken to start together
-    starts = [nan if system.start is None else system.start for system in systems]
-    first = min(starts) if not any(map(isnan, starts)) else None
-    tables = [system.read(point, side, first) for system, point, side in named]
-    return use_tables(path, sorted(tables, key=lambda one: one.foot.value), foot, BadRows(path, report, "row"))
+    starts = {system: _start_of(system) for system, _ in systems}
+    known = [start for start in starts.values() if start is not None]
+    bad_rows, tables = BadRows(path, report, "row"), []
+    for side, system, point in named:
+        table = _read_point(system, dict(systems)[system], point, Foot(side), bad_rows)
+        start = starts[system] if len(known) == len(starts) else None
+        if start is not None:
+            table.t = floats([t + (start - min(known)) for t in table.t])
+        tables.append(table)
+    used = clean(tables, foot, bad_rows)
+    if not used:
+        raise RecordingError(path, f"holds nothing of the {foot.value} foot" if foot else "holds no samples")
+    problems = [problem for table in used for problem in list_unit_problems(table)]
+    if problems:
+        raise RecordingError.of(problems)
+    return SampleRecording(path, tuple(used), bad_rows)
 
 
-@define
-class _TrackingSystem:
-    """One `_motion.tsv` with what its channels and metadata say."""
-
-    path: Path
-    channels: list[dict[str, str]] = field(init=False)
-    points: dict[str, dict[str, dict[str, int]]] = field(factory=dict, init=False)
-    """Number of the channel of each component, by quantity, of each tracked point with an inertial sensor."""
-    metadata: dict[str, Any] = field(init=False)
-    start: float | None = field(init=False)
-    """Start of the recording as a count of seconds; None if it is not known."""
-
-    def __attrs_post_init__(self) -> None:
-        beside = self.path.with_name(self.path.name.removesuffix(MOTION_END) + "_channels.tsv")
-        try:
-            self.channels = read_table(beside)
-        except OSError as error:
-            raise RecordingError(beside, os_error_text(error)) from error
-        if not self.channels or not all("type" in channel for channel in self.channels):
-            raise RecordingError(beside, "describes no channels, each with a type")
-        self.metadata, self.start = _inherited(self.path), _start_of(self.path)
-        points: dict[str, dict[str, dict[str, int]]] = {}
-        for number, channel in enumerate(self.channels):
-            component, name = channel.get("component", "").lower(), channel.get("name", "")
-            quantity = _QUANTITY_OF_TYPE.get(channel["type"], "")
-            if channel["type"] == "MISC" and re.fullmatch(r"pressure_[0-9]+", name):
-                quantity, component = "pressure", name
-            if quantity:
-                points.setdefault(channel.get("tracked_point", ""), {}).setdefault(quantity, {})[component] = number
-        self.points = {point: found for point, found in points.items() if found.keys() & {"acc", "gyro"}}
-
-    def read(self, point: str, foot: Foot, first: float | None) -> FootTable:
-        """Return the samples of a tracked point; `first` is the start of the earliest file, s."""
-        values = self._read_values()
-        table = FootTable(self.path, foot, {"t": "latency"}, lines=range(1, len(values[0]) + 1))
-        found = self.points[point]
-        for quantity, numbers in found.items():
-            if quantity != "pressure" and not {*"xyz"} <= numbers.keys():
-                raise RecordingError(self.path, f"{quantity} of {printable(point)} has no x, y and z")
-        for quantity, numbers in found.items():
-            listed = [numbers[one] for one in (numbers if quantity == "pressure" else "xyz")]
-            units = dict.fromkeys([self.channels[number].get("units", "") for number in listed])
-            known = [*CELL_UNITS] if quantity == "pressure" else [*UNITS[quantity]]
-            spellings = {unit_of(one, quantity) or one.strip() for one in units}
-            if not spellings <= {*known} or (len(spellings) > 1 and quantity != "pressure"):
-                what = f"{quantity} is in {printable(', '.join(units))}, not in one of {', '.join(known)}"
-                raise RecordingError(self.path, what)
-            unit = known[0] if quantity == "pressure" else spellings.pop()
-            table.set_quantity(quantity, [values[number] for number in listed], unit)
-            table.names[quantity] = f"{quantity}_{foot.value}"
-        delay = 0.0 if first is None or self.start is None else self.start - first
-        table.t = floats([t + delay for t in self._times(values)])
-        inertial = [zip(*table.columns[q], strict=True) for q in ("acc", "gyro") if q in found]
-        table.select(
-            [any(not any(map(isnan, vector)) for vector in vectors) for vectors in zip(*inertial, strict=True)]
-        )
-        return table
-
-    def _read_values(self) -> list[array[float]]:
-        """Return the values of each channel."""
-        values: list[array[float]] = []
-        try:
-            with self.path.open(encoding="utf-8-sig") as file:
-                for number, line in enumerate(filter(str.strip, file)):
-                    cells = line.rstrip("\n").split("\t")
-                    values = values or [floats() for _ in cells]
-                    if len(cells) != len(values):
-                        what = f"the number of columns changed from {len(values)} to {len(cells)} at row {number}"
-                        raise ValueError(what)
-                    for k, cell in enumerate(cells):
-                        values[k].append(_number(cell, number, k))
-        except ValueError as error:
-            raise RecordingError(self.path, f"is no table of numbers: {printable(str(error))}") from None
-        except OSError as error:
-            raise RecordingError(self.path, os_error_text(error)) from error
-        if not values:
-            raise RecordingError(self.path, "holds no samples")
-        if len(values) != len(self.channels):
-            what = f"has {len(values)} columns, and channels.tsv describes {len(self.channels)}"
-            raise RecordingError(self.path, what)
-        return values
-
-    def _times(self, values: Sequence[array[float]]) -> Iterable[float]:
-        for number, channel in enumerate(self.channels):
-            if channel["type"] == "LATENCY":
-                return values[number]
-        for key in ("SamplingFrequencyEffective", "SamplingFrequency"):
-            rate = self.metadata.get(key)
-            if isinstance(rate, int | float) and rate > 0:
-                return [row / float(rate) for row in range(len(values[0]))]
-        raise RecordingError(self.path, "has no LATENCY channel, and its metadata have no SamplingFrequency")
-
-
-def _number(cell: str, row: int, column: int) -> float:
+def _read_channels(path: Path) -> list[dict[str, str]]:
+    """Return the rows of channels.tsv, which describe the columns of a `_motion.tsv` in their order."""
+    beside = path.with_name(path.name.removesuffix(MOTION_END) + "_channels.tsv")
     try:
-        return nan if cell == TSV_MISSING else float(cell)
-    except ValueError:
-        raise ValueError(f"could not convert string {cell!r} to float64 at row {row}, column {column + 1}.") from None
+        channels = read_table(beside)
+    except OSError as error:
+        raise RecordingError(beside, os_error_text(error)) from error
+    if not channels or not all("type" in channel for channel in channels):
+        raise RecordingError(beside, "describes no channels, each with a type")
+    return channels
+
+
+def _map_columns(path: Path, channels: Sequence[dict[str, str]], point: str, foot: Foot) -> TableMapping:
+    """Return the mapping of the columns of a tracked point, which is on `foot`."""
+    found: dict[str, dict[str, int]] = {}
+    for number, channel in enumerate(channels):
+        quantity, component = _QUANTITY_OF_TYPE.get(channel["type"], ""), channel.get("component", "").lower()
+        if channel["type"] == "MISC" and re.fullmatch(r"pressure_[0-9]+", channel.get("name", "")):
+            quantity, component = "pressure", channel["name"]
+        if quantity and channel.get("tracked_point", "") == point:
+            found.setdefault(quantity, {})[component] = number
+    columns: dict[str, list[str]] = {}
+    units = {}
+    for quantity, numbers in found.items():
+        if quantity != "pressure":
+            if not {*"xyz"} <= numbers.keys():
+                raise RecordingError(path, f"{quantity} of {printable(point)} has no x, y and z")
+            numbers = {axis: numbers[axis] for axis in "xyz"}
+            units[quantity] = ", ".join(dict.fromkeys(channels[number].get("units", "") for number in numbers.values()))
+        columns[f"{quantity}_{foot.value}"] = [str(number + 1) for number in numbers.values()]
+    latencies = [str(number + 1) for number, channel in enumerate(channels) if channel["type"] == "LATENCY"]
+    if latencies:
+        columns["t"] = latencies[:1]
+    metadata = {} if latencies else _inherited(path)
+    rates = [metadata.get(key) for key in ("SamplingFrequencyEffective", "SamplingFrequency")]
+    rate = next((float(one) for one in rates if isinstance(one, int | float) and one > 0), None)
+    if not latencies and rate is None:
+        raise RecordingError(path, "has no LATENCY channel, and its metadata have no SamplingFrequency")
+    try:
+        return TableMapping(columns, units, rate=rate, separator="tab", header=0)
+    except ValueError as error:
+        raise RecordingError(path, printable(str(error))) from None
+
+
+def _read_point(path: Path, channels: Sequence[dict[str, str]], point: str, foot: Foot, bad_rows: BadRows) -> FootTable:
+    """Return the samples of a tracked point, which is on `foot`; a row without any inertial one is no sample."""
+    headers: list[TableColumns] = []
+    tables = read_file(path, foot, _map_columns(path, channels, point, foot), bad_rows, headers)
+    count = len(headers[0].header.names)
+    if count != len(channels):
+        raise RecordingError(path, f"has {count} columns, and channels.tsv describes {len(channels)}")
+    if problems := headers[0].list_problems():
+        raise RecordingError.of(problems)
+    (table,) = tables
+    table.names["t"] = "latency"
+    inertial = [zip(*columns, strict=True) for quantity, columns in table.columns.items() if quantity != "pressure"]
+    table.select([any(not any(map(isnan, vector)) for vector in row) for row in zip(*inertial, strict=True)])
+    if not len(table):
+        bad_rows.finish()
+    return table
 
 
 def _inherited(path: Path) -> dict[str, Any]:

@@ -5,8 +5,8 @@
         for packet in log:
             writer.write(packet)
 
-records.py reads the file, values.py decodes connections and L2CAP, att.py decodes attributes,
-evidence.py and devices.py identify devices and channels, and log.py makes packets."""
+records.py reads the file, values.py decodes connections and L2CAP, att.py decodes attributes, devices.py identifies
+devices and channels, and log.py makes packets."""
 
 from .devices import LoggedDevice
 from .log import BtsnoopLog, open_btsnoop

@@ -1,20 +1,22 @@
 """Decoding of the attribute protocol in a log: UUIDs of the handles, and the values notified, read and written.
 
-Source: Bluetooth Core, vol 3 part F, 3.4. In a phone's log the peer is the server; in the log of a device's own host
-the host is the server. Services are not decoded, because the UUID of a characteristic identifies it."""
+Source: Bluetooth Core, vol 3 part F, 3.4. The peer is the server, as in the log of a phone. Services are not decoded,
+because the UUID of a characteristic identifies it."""
 
 from __future__ import annotations
 
 from collections import Counter
-from enum import Enum, IntEnum
+from collections.abc import Iterator
+from enum import IntEnum
 from typing import Any
 from uuid import UUID
 
-from attrs import define, field, frozen
-from construct import Bytes, GreedyBytes, GreedyRange, Int8ul, Int16ul, Prefixed, Struct, Terminated, this
+from attrs import define, frozen
+from construct import Bytes, GreedyBytes, GreedyRange, Int8ul, Int16ul, Prefixed, Struct, Switch, this
 
 from ...wire.error import WireError
 from ...wire.fields import LONGEST_VALUE, malformed, parse_whole
+from .devices import AttOperation, LoggedDevice
 
 
 class AttOpcode(IntEnum):
@@ -47,50 +49,34 @@ LAST_REQUEST = 0x20
 """Last PDU of a client that the server answers; the client waits for the answer before its next request."""
 DECLARATION_TYPE = "00002803-0000-1000-8000-00805f9b34fb"
 """Type of an attribute that declares a characteristic."""
-MOST_TYPES = 500
-"""Largest number of attributes of a device whose types are kept; chosen by hand, ten times those of a SensorTag."""
 SMALLEST_MTU = 23
 """Smallest MTU (size of the largest PDU), which holds until client and server agree on another, bytes."""
 
-PDU = Struct("opcode" / Int8ul, "body" / GreedyBytes)
 HANDLE_VALUE = Struct("handle" / Int16ul, "value" / GreedyBytes)
-MTU = Struct("mtu" / Int16ul, Terminated)
+MTU = Struct("mtu" / Int16ul)
+TYPE = Bytes(lambda context: 2 if context._.format == 1 else 16)
 BODIES: dict[int, Any] = {
-    AttOpcode.ERROR: Struct("request" / Int8ul, "handle" / Int16ul, "code" / Int8ul, Terminated),
+    AttOpcode.ERROR: Struct("request" / Int8ul, "handle" / Int16ul, "code" / Int8ul),
     AttOpcode.MTU_REQUEST: MTU,
     AttOpcode.MTU_RESPONSE: MTU,
     AttOpcode.INFORMATION: Struct(
-        "format" / Int8ul,
-        "entries"
-        / GreedyRange(Struct("handle" / Int16ul, "type" / Bytes(lambda context: 2 if context._.format == 1 else 16))),
-        Terminated,
+        "format" / Int8ul, "entries" / GreedyRange(Struct("handle" / Int16ul, "type" / TYPE))
     ),
     AttOpcode.READ_BY_TYPE: Struct("first" / Int16ul, "last" / Int16ul, "type" / GreedyBytes),
     AttOpcode.VALUES_BY_TYPE: Struct(
-        "size" / Int8ul,
-        "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Bytes(this._.size - 2))),
-        Terminated,
+        "size" / Int8ul, "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Bytes(this._.size - 2)))
     ),
-    AttOpcode.READ: Struct("handle" / Int16ul, Terminated),
-    AttOpcode.READ_BLOB: Struct("handle" / Int16ul, "offset" / Int16ul, Terminated),
+    AttOpcode.READ: Struct("handle" / Int16ul),
+    AttOpcode.READ_BLOB: Struct("handle" / Int16ul, "offset" / Int16ul),
     AttOpcode.WRITE: HANDLE_VALUE,
     AttOpcode.WRITE_COMMAND: HANDLE_VALUE,
     AttOpcode.NOTIFICATION: HANDLE_VALUE,
     AttOpcode.INDICATION: HANDLE_VALUE,
-    AttOpcode.NOTIFICATIONS: Struct(
-        "entries" / GreedyRange(Struct("handle" / Int16ul, "value" / Prefixed(Int16ul, GreedyBytes))), Terminated
-    ),
+    AttOpcode.NOTIFICATIONS: GreedyRange(Struct("handle" / Int16ul, "value" / Prefixed(Int16ul, GreedyBytes))),
 }
 """Format of the bodies of the PDUs whose content is used."""
+PDU = Struct("opcode" / Int8ul, "body" / Switch(this.opcode, BODIES, GreedyBytes))
 DECLARATION = Struct("properties" / Int8ul, "handle" / Int16ul, "type" / GreedyBytes)
-
-
-class AttOperation(Enum):
-    """Operation that transferred a value."""
-
-    NOTIFIED = "notified"
-    READ = "read"
-    WRITTEN = "written"
 
 
 @frozen
@@ -103,7 +89,7 @@ class AttValue:
     value: bytes
 
 
-def is_from_client(data: bytes) -> bool:
+def is_from_client(data: bytes | bytearray) -> bool:
     """Return whether a PDU is one that a client sends."""
     return bool(data) and data[0] % 2 == 0
 
@@ -119,112 +105,77 @@ def uuid_text(octets: bytes) -> str:
 
 @define
 class Conversation:
-    """The decoder of the PDUs between one client and one server on one connection."""
+    """The decoder of the PDUs between the host and a device on one connection."""
 
-    types: dict[int, str]
-    """Discovered UUIDs by handle, shared by all conversations with this server."""
+    device: LoggedDevice
     flaws: Counter[str]
     """Counts of PDUs that could not be decoded, by kind."""
     mtu: int = SMALLEST_MTU
     """Size of the largest PDU that client and server agreed on, bytes."""
     _request: tuple[int, Any] = (0, None)
     """Opcode and body of the request that waits for its answer; 0 for none."""
-    _partial_read: AttValue | None = None
+    _read: AttValue | None = None
     """First part of a value that is read in several requests."""
-    _values: list[AttValue] = field(factory=list)
 
-    def feed(self, data: bytes) -> list[AttValue]:
-        """Return the values in one PDU of the client or the server."""
-        self._values = []
+    def feed(self, data: bytes) -> Iterator[AttValue]:
+        """Yield the values in one PDU of the host or the device."""
         try:
             pdu = parse_whole(PDU, data)
-            if is_from_client(data):
-                self._handle_client_pdu(pdu.opcode, pdu.body)
-            else:
-                self._handle_server_pdu(pdu.opcode, pdu.body)
+            yield from (self._feed_request if is_from_client(data) else self._feed_answer)(pdu.opcode, pdu.body)
         except WireError:
             self.flaws["PDUs that are not of the attribute protocol"] += 1
-        return self._values
 
-    def finish(self) -> list[AttValue]:
-        """Return the value of a read that the end of the connection left incomplete, as far as it was read."""
-        self._values = []
-        self._end_read()
-        return self._values
+    def end_read(self) -> Iterator[AttValue]:
+        """Yield the value of a read that is incomplete, as far as it was read."""
+        if self._read is not None:
+            yield self._read
+        self._read = None
 
-    def _add(self, operation: AttOperation, entry: Any) -> None:
-        self._values.append(AttValue(operation, entry.handle, entry.value))
-
-    def _handle_client_pdu(self, opcode: int, data: bytes) -> None:
-        body: Any = parse_whole(BODIES[opcode], data) if opcode in BODIES else None
+    def _feed_request(self, opcode: int, body: Any) -> Iterator[AttValue]:
         if opcode == AttOpcode.WRITE_COMMAND:
-            self._add(AttOperation.WRITTEN, body)
+            yield AttValue(AttOperation.WRITTEN, body.handle, body.value)
         if opcode == AttOpcode.PREPARE_WRITE:
             self.flaws["long writes, which are passed over"] += 1
         if opcode <= LAST_REQUEST and opcode != AttOpcode.CONFIRMATION:
-            read = self._partial_read
-            is_rest = read is not None and opcode == AttOpcode.READ_BLOB
-            if read is None or not is_rest or (body.handle, body.offset) != (read.handle, len(read.value)):
-                self._end_read()
+            rest = (body.handle, body.offset) if opcode == AttOpcode.READ_BLOB else None
+            if self._read is not None and rest != (self._read.handle, len(self._read.value)):
+                yield from self.end_read()
             self._request = opcode, body
 
-    def _handle_server_pdu(self, opcode: int, data: bytes) -> None:
-        if opcode in (AttOpcode.NOTIFICATION, AttOpcode.INDICATION):
-            self._add(AttOperation.NOTIFIED, parse_whole(BODIES[opcode], data))
-            return
-        if opcode == AttOpcode.NOTIFICATIONS:
-            for entry in parse_whole(BODIES[opcode], data).entries:
-                self._add(AttOperation.NOTIFIED, entry)
+    def _feed_answer(self, opcode: int, body: Any) -> Iterator[AttValue]:
+        if opcode in (AttOpcode.NOTIFICATION, AttOpcode.INDICATION, AttOpcode.NOTIFICATIONS):
+            for entry in body if opcode == AttOpcode.NOTIFICATIONS else [body]:
+                yield AttValue(AttOperation.NOTIFIED, entry.handle, entry.value)
             return
         (request, request_body), self._request = self._request, (0, None)
-        if not request:
-            return  # the request came before the log started
-        match opcode, request:
+        match opcode, request:  # no request: it came before the log started
             case AttOpcode.ERROR, _:
-                if parse_whole(BODIES[opcode], data).request == AttOpcode.WRITE:
+                if request == body.request == AttOpcode.WRITE:
                     self.flaws["writes that were rejected"] += 1
-                self._end_read()
+                yield from self.end_read()
             case AttOpcode.MTU_RESPONSE, AttOpcode.MTU_REQUEST:
-                self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, data).mtu, request_body.mtu))
+                self.mtu = max(SMALLEST_MTU, min(body.mtu, request_body.mtu))
             case AttOpcode.INFORMATION, AttOpcode.FIND_INFORMATION:
-                for entry in parse_whole(BODIES[opcode], data).entries:
+                for entry in body.entries:
                     self._add_type(entry.handle, entry.type)
             case AttOpcode.VALUES_BY_TYPE, AttOpcode.READ_BY_TYPE:
-                self._add_found(request_body.type, parse_whole(BODIES[opcode], data).entries)
+                for entry in body.entries:
+                    if uuid_text(request_body.type) == DECLARATION_TYPE:
+                        declared = parse_whole(DECLARATION, entry.value)
+                        self._add_type(declared.handle, declared.type)
+                    else:
+                        self._add_type(entry.handle, request_body.type)
+                        yield AttValue(AttOperation.READ, entry.handle, entry.value)
             case (AttOpcode.VALUE, AttOpcode.READ) | (AttOpcode.BLOB, AttOpcode.READ_BLOB):
-                self._add_read(request_body.handle, data, is_first=request == AttOpcode.READ)
+                if request == AttOpcode.READ:
+                    self._read = AttValue(AttOperation.READ, request_body.handle, b"")
+                if self._read is not None:
+                    self._read = AttValue(AttOperation.READ, request_body.handle, self._read.value + body)
+                    # an answer that fills the MTU may be the first part of the value
+                    if len(body) < self.mtu - 1 or len(self._read.value) >= LONGEST_VALUE:
+                        yield from self.end_read()
             case AttOpcode.WRITTEN, AttOpcode.WRITE:
-                self._add(AttOperation.WRITTEN, request_body)
-
-    def _add_found(self, kind: bytes, entries: Any) -> None:
-        """Add the types in an answer: those of the characteristics that it declares, or `kind` for its values."""
-        is_declaration = uuid_text(kind) == DECLARATION_TYPE
-        for entry in entries:
-            if is_declaration:
-                declared = parse_whole(DECLARATION, entry.value)
-                self._add_type(declared.handle, declared.type)
-            else:
-                self._add_type(entry.handle, kind)
-                self._add(AttOperation.READ, entry)
+                yield AttValue(AttOperation.WRITTEN, request_body.handle, request_body.value)
 
     def _add_type(self, handle: int, octets: bytes) -> None:
-        kind = uuid_text(octets)
-        if handle in self.types or len(self.types) < MOST_TYPES:
-            self.types[handle] = kind
-        else:
-            self.flaws[f"types of more than {MOST_TYPES} attributes of a device, left out"] += 1
-
-    def _add_read(self, handle: int, data: bytes, *, is_first: bool) -> None:
-        """Store the value read so far, and end the read unless the answer filled the MTU."""
-        read = self._partial_read
-        if not is_first and read is None:
-            return
-        value = data if is_first or read is None else read.value + data
-        self._partial_read = AttValue(AttOperation.READ, handle, value)
-        if len(data) < self.mtu - 1 or len(value) >= LONGEST_VALUE:
-            self._end_read()
-
-    def _end_read(self) -> None:
-        if self._partial_read is not None:
-            self._values.append(self._partial_read)
-            self._partial_read = None
+        self.device.attribute(handle, self.flaws).uuid = uuid_text(octets)

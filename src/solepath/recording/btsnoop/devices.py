@@ -1,9 +1,11 @@
-"""Identification of the devices of a log, of their attributes' channels, and of their sites."""
+"""The devices of a log: identification of what they are, of the channels of their attributes, and of their sites."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from enum import Enum
 from functools import cached_property
 
 from attrs import define, field, frozen
@@ -14,11 +16,32 @@ from ...link.kinds import make_kinds
 from ...link.profile import Access, Channel, Profile
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...wire.error import WireError
-from .att import AttOperation
-from .evidence import ValueEvidence
+from ...wire.fragment import Reassembly, is_fragment, parse_fragment
+from ...wire.insole import parse_frame
+from ...wire.insole_info import parse_info
 
 Handles = Mapping[tuple[str, int], str]
 """Channel names that the caller gives, by device address ("" for any device) and attribute handle."""
+
+MAX_EXAMINED_VALUES = 300
+"""Largest number of values of one attribute that are examined; a frame has at most 16 fragments."""
+MIN_PROVING_FRAMES = 2
+"""Smallest number of frames with a correct CRC that proves an insole.
+
+Of 2^16 arbitrary values that start with the magic, about one has a correct CRC by chance."""
+MOST_ATTRIBUTES = 500
+"""Largest number of attributes of a device that are kept; chosen by hand, ten times those of a SensorTag."""
+INSOLE_CHANNELS = {"insole/frame", "insole/info"}
+"""Channels whose values report the foot of an insole."""
+
+
+class AttOperation(Enum):
+    """Operation that transferred a value of an attribute."""
+
+    NOTIFIED = "notified"
+    READ = "read"
+    WRITTEN = "written"
+
 
 ACCESS_BY_OPERATION = {
     AttOperation.NOTIFIED: (Access.NOTIFY, Access.READ),
@@ -75,6 +98,68 @@ def known_devices(own: Iterable[Driver] = ()) -> KnownDevices:
 
 
 @define
+class LoggedAttribute:
+    """One attribute of a device, with a summary of its values.
+
+    These may show that the device is an insole, when the log does not hold its discovery: only an insole's values prove
+    what they are, because its frames and its INFO have a magic and a CRC."""
+
+    uuid: str = ""
+    """Type of the attribute; "" if it was not discovered."""
+    has_values: bool = False
+    """Flag: a value was notified, read or written."""
+    count: int = 0
+    """Number of values that were notified."""
+    lengths: set[int] = field(factory=set)
+    """Lengths of the values examined, bytes."""
+    frame_count: int = 0
+    """Number of values that are a correct insole frame, or whose fragment completes one."""
+    foot: Foot | None = None
+    """Foot that the insole reported; None without an insole."""
+    is_info: bool = False
+    """True if a value was an INFO record."""
+    read: bytes | None = None
+    """Newest value that was read, not notified."""
+    channels: dict[AttOperation, str] = field(factory=dict)
+    """Names of the channels of the operations."""
+    _reassembly: Reassembly = field(factory=Reassembly)
+
+    def add_value(self, operation: AttOperation, data: bytes) -> None:
+        """Add a value and examine it."""
+        self.has_values = True
+        if operation is AttOperation.READ:
+            self.read = data
+            with suppress(WireError):
+                self.foot = parse_info(data).foot
+                self.is_info = True
+        elif operation is AttOperation.NOTIFIED:
+            self.count += 1
+            if self.count <= MAX_EXAMINED_VALUES:
+                self.lengths.add(len(data))
+                with suppress(WireError):
+                    frame = self._reassembly.feed(parse_fragment(data))[0] if is_fragment(data) else data
+                    if frame is not None:
+                        self.foot = parse_frame(frame).foot
+                        self.frame_count += 1
+
+    @property
+    def proven_channel(self) -> str | None:
+        """Name of the attribute's channel; None if the values do not prove it."""
+        if self.is_info:
+            return "insole/info"
+        return "insole/frame" if self.frame_count >= MIN_PROVING_FRAMES else None
+
+    def read_foot(self, known: KnownDevices) -> Foot | None:
+        """Return the foot that the values report; None if they report none."""
+        channel = self.channels.get(AttOperation.READ, "")
+        driver = known.drivers.get(channel.partition("/")[0])
+        if driver is not None and channel in driver.readers and self.read is not None:
+            with suppress(WireError):
+                return driver.read(channel, self.read, {}).foot
+        return self.foot if INSOLE_CHANNELS & {*self.channels.values()} else None
+
+
+@define
 class LoggedDevice:
     """One device of a log."""
 
@@ -84,18 +169,20 @@ class LoggedDevice:
     """Site of the device; None if unknown."""
     profile: Profile | None = None
     """Profile of the device; None if the log does not hold its discovery, or for an unknown device."""
-    types: Mapping[int, str] = field(factory=dict)
-    """Discovered UUIDs by attribute handle."""
-    channels: dict[tuple[int, AttOperation], str] = field(factory=dict)
-    """Channel names by attribute handle and operation."""
-    evidence_by_handle: dict[int, ValueEvidence] = field(factory=dict)
-    """Summary of the values of each attribute handle."""
+    attributes: dict[int, LoggedAttribute] = field(factory=dict)
+    """Attributes by handle that were discovered or have values."""
+
+    def attribute(self, handle: int, flaws: Counter[str]) -> LoggedAttribute:
+        """Return an attribute; one beyond MOST_ATTRIBUTES is not kept, and counted among the flaws."""
+        if handle not in self.attributes and len(self.attributes) >= MOST_ATTRIBUTES:
+            flaws[f"what is known of more than {MOST_ATTRIBUTES} attributes of a device, left out"] += 1
+            return LoggedAttribute()
+        return self.attributes.setdefault(handle, LoggedAttribute())
 
     @property
     def count(self) -> int:
         """Number of notified values on known channels."""
-        notified = [handle for handle, operation in self.channels if operation is AttOperation.NOTIFIED]
-        return sum([self.evidence_by_handle[handle].count for handle in notified])
+        return sum([one.count for one in self.attributes.values() if AttOperation.NOTIFIED in one.channels])
 
     @property
     def noun(self) -> str:
@@ -103,74 +190,43 @@ class LoggedDevice:
         name = "device" if self.profile is None else self.profile.name
         return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
+    def identify(self, known: KnownDevices, handles: Handles) -> Iterator[tuple[str, int]]:
+        """Set profile, channels and site from `handles`, discovery and values, and yield the entries of `handles` used.
 
-def name_attributes(device: LoggedDevice, known: KnownDevices, handles: Handles) -> set[tuple[str, int]]:
-    """Set the device's profile and channels from `handles`, discovery and values, and return the used `handles`.
+        An entry is not used if it contradicts the device's profile or a discovered channel. An entry for any device is
+        not used for an attribute that was discovered with another type."""
+        self.profile = known.find_profile({one.uuid for one in self.attributes.values()})
+        own = () if self.profile is None else self.profile.channels
+        for handle, one in self.attributes.items():
+            hints = [(address, handle) for address in (self.address.upper(), "") if (address, handle) in handles]
+            fitting = [hint for hint in hints if one.has_values and self._fits(one, hint[0], handles[hint], known)]
+            yield from fitting
+            named = handles[fitting[0]] if fitting else "" if one.uuid else one.proven_channel
+            channels = known.channels[named] if named else [each for each in own if each.characteristic == one.uuid]
+            for operation, accesses in ACCESS_BY_OPERATION.items():
+                if names := [each.name for access in accesses for each in channels if each.access is access]:
+                    one.channels[operation] = names[0]
+            foot = one.read_foot(known)
+            if self.site is None and foot is not None:
+                self.site = SITE_OF_FOOT[foot]
 
-    An entry of `handles` is not used if it contradicts the device's profile or a discovered channel. An entry for any
-    device is not used for an attribute that was discovered with another type."""
-    device.profile = known.find_profile(set(device.types.values()))
-    used: set[tuple[str, int]] = set()
-    for handle, evidence in device.evidence_by_handle.items():
-        hints = [hint for hint in ((device.address.upper(), handle), ("", handle)) if hint in handles]
-        fitting = [hint for hint in hints if _is_compatible(handles[hint], hint, device, known)]
-        used.update(fitting)
-        named = handles[fitting[0]] if fitting else evidence.channel if handle not in device.types else None
-        if named is not None:
-            channels = known.channels[named]
-        else:
-            uuid, own = device.types.get(handle), () if device.profile is None else device.profile.channels
-            channels = [channel for channel in own if channel.characteristic == uuid]
-        for operation, accesses in ACCESS_BY_OPERATION.items():
-            names = [channel.name for access in accesses for channel in channels if channel.access is access]
-            if names:
-                device.channels[handle, operation] = names[0]
-    return used
-
-
-def _is_compatible(channel: str, hint: tuple[str, int], device: LoggedDevice, known: KnownDevices) -> bool:
-    """Return whether the attribute's discovery, if any, allows that it is the channel of this name."""
-    address, handle = hint
-    if device.profile is not None and channel not in device.profile.channel_by_name:
-        return False
-    uuid = device.types.get(handle)
-    if uuid is None or uuid == known.channels[channel][0].characteristic:
-        return True
-    return address != "" and all(uuid != channels[0].characteristic for channels in known.channels.values())
+    def _fits(self, attribute: LoggedAttribute, address: str, channel: str, known: KnownDevices) -> bool:
+        """Return whether the attribute's discovery, if any, allows that it is the channel of this name."""
+        if self.profile is not None and channel not in self.profile.channel_by_name:
+            return False
+        if attribute.uuid in ("", known.channels[channel][0].characteristic):
+            return True
+        return address != "" and all(attribute.uuid != one[0].characteristic for one in known.channels.values())
 
 
-def explain_unused(hint: tuple[str, int], channel: str, devices: Mapping[str, LoggedDevice]) -> str:
+def explain_unused(hint: tuple[str, int], channel: str, devices: Iterable[LoggedDevice]) -> str:
     """Return one sentence on why an entry of `handles` is not used."""
     address, handle = hint
-    logged = [device for device in devices.values() if address in ("", device.address.upper())]
-    if not logged:
-        return f"holds no device {address}, whose {handle:#06x} was said to be {channel}"
-    device = next((device for device in logged if handle in device.evidence_by_handle), None)
-    if device is None:
-        of = f" of {logged[0].address}" if address else ""
-        return f"holds no value of an attribute {handle:#06x}{of}, which was said to be {channel}"
-    names = sorted({name for (number, _), name in device.channels.items() if number == handle})
-    kind = f"is {device.types.get(handle)}" if device.profile is None else f"is of {device.noun}"
-    if handle in device.types and names:
-        kind = f"is {' and '.join(names)}"
-    return f"{handle:#06x} of {device.address} {kind}, as its discovery says, not {channel}"
-
-
-def assign_site(device: LoggedDevice, known: KnownDevices, site_by_address: Mapping[str, Site]) -> None:
-    """Set the device's site from `site_by_address`, else from the foot that the device reports."""
-    device.site = site_by_address.get(device.address.upper())
-    for (handle, operation), channel in device.channels.items():
-        foot = _read_foot(channel, operation, device.evidence_by_handle[handle], known)
-        if device.site is None and foot is not None:
-            device.site = SITE_OF_FOOT[foot]
-
-
-def _read_foot(channel: str, operation: AttOperation, evidence: ValueEvidence, known: KnownDevices) -> Foot | None:
-    """Return the foot that a channel's values report; None if they report none."""
-    if channel in ("insole/frame", "insole/info"):
-        return evidence.foot
-    driver = known.drivers.get(channel.partition("/")[0])
-    if operation is AttOperation.READ and driver and channel in driver.readers and evidence.read is not None:
-        with suppress(WireError):
-            return driver.read(channel, evidence.read, {}).foot
-    return None
+    for device in devices:
+        attribute = device.attributes.get(handle)
+        if address in ("", device.address.upper()) and attribute is not None and attribute.has_values:
+            kind = attribute.uuid if device.profile is None else f"of {device.noun}"
+            kind = " and ".join(sorted({*attribute.channels.values()})) or kind
+            return f"{handle:#06x} of {device.address} is {kind}, as its discovery says, not {channel}"
+    of = f" of {address}" if address else ""
+    return f"holds no value of an attribute {handle:#06x}{of}, which was said to be {channel}"

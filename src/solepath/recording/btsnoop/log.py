@@ -5,7 +5,6 @@ log. The second reading makes the packets, so that an hour of a phone's log need
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from functools import partial
@@ -18,14 +17,9 @@ from ...link.driver import Driver
 from ...types import Packet, Site
 from ...wire.receiver import ConnectionFrame, build_connected
 from ..errors import RecordingError, Report, printable, warn
-from .att import AttOperation
-from .devices import Handles, LoggedDevice, assign_site, explain_unused, known_devices, name_attributes
-from .evidence import ValueEvidence
+from .devices import AttOperation, Handles, LoggedAttribute, LoggedDevice, explain_unused, known_devices
 from .records import reject_pipe
-from .values import LoggedValue, ValueListener
-
-MOST_ATTRIBUTES = 10_000
-"""Largest number of attributes of a log, of all devices, whose values are examined: twenty of each, chosen by hand."""
+from .values import ValueListener
 
 
 @define
@@ -55,16 +49,16 @@ class BtsnoopLog:
     def __iter__(self) -> Iterator[Packet]:
         listener = ValueListener(self.path, lambda _: None)  # flaws were reported by open_btsnoop
         for item in listener.listen(partial(setattr, self, "done")):
-            if isinstance(item, LoggedValue):
-                device, data = self.devices.get(item.device), item.att_value.value
-                key = item.att_value.handle, item.att_value.operation
-                channel = None if device is None else device.channels.get(key)
-            else:
-                device = self.devices.get(item.connection.peer)
-                # the log does not show how the host found the device, so name and signal are unknown
-                channel = "receiver/connected" if item.connected else "receiver/disconnected"
-                data = build_connected(ConnectionFrame("", None)) if item.connected else b""
-            if device is not None and device.site is not None and channel is not None:
+            device = self.devices.get(item.connection.peer)
+            if device is None or device.site is None:
+                continue
+            # the log does not show how the host found the device, so name and signal are unknown
+            channel: str | None = "receiver/connected" if item.connected else "receiver/disconnected"
+            data = build_connected(ConnectionFrame("", None)) if item.connected else b""
+            if item.value is not None:
+                attribute, data = device.attributes.get(item.value.handle), item.value.value
+                channel = None if attribute is None else attribute.channels.get(item.value.operation)
+            if channel is not None:
                 yield Packet((item.t - self.started_at) / 1e6, device.site, channel, data, device.address)
 
 
@@ -89,67 +83,57 @@ def open_btsnoop(
     for channel in handles.values():
         if channel not in known.channel_names:
             raise ValueError(f"no device has a channel {channel!r}")
-    listener, devices, started_at = ValueListener(path, report), dict[str, LoggedDevice](), None
+    listener, started_at = ValueListener(path, report), None
     damage: RecordingError | None = None
     try:
         for item in listener.listen():
             started_at = item.t if started_at is None else started_at
-            if isinstance(item, LoggedValue):
-                _add_evidence(devices, item, listener.flaws)
+            if item.value is not None:
+                attribute = listener.devices[item.connection.peer].attribute(item.value.handle, listener.flaws)
+                attribute.add_value(item.value.operation, item.value.value)
     except RecordingError as error:
         damage = error  # iterating the result raises it again, after the packets before it
-    used_handles: set[tuple[str, int]] = set()
+    devices, site_by_address = listener.devices, {address.upper(): site for address, site in (sites or {}).items()}
+    unused = dict(handles)
     for device in devices.values():
-        device.types = listener.types.get(device.address, {})
-        used_handles |= name_attributes(device, known, handles)
-        assign_site(device, known, {address.upper(): site for address, site in (sites or {}).items()})
+        device.site = site_by_address.get(device.address.upper())
+        for hint in device.identify(known, handles):
+            unused.pop(hint, None)
     omissions = list(_describe_omissions(list(devices.values())))
     omissions += [f"{what}: {count}" for what, count in listener.flaws.items()]
     usable = any(device.site is not None and device.count for device in devices.values())
     if damage is not None and not usable:
         raise damage
-    for hint in [hint for hint in handles if hint not in used_handles]:
-        raise RecordingError(path, explain_unused(hint, handles[hint], devices))
+    for hint, channel in unused.items():
+        raise RecordingError(path, explain_unused(hint, channel, devices.values()))
     if not usable:
         raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *omissions[:5]]))
-    for address in sites or {}:
-        if address.upper() not in map(str.upper, devices):
-            there = ", ".join([device.address for device in devices.values() if device.channels])
+    for address in site_by_address:
+        if address not in map(str.upper, devices):
+            there = ", ".join([device.address for device in devices.values() if device.count])
             raise RecordingError(path, f"holds no device {address} that could be used; there is {there}")
     for sentence in omissions:
         report(f"{printable(str(path))}: {sentence}")
     return BtsnoopLog(path, devices, started_at or 0, path.stat().st_size)
 
 
-def _add_evidence(devices: dict[str, LoggedDevice], value: LoggedValue, flaws: Counter[str]) -> None:
-    """Add a value to what is known of its attribute, if it is one of the first MOST_ATTRIBUTES."""
-    device = devices.setdefault(value.device, LoggedDevice(value.device))
-    handle = value.att_value.handle
-    if handle not in device.evidence_by_handle:
-        if sum([len(one.evidence_by_handle) for one in devices.values()]) >= MOST_ATTRIBUTES:
-            flaws[f"values of more than {MOST_ATTRIBUTES:,} attributes, left out"] += 1
-            return
-        device.evidence_by_handle[handle] = ValueEvidence()
-    device.evidence_by_handle[handle].add_value(value.att_value.operation, value.att_value.value)
-
-
 def _describe_omissions(devices: Sequence[LoggedDevice]) -> Iterator[str]:
     """Yield one sentence about each thing that gives no packets, or packets that a session rejects."""
     others = 0
     for device in devices:
-        address = device.address or "the host itself"
+        valued = {handle: one for handle, one in device.attributes.items() if one.has_values}
         unnamed = {
             handle: one
-            for handle, one in device.evidence_by_handle.items()
-            if one.count and (handle, AttOperation.NOTIFIED) not in device.channels and handle not in device.types
+            for handle, one in valued.items()
+            if one.count and AttOperation.NOTIFIED not in one.channels and not one.uuid
         }
         if unnamed:
             values = _count_text(sum([one.count for one in unnamed.values()]), "value")
-            yield f"{values} of {address} left out: no discovery says what is {_describe_handles(unnamed)}"
+            yield f"{values} of {device.address} left out: no discovery says what is {_describe_handles(unnamed)}"
         if device.site is None and device.count:
             values = _count_text(device.count, "value")
-            yield f"{values} of {address}, {device.noun}, left out: nobody says where it was worn"
-        others += not device.channels and any(handle in device.types for handle in device.evidence_by_handle)
+            yield f"{values} of {device.address}, {device.noun}, left out: nobody says where it was worn"
+        others += any(one.uuid for one in valued.values()) and not any(one.channels for one in valued.values())
     if others:
         yield f"{_count_text(others, 'other device')} left out"
     for site in Site:
@@ -162,7 +146,7 @@ def _count_text(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def _describe_handles(attributes: Mapping[int, ValueEvidence]) -> str:
+def _describe_handles(attributes: Mapping[int, LoggedAttribute]) -> str:
     """Return a text with the first four handles and the lengths of their values."""
     texts = [
         f"{handle:#06x} ({', '.join(map(str, sorted(evidence.lengths)[:3]))} bytes)"

@@ -31,8 +31,6 @@ RECORD_HEADER = struct.Struct(">IIIIq")
 class Datalink(Enum):
     """Format of the records, which says where a record has the kind of its packet."""
 
-    H1 = 1001
-    """The record's flags give the kind of packet."""
     H4 = 1002
     """The packet's first byte gives its kind, as Android, bumble and hcidump write it."""
     MONITOR = 2001
@@ -69,7 +67,7 @@ class HciRecord:
     """False if the logger kept only the start of the packet."""
 
 
-_RECEIVED_FLAG, _COMMAND_OR_EVENT_FLAG = 1, 2
+_RECEIVED_FLAG = 1
 _MONITOR_OPCODES = {
     2: (RecordKind.COMMAND, True),
     3: (RecordKind.EVENT, False),
@@ -142,10 +140,6 @@ def _parse_datalink(path: Path, start: bytes) -> Datalink:
 
 
 def _unwrap(datalink: Datalink, t: int, flags: int, data: bytes, whole: bool) -> HciRecord:
-    sent, is_control = not flags & _RECEIVED_FLAG, bool(flags & _COMMAND_OR_EVENT_FLAG)
     if datalink is Datalink.MONITOR:
         return HciRecord(t, flags >> 16, *_MONITOR_OPCODES.get(flags & 0xFFFF, (RecordKind.OTHER, False)), data, whole)
-    if datalink is Datalink.H4:
-        return HciRecord(t, 0, RecordKind(data[0] if data else 0), sent, data[1:], whole)
-    kind = (RecordKind.COMMAND if sent else RecordKind.EVENT) if is_control else RecordKind.ACL
-    return HciRecord(t, 0, kind, sent, data, whole)
+    return HciRecord(t, 0, RecordKind(data[0] if data else 0), not flags & _RECEIVED_FLAG, data[1:], whole)

@@ -7,20 +7,20 @@ its pieces."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from attrs import define, field, frozen
-from construct import Bytes, GreedyBytes, Int8ul, Int16ul, Prefixed, Struct, Terminated
+from construct import Bytes, GreedyBytes, Int8ul, Int16ul, Prefixed, Struct
 
 from ...wire.error import WireError
-from ...wire.fields import Fields, malformed, parse_whole
+from ...wire.fields import parse_whole
 from ..errors import RecordingError, Report
 from .att import AttValue, Conversation, is_from_client
+from .devices import LoggedDevice
 from .records import HciRecord, RecordKind, read_records
 
-COMMAND = Struct("opcode" / Int16ul, "size" / Int8ul, "parameters" / GreedyBytes)
-EVENT = Struct("code" / Int8ul, "parameters" / Prefixed(Int8ul, GreedyBytes), Terminated)
+EVENT = Struct("code" / Int8ul, "parameters" / Prefixed(Int8ul, GreedyBytes))
 LE_CONNECTION_COMPLETE = Struct(
     "subevent" / Int8ul,
     "status" / Int8ul,
@@ -32,16 +32,13 @@ LE_CONNECTION_COMPLETE = Struct(
 )
 """Format of the common start of the event's three versions; intervals and other addresses follow."""
 DISCONNECTION_COMPLETE = Struct("status" / Int8ul, "handle" / Int16ul, "reason" / Int8ul)
-READ_ADDRESS_COMPLETE = Struct("packets" / Int8ul, "opcode" / Int16ul, "status" / Int8ul, "address" / Bytes(6))
-TWO_NUMBERS = Fields("<HH")
-"""Header of an ACL packet (handle with flags, length), and of an L2CAP PDU (length, channel)."""
-HEADER_SIZE = 4
-"""Size of both headers, bytes."""
+ACL = Struct("flags" / Int16ul, "data" / Prefixed(Int16ul, GreedyBytes))
+PDU_HEADER = 4
+"""Size of the header of an L2CAP PDU, bytes: the length of its data, and its channel."""
 
-RESET, READ_BD_ADDR, LE_SET_RANDOM_ADDRESS = 0x0C03, 0x1009, 0x2005
-DISCONNECTED, COMMAND_COMPLETE, LE_META = 0x05, 0x0E, 0x3E
-CONNECTION_SUBEVENTS = {0x01: 19, 0x0A: 31, 0x29: 34}
-"""Size of the parameters of LE Connection Complete, Enhanced v1 and Enhanced v2, bytes, by subevent code."""
+DISCONNECTED, LE_META = 0x05, 0x3E
+CONNECTION_SUBEVENTS = (b"\x01", b"\x0a", b"\x29")
+"""Subevent codes of LE Connection Complete, Enhanced v1 and Enhanced v2."""
 HANDLE_MASK = 0x0FFF
 """Mask of a connection handle; the other bits are flags, or reserved."""
 CONTINUING_FRAGMENT = 1
@@ -68,8 +65,8 @@ class HciConnection:
     """Address of the peer; "" if the connection is older than the log."""
     pieces: dict[bool, bytearray] = field(factory=dict)
     """Incomplete L2CAP PDUs; the key is True for a PDU that the host sends."""
-    conversations: dict[bool, tuple[str, Conversation]] = field(factory=dict)
-    """Address of the server and decoder of what it says; the key is True if the peer is the server."""
+    conversation: Conversation | None = None
+    """Decoder of what host and peer say; None before the first PDU."""
 
     @property
     def peer(self) -> str:
@@ -78,35 +75,16 @@ class HciConnection:
 
 
 @frozen
-class ConnectionChange:
-    """The start or the end of a connection."""
+class LoggedItem:
+    """One value of a log, or the start or the end of a connection."""
 
     t: int
-    """Time of the change, us since 1970."""
+    """Time, us since 1970."""
     connection: HciConnection
-    """Connection that started or ended."""
-    connected: bool
-    """True for the start."""
-
-
-@frozen
-class LoggedValue:
-    """One value of a log."""
-
-    t: int
-    """Time of the value, us since 1970."""
-    connection: HciConnection
-    device: str
-    """Address of the server, or its HciConnection.peer if unknown."""
-    att_value: AttValue
-
-
-Item = LoggedValue | ConnectionChange
-
-
-def address_text(octets: bytes) -> str:
-    """Return an address as text, which starts with the last of `octets` as sent, the most significant one."""
-    return octets[::-1].hex(":").upper()
+    value: AttValue | None
+    """Value of an attribute of the peer; None for the start or the end of the connection."""
+    connected: bool = True
+    """False for the end of the connection."""
 
 
 @define
@@ -117,15 +95,13 @@ class ValueListener:
     report: Report
     flaws: Counter[str] = field(factory=Counter)
     """Counts of the parts of the log that could not be used, by kind."""
-    types: dict[str, dict[int, str]] = field(factory=dict)
-    """Discovered UUIDs by device and attribute handle. They remain valid after a connection, because a host stores them
-    and does not repeat the discovery."""
+    devices: dict[str, LoggedDevice] = field(factory=dict)
+    """Devices by HciConnection.peer. What was discovered remains valid after a connection, because a host stores it and
+    does not repeat the discovery."""
     _connections: dict[tuple[int, int], HciConnection] = field(factory=dict)
     """Connections by adapter and handle; the one that has been silent longest is first."""
-    _addresses: dict[tuple[int, int], str] = field(factory=dict)
-    """Addresses of the host, by adapter and the code of the command that set or asked for them."""
 
-    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Item]:
+    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[LoggedItem]:
         """Yield the values and the changes of connections; RecordingError at damage, after all items before it."""
         t, failure = 0, None
         try:
@@ -133,8 +109,12 @@ class ValueListener:
                 t = record.t
                 if record.kind is not RecordKind.OTHER and not record.whole:
                     self.flaws["records that the logger cut short"] += 1
+                    continue
                 try:
-                    yield from self._feed(record)
+                    if record.kind is RecordKind.EVENT:
+                        yield from self._feed_event(record)
+                    elif record.kind is RecordKind.ACL:
+                        yield from self._feed_acl(record)
                 except WireError:
                     self.flaws["records that are not HCI"] += 1
         except RecordingError as error:
@@ -144,84 +124,57 @@ class ValueListener:
         if failure is not None:
             raise failure
 
-    def _feed(self, record: HciRecord) -> Iterator[Item]:
-        match record.kind:
-            case RecordKind.COMMAND if record.whole:
-                command = parse_whole(COMMAND, record.data)
-                if command.opcode == RESET:
-                    yield from self._end(record.t, [key for key in self._connections if key[0] == record.adapter])
-                elif command.opcode == LE_SET_RANDOM_ADDRESS and len(command.parameters) == 6:
-                    self._addresses[record.adapter, LE_SET_RANDOM_ADDRESS] = address_text(command.parameters)
-            case RecordKind.EVENT if record.whole:
-                yield from self._feed_event(record)
-            case RecordKind.ACL:
-                yield from self._feed_acl(record)
-
-    def _feed_event(self, record: HciRecord) -> Iterator[Item]:
+    def _feed_event(self, record: HciRecord) -> Iterator[LoggedItem]:
         event = parse_whole(EVENT, record.data)
-        parameters, adapter = event.parameters, record.adapter
-        if event.code == LE_META and parameters and len(parameters) == CONNECTION_SUBEVENTS.get(parameters[0]):
-            complete = parse_whole(LE_CONNECTION_COMPLETE, parameters)
+        if event.code == LE_META and event.parameters[:1] in CONNECTION_SUBEVENTS:
+            complete = parse_whole(LE_CONNECTION_COMPLETE, event.parameters)
             if complete.status == 0:
-                key = adapter, complete.handle & HANDLE_MASK
-                yield from self._end(record.t, [key])
-                yield from self._make_room(record.t)
-                connection = self._connections[key] = HciConnection(*key, address_text(complete.peer))
-                yield ConnectionChange(record.t, connection, True)
+                key = record.adapter, complete.handle & HANDLE_MASK
+                yield from self._end(record.t, key)
+                # an address as sent ends with its most significant octet
+                yield from self._start(record.t, key, complete.peer[::-1].hex(":").upper())
+                yield LoggedItem(record.t, self._connections[key], None)
         elif event.code == DISCONNECTED:
-            disconnection = parse_whole(DISCONNECTION_COMPLETE, parameters)
+            disconnection = parse_whole(DISCONNECTION_COMPLETE, event.parameters)
             if disconnection.status == 0:
-                yield from self._end(record.t, [(adapter, disconnection.handle & HANDLE_MASK)])
-        elif event.code == COMMAND_COMPLETE and len(parameters) == READ_ADDRESS_COMPLETE.sizeof():
-            completed = parse_whole(READ_ADDRESS_COMPLETE, parameters)
-            if completed.opcode == READ_BD_ADDR and completed.status == 0:
-                self._addresses[adapter, READ_BD_ADDR] = address_text(completed.address)
+                yield from self._end(record.t, (record.adapter, disconnection.handle & HANDLE_MASK))
 
-    def _make_room(self, t: int) -> Iterator[Item]:
-        """End the connection that has been silent longest if there are MOST_CONNECTIONS."""
+    def _start(self, t: int, key: tuple[int, int], address: str) -> Iterator[LoggedItem]:
+        """Start a connection; the one that has been silent longest ends if there are MOST_CONNECTIONS."""
         if len(self._connections) >= MOST_CONNECTIONS:
             self.flaws[f"connections beyond {MOST_CONNECTIONS}, each of which ended the longest silent one"] += 1
-            yield from self._end(t, [next(iter(self._connections))])
+            yield from self._end(t, next(iter(self._connections)))
+        self._connections[key] = HciConnection(*key, address)
 
-    def _end(self, t: int, keys: Iterable[tuple[int, int]]) -> Iterator[Item]:
-        """End the connections that there are of these, after the values that they left incomplete."""
-        for key in keys:
-            if (connection := self._connections.pop(key, None)) is not None:
-                yield from _finish(t, connection)
-                yield ConnectionChange(t, connection, False)
+    def _end(self, t: int, key: tuple[int, int]) -> Iterator[LoggedItem]:
+        """End a connection if there is one, after the value that it left incomplete."""
+        if (connection := self._connections.pop(key, None)) is not None:
+            yield from _finish(t, connection)
+            yield LoggedItem(t, connection, None, connected=False)
 
-    def _feed_acl(self, record: HciRecord) -> Iterator[Item]:
-        if len(record.data) < HEADER_SIZE:
-            raise malformed("no header")
-        flags, size = TWO_NUMBERS.parse(record.data)
-        key, body, sent = (record.adapter, flags & HANDLE_MASK), record.data[HEADER_SIZE:], record.sent
-        connection = self._connections.pop(key, None)
-        if connection is None:
-            yield from self._make_room(record.t)
-            connection = HciConnection(*key, "")
-        self._connections[key] = connection  # as the newest
-        if len(body) != size:
-            self._discard_pieces(connection, sent)
-            if record.whole:
-                raise malformed("another size than its header says")
-            return
-        if flags >> 12 & 3 != CONTINUING_FRAGMENT:
+    def _feed_acl(self, record: HciRecord) -> Iterator[LoggedItem]:
+        packet, sent = parse_whole(ACL, record.data), record.sent
+        key = record.adapter, packet.flags & HANDLE_MASK
+        if key not in self._connections:
+            yield from self._start(record.t, key, "")
+        connection = self._connections[key] = self._connections.pop(key)  # as the newest
+        if packet.flags >> 12 & 3 != CONTINUING_FRAGMENT:
             self._discard_pieces(connection, sent)
             connection.pieces[sent] = bytearray()
         pieces = connection.pieces.get(sent)
         if pieces is None:
             self.flaws["pieces of packets whose beginning is missing"] += 1
             return
-        pieces += body
-        size, channel = (
-            TWO_NUMBERS.parse(bytes(pieces[:HEADER_SIZE])) if len(pieces) >= HEADER_SIZE else (len(pieces), 0)
-        )
-        if len(pieces) > HEADER_SIZE + size:
+        pieces += packet.data
+        missing = PDU_HEADER + int.from_bytes(pieces[:2], "little") - len(pieces)
+        if missing < 0:
             self._discard_pieces(connection, sent)
-        elif len(pieces) == HEADER_SIZE + size:
+        elif missing == 0:
             del connection.pieces[sent]
-            if channel == ATT_CHANNEL:
-                yield from self._feed_pdu(record, connection, bytes(pieces[HEADER_SIZE:]))
+            channel = int.from_bytes(pieces[2:PDU_HEADER], "little")
+            # the peer is the server if the host sends a PDU of a client, or the peer a PDU of a server
+            if channel == ATT_CHANNEL and sent == is_from_client(pieces[PDU_HEADER:]):
+                yield from self._feed_pdu(record.t, connection, bytes(pieces[PDU_HEADER:]))
             elif channel >= FIRST_DYNAMIC_CHANNEL and connection.address:
                 self.flaws["packets of channels that are not followed (EATT perhaps)"] += 1
 
@@ -229,22 +182,17 @@ class ValueListener:
         if connection.pieces.pop(sent, None) is not None:
             self.flaws["packets of which a piece is missing"] += 1
 
-    def _feed_pdu(self, record: HciRecord, connection: HciConnection, data: bytes) -> Iterator[LoggedValue]:
-        # the peer is the server if the host sends a PDU of a client, or the peer a PDU of a server
-        peer_is_server = record.sent == is_from_client(data)
-        if peer_is_server not in connection.conversations:
-            own = (self._addresses.get((record.adapter, code)) for code in (LE_SET_RANDOM_ADDRESS, READ_BD_ADDR))
-            device = connection.peer if peer_is_server else next(filter(None, own), "")
-            if device not in self.types and len(self.types) >= MOST_DEVICES:
-                self.flaws[f"packets of more than {MOST_DEVICES} devices, left out"] += 1
-                return
-            types = self.types.setdefault(device, {})
-            connection.conversations[peer_is_server] = device, Conversation(types, self.flaws)
-        device, conversation = connection.conversations[peer_is_server]
-        yield from [LoggedValue(record.t, connection, device, value) for value in conversation.feed(data)]
+    def _feed_pdu(self, t: int, connection: HciConnection, data: bytes) -> Iterator[LoggedItem]:
+        if connection.peer not in self.devices and len(self.devices) >= MOST_DEVICES:
+            self.flaws[f"packets of more than {MOST_DEVICES} devices, left out"] += 1
+            return
+        device = self.devices.setdefault(connection.peer, LoggedDevice(connection.peer))
+        if connection.conversation is None:
+            connection.conversation = Conversation(device, self.flaws)
+        yield from [LoggedItem(t, connection, value) for value in connection.conversation.feed(data)]
 
 
-def _finish(t: int, connection: HciConnection) -> Iterator[LoggedValue]:
-    """Yield what the end of a connection leaves incomplete, the values of the peer first."""
-    for _, (device, conversation) in sorted(connection.conversations.items(), key=lambda one: not one[0]):
-        yield from [LoggedValue(t, connection, device, value) for value in conversation.finish()]
+def _finish(t: int, connection: HciConnection) -> Iterator[LoggedItem]:
+    """Yield the value that the end of a connection leaves incomplete."""
+    if connection.conversation is not None:
+        yield from [LoggedItem(t, connection, value) for value in connection.conversation.end_read()]

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import csv
+import json
 import re
 import shlex
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from fnmatch import fnmatchcase
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import inf
 from typing import Any
 
 from attrs import evolve, field, frozen
 
-from .units import UNITS, find_unit
+from .units import UNITS, find_unit, unit_of
 
 QUANTITIES = ("t", "acc", "gyro", "pressure")
 """Quantities that columns may hold: time, specific force, angular rate, and the cells of an insole."""
@@ -24,8 +24,27 @@ KEYS = tuple(quantity + suffix for suffix in ("", "_left", "_right") for quantit
 """Keys of columns: a quantity, alone or with the foot whose it is."""
 FORMATS = ("movella-dot", "mbientlab", "physilog", "moticon", "ngimu", "solepath")
 """Names of the known formats, which `solepath.recording.exports` defines."""
-SEPARATORS = {",": ",", ";": ";", "\t": "\t", "|": "|", " ": " ", "tab": "\t"}
-"""Texts that may be between the cells of a line; "tab" is another word for a tab."""
+SEPARATORS = (",", ";", "\t", "|", " ")
+"""Texts that may be between the cells of a line."""
+
+
+def _is_positive(value: Any) -> bool:
+    return type(value) in (int, float) and 0.0 < value < inf
+
+
+_RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "rate": (_is_positive, "a number above 0"),
+    "wrap": (_is_positive, "a number above 0"),
+    "separator": (SEPARATORS.__contains__, "one of comma, semicolon, tab, bar, blank"),
+    "decimal": ((".", ",").__contains__, '"." or ","'),
+    "header": (lambda value: type(value) is int and value >= 0, "the number of a line"),
+    "format": (FORMATS.__contains__, f"one of the known formats {', '.join(FORMATS)}"),
+}
+"""Whether a value of a mapping can be used, and what it should be."""
+
+
+def _to_separator(given: str | None) -> str | None:
+    return "\t" if given == "tab" else given
 
 
 def _to_columns(given: Mapping[str, str | Iterable[str]]) -> dict[str, tuple[str, ...]]:
@@ -48,8 +67,8 @@ class TableMapping:
     """Number of samples a second, Hz, of a table without times; None for one with times."""
     wrap: float | None = None
     """Value at which a counter of time starts again from 0, s or the unit of the column; None if it never does."""
-    separator: str | None = None
-    """Character between the cells of a line; None: found in the file."""
+    separator: str | None = field(default=None, converter=_to_separator)
+    """Character between the cells of a line, or "tab"; None: found in the file."""
     decimal: str | None = None
     """Decimal mark, "." or ","; None: found in the file."""
     header: int | None = None
@@ -62,11 +81,11 @@ class TableMapping:
     """Name of the file that holds this mapping; "" for options of a command, and for a known format."""
 
     def __attrs_post_init__(self) -> None:
-        if faults := [*self._name_faults(), *self._value_faults()]:
+        if faults := list(self._list_faults()):
             raise ValueError("\n".join(faults))
 
-    def _name_faults(self) -> Iterator[str]:
-        """Yield what is wrong with columns and units."""
+    def _list_faults(self) -> Iterator[str]:
+        """Yield what is wrong with the values."""
         for key, names in self.columns.items():
             if key not in KEYS:
                 yield f"{key} is none of {', '.join(KEYS)}"
@@ -75,26 +94,14 @@ class TableMapping:
             elif key.startswith("t") and len(names) != 1:
                 yield f"{key} is one column, not {len(names)}"
         for quantity, unit in self.units.items():
-            known = find_unit(unit) if isinstance(unit, str) else None
             if quantity not in UNITS:
                 yield f"{quantity} is none of {', '.join(UNITS)}"
-            elif known is None or known[0] != quantity:
+            elif not isinstance(unit, str) or unit_of(unit, quantity) is None:
                 yield f"{unit!r} is no unit of {quantity}: {', '.join(UNITS[quantity])}"
-
-    def _value_faults(self) -> Iterator[str]:
-        """Yield what is wrong with the other values."""
-        for key in ("rate", "wrap"):
+        for key, (fits, what) in _RULES.items():
             value = getattr(self, key)
-            if value is not None and (type(value) not in (int, float) or not 0.0 < value < inf):
-                yield f"{key} is {value!r}, not a number above 0"
-        if self.separator is not None and self.separator not in SEPARATORS:
-            yield f"separator is {self.separator!r}, not one of comma, semicolon, tab, bar, blank"
-        if self.decimal not in (None, ".", ","):
-            yield f'decimal is {self.decimal!r}, not "." or ","'
-        if self.header is not None and (type(self.header) is not int or self.header < 0):
-            yield f"header is {self.header!r}, not the number of a line"
-        if self.format and self.format not in FORMATS:
-            yield f"{self.format} is none of the known formats {', '.join(FORMATS)}"
+            if value not in (None, "") and not fits(value):
+                yield f"{key} is {value!r}, not {what}"
         for foot, pattern in self.feet.items():
             if foot not in ("left", "right") or not isinstance(pattern, str):
                 yield f"{foot} is not left or right, with a pattern of names of files"
@@ -134,14 +141,13 @@ class TableMapping:
             columns = {**self.columns, **changes}
             return f"--columns {shlex.quote(','.join(f'{k}={join_names(names)}' for k, names in columns.items()))}"
         names = list(changes[key])
-        text = ", ".join(f'"{name}"' for name in names)
-        return f"in {self.origin}: {key} = {text}" if len(names) == 1 else f"in {self.origin}: {key} = [{text}]"
+        return self.write_setting(key, json.dumps(names if len(names) > 1 else names[0], ensure_ascii=False))
 
     def write_units(self, quantity: str, changes: Mapping[str, str]) -> str:
         """Return what makes these changes: the whole --units, or the line of a quantity in the file of this mapping."""
         if not self.origin:
             return f"--units {','.join({**self.units, **changes}.values())}"
-        return f'in {self.origin}: {quantity} = "{changes[quantity]}" below [units]'
+        return self.write_setting(quantity, f'"{changes[quantity]}" below [units]')
 
     def write_setting(self, key: str, value: str) -> str:
         """Return what sets another value: an option of this name, or a line in the file of this mapping."""
@@ -160,17 +166,13 @@ class NamedColumn:
 
 def match_name(names: Sequence[str], given: str) -> list[NamedColumn]:
     """Return the columns that a name means: as it is or with a sign, as a number, a pattern, and in any case."""
+    numbers = {f"#{k}": [k - 1] for k in range(1, len(names) + 1)}
     for name, sign in ((given, 1.0), (given[1:], -1.0))[: 1 + given.startswith("-")]:
-        exact = [k for k, one in enumerate(names) if one == name]
-        if not exact and name.startswith("#") and name[1:].isdecimal() and 0 < int(name[1:]) <= len(names):
-            exact = [int(name[1:]) - 1]
-        if not exact and "*" in name:
-            pattern = name.lower().replace("[", "[[]")
-            exact = [k for k, one in enumerate(names) if fnmatchcase(one.lower(), pattern)]
-        if not exact:
-            exact = [k for k, one in enumerate(names) if one.lower() == name.strip().lower()]
-        if exact:
-            return [NamedColumn(k, names[k], sign) for k in exact]
+        pattern = re.compile(re.escape(name.strip()).replace(r"\*", ".*"), re.IGNORECASE)
+        found = [k for k, one in enumerate(names) if one == name] or numbers.get(name)
+        found = found or [k for k, one in enumerate(names) if pattern.fullmatch(one)]
+        if found:
+            return [NamedColumn(k, names[k], sign) for k in found]
     return []
 
 
@@ -180,31 +182,25 @@ def join_names(names: Iterable[str]) -> str:
 
 
 def _parse_columns(text: str) -> dict[str, tuple[str, ...]]:
-    columns: dict[str, tuple[str, ...]] = {}
-    key = ""
-    for word in _split_names(text):
-        name, equals, first = word.partition("=")
-        if equals and name.strip() in KEYS:
-            key = name.strip()
-            if key in columns:
-                raise ValueError(f"{key} is given twice")
-            columns[key], word = (), first
-        elif not key:
-            known = ", ".join(QUANTITIES)
-            raise ValueError(f"{word!r} names no quantity: write t=Time,acc=AX,AY,AZ,gyro=GX,GY,GZ with {known}")
-        columns[key] = (*columns[key], *([word.strip()] if word.strip() else []))
-    return columns
-
-
-def _split_names(text: str) -> list[str]:
-    if not text.strip():
-        return []
     # a quoted name may follow the sign of equality, where csv does not expect it
     moved = re.sub(r'(^|,)\s*([a-z_]+)="', r'\1"\2=', text)
     try:
-        return next(csv.reader([moved], skipinitialspace=True, strict=True))
+        words = next(csv.reader([moved], skipinitialspace=True, strict=True), [])
     except csv.Error:
         raise ValueError(f"{text!r} has a double quote that does not end") from None
+    columns: dict[str, tuple[str, ...]] = {}
+    key = ""
+    for word in filter(str.strip, words):
+        name, equals, first = word.partition("=")
+        if equals and name.strip() in KEYS:
+            key, word = name.strip(), first
+            if key in columns:
+                raise ValueError(f"{key} is given twice")
+        elif not key:
+            known = ", ".join(QUANTITIES)
+            raise ValueError(f"{word!r} names no quantity: write t=Time,acc=AX,AY,AZ,gyro=GX,GY,GZ with {known}")
+        columns[key] = (*columns.get(key, ()), *filter(None, [word.strip()]))
+    return columns
 
 
 def _parse_units(text: str) -> dict[str, str]:

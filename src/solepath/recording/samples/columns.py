@@ -12,9 +12,9 @@ from ...types import Foot
 from ..errors import RecordingError, printable
 from ..exports import EXPORTS, OWN, Export
 from ..mapping.mapping import COMPONENTS, MEASURED, QUANTITIES, NamedColumn, TableMapping, match_name
-from ..mapping.units import UNITS, unit_of, unit_of_name
+from ..mapping.units import DATETIME, UNITS, unit_of, unit_of_name
 from ..mapping.words import foot_of_text
-from .layout import SheetLayout
+from .sheet import SheetLayout, is_datetime
 from .table import FootTable
 
 
@@ -25,13 +25,13 @@ class TableColumns:
     header: SheetLayout
     given: TableMapping
     """Mapping of the user."""
+    export: Export | None
     mapping: TableMapping
     """Mapping of the user, with what it leaves out."""
-    export: Export | None
     feet: list[FootTable] = field(factory=list)
     """Tables of the feet, without rows."""
-    faults: list[tuple[str, str]] = field(factory=list)
-    """Key of a mapping and fault of its columns; the key "" for a fault of the whole table."""
+    faults: dict[str, list[str]] = field(factory=dict)
+    """Faults by key of the mapping; the key "" for a fault of the whole table."""
     changes: dict[str, list[str]] = field(factory=dict)
     """Names of columns that would repair them, by key; "NAME" for one that is not known."""
     elsewhere: set[str] = field(factory=set)
@@ -50,19 +50,17 @@ class TableColumns:
     @property
     def found_keys(self) -> set[str]:
         """Keys of the mapping whose columns are here."""
-        return set(self.mapping.columns) - self.elsewhere - {key for key, _ in self.faults}
+        return self.mapping.columns.keys() - self.elsewhere - self.faults.keys()
 
     def list_problems(self, found_elsewhere: Set[str] = frozenset()) -> list[RecordingError]:
         """Return what is wrong, with what repairs it, except for keys that another file holds."""
         changes = {key: names for key, names in self.changes.items() if key not in found_elsewhere}
         problems = []
-        for key, what in dict.fromkeys(self.faults):
-            if key in found_elsewhere:
-                continue
+        for key in [key for key in self.faults if key not in found_elsewhere]:
             repair = self.given.write_columns(key, changes) if key else self.export.repair if self.export else ""
             if key == "t" and changes["t"] == ["NAME"]:
                 repair += f" or {self.given.write_setting('rate', 'HZ')}"
-            problems.append(RecordingError(self.header.path, what, self.header.locate(), repair))
+            problems += [RecordingError(self.header.path, what, self.header.where, repair) for what in self.faults[key]]
         return problems
 
 
@@ -73,45 +71,44 @@ def find_columns(header: SheetLayout, given: TableMapping, foot: Foot | None, *,
     one does not."""
     known = [EXPORTS[given.format]] if given.format else [one for one in EXPORTS.values() if one.fits(header)]
     export = known[0] if known else None
-    found = TableColumns(header, given, given, export)
-    tagged = None
-    base = TableMapping()
+    found = TableColumns(header, given, export, given)
+    tagged, base = None, TableMapping()
     if export is not None:
-        if foot is None:
-            foot = tagged = foot_of_text(export.read_tag(header))
+        tagged = foot_of_text(export.read_tag(header)) if foot is None else None
         try:
             base = export.read_mapping(header)
         except ValueError as error:
             if not any(key.startswith(("acc", "pressure")) for key in given.columns):
-                found.faults.append(("", str(error)))
+                found.faults[""] = [str(error)]
                 return found
     found.mapping = given.completed(base)
-    columns = found.mapping.columns
-    for one in [foot] if found.mapping.is_of_one_foot else Foot:
-        suffix = "" if found.mapping.is_of_one_foot or one is None else f"_{one.value}"
-        keys = {}
-        for q in QUANTITIES:
-            named = q if one is None else f"{q}_{one.value}"
-            keys[q] = named if named in columns or (suffix and q != "t") else q
-        if not any(keys[q] in columns for q in MEASURED):
+    columns, is_of_one_foot = found.mapping.columns, found.mapping.is_of_one_foot
+    for one in [foot or tagged] if is_of_one_foot else Foot:
+        suffix = "" if is_of_one_foot or one is None else f"_{one.value}"
+        both = {q: f"{q}_{one.value}" if one else q for q in QUANTITIES}
+        keys = {q: key if key in columns or (suffix and q != "t") else q for q, key in both.items()}
+        keys = {q: key for q, key in keys.items() if key in columns}
+        if not keys.keys() & {*MEASURED}:
             continue
-        sources = {q: _resolve(found, key, q) for q, key in keys.items() if key in columns}
+        sources = {q: its_columns for q, key in keys.items() if (its_columns := _resolve(found, key, q))}
         if not is_alone:
-            found.elsewhere |= {keys[q] for q in sources if q != "t" and not sources[q]}
-        sources = {q: its_columns for q, its_columns in sources.items() if its_columns}
-        _divide_by_file(header.path, sources, is_alone)
-        if "t" not in sources and "t" not in columns and found.mapping.rate is None:
+            found.elsewhere |= {keys[q] for q in keys.keys() - sources.keys() - {"t"}}
+            _divide_by_file(found, sources)
+        if "t" not in keys and found.mapping.rate is None:
             found.changes["t"] = ["NAME"]
-            found.faults.append(("t", f"names no column t ({header.list_names()})"))
-        labels = {q: _name_of(q, suffix, sources.get(q, ()), export) for q in QUANTITIES}
-        units = {q: _find_unit(header, q, its_columns[0], given, base) for q, its_columns in sources.items()}
+            found.faults["t"] = [f"names no column t ({header.list_names()})"]
+        names = {q: q + suffix for q in QUANTITIES}
+        if "t" in sources:
+            (time,) = sources["t"]
+            own = "t" + (suffix if "_" in time.name else "")
+            names["t"] = own if export is OWN else f"t ({time.name})"
         found.feet.append(
             FootTable(
                 header.path,
                 one or Foot.RIGHT,
-                labels,
+                names,
                 sources=sources,
-                units=units,
+                units={q: _find_unit(header, q, its_columns[0], given, base) for q, its_columns in sources.items()},
                 is_named=bool(suffix) or tagged is not None,
                 is_assumed=one is None,
                 mapping=given,
@@ -120,11 +117,13 @@ def find_columns(header: SheetLayout, given: TableMapping, foot: Foot | None, *,
     return found
 
 
-def _divide_by_file(path: Path, columns: dict[str, tuple[NamedColumn, ...]], is_alone: bool) -> None:
+def _divide_by_file(found: TableColumns, columns: dict[str, tuple[NamedColumn, ...]]) -> None:
     """Remove a sensor whose columns have the names of another one's, if the name of the file says which it is of."""
-    sensor = sensor_of_file(path)
-    if not is_alone and sensor is not None and "acc" in columns and columns["acc"] == columns.get("gyro"):
-        del columns["gyro" if sensor == "acc" else "acc"]
+    sensor = sensor_of_file(found.header.path)
+    if sensor is not None and "acc" in columns and columns["acc"] == columns.get("gyro"):
+        other = "gyro" if sensor == "acc" else "acc"
+        found.elsewhere.add(other)
+        del columns[other]
 
 
 def sensor_of_file(path: Path) -> str | None:
@@ -133,41 +132,32 @@ def sensor_of_file(path: Path) -> str | None:
     return "gyro" if "gyr" in stem else "acc" if "acc" in stem else None
 
 
-def _name_of(quantity: str, suffix: str, columns: Sequence[NamedColumn], export: Export | None) -> str:
-    """Return the name of a quantity in messages: this project's own, or that of its first column."""
-    if quantity != "t" or not columns:
-        return quantity + suffix
-    if export is OWN:
-        return quantity + (suffix if "_" in columns[0].name else "")
-    return f"{quantity} ({columns[0].name})"
-
-
 def _resolve(found: TableColumns, key: str, quantity: str) -> tuple[NamedColumn, ...]:
     """Return the columns that the mapping names for a key; faults go to those of `found`."""
     names, header = found.mapping.columns[key], found.header
     columns: list[NamedColumn] = []
     missing: list[str] = []
     corrected: list[str] = []
+    faults: list[str] = []
     for name in names:
         matches = match_name(header.names, name)
+        corrected.append(name)
         if not matches:
             missing.append(printable(name.lstrip("-"), 40))
-            corrected.append(_closest([one for one in header.names if one not in names], name))
+            corrected[-1] = _closest([one for one in header.names if one not in names], name)
         elif len(matches) > 1 and "*" not in name:
             numbers = [f"#{match.index + 1}" for match in matches]
-            found.faults.append((key, f"names the column {printable(name, 40)} twice: it is {' or '.join(numbers)}"))
-            corrected.append(numbers[0])
-        else:
-            corrected.append(name)
+            faults.append(f"names the column {printable(name, 40)} twice: it is {' or '.join(numbers)}")
+            corrected[-1] = numbers[0]
         columns += matches if "*" in name else matches[:1]
     if missing:
-        found.faults.append((key, f"names no column {', '.join(missing)} ({header.list_names()})"))
-    elif quantity in COMPONENTS and len(columns) != COMPONENTS[quantity]:
-        listed = ", ".join(printable(column.name, 40) for column in columns)
-        found.faults.append((key, f"{key} needs {COMPONENTS[quantity]} columns, not {len(columns)} ({listed})"))
+        faults.append(f"names no column {', '.join(missing)} ({header.list_names()})")
+    elif len(columns) != COMPONENTS.get(quantity, len(columns)):
+        listed = printable(", ".join(column.name for column in columns), 80)
+        faults.append(f"{key} needs {COMPONENTS[quantity]} columns, not {len(columns)} ({listed})")
         corrected = ["X", "Y", "Z"][: COMPONENTS[quantity]]
-    if corrected != list(names):
-        found.changes[key] = corrected
+    if faults:
+        found.faults[key], found.changes[key] = faults, corrected
     return tuple(columns)
 
 
@@ -180,8 +170,10 @@ def _closest(names: Sequence[str], name: str) -> str:
 
 def _find_unit(header: SheetLayout, quantity: str, column: NamedColumn, given: TableMapping, base: TableMapping) -> str:
     """Return the unit of a quantity: as it is given, as the header says, as the known format has it, or SI."""
+    if quantity == "t" and any(is_datetime(text, header.decimal) for text in header.example[column.index :][:1]):
+        return DATETIME
     if quantity in given.units:
         return unit_of(given.units[quantity], quantity) or given.units[quantity]
-    below = header.units[column.index] if column.index < len(header.units) else ""
+    below = "".join(header.units[column.index :][:1])
     stated = unit_of_name(column.name, quantity) or unit_of(below, quantity)
     return stated or base.units.get(quantity, next(iter(UNITS[quantity])))

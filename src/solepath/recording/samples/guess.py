@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import islice, pairwise
-from math import isfinite, log, nan
+from contextlib import suppress
+from itertools import islice
 from pathlib import Path
 
-from ..errors import RecordingError, printable
+from ..bad_rows import BadRows
+from ..errors import RecordingError
 from ..mapping.mapping import KEYS, TableMapping
-from ..mapping.units import GRAVITY, UNITS, unit_of_name
+from ..mapping.units import unit_of_name
 from ..mapping.words import key_of_name
-from .columns import sensor_of_file
-from .layout import SheetLayout, is_number
-from .numbers import is_datetime, number_reader
-from .plausible import MAX_GYRO, NEAR, TOP, percentile, usual_unit
-from .sheet import Row
-from .table import lengths, median
+from .columns import find_columns, sensor_of_file
+from .numbers import read_rows
+from .plausible import find_wrong_units
+from .sheet import Row, SheetLayout
+from .table import remove_bad_rows
 
 MAX_ROWS = 20_000
 """Number of rows from which units are guessed: more than a minute at 256 Hz."""
@@ -45,95 +45,56 @@ class UnknownTable(RecordingError):
 
 def guess_mapping(layout: SheetLayout, rows: Iterator[Row]) -> UnknownTable:
     """Return the error for a table of no known format, with the options that may fit it."""
-    names = [name for name in layout.names if name]
-    holds_numbers = not layout.header or all(map(is_number, names))
-    what = "it holds numbers: is the line with the names missing?" if holds_numbers else ""
-    what = what or f"it names {printable(', '.join(names), 80)}"
-    where = f"line {layout.header or 1}"
-    columns = {} if holds_numbers else _guess_columns(layout, sensor_of_file(layout.path) or "")
+    where = layout.where or ("line 1" if layout.first else "")
+    columns = {} if layout.holds_numbers else _guess_columns(layout)
     if not columns.keys() - {"t"}:
-        return UnknownTable(layout.path, f"names no column acc_x or pressure_0 ({what})", where, None)
-    units = _guess_units(layout, rows, columns)
+        return UnknownTable(
+            layout.path, f"names no column acc_x or pressure_0 ({layout.list_names()})", layout.where, None
+        )
+    units = _guess_units(layout, islice(rows, MAX_ROWS), TableMapping(columns))
     if units.get("t") == "":
-        del columns["t"]
-    named = {key: tuple(layout.names[k] for k in numbers) for key, numbers in columns.items()}
-    guess = TableMapping(named, {quantity: unit for quantity, unit in units.items() if unit})
-    return UnknownTable(layout.path, f"is of no known format ({what})", where, guess)
+        del columns["t"], units["t"]
+    what = f"is of no known format ({layout.list_names()})"
+    return UnknownTable(layout.path, what, where, TableMapping(columns, units))
 
 
 def merge_guesses(problems: Sequence[RecordingError], feet: str = "") -> list[RecordingError]:
     """Return the problems; those of unknown tables offer the same options, unless those of two files contradict.
 
     `feet` is the option that names the feet, "" if it is not needed."""
-    unknown = [one for one in problems if isinstance(one, UnknownTable) and one.guess is not None]
-    guesses = [one.guess for one in unknown if one.guess is not None]
+    guesses = [one.guess for one in problems if isinstance(one, UnknownTable) and one.guess is not None]
     columns = {key: names for guess in guesses for key, names in guess.columns.items()}
     units = {quantity: unit for guess in guesses for quantity, unit in guess.units.items()}
     if any({**columns, **guess.columns} != columns or {**units, **guess.units} != units for guess in guesses):
         return list(problems)
     merged = TableMapping({key: columns[key] for key in KEYS if key in columns}, units)
-    return [UnknownTable(one.path, one.what, one.where, merged, feet) if one in unknown else one for one in problems]
+    return [
+        UnknownTable(one.path, one.what, one.where, merged, feet)
+        if isinstance(one, UnknownTable) and one.guess is not None
+        else one
+        for one in problems
+    ]
 
 
-def _guess_columns(layout: SheetLayout, sensor: str) -> dict[str, list[int]]:
-    """Return the columns that the names suggest, by key of a mapping; `sensor`: quantity of axes without a name."""
-    axes: dict[str, dict[str, int]] = {}
-    for number, name in enumerate(layout.names):
-        key, axis = key_of_name(name, sensor)
-        axes.setdefault(key, {}).setdefault(axis, number)
-    whole = {"t": [""]}
-    return {
-        key: [axes[key][axis] for axis in whole.get(key, "xyz")]
-        for key in KEYS
-        if set(axes.get(key, ())) == set(whole.get(key, "xyz"))
-    }
+def _guess_columns(layout: SheetLayout) -> dict[str, tuple[str, ...]]:
+    """Return the columns that the names suggest, by key of a mapping."""
+    axes: dict[str, dict[str, str]] = {}
+    for name in layout.names:
+        key, axis = key_of_name(name, sensor_of_file(layout.path) or "")
+        axes.setdefault(key, {}).setdefault(axis, name)
+    orders = {key: ("",) if key == "t" else ("x", "y", "z") for key in KEYS if key in axes}
+    return {key: tuple([axes[key][one] for one in order]) for key, order in orders.items() if {*order} == {*axes[key]}}
 
 
-def _guess_units(layout: SheetLayout, rows: Iterator[Row], columns: dict[str, list[int]]) -> dict[str, str]:
+def _guess_units(layout: SheetLayout, rows: Iterator[Row], guess: TableMapping) -> dict[str, str]:
     """Return the units that the numbers suggest where the names say none; that of sample numbers is ""."""
-    parse = number_reader(layout.decimal)
-    read = [row.cells or [] for row in islice(rows, MAX_ROWS)]
-
-    def number_of(cells: Sequence[object], k: int) -> float:
-        try:
-            return parse(cells[k])
-        except (ValueError, TypeError, IndexError):
-            return nan
-
     units: dict[str, str] = {}
-    for key, numbers in columns.items():
-        quantity = key.split("_")[0]
-        if units.get(quantity) or unit_of_name(layout.names[numbers[0]], quantity):
-            continue
-        values = [[number_of(cells, k) for k in numbers] for cells in read]
-        whole = [row for row in values if all(map(isfinite, row))]
-        if quantity == "t":
-            k = numbers[0]
-            is_text = any(k < len(cells) and is_datetime(cells[k], parse) for cells in read)
-            unit = "datetime" if is_text else _time_unit([row[0] for row in whole])
-        else:
-            sizes = lengths(list(zip(*whole, strict=True)) or [(), (), ()])
-            unit = _acc_unit(sizes) if quantity == "acc" else _gyro_unit(sizes)
-        if unit is not None:
-            units[quantity] = unit
+    with suppress(RecordingError):  # a table without good rows suggests nothing
+        for table in read_rows(rows, find_columns(layout, guess, None), BadRows(layout.path, lambda _: None)):
+            remove_bad_rows(table)
+            wrong = {one.quantity: "" if one.is_count else one.unit or None for one in find_wrong_units(table)}
+            for quantity, (first, *_) in table.sources.items():
+                unit = wrong.get(quantity, table.units[quantity])
+                if unit is not None and not unit_of_name(first.name, quantity):
+                    units.setdefault(quantity, unit)
     return units
-
-
-def _time_unit(times: Sequence[float]) -> str | None:
-    """Return the unit of times, "" for sample numbers, and None if none fits."""
-    intervals = [b - a for a, b in pairwise(times)]
-    if len(intervals) < 2:
-        return None
-    return "" if set(intervals) == {1.0} else usual_unit(median(intervals)) or None
-
-
-def _acc_unit(sizes: Sequence[float]) -> str | None:
-    middle = median(sizes) if sizes else 0.0
-    near = {unit: abs(log(max(middle, 1e-9) * factor / GRAVITY)) for unit, factor in UNITS["acc"].items()}
-    unit = min(near, key=near.__getitem__)
-    return unit if near[unit] < 3.0 * NEAR else None
-
-
-def _gyro_unit(sizes: Sequence[float]) -> str | None:
-    top = percentile(sizes, TOP) if sizes else 0.0
-    return next((unit for unit, factor in UNITS["gyro"].items() if top * factor <= MAX_GYRO), None)

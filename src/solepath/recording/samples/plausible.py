@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from math import ceil
+from statistics import median
+
+from attrs import frozen
 
 from ..errors import UnusableValues
 from ..mapping.units import DATETIME, GRAVITY, UNITS
-from .table import FootTable, lengths, median
+from .table import FootTable
 
 MEDIAN_ACC_RANGE = (3.0, 30.0)
 """Allowed range of the median |acc| of a foot, m/s^2; standing, walking and running have 9.4 to 20."""
@@ -32,65 +35,60 @@ NEAR = 0.2
 NO_GRAVITY = 0.3
 """Specific force at rest below which gravity was removed, m/s^2 or g: nothing else is so small in any unit."""
 
-Fault = tuple[str, str, str, str]
-"""Quantity, its fault, unit that repairs it ("" if none does), and another action that does."""
+
+@frozen
+class WrongUnit:
+    """A quantity whose numbers are certainly not SI."""
+
+    quantity: str
+    what: str
+    """Sentence on its numbers."""
+    unit: str = ""
+    """Unit that repairs it; "" if none does."""
+    action: str = ""
+    """Another action that does."""
+    is_count: bool = False
+    """Flag: these are numbers of samples, not times."""
 
 
-def find_wrong_units(table: FootTable) -> list[UnusableValues]:
-    """Return an error for each quantity whose unit is certainly not SI; a wrong unit can give a plausible track."""
-    faults = [*_check_times(table), *_check_acc(table), *_check_gyro(table)]
-    units = {quantity: unit for quantity, _, unit, _ in faults if unit}
-    return [
-        UnusableValues(
-            table.path,
-            what,
-            table.names[quantity],
-            (table.mapping.write_units(quantity, units) if unit else "") + action,
-        )
-        for quantity, what, unit, action in faults
-    ]
-
-
-def usual_unit(interval: float) -> str:
-    """Return the unit in which this is a usual time between samples; "" if there is none."""
-    low, high = USUAL_INTERVAL
-    fitting = [one for one, factor in UNITS["t"].items() if one != DATETIME and low <= interval * factor <= high]
-    return fitting[0] if fitting else ""
-
-
-def percentile(values: Sequence[float], share: float) -> float:
-    """Return the number that this share of the values does not exceed, between two of them by a straight line."""
-    ordered, place = sorted(values), share * (len(values) - 1)
-    low, high = ordered[int(place)], ordered[min(int(place) + 1, len(values) - 1)]
-    return low + (high - low) * (place % 1.0)
-
-
-def _check_times(table: FootTable) -> Iterator[Fault]:
+def find_wrong_units(table: FootTable) -> Iterator[WrongUnit]:
+    """Yield each quantity whose unit is certainly not SI; a wrong unit can give a plausible track."""
     interval = table.interval
     if len(table) > 2 and not MIN_INTERVAL <= interval <= MAX_INTERVAL:
         raw = interval / UNITS["t"][table.units.get("t", "s")]
         is_count = raw == 1.0 and len({b - a for a, b in pairwise(table.t)}) == 1
         action = f" or, for sample numbers, {table.mapping.write_setting('rate', 'HZ')}" if is_count else ""
         what = f"the median time between samples is {interval:.3g} s: {_explain_times(table.t, interval)}"
-        yield "t", what, usual_unit(raw), action
-
-
-def _check_acc(table: FootTable) -> Iterator[Fault]:
-    forces = lengths(table.columns.get("acc", ((), (), ())))
-    middle = median(forces) if forces else GRAVITY
+        low, high = USUAL_INTERVAL
+        fitting = [one for one, factor in UNITS["t"].items() if one != DATETIME and low <= raw * factor <= high]
+        yield WrongUnit("t", what, fitting[0] if fitting else "", action, is_count)
+    forces, rates = table.lengths("acc"), table.lengths("gyro")
+    middle = median(forces or [GRAVITY])
     if not MEDIAN_ACC_RANGE[0] <= middle <= MEDIAN_ACC_RANGE[1]:
-        kind, unit, action = _explain_acc(table, forces)
-        yield "acc", f"the median of |acc| is {middle:.3g} m/s^2, not 9.8: this looks like {kind}", unit, action
-
-
-def _check_gyro(table: FootTable) -> Iterator[Fault]:
-    rates = sorted(lengths(table.columns.get("gyro", ((), (), ()))))
-    top = rates[ceil(TOP * (len(rates) - 1))] if rates else 0.0
+        kind, unit, action = _explain_acc(forces, rates, UNITS["acc"][table.units["acc"]])
+        what = f"the median of |acc| is {middle:.3g} m/s^2, not 9.8: this looks like {kind}"
+        yield WrongUnit("acc", what, unit, action)
+    top = sorted(rates)[ceil(TOP * (len(rates) - 1))] if rates else 0.0
     if top > MAX_GYRO:
         is_degrees = top < MAX_DEGREES
-        unit = "deg/s" if is_degrees else "thousandths of a degree a second, or raw counts"
-        what = f"|gyro| reaches {top:.3g} rad/s, faster than a foot turns: this looks like {unit}"
-        yield "gyro", what, "deg/s" if is_degrees else "mdeg/s", ""
+        kind = "deg/s" if is_degrees else "thousandths of a degree a second, or raw counts"
+        what = f"|gyro| reaches {top:.3g} rad/s, faster than a foot turns: this looks like {kind}"
+        yield WrongUnit("gyro", what, "deg/s" if is_degrees else "mdeg/s")
+
+
+def list_unit_problems(table: FootTable) -> list[UnusableValues]:
+    """Return an error for each quantity whose unit is certainly not SI, with what repairs it."""
+    wrong = list(find_wrong_units(table))
+    units = {one.quantity: one.unit for one in wrong if one.unit}
+    return [
+        UnusableValues(
+            table.path,
+            one.what,
+            table.names[one.quantity],
+            (table.mapping.write_units(one.quantity, units) if one.unit else "") + one.action,
+        )
+        for one in wrong
+    ]
 
 
 def _explain_times(t: Sequence[float], middle: float) -> str:
@@ -110,16 +108,16 @@ def _explain_times(t: Sequence[float], middle: float) -> str:
     return repeats or "these are not seconds"
 
 
-def _explain_acc(table: FootTable, forces: Sequence[float]) -> tuple[str, str, str]:
-    """Return what specific force looks like whose median cannot be right, and what repairs it."""
+def _explain_acc(forces: Sequence[float], rates: Sequence[float], stated: float) -> tuple[str, str, str]:
+    """Return what specific force looks like whose median cannot be right, the unit that repairs it, or an action.
+
+    `stated`: value of the unit that the file says, m/s^2."""
+    if rates:
+        limit = sorted(rates)[ceil(SHARE_AT_REST * (len(rates) - 1))]
+        forces = [force for force, rate in zip(forces, rates, strict=True) if rate <= limit]
     rest = median(forces)
-    if "gyro" in table.columns:
-        rates = lengths(table.columns["gyro"])
-        limit = percentile(rates, SHARE_AT_REST)
-        rest = median([force for force, rate in zip(forces, rates, strict=True) if rate <= limit])
-    raw = rest / UNITS["acc"][table.units.get("acc", "m/s^2")]
     for unit, factor in UNITS["acc"].items():
-        if abs(raw * factor - GRAVITY) < NEAR * GRAVITY:
+        if abs(rest / stated * factor - GRAVITY) < NEAR * GRAVITY:
             return {"mg": "milli-g"}.get(unit, unit), unit, ""
     if rest < NO_GRAVITY:
         text = "no specific force at all (gravity removed?)"

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import nullcontext, suppress
 from datetime import UTC, datetime
 from fnmatch import fnmatchcase
 from operator import attrgetter
 from pathlib import Path
+from typing import Any
 
 from attrs import frozen
 
@@ -19,8 +21,8 @@ from ..mapping.words import foot_of_text
 from .columns import TableColumns, find_columns
 from .guess import UnknownTable, guess_mapping, merge_guesses
 from .join import join_files
-from .numbers import read_rows
-from .plausible import find_wrong_units
+from .numbers import fill_tables, read_rows
+from .plausible import list_unit_problems
 from .sheet import open_sheet
 from .table import FootTable, floats, remove_bad_rows
 
@@ -69,94 +71,87 @@ def load_samples(
         if path.resolve() in [earlier.resolve() for earlier in paths[:number]]:
             raise RecordingError(path, "is given twice")
     mapping = mapping or TableMapping()
-    problems: list[RecordingError] = []
     feet: list[Foot | None] = list(_feet_of_files(paths, mapping.feet))
     only = foot if isinstance(foot, Foot) else None
-    if isinstance(foot, Foot):
-        feet = [foot] if len(paths) == 1 else feet
-    elif foot is not None:
-        feet = list(foot)
+    if foot is not None and (only is None or len(paths) == 1):
+        feet = [foot] if isinstance(foot, Foot) else list(foot)
         if len(feet) != len(paths):
             raise ValueError(f"there are {len(feet)} feet for {len(paths)} files")
     total = BadRows(paths[0], report, "row")
+    problems: list[RecordingError] = []
     tables: list[FootTable] = []
     unnamed: dict[Path, set[str]] = {}
     headers: list[TableColumns] = []
     for path, its_foot in zip(paths, feet, strict=True):
         bad_rows = BadRows(path, report, "row")
         try:
-            own = _read_file(path, its_foot, mapping, bad_rows, headers, is_alone=len(paths) == 1)
-            used = [table for table in own if only in (None, table.foot)]
-            _remove_bad_rows(used, bad_rows)
-            tables += used
+            own = read_file(path, its_foot, mapping, bad_rows, headers, is_alone=len(paths) == 1)
+            tables += clean(own, only, bad_rows)
         except RecordingError as error:
             problems += error.problems
             if its_foot is None and isinstance(error, UnknownTable) and error.quantities:
                 unnamed[path] = error.quantities
         total.count, total.good = total.count + bad_rows.count, total.good + bad_rows.good
-    for table in tables:
-        if table.is_assumed:
-            unnamed[table.path] = unnamed.get(table.path, set()) | {*table.columns}
     found_keys = {key for found in headers for key in found.found_keys}
     for found in headers:
-        own_problems = found.list_problems(found.elsewhere & found_keys)
-        problems += own_problems or (found.list_problems() if found.is_empty else [])
+        problems += found.list_problems(set() if found.is_empty else found.elsewhere & found_keys)
         if any(table.is_assumed for table in found.feet):
-            unnamed.setdefault(found.header.path, found.quantities)
+            unnamed[found.header.path] = found.quantities
     if not tables and not problems and only is not None:
         problems.append(RecordingError(paths[0], f"holds nothing of the {only.value} foot"))
     example = _name_feet(paths, unnamed, problems)
-    for table in tables:
-        problems += find_wrong_units(table)
-    start_time = _count_from_start([table for table in tables if len(table)])
-    if not problems:
-        tables = join_files(tables, problems)
+    problems += [problem for table in tables for problem in list_unit_problems(table)]
+    start_time = _count_from_start(tables)
+    joined = [] if problems else join_files(tables, problems)
     if problems:
         raise RecordingError.of(merge_guesses(problems, example))
-    if not any(map(len, tables)):
+    if not any(map(len, joined)):
         raise RecordingError(paths[0], "holds no samples")
-    return SampleRecording(paths[0], tuple(tables), total, start_time)
+    return SampleRecording(paths[0], tuple(joined), total, start_time)
 
 
-def _feet_of_files(paths: Sequence[Path], patterns: Mapping[str, str]) -> list[Foot | None]:
-    """Return the foot that the name of each file says, or the name of its folder if the files are in different ones."""
+def _feet_of_files(paths: Sequence[Path], patterns: Mapping[str, str]) -> Iterator[Foot | None]:
+    """Yield the foot that the name of each file says, or the name of its folder if the files are in different ones."""
     use_folders = len({path.parent for path in paths}) > 1
-    feet = []
     for path in paths:
         matching = [Foot(foot) for foot, pattern in patterns.items() if fnmatchcase(path.name, pattern)]
         foot = matching[0] if len(matching) == 1 else foot_of_text(path.stem)
-        feet.append(foot_of_text(path.parent.name) if foot is None and use_folders else foot)
-    return feet
+        yield foot_of_text(path.parent.name) if foot is None and use_folders else foot
 
 
-def _read_file(
+def read_file(
     path: Path,
     foot: Foot | None,
     mapping: TableMapping,
     bad_rows: BadRows,
     headers: list[TableColumns],
     *,
-    is_alone: bool,
+    is_alone: bool = True,
 ) -> list[FootTable]:
-    """Return the tables of the feet in one file, of which only the cells were read.
+    """Return the tables of the feet in one file, of which only the cells were read; its columns go to `headers`.
 
-    There are none for a sheet whose columns have faults, which `headers` then holds."""
+    There are none for a sheet whose columns have faults."""
     if path.suffix.lower() == ".npz":
-        from .npz import read_npz  # imports numpy, which text does not need
+        from .npz import check_lengths, open_npz  # imports numpy, which text does not need
 
-        tables = read_npz(path, foot, mapping)
+        layout, mapping, columns = open_npz(path, mapping)
+        sheet: Any = nullcontext((layout, iter(())))
     else:
-        with open_sheet(path, mapping) as (layout, rows):
-            found = find_columns(layout, mapping, foot, is_alone=is_alone)
-            if not found.feet and not found.faults:
-                raise guess_mapping(layout, rows)
-            headers.append(found)
-            if found.is_empty or found.list_problems(found.elsewhere):
-                return []
+        sheet, columns = open_sheet(path, mapping), {}
+    with sheet as (layout, rows):
+        found = find_columns(layout, mapping, foot, is_alone=is_alone)
+        if not found.feet and not found.faults:
+            raise guess_mapping(layout, rows)
+        headers.append(found)
+        if found.is_empty or found.list_problems(found.elsewhere):
+            return []
+        if columns:
+            tables = fill_tables(found, columns, check_lengths(found, columns), None)
+        else:
             tables = read_rows(rows, found, bad_rows)
-        for flaw in [] if found.export is None else found.export.list_flaws(layout):
-            bad_rows.report(f"{printable(str(path))}: {flaw}")
-    if not tables:
+    for flaw in [] if found.export is None else found.export.list_flaws(layout):
+        bad_rows.report(f"{printable(str(path))}: {flaw}")
+    if not any(map(len, tables)):
         bad_rows.finish()
         raise RecordingError(path, "holds no samples")
     return tables
@@ -186,28 +181,19 @@ def _count_from_start(tables: Sequence[FootTable]) -> datetime | None:
         return None
     for table in tables:
         table.t = floats([round((t - start) * EPOCH_TICKS) / EPOCH_TICKS for t in table.t])
-    try:
+    with suppress(OverflowError, OSError, ValueError):
         return datetime.fromtimestamp(start, UTC)
-    except (OverflowError, OSError, ValueError):
-        return None
+    return None
 
 
-def use_tables(path: Path, tables: Sequence[FootTable], foot: Foot | None, bad_rows: BadRows) -> SampleRecording:
-    """Return the tables of `foot` (None: all) without bad rows, as a recording; RecordingError if they are unusable."""
-    used_tables = [table for table in tables if foot in (None, table.foot)]
-    if not used_tables and foot is not None:
-        raise RecordingError(path, f"holds nothing of the {foot.value} foot")
-    _remove_bad_rows(used_tables, bad_rows)
-    problems = [problem for table in used_tables for problem in find_wrong_units(table)]
-    if problems:
-        raise RecordingError.of(problems)
-    return SampleRecording(path, tuple(used_tables), bad_rows)
+def clean(tables: Sequence[FootTable], only: Foot | None, bad_rows: BadRows) -> list[FootTable]:
+    """Return the tables of `only` (None: all) without the rows that cannot be used.
 
-
-def _remove_bad_rows(tables: Sequence[FootTable], bad_rows: BadRows) -> None:
-    """Remove the rows that cannot be used from the tables and report them, a row of both feet once."""
-    if tables:
-        total = max(map(len, tables))
-        faults = {number: (where, what) for table in tables for number, where, what in remove_bad_rows(table)}
+    A row of both feet is reported once. RecordingError for a table that is left with too few rows."""
+    used = [table for table in tables if only in (None, table.foot)]
+    if used:
+        total = max(map(len, used))
+        faults = {number: (where, what) for table in used for number, where, what in remove_bad_rows(table)}
         bad_rows.add_all([faults[number] for number in sorted(faults)], total)
         bad_rows.finish()
+    return [table for table in used if len(table)]

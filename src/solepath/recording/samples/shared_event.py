@@ -7,7 +7,6 @@ the offset scatters by 3 ms (median absolute deviation), and by 10 ms (95th perc
 from __future__ import annotations
 
 from math import hypot
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,14 +60,32 @@ def shared_offset(recording: SampleRecording, start: float, end: float) -> tuple
     left, right = _smoothed(tables[Foot.LEFT]), _smoothed(tables[Foot.RIGHT])
     own = np.interp(times, *left)
     lags = np.arange(-MAX_OFFSET, MAX_OFFSET, INTERVAL)
-    costs = np.array([_difference(own, np.interp(times + lag, *right)) for lag in lags])
+    differences = [own - np.interp(times + lag, *right) for lag in lags]
+    costs = np.array([np.abs(one - np.median(one)).mean() for one in differences])
     lag = float(lags[np.argmin(costs)])
     contrast = costs[np.abs(lags - lag) > OTHER_OFFSET].min() / max(float(costs.min()), 1e-9)
-    lag, sigma, shared = _fit(times, own, right, lag)
+    # least squares with Cauchy weights, because a foot that is moved within the span is no shared motion
+    weights = np.ones(len(times))
+    for _ in range(ITERATIONS):
+        across = np.interp(times + lag, *right)
+        scale, constant = np.polyfit(across, own, 1, w=np.sqrt(weights))
+        residuals = own - scale * across - constant
+        slopes = scale * np.gradient(across, INTERVAL)
+        deviation = 1.4826 * float(np.median(np.abs(residuals))) + 1e-9
+        weights = 1.0 / (1.0 + (residuals / (OUTLIER * deviation)) ** 2)
+        steepness = max(float(weights @ slopes**2), 1e-12)
+        step = float(np.clip(weights @ (slopes * residuals) / steepness, -MAX_STEP, MAX_STEP))
+        lag += step
+        if abs(step) < TOLERANCE:
+            break
+    mean = np.average(own, weights=weights)
+    shared = 1.0 - float(weights @ residuals**2) / max(float(weights @ (own - mean) ** 2), 1e-12)
     if shared < MIN_SHARED or contrast < MIN_CONTRAST:
         raise RecordingError(
             recording.path, f"the feet do not feel the same from {start:g} to {end:g} s: is it a lift ride or a jump?"
         )
+    independent = 0.5 * WIDTH / INTERVAL  # samples within half a window repeat each other
+    sigma = float(np.sqrt(independent * (weights @ residuals**2) / weights.sum() / steepness))
     return -lag, hypot(SIGMA_FACTOR * sigma, LEAST_SIGMA)
 
 
@@ -82,36 +99,3 @@ def _smoothed(table: FootTable) -> tuple[Floats, Floats]:
     window = np.hanning(round(WIDTH / INTERVAL) + 1)
     padded = np.pad(magnitude, len(window) // 2, mode="edge")
     return times, np.convolve(padded, window / window.sum(), "valid")
-
-
-def _difference(first: Floats, second: Floats) -> float:
-    difference = first - second
-    return float(np.abs(difference - np.median(difference)).mean())
-
-
-def _fit(times: Floats, own: Floats, right: tuple[Floats, Floats], lag: float) -> tuple[float, float, float]:
-    """Return lag, its formal standard deviation and the explained share of variance of a robust fit.
-
-    The lateness `lag` of the right foot, s, a scale and a constant are fitted by least squares with Cauchy weights,
-    because a foot that is moved within the span is no shared motion."""
-    weights = np.ones(len(times))
-    columns: Any = None
-    for _ in range(ITERATIONS):
-        across = np.interp(times + lag, *right)
-        columns = np.stack([across - across.mean(), np.ones(len(times)), np.gradient(across, INTERVAL)], axis=1)
-        root = np.sqrt(weights)
-        (scale, constant, slope), *_ = np.linalg.lstsq(columns * root[:, None], own * root, rcond=None)
-        residuals = own - columns @ np.array([scale, constant, slope])
-        deviation = 1.4826 * float(np.median(np.abs(residuals))) + 1e-9
-        weights = 1.0 / (1.0 + (residuals / (OUTLIER * deviation)) ** 2)
-        step = float(np.clip(slope / scale, -MAX_STEP, MAX_STEP)) if scale > 0.0 else 0.0
-        lag += step
-        if abs(step) < TOLERANCE:
-            break
-    total = weights.sum()
-    variance = float((weights * residuals**2).sum() / total)
-    spread = float((weights * (own - (weights * own).sum() / total) ** 2).sum() / total)
-    inverse = np.linalg.pinv((columns * weights[:, None]).T @ columns)
-    independent = 0.5 * WIDTH / INTERVAL  # samples within half a window repeat each other
-    formal = float(np.sqrt(independent * variance * inverse[2, 2])) / max(abs(float(scale)), 1e-9)
-    return lag, formal, 1.0 - variance / max(spread, 1e-12)

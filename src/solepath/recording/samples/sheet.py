@@ -5,22 +5,26 @@ A text file is read as a stream, so that it may come through a pipe. Workbooks a
 
 from __future__ import annotations
 
+import csv
+import re
 from codecs import getincrementaldecoder
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from datetime import UTC, datetime, time
 from importlib.util import find_spec
 from io import TextIOWrapper
 from itertools import chain, islice
+from math import nan
 from pathlib import Path
 from typing import Any, TextIO
 
 from attrs import frozen
 
 from ...types.extras import install_hint
-from ..bad_rows import LONGEST_LINE, MAX_SKIPPED, skip_line
-from ..errors import RecordingError, describe_error, open_file
-from ..mapping.mapping import TableMapping
-from .layout import HEAD_LINES, Cells, SheetLayout, find_header, find_layout, splitter
+from ..bad_rows import LONGEST_LINE, read_lines
+from ..errors import RecordingError, describe_error, open_file, printable
+from ..mapping.mapping import SEPARATORS, TableMapping
+from ..mapping.units import find_unit
 
 MAX_LENGTH = 4_000_000_000
 """Largest number of characters of a file: 40 for each of MAX_VALUES. A device without end is read up to it."""
@@ -30,18 +34,124 @@ BOOKS = (".xlsx", ".xlsm", ".xls", ".ods", ".parquet")
 """Suffixes of workbooks and Parquet files."""
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 """First bytes of a file in UTF-16, which Excel calls Unicode text."""
+HEAD_LINES = 200
+"""Number of lines in which the start of a table is looked for; exports have some 10 lines before their header."""
+NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?(?:nan|inf)|n/a", re.IGNORECASE)
+COMMA_NUMBER = re.compile(r"[-+]?(?:\d{1,3}(?:\.\d{3})+|\d*),\d+(?:[eE][-+]?\d+)?")
+"""Patterns of a number, and of one with a decimal comma, with or without points between thousands."""
+
+Cells = list[Any]
+"""Cells of a row: texts of a text file, or values of a workbook."""
+
+
+@frozen
+class SheetLayout:
+    """Start of a table; its rows of numbers start at line `first`."""
+
+    path: Path
+    names: tuple[str, ...]
+    """Names of the columns, without blanks around them; 1, 2, 3 in a table without a header."""
+    header: int = 0
+    """Number of the line with the names; 0 for a table without a header."""
+    first: int = 0
+    """Number of the first line that may hold numbers."""
+    separator: str = ","
+    decimal: str = "."
+    preamble: tuple[str, ...] = ()
+    """Lines before the header."""
+    units: tuple[str, ...] = ()
+    """Cells of the line of units below the header; none without such a line."""
+    example: tuple[str, ...] = ()
+    """Cells of the first line that may hold numbers; none without such a line."""
+
+    @property
+    def where(self) -> str:
+        """Text that says where the names are; "" for a table without them."""
+        return f"line {self.header}" if self.header else ""
+
+    @property
+    def holds_numbers(self) -> bool:
+        """True for names that are none."""
+        return all(map(is_number, filter(None, self.names)))
+
+    def list_names(self) -> str:
+        """Return what there is instead of a column that is missing."""
+        if self.holds_numbers:
+            return "it holds numbers: is the line with the names missing?"
+        return f"it names {printable(', '.join(filter(None, self.names)), 80)}"
 
 
 @frozen
 class Row:
-    """One row of a table; `cells` is None for a row that cannot be cut into cells, whose `fault` says why."""
+    """One row of a table."""
 
     number: int
     """Number of the line, counted from 1."""
-    cells: Cells | None
-    fault: str = ""
-    is_whole: bool = True
-    """Flag: the line has an end; the last line of a file that was cut off has none."""
+    content: str | Cells
+    """Line of a text file, or cells of a workbook."""
+    is_cut: bool = False
+    """Flag: the last line of a file that was cut off, which has no end."""
+
+
+def cut(content: str | Cells, separator: str) -> Cells:
+    """Return the cells of a row. Each line is cut alone: an open quote affects no other line. ValueError for no row."""
+    if not isinstance(content, str):
+        return content
+    if len(content) > LONGEST_LINE:
+        raise ValueError(f"is longer than {LONGEST_LINE} characters")
+    if separator == " ":
+        return content.split()
+    try:
+        return next(csv.reader([content], delimiter=separator))
+    except csv.Error as error:
+        raise ValueError(f"is not a row of a table ({error})") from error
+
+
+def is_number(text: str) -> bool:
+    """Return whether the text of a cell is a number, with a decimal point or comma."""
+    return bool(NUMBER.fullmatch(text.strip()) or COMMA_NUMBER.fullmatch(text.strip()))
+
+
+def is_blank(cell: Any) -> bool:
+    """Return whether a cell of a text file or a workbook has no content."""
+    return not cell.strip() if isinstance(cell, str) else cell is None or cell != cell
+
+
+def read_number(cell: Any, decimal: str) -> float:
+    """Return the number in a cell with this decimal mark, NaN for one that is not available.
+
+    ValueError or TypeError for a cell that has none."""
+    if cell == "n/a":
+        return nan
+    if decimal == "." or not isinstance(cell, str):
+        return float(cell)
+    text = cell.strip()
+    if COMMA_NUMBER.fullmatch(text):
+        return float(text.replace(".", "").replace(",", "."))
+    if "." in text:
+        raise ValueError(text)  # 1.234 may be a thousand or one
+    return float(text)
+
+
+def read_datetime(cell: Any) -> float:
+    """Return the time of a cell in s: since 1970, or since midnight without a date; without a zone it is in UTC."""
+    text = re.sub(r"(\d)[.,](\d{1,6})\d*", lambda m: f"{m[1]}.{m[2]:0<6}", str(cell).strip())
+    if re.match(r"\d{1,2}:", text):
+        day = time.fromisoformat(text if text[1] != ":" else f"0{text}")
+        return 3600.0 * day.hour + 60.0 * day.minute + day.second + 1e-6 * day.microsecond
+    moment = datetime.fromisoformat(text)
+    return (moment if moment.tzinfo is not None else moment.replace(tzinfo=UTC)).timestamp()
+
+
+def is_datetime(text: str, decimal: str) -> bool:
+    """Return whether the text of a cell is no number but a time of day, with or without a date."""
+    try:
+        read_number(text, decimal)
+    except ValueError:
+        with suppress(ValueError):
+            read_datetime(text)
+            return True
+    return False
 
 
 @contextmanager
@@ -50,22 +160,13 @@ def open_sheet(path: Path, mapping: TableMapping) -> Iterator[tuple[SheetLayout,
 
     RecordingError for a file that is empty, too large or no table."""
     if path.suffix.lower() in BOOKS:
-        rows = list(_read_book(path))
-        layout = _layout_of(path, find_header, rows[:HEAD_LINES], mapping)
-        yield layout, (Row(number, cells) for number, cells in rows if number >= layout.first)
+        yield _find_start(path, _read_book(path), mapping)
         return
     file = open_file(path)
     encoding = _encoding_of(file.peek(2))  # type: ignore[attr-defined]
     # bytes that are no text become part of a column's name or of a number, where they are reported
     with TextIOWrapper(file, encoding=encoding, errors="replace") as text:
-        lines = _read_lines(path, text)
-        head = list(islice(lines, HEAD_LINES))
-        if not any(line.strip() for _, line in head):
-            raise RecordingError(path, "is empty")
-        if len(head[0][1]) > LONGEST_LINE:
-            raise RecordingError(path, f"is longer than {LONGEST_LINE} characters", "line 1")
-        layout = _layout_of(path, find_layout, head, mapping)
-        yield layout, _cut_rows(chain(head, lines), layout)
+        yield _find_start(path, _read_text(path, text), mapping)
 
 
 def _encoding_of(start: bytes) -> str:
@@ -79,75 +180,133 @@ def _encoding_of(start: bytes) -> str:
     return "utf-8-sig"
 
 
-def _layout_of(path: Path, find: Any, rows: list[Any], mapping: TableMapping) -> SheetLayout:
-    try:
-        layout: SheetLayout = find(path, rows, mapping)
-    except ValueError as error:
-        repair = f"header = N, for the line with the names, in {mapping.origin or 'the mapping'}"
-        raise RecordingError(path, str(error), repair=repair) from None
-    if not layout.names:
-        raise RecordingError(path, "is empty")
-    return layout
-
-
-def _cut_rows(lines: Iterable[tuple[int, str]], layout: SheetLayout) -> Iterator[Row]:
-    split = splitter(layout.separator)
-    for number, line in lines:
-        if number >= layout.first and line.strip():
-            is_whole = line.endswith("\n") or len(line) > LONGEST_LINE
-            try:
-                yield Row(number, split(line), is_whole=is_whole)
-            except ValueError as error:
-                yield Row(number, None, str(error), is_whole)
-
-
-def _read_lines(path: Path, file: TextIO) -> Iterator[tuple[int, str]]:
-    """Yield each line with its number; RecordingError for a file that is too long for a table.
-
-    Of a line that is too long only the start is yielded; after MAX_SKIPPED characters of it the file ends there."""
-    number = size = 0
-    while line := file.readline(LONGEST_LINE + 1):
-        number, size, skipped = number + 1, size + len(line), 0
-        if len(line) > LONGEST_LINE and not line.endswith("\n"):
-            skipped, _ = skip_line(file, "\n")
-        size += skipped
-        if size > MAX_LENGTH:
+def _read_text(path: Path, text: TextIO) -> Iterator[Row]:
+    for line in read_lines(text, "\n"):
+        if line.end > MAX_LENGTH:
             raise RecordingError(path, f"is longer than {MAX_LENGTH:,} characters")
-        yield number, line
-        if skipped >= MAX_SKIPPED:
-            return
+        if line.data.strip():
+            yield Row(line.number, line.data, line.is_cut)
 
 
-def _read_book(path: Path) -> Iterator[tuple[int, Cells]]:
-    """Yield the rows of the first sheet of a workbook, or names and rows of a Parquet file, with their numbers."""
+def _find_start(path: Path, rows: Iterator[Row], mapping: TableMapping) -> tuple[SheetLayout, Iterator[Row]]:
+    head = list(islice(rows, HEAD_LINES))
+    if not head:
+        raise RecordingError(path, "is empty")
+    if len(head[0].content) > LONGEST_LINE:
+        raise RecordingError(path, f"is longer than {LONGEST_LINE} characters", f"line {head[0].number}")
+    layout = _find_layout(path, head, mapping)
+    return layout, (row for row in chain(head, rows) if row.number >= layout.first)
+
+
+def _texts(content: str | Cells, separator: str) -> list[str]:
+    """Return the texts of the cells of a row, without blanks around them."""
+    try:
+        return ["" if is_blank(cell) else str(cell).strip() for cell in cut(content, separator)]
+    except ValueError:
+        return [str(content).strip()]
+
+
+def width_of(texts: Sequence[str]) -> int:
+    """Return the number of cells up to the last one with content."""
+    return max((k + 1 for k, text in enumerate(texts) if text), default=0)
+
+
+def _count_numbers(texts: Sequence[str]) -> int:
+    """Return the number of numbers in a row that consists of them, for half of its cells or more; otherwise 0."""
+    count = sum(map(is_number, texts))  # whole numbers
+    return count if count >= 2 and 2 * count >= len(list(filter(None, texts))) else 0
+
+
+def _find_separator(head: Sequence[Row]) -> str:
+    """Return the character between the cells with which there are most rows of numbers, and most numbers in a row."""
+
+    def rank(separator: str) -> tuple[int, int, int]:
+        counts = [count for row in head if (count := _count_numbers(_texts(row.content, separator)))]
+        # texts within cells have blanks, too
+        found = 0 if separator == " " else max(row.content.count(separator) for row in head)
+        return len(counts), max(counts, default=0), found
+
+    return max(SEPARATORS, key=rank)
+
+
+def _find_layout(path: Path, head: Sequence[Row], mapping: TableMapping) -> SheetLayout:
+    """Return the layout of a table from its first rows; `mapping` may state parts of it."""
+    separator = mapping.separator or _find_separator(head)
+    filled = [(row.number, texts) for row in head if any(texts := _texts(row.content, separator))]
+    start = next((k for k, (_, texts) in enumerate(filled) if _count_numbers(texts)), None)
+    named = 0 if start is None else _find_names(filled, start)
+    if mapping.header is not None:
+        named = next((k for k, (number, _) in enumerate(filled) if number == mapping.header), None)
+        if named is None and mapping.header:
+            repair = f"header = N, for the line with the names, in {mapping.origin or 'the mapping'}"
+            raise RecordingError(path, f"has no names in line {mapping.header}", repair=repair)
+    below = (start or 0) if named is None else named + 1
+    header, units = 0, []
+    if named is None:
+        names = [str(k + 1) for k in range(max(len(texts) for _, texts in filled[below:]))]
+    else:
+        header, (first, *rest) = filled[named]
+        names = [first.lstrip("# "), *rest]  # a header may be a comment
+    if below < len(filled) and _is_line_of_units(filled[below][1]):
+        units, below = filled[below][1], below + 1
+    texts = [text for _, texts in filled[below:] for text in texts]
+    has_commas = separator != "," and any(map(COMMA_NUMBER.fullmatch, texts))
+    return SheetLayout(
+        path,
+        tuple(names),
+        header,
+        filled[below][0] if below < len(filled) else filled[-1][0] + 1,
+        separator,
+        mapping.decimal or ("," if has_commas else "."),
+        tuple(separator.join(texts) for _, texts in filled[:named]),
+        tuple(units),
+        tuple(filled[below][1] if below < len(filled) else ()),
+    )
+
+
+def _find_names(filled: Sequence[tuple[int, list[str]]], start: int) -> int | None:
+    """Return the index of the row with the names above the first row of numbers; None if there is none as wide."""
+    above = start - 1
+    if above > 0 and _is_line_of_units(filled[above][1]):
+        above -= 1
+    width = width_of(filled[above][1]) if above >= 0 else 0
+    # rows of an export may lack their last cells, or have a cell more than there are names
+    return above if width > 1 and (width >= width_of(filled[start][1]) - 1 or above == 0) else None
+
+
+def _is_line_of_units(cells: Sequence[str]) -> bool:
+    """Return whether a row names units: all in brackets, or two or more known ones and nothing else."""
+    texts = list(filter(None, cells))
+    known = [find_unit(text) is not None or re.fullmatch(r"[\[(].*[\])]|-", text) is not None for text in texts]
+    return len(texts) > 1 and all(known) and not any(map(is_number, texts))
+
+
+def _read_book(path: Path) -> Iterator[Row]:
+    """Yield the rows of the first sheet of a workbook, or names and rows of a Parquet file."""
     with open_file(path) as file:
         if len(file.read(MAX_BOOK + 1)) > MAX_BOOK:
             raise RecordingError(path, f"is larger than {MAX_BOOK // 1_000_000} MB")
     library = next((name for name in ("pandas", "polars") if find_spec(name) is not None), None)
     if library is None:
         raise RecordingError(path, "needs pandas or polars", repair=install_hint("tables"))
-    is_parquet = path.suffix.lower() == ".parquet"
+    kind = "Parquet file" if path.suffix.lower() == ".parquet" else "workbook"
     try:
-        columns = _load_columns(path, library, is_parquet)
+        rows = _load_rows(path, library, kind == "Parquet file")
     except ImportError as error:
         what = f"cannot be read by {library}, which lacks {error.name or 'a library'}"
         raise RecordingError(path, what, repair=install_hint("tables")) from error
     except Exception as error:  # the libraries raise errors of many kinds for a damaged file
-        kind = "Parquet file" if is_parquet else "workbook"
         raise RecordingError(path, f"is no whole {kind} ({describe_error(error)})") from error
-    if is_parquet:
-        yield 1, list(columns)
-    for number, row in enumerate(zip(*columns.values(), strict=True), 2 if is_parquet else 1):
-        yield number, list(row)
+    yield from [Row(number, cells) for number, cells in enumerate(rows, 1) if not all(map(is_blank, cells))]
 
 
-def _load_columns(path: Path, library: str, is_parquet: bool) -> dict[str, list[Any]]:
+def _load_rows(path: Path, library: str, is_parquet: bool) -> list[Cells]:
     if library == "polars":
         import polars
 
-        frame = polars.read_parquet(path) if is_parquet else polars.read_excel(path, has_header=False)
-        return {name: frame[name].to_list() for name in frame.columns}
+        table = polars.read_parquet(path) if is_parquet else polars.read_excel(path, has_header=False)
+        return [*([table.columns] if is_parquet else []), *map(list, table.rows())]
     import pandas
 
     frame = pandas.read_parquet(path) if is_parquet else pandas.read_excel(path, header=None, dtype=object)
-    return {str(name): frame[name].astype(object).tolist() for name in frame.columns}
+    return [*([list(map(str, frame.columns))] if is_parquet else []), *frame.astype(object).values.tolist()]

@@ -8,15 +8,15 @@ from array import array
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import compress, pairwise, repeat
-from math import isfinite, isnan, sqrt
+from math import hypot, isfinite, isnan
 from pathlib import Path
+from statistics import median
 
 from attrs import define, field
 
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ..errors import RecordingError
 from ..mapping.mapping import MEASURED, NamedColumn, TableMapping
-from ..mapping.units import UNITS
 
 MAX_VALUES = 100_000_000
 """Largest count of numbers in a file of samples, which take 0.8 GB: three hours of two feet with 16 cells at 200 Hz."""
@@ -44,7 +44,7 @@ class FootTable:
     """Flag: nothing says of which foot the table is."""
     is_named: bool = True
     """Flag: the file itself says of which foot the table is, not its name alone."""
-    is_own: bool = True
+    is_own: bool = False
     """Flag: the times are in the unit s and under the name of this project, so that they stay as they are."""
     sources: dict[str, tuple[NamedColumn, ...]] = field(factory=dict)
     """Columns of the file that hold each quantity; without `t` in a table that has a rate instead."""
@@ -58,7 +58,7 @@ class FootTable:
 
     @property
     def signed(self) -> dict[str, tuple[str, ...]]:
-        """Names of the columns of each sensor, with "-" before one whose sign is changed; empty for an archive."""
+        """Names of the columns of each sensor, with "-" before one whose sign is changed."""
         return {
             quantity: tuple([("-" if one.sign < 0.0 else "") + one.name for one in its_columns])
             for quantity, its_columns in self.sources.items()
@@ -70,14 +70,9 @@ class FootTable:
         """Usual time between two samples, s; 0 with fewer than two."""
         return median([b - a for a, b in pairwise(self.t)]) if len(self) > 1 else 0.0
 
-    def set_quantity(self, quantity: str, columns: Iterable[Iterable[float]], unit: str) -> None:
-        """Set the components of a quantity, or the times, from numbers in a unit."""
-        factor = UNITS[quantity][unit]
-        scaled = [floats(column if factor == 1.0 else [value * factor for value in column]) for column in columns]
-        if quantity == "t":
-            (self.t,) = scaled
-        else:
-            self.columns[quantity] = scaled
+    def lengths(self, quantity: str) -> list[float]:
+        """Return the length of each vector of a quantity; none for a quantity that is not there."""
+        return [hypot(*vector) for vector in zip(*self.columns.get(quantity, ()), strict=True)]
 
     def locate_value(self, row: int, quantity: str) -> str:
         """Return a text that says where in the file the value of `quantity` in row `row` is."""
@@ -96,17 +91,6 @@ class FootTable:
         values = [zip(*self.columns[q], strict=True) if q in self.columns else repeat(None) for q in MEASURED]
         for t, acc, gyro, pressure in zip(self.t, *values):  # noqa: B905 - what repeats has no end
             yield Sample(t, site, acc, gyro, pressure)
-
-
-def median(values: Sequence[float]) -> float:
-    """Return the median of some numbers."""
-    ordered, middle = sorted(values), len(values) // 2
-    return ordered[middle] if len(values) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle])
-
-
-def lengths(vectors: Sequence[Sequence[float]]) -> list[float]:
-    """Return the length of each vector of which these are the components x, y and z."""
-    return [sqrt(x * x + y * y + z * z) for x, y, z in zip(*vectors, strict=True)]
 
 
 def remove_bad_rows(table: FootTable) -> list[tuple[int, str, str]]:
