@@ -7,9 +7,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..common.files import RECORDING, OutputFile, add_force, check_outputs, check_writable, files_of_track
+from ..common.files import RECORDING, OutputFile, add_force, check_outputs, files_of_track
 from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibration_of, floorplan_of, recipe_of
-from ..common.view import add_view, need_page, page_address_of
+from ..common.view import add_view, page_address_of
 from .devices import add_devices, need_bleak
 from .live_streams import need_lsl, run_streams, stream_names_of
 
@@ -84,7 +84,6 @@ def run(options: argparse.Namespace) -> int:
     recipe = recipe_of(options)
     _check_outputs(options)
     calibration = calibration_of(options)
-    need_page(options, options.view is not None)
     address = page_address_of(options)
     plan, start = floorplan_of(options)
     if stream_names_of(options):
@@ -99,13 +98,6 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _check_outputs(options: argparse.Namespace) -> None:
-    """Raise Failure or OSError when a file of --record, `record --out` or --out must not, or cannot, be written.
-
-    Whether the recording can be written is known when it is opened, before the search."""
-    of_out = files_of_track(options.out, places=options.floorplan is not None)
+    """Raise Failure or OSError when a file of --record, `record --out` or --out must not, or cannot, be written."""
     recording = [] if options.record is None else [OutputFile(options.record, RECORDING)]
-    check_outputs([*recording, *of_out], [options.calibration, options.floorplan], force=options.force)
-    if options.out is not None:
-        options.out.mkdir(parents=True, exist_ok=True)
-    for output in of_out:
-        check_writable(output.path)
+    check_outputs(options, [*recording, *files_of_track(options.out, places=options.floorplan is not None)])
