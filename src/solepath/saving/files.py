@@ -79,7 +79,7 @@ class FileReplacements:
     """Path that each temporary path was made for."""
 
     def temporary_path(self, path: Path) -> Path:
-        """Make an empty file in the directory of `path` and return it; raise OSError, naming `path`, when that fails."""
+        """Make an empty file in the directory of `path` and return it; raise OSError, naming `path`, if that fails."""
         target = Path(os.path.realpath(path))  # a symbolic link stays; the file that it points to is replaced
         exists = target.exists()
         if target.is_dir():
