@@ -76,7 +76,7 @@ def test_what_track_writes_does_not_depend_on_the_page_which_is_there_before_any
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=TAKES)
     assert (process.returncode, err) == (0, "")
-    assert written(tmp_path) == written(plain[0]) and len(written(tmp_path)) == 5
+    assert written(tmp_path) == written(plain[0]) and len(written(tmp_path)) == 6
     ended, rest, summed_up = out.partition("the rest of the recording")
     assert "computed" not in ended and rest
     assert summed_up.partition("\n")[2].partition("written to")[0] == plain[1].partition("computed in")[0]

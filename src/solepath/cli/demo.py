@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
     from .demo_walk import comparison_table, make_demo, make_indoors, place_table
 
     if options.record is not None:
-        check_outputs([OutputFile(options.record, RECORDING)], [], force=options.force)
+        check_outputs(options, [OutputFile(options.record, RECORDING)])
     address = _page_address(options)
     pace = 1.0 if address is None else speed_of(options, 1.0)
     emulated_radio = radio(options.loss, options.jitter)
@@ -108,9 +108,10 @@ def _page_address(options: argparse.Namespace) -> PageAddress | None:
     """Return the address of the page; None for a demo without a page."""
     if options.terminal and options.no_browser:
         raise Failure("--no-browser is for the page, and --terminal shows none")
-    address = page_address_of(options)
-    if address is not None or options.terminal or not sys.stdout.isatty():
-        return address
+    if options.view is not None:
+        return page_address_of(options)
+    if options.terminal or not sys.stdout.isatty():
+        return None
     if is_installed("aiohttp"):
         return PageAddress(browser=not options.no_browser)
     note(f"the page in the browser needs aiohttp: {install_hint('view')}")

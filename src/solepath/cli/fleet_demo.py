@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from ..recording import printable
 from ..types.extras import install_hint
 from .common.failure import Failure, is_installed, parse_count, parse_positive, parse_whole_number, recipe_named
-from .common.files import FLEET_FIGURES, OutputFile, add_force, check_outputs, check_writable, write_json
+from .common.files import FLEET_FIGURES, OutputFile, add_force, check_outputs, write_json
 from .common.inputs import add_recipe_name
 
 if TYPE_CHECKING:
@@ -138,8 +138,7 @@ def _check(options: argparse.Namespace, result_file: OutputFile | None) -> None:
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
         raise Failure(f"{options.out} is there already, and not an empty directory")
     if result_file is not None:
-        check_outputs([result_file], [], force=options.force)
-        check_writable(result_file.path, made=options.out)
+        check_outputs(options, [result_file])
 
 
 def _copy_events(stage: DemoStage, out: Path) -> None:

@@ -15,7 +15,7 @@ from importlib.util import find_spec
 from ..calibration import CalibrationError
 from ..recording import RecordingError
 from ..types.extras import install_hint
-from . import check, completion, demo, fleet_demo, track, web
+from . import check, completion, convert, demo, fleet_demo, track, web
 from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
 from .common.failure import Failure, note
@@ -23,7 +23,6 @@ from .common.os_errors import file_error_text, in_words
 from .common.own_devices import own_fault
 from .common.parser import Parser
 from .completion import COMPLETING
-from .convert import command as convert
 
 COMMANDS = (
     demo,

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..calibration import Calibration
-from ..recording import RecordingError, Source, printable
-from ..types import Packet, Sample
-from .common.failure import note
-from .common.files import REPORT, OutputFile, add_force, check_outputs, check_writable, files_of_track
+from ..recording import printable
+from .common.failure import Failure, note
+from .common.files import REPORT, OutputFile, add_force, check_outputs, files_of_track
 from .common.inputs import (
+    Recording,
     add_calibration,
     add_clocks,
     add_floorplan,
@@ -28,17 +29,22 @@ from .common.inputs import (
 from .common.outcomes import add_outcomes, band_files_of, has_outcomes, outcomes_of
 from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
 from .common.report import add_report, check_report_options, report_of
-from .common.run_file import Run, given_options, inputs_of
 from .common.tables import add_tables, feet_of, mapping_of
-from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, page_address_of, play, speed_of
+from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
-    from ..link.driver import Driver
+    from ..floorplan.plan import Start
     from ..recipes import Recipe
     from ..session import Session
-    from ..show.report import Report
     from .common.results import Results
+
+
+OF_ONE_RECIPE = (
+    "report", "title", "subject", "date", "device", "compare", "reference", "view", "no_browser", "speed", "outcomes",
+    "six_minute_walk", "timed_up_and_go",
+)  # fmt: skip
+"""Options of the report, of the page and of clinical outcomes, which are of one walk and go with one recipe."""
 
 
 def add_to(commands: Any) -> None:
@@ -74,141 +80,137 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the recording; return the exit status."""
+    """Run the recording, with several recipes through a session for each at once; return the exit status."""
     from ..link.kinds import make_kinds
     from ..session import Session
     from .common.loop import stop_signals_raise
     from .common.results import Results
 
-    recipe, *others = recipes_of(options)
-    if others:
-        from .several_recipes import track_with_each
-
-        return track_with_each(options, [recipe, *others])
+    recipes = recipes_of(options)
+    is_one = len(recipes) == 1
+    if not is_one:
+        _check_comparison(options, recipes)
     outcomes = outcomes_of(options)
     check_report_options(options)
-    outputs = _check_outputs(options)
+    outputs = _outputs(options, recipes)
     calibration, drivers = calibration_of(options), drivers_of(options)
-    need_page(options, options.view is not None)
     address = page_address_of(options)
-    pace = 1.0 if address is None else speed_of(options, 1.0)
+    pace = speed_of(options, 1.0)
     source = source_of(options.files, feet_of(options), mapping_of(options))
     undo_clocks(source, options)
-    check_pressure(recipe, source, drivers)
+    for recipe in recipes:
+        check_pressure(recipe, source, drivers)
     plan, start = floorplan_of(options)
-    session = Session(
-        recipe,
-        calibration=calibration,
-        poses=True,
-        pressures=address is not None or options.report is not None,
-        profiles=drivers,
-        floorplan=plan,
-        start=start,
-    )
-    before = None if options.compare is None else _before(options, recipe, calibration, drivers)
-    recording = _Recording(source)
-    results = Results(
-        f"{printable(source.name)}, recipe {recipe.name}",
-        options.out,
-        options.report,
-        contents=report_of(
-            options, source, recipe=recipe.name, plan=None if plan is None else plan.plan, before=before
-        ),
-        plan=None if plan is None else plan.plan,
-        outputs=outputs,
-        outcomes=outcomes,
-        unused=UnusedPackets(make_kinds(drivers)),
-        run=Run(recipe, inputs_of(options), given_options(options)),
-    )
-    seconds, shown = 0.0, False
-    with stop_signals_raise(), results:
+    floor = None if plan is None else plan.plan
+    has_cells = address is not None or options.report is not None
+
+    def new_session(recipe: Recipe, plan: IndexedPlan | None = None, start: Start | None = None) -> Session:
+        return Session(
+            recipe,
+            calibration=calibration,
+            poses=True,
+            pressures=has_cells,
+            profiles=drivers,
+            floorplan=plan,
+            start=start,
+        )
+
+    before = None
+    if options.compare is not None:
+        earlier = source_of(options.compare, feet_of(options), mapping_of(options))
+        check_pressure(recipes[0], earlier, drivers)
+        before = report_of(options, earlier, recipe=recipes[0].name, before=None)
+        _run([Results(new_session(recipes[0]), "", contents=before)], recording := Recording(earlier))
+        if recording.failure is not None:
+            raise recording.failure
+    recording = Recording(source)
+    runs = [
+        Results(
+            new_session(recipe, plan, start),
+            f"{recording.name}, recipe {recipe.name}",
+            options.out if is_one else _folder(options, recipe),
+            options.report,
+            report_of(options, source, recipe=recipe.name, plan=floor, before=before),
+            floor,
+            outputs,
+            outcomes,
+            UnusedPackets(make_kinds(drivers)),
+            options,
+        )
+        for recipe in recipes
+    ]
+    shown = False
+    with stop_signals_raise(), ExitStack() as stack:
+        for one in runs:
+            stack.enter_context(one)
         if address is None:
-            seconds = _run_directly(recording, session, results)
+            _run(runs, recording)
         else:
-            shown = _run_on_page(recording, session, results, plan, calibration, address, pace)
-        if recording.failure is None or results.walk.item_count:
-            results.write_and_print(seconds)
+            shown = _run_on_page(recording, runs[0], plan, calibration, address, pace)
+        if recording.failure is None or runs[0].walk.item_count:
+            lines = [one.write() for one in runs]
+            print("\n".join(lines[0] if is_one else _comparison(options, recording.name, runs)))
+            for sentence in runs[0].unused.sentences():
+                note(sentence)
     if recording.failure is None:
-        if (sentence := assumed_foot(source)) is not None:
-            note(sentence)
+        if (assumed := assumed_foot(source)) is not None:
+            note(assumed)
         return 0
     if shown:
         return 2  # the reason was already printed
     raise recording.failure
 
 
-def _check_outputs(options: argparse.Namespace) -> list[OutputFile]:
+def _folder(options: argparse.Namespace, recipe: Recipe) -> Path | None:
+    """Return the folder of the files of one of several recipes."""
+    return None if options.out is None else Path(options.out, recipe.name)
+
+
+def _check_comparison(options: argparse.Namespace, recipes: Sequence[Recipe]) -> None:
+    """Raise Failure for a recipe that is given twice, and for options that go with one recipe."""
+    names = [recipe.name for recipe in recipes]
+    if twice := [name for name in names if names.count(name) > 1]:
+        raise Failure(f"--recipe {twice[0]} was given twice")
+    for option in OF_ONE_RECIPE:
+        if getattr(options, option) not in (None, False):
+            name = option.replace("_", "-")
+            raise Failure(f"--{name} is for one walk: give one --recipe with it, or leave it out to compare recipes")
+
+
+def _outputs(options: argparse.Namespace, recipes: Sequence[Recipe]) -> list[OutputFile]:
     """Return the files of --out and --report; raise Failure or OSError when one must not, or cannot, be written."""
-    has_plan = options.floorplan is not None
-    outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=has_outcomes(options), run=True)
+    has_plan, outcomes = options.floorplan is not None, has_outcomes(options)
+    outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=outcomes, run=True)
+    if len(recipes) > 1:
+        folders = [_folder(options, recipe) for recipe in recipes]
+        outputs = [one for out in folders for one in files_of_track(out, places=has_plan, plan=has_plan, run=True)]
     if options.report is not None:
         outputs.append(OutputFile(options.report, REPORT))
-    compared = [*(options.compare or ()), *band_files_of(options)]
-    check_outputs(outputs, [*inputs_of(options), *compared], force=options.force)
-    if options.report is not None:
-        check_writable(options.report, made=options.out)
+    check_outputs(options, outputs, *band_files_of(options))
     return outputs
 
 
-def _before(
-    options: argparse.Namespace, recipe: Recipe, calibration: Calibration | None, drivers: tuple[Driver, ...]
-) -> Report | None:
-    """Run the earlier recording with which this one is compared; return its report."""
-    from ..session import Session
-
-    source = source_of(options.compare, feet_of(options), mapping_of(options))
-    check_pressure(recipe, source, drivers)
-    session = Session(recipe, calibration=calibration, poses=True, pressures=True, profiles=drivers)
-    report, recording = report_of(options, source, recipe=recipe.name, before=None), _Recording(source)
+def _run(runs: Sequence[Results], recording: Recording) -> None:
+    """Run the recording through all sessions; the items before a fault count as a whole walk."""
     for item in recording:
-        events = session.feed(item)
-        if report is not None:
-            report.take(item, events)
-    if recording.failure is not None:
-        raise recording.failure
-    if report is not None:
-        report.take(None, session.finish())
-    return report
+        for run in runs:
+            run.feed(item)
+    if recording.failure is None or runs[0].walk.item_count:
+        for run in runs:
+            run.feed(None)
 
 
-class _Recording:
-    """The packets or samples of a recording up to the first fault, which `failure` then holds."""
+def _comparison(options: argparse.Namespace, name: str, runs: Sequence[Results]) -> list[str]:
+    """Return the table of several recipes."""
+    from ..show.tables.recipes import RecipeRun, recipe_lines
 
-    def __init__(self, source: Source) -> None:
-        self.source = source
-        self.failure: RecordingError | None = None
-
-    def __iter__(self) -> Iterator[Packet | Sample]:
-        from ..show.tables.progress import progress_bar
-
-        source = self.source
-        with progress_bar(printable(source.name), source.total) as show:
-            try:
-                for item in source:
-                    yield item
-                    show(source.done)
-            except RecordingError as error:
-                self.failure = error
-
-
-def _run_directly(recording: _Recording, session: Session, results: Results) -> float:
-    """Run the recording through the session without a page; return the wall time that it took, s."""
-    from time import perf_counter
-
-    start = perf_counter()
-    for item in recording:
-        results.open_files()
-        results.add(item, session.feed(item))
-    if recording.failure is None:
-        results.open_files()  # for a recording without items
-    # the items before a fault count as a whole walk
-    results.add(None, session.finish())
-    return perf_counter() - start
+    rows = [RecipeRun(run.session.recipe.name, run.walk, run.seconds) for run in runs]
+    written = ", ".join(printable(str(run.out)) for run in runs)
+    return [*recipe_lines(f"{name}, {len(rows)} recipes", rows), *([f"written to {written}"] if options.out else [])]
 
 
 def _run_on_page(
-    recording: _Recording,
-    session: Session,
+    recording: Recording,
     results: Results,
     plan: IndexedPlan | None,
     calibration: Calibration | None,
@@ -217,24 +219,19 @@ def _run_on_page(
 ) -> bool:
     """Play the recording on a page; return whether there was anything to play.
 
-    The results are those of `_run_directly`, whatever was played: `results` gets every item once and in order, those
-    that were not played at the end."""
+    The results are those of `_run`, whatever was played: `results` gets every item once and in order, those that were
+    not played at the end."""
     from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scales import newtons_of
     from ..show.page.scene.scene import Scene
 
     items = PackedItems(recording)
-    shown, fault = len(items) > 0, "" if recording.failure is None else str(recording.failure)
-    if shown or not fault:
-        results.open_files()
-    scene = Scene(
-        printable(recording.source.name),
-        session.recipe.name,
-        "recording",
-        plan=None if plan is None else plan.plan,
-        newtons=newtons_of(calibration),
-    )
+    shown, fault = len(items) > 0, str(recording.failure or "")
+    if fault and not shown:
+        return False
+    session = results.session
+    scene = Scene(recording.name, session.recipe.name, "recording", plan=results.plan, newtons=newtons_of(calibration))
     player = Player(items, session, scene, plan, fault=fault, on_events=results.add)
     if shown:
         if fault:

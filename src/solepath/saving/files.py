@@ -78,17 +78,15 @@ class FileReplacements:
     _targets: dict[Path, Path] = field(factory=dict, init=False)
     """Path that each temporary path was made for."""
 
-    def temporary_path(self, path: Path, *, read_only: bool = False) -> Path:
-        """Make an empty file in the directory of `path` and return it; raise OSError, naming `path`, when that fails.
-
-        With `read_only`, a file without write permission is replaced as well, by one without this permission."""
+    def temporary_path(self, path: Path) -> Path:
+        """Make an empty file in the directory of `path` and return it; raise OSError, naming `path`, if that fails."""
         target = Path(os.path.realpath(path))  # a symbolic link stays; the file that it points to is replaced
         exists = target.exists()
         if target.is_dir():
             raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
         if exists and not target.is_file():
             return path
-        if exists and not read_only:
+        if exists:
             target.open("ab").close()
         temporary = target.with_name(f".solepath-{os.urandom(8).hex()}.part")
         self._targets[temporary] = path  # before it exists: Ctrl-C may come between any two lines

@@ -12,7 +12,7 @@ from typing import Any
 
 from solepath.cli.common.closest import unknown
 from solepath.cli.common.failure import Failure, note, recipe_named
-from solepath.cli.common.files import SCORES, OutputFile, add_force, check_outputs, check_writable, write_json
+from solepath.cli.common.files import SCORES, OutputFile, add_force, check_outputs, write_json
 from solepath.cli.common.inputs import add_calibration, add_recipe_name, calibration_of
 from solepath.recipes import DEFAULT, NAMES, by_name
 from solepath.show.tables.progress import progress_bar
@@ -80,8 +80,7 @@ def run(options: argparse.Namespace) -> int:
     scores = None if options.json is None else OutputFile(options.json, SCORES)
     if scores is not None:
         data_sets = folder.glob("*/") if folder is not None else ()
-        check_outputs([scores], [options.compare, options.calibration, *data_sets], force=options.force)
-        check_writable(options.json)
+        check_outputs(options, [scores], *data_sets)
     all_recipes = [by_name(name) for name in NAMES]
     chosen = [recipe_named(name) for name in options.recipe]
     if options.ablation:

@@ -9,15 +9,7 @@ from pathlib import Path
 
 from solepath.cli.common.closest import unknown
 from solepath.cli.common.failure import Failure, parse_count, parse_whole_number, require
-from solepath.cli.common.files import (
-    EXPERIMENT,
-    FIGURE,
-    OutputFile,
-    add_force,
-    check_outputs,
-    check_writable,
-    write_json,
-)
+from solepath.cli.common.files import EXPERIMENT, FIGURE, OutputFile, add_force, check_outputs, write_json
 from solepath.cli.completion import complete_with
 from solepath.recording import printable
 from solepath.saving.files import replace_whole
@@ -78,9 +70,7 @@ def run(options: argparse.Namespace) -> int:
     table = None if options.json is None else OutputFile(options.json, EXPERIMENT)
     picture = None if figure is None else OutputFile(figure, FIGURE)
     outputs = [output for output in (table, picture) if output is not None]
-    check_outputs(outputs, [], force=options.force)
-    for output in outputs:
-        check_writable(output.path)
+    check_outputs(options, outputs)
 
     if options.resume is not None and options.resume.resolve() in [output.path.resolve() for output in outputs]:
         raise Failure(f"{printable(str(options.resume))}: --resume needs a file of its own")

@@ -1,14 +1,13 @@
-"""Opens the Bluetooth that a command uses, receives packets for a time, and turns errors of Bluetooth into Failure."""
+"""Opens the Bluetooth that a command uses, and turns errors of Bluetooth into Failure."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterable, AsyncIterator, Callable, Coroutine
+from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import AsyncExitStack, asynccontextmanager
 from typing import Any
 
 from ...ble import NATIVE, Backend, BluetoothError
-from ...types import Packet
 from ...types.extras import install_hint
 from ..common.failure import Failure
 from ..common.loop import run_to_end
@@ -40,15 +39,3 @@ async def backend_of(via: str | None) -> AsyncIterator[Backend]:
         except (BleakError, ValueError) as error:
             raise Failure(f"--via {via}: {error}") from None
         yield backend
-
-
-async def packets_until(
-    packets: AsyncIterable[Packet], stop: asyncio.Event, seconds: float | None
-) -> AsyncIterator[Packet]:
-    """Yield `packets` until `stop` is set or `seconds` have passed (None: no limit), as checked at each packet."""
-    loop = asyncio.get_running_loop()
-    end = None if seconds is None else loop.time() + seconds
-    async for packet in packets:
-        if stop.is_set() or (end is not None and loop.time() >= end):
-            return
-        yield packet

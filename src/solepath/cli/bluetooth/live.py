@@ -7,11 +7,11 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..common.files import RECORDING, OutputFile, add_force, check_outputs, check_writable, files_of_track
+from ..common.files import RECORDING, OutputFile, add_force, check_outputs, files_of_track
 from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibration_of, floorplan_of, recipe_of
-from ..common.view import add_view, need_page, page_address_of
+from ..common.view import add_view, page_address_of
 from .devices import add_devices, need_bleak
-from .live_streams import need_lsl, run_streams, stream_names_of
+from .live_streams import need_lsl, stream_names_of
 
 
 def add_to(commands: Any) -> None:
@@ -82,30 +82,18 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Receive from the devices; return the exit status."""
     recipe = recipe_of(options)
-    _check_outputs(options)
+    recording = [] if options.record is None else [OutputFile(options.record, RECORDING)]
+    check_outputs(options, [*recording, *files_of_track(options.out, places=options.floorplan is not None)])
     calibration = calibration_of(options)
-    need_page(options, options.view is not None)
     address = page_address_of(options)
     plan, start = floorplan_of(options)
     if stream_names_of(options):
-        return run_streams(options, recipe, calibration)
-    need_bleak()
-    if options.lsl is not None:
-        need_lsl("--lsl needs")
+        need_lsl("streams of LSL need")
+    else:
+        need_bleak()
+        if options.lsl is not None:
+            need_lsl("--lsl needs")
     from .backend import listen_to_end
     from .live_run import listen
 
     return listen_to_end(partial(listen, options, recipe, calibration, plan, start, address))
-
-
-def _check_outputs(options: argparse.Namespace) -> None:
-    """Raise Failure or OSError when a file of --record, `record --out` or --out must not, or cannot, be written.
-
-    Whether the recording can be written is known when it is opened, before the search."""
-    of_out = files_of_track(options.out, places=options.floorplan is not None)
-    recording = [] if options.record is None else [OutputFile(options.record, RECORDING)]
-    check_outputs([*recording, *of_out], [options.calibration, options.floorplan], force=options.force)
-    if options.out is not None:
-        options.out.mkdir(parents=True, exist_ok=True)
-    for output in of_out:
-        check_writable(output.path)

@@ -5,33 +5,51 @@ from __future__ import annotations
 import argparse
 import asyncio
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import AsyncExitStack, contextmanager
+from collections import deque
+from collections.abc import AsyncIterable, AsyncIterator, Callable, Iterator
+from contextlib import AsyncExitStack, asynccontextmanager, contextmanager
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
 
-from attrs import define
+from attrs import define, field
 
 from ...ble import Devices, scan
+from ...ble.record import start_keys
 from ...calibration import Calibration
 from ...events import Event
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ...recipes import Recipe
-from ...recording import printable
+from ...recording import PacketWriter, RecordingError, printable
 from ...session import Session
+from ...show.output import TrackFiles
 from ...show.page.body import LiveBody, legs_of
 from ...show.page.live_commands import position_of
 from ...show.page.scene.scales import newtons_of
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
-from ...types import Packet
+from ...types import Packet, Sample
 from ...walk.walk import Walk
 from ..common.failure import Failure, is_installed, note
 from ..common.loop import unless_stopped
+from ..common.os_errors import file_error_text, in_words
 from ..common.own_devices import drivers_of
 from ..common.view import PageAddress, serve_page
-from .backend import backend_of, packets_until
+from .backend import backend_of
 from .devices import SCAN_TIME, choose_devices, listening_time, named_devices
-from .live_files import LiveFiles
+from .live_streams import stated, stream_names_of
+
+if TYPE_CHECKING:
+    from ...recording.lsl.outlet import LslOutlets
+    from ...show.page.messages import Command
+
+MAX_HELD = 10_000
+"""Largest number of packets that are kept before a sensor sends: a quarter of an hour of ticks."""
+POLL_INTERVAL = 0.005
+"""Time between two looks into the queues of streams, s: half of an interval at 100 Hz."""
+REPORT_INTERVAL = 5.0
+"""Time between two reports when the state is printed as lines, s; chosen by hand."""
 
 
 async def listen(
@@ -44,59 +62,71 @@ async def listen(
     stop: asyncio.Event,
 ) -> int:
     """Receive until `stop` is set or the time is over; return the exit status."""
-    drivers = drivers_of(options)
-    devices = named_devices(options, drivers)
     session = Session(
         recipe,
         calibration=calibration,
         poses=True,
         pressures=address is not None,
-        profiles=drivers,
+        profiles=drivers_of(options),
         floorplan=plan,
         start=start,
     )
-    walk = Walk()
-    scene: Scene | None = None
+    walk, floor = Walk(), None if plan is None else plan.plan
+    collector: Walk | Scene = walk
     async with AsyncExitStack() as stack:
-        files = LiveFiles(options.record, options.out, places=plan is not None, force=options.force)
-        stack.callback(files.discard)
+        files = LiveFiles(options.record, options.out, places=plan is not None, replace=options.force)
+        stack.callback(files.close)
         seconds = listening_time(options)
+        loop = asyncio.get_running_loop()
         async with unless_stopped(stop):
-            backend = await stack.enter_async_context(backend_of(options.via))
-            if not devices:
-                print(f"looking for sensors for {SCAN_TIME:g} s ...", flush=True)
-                devices = choose_devices(await scan(SCAN_TIME, backend=backend), options.profile, drivers)
-            connections = Devices(devices, backend=backend, pair=options.pair, profiles=drivers)
-            packets = await stack.enter_async_context(connections)
-        publish = _publisher_of(options, session)
+            items: AsyncIterable[Packet | Sample | None]
+            if stream_names_of(options):
+                offset, items = await stack.enter_async_context(_stream_items(options))
+            else:
+                offset, items = None, await _connect(options, stack)
+        outlets = None if options.lsl is None else _outlets(options.lsl, offset)
+        publish = _publisher_of(outlets, session)
         if address is not None:
-            floor_plan, newtons = None if plan is None else plan.plan, newtons_of(calibration)
-            scene = Scene("Live", recipe.name, "live", plan=floor_plan, newtons=newtons, walk=walk)
-            scene.body = LiveBody(lambda: legs_of(session))
-            await stack.enter_async_context(
-                serve_page(scene, address, lambda command: packets.report_position(position_of(command, floor_plan)))
-            )
-        live = LiveSession(session, walk if scene is None else scene, files, publish)
-        end_hint = "Ctrl-C ends" if seconds is None else f"{seconds:g} s"
+            collector = Scene("Live", recipe.name, "live", plan=floor, newtons=newtons_of(calibration), walk=walk)
+            collector.body = LiveBody(lambda: legs_of(session))
+
+            def report_position(command: Command) -> None:
+                if isinstance(items, Devices):
+                    items.report_position(position_of(command, floor))
+
+            await stack.enter_async_context(serve_page(collector, address, report_position))
+        end = None if seconds is None else loop.time() + seconds
+
+        def take(item: Packet | Sample | None) -> None:
+            events = session.finish() if item is None else session.feed(item)
+            files.take(item, events)
+            collector.take(item, events)
+            publish(events)
+
         try:
-            with show_state(walk, end_hint) as report:
-                async for packet in packets_until(packets, stop, seconds):
-                    live.take(packet)
-                    report()
-                    if files.failure is not None:
+            with show_state(walk, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
+                async for item in items:
+                    if stop.is_set() or (end is not None and loop.time() >= end) or files.failure is not None:
                         break
+                    if item is not None:
+                        take(item)
+                        report()
         except asyncio.CancelledError:
             note("interrupted")
         finally:
-            live.finish()
+            take(None)
+            files.close()
     print(summary(walk, title=f"recipe {recipe.name}", seconds=0.0))  # 0: no line on the speed
     if plan is not None:
         print("\n".join(place_lines(walk.places)))
+    if outlets is not None:
+        print("published: " + ", ".join([f"{count} in {options.lsl} {name}" for name, count in outlets.sent.items()]))
+        outlets.close()
     if files.failure is not None:
         raise Failure(files.failure)
-    if files.unchanged:
-        names = " and ".join([printable(str(path)) for path in files.unchanged])
-        raise Failure(f"no sensor sent anything: {names} {'is' if len(files.unchanged) == 1 else 'are'} unchanged")
+    names = [printable(str(path)) for path in (options.record, options.out) if path is not None]
+    if names and not files.is_started:
+        raise Failure(f"no sensor sent anything: {' and '.join(names)} {'is' if len(names) == 1 else 'are'} unchanged")
     if options.record:
         print(f"recorded in {printable(str(options.record))}")
     if options.out:
@@ -104,49 +134,138 @@ async def listen(
     return 0
 
 
-@define
-class LiveSession:
-    """A session that is shown and written while it runs: `collector` and `files` get its packets and events."""
-
-    session: Session
-    collector: Walk | Scene
-    files: LiveFiles
-    publish: Callable[[list[Event]], None] | None = None
-    """Function that gets the events after each packet."""
-
-    def take(self, packet: Packet) -> None:
-        """Feed the next packet to the session; write and show the packet and its events."""
-        self.files.write_packet(packet)
-        self._show(packet, self.session.feed(packet))
-
-    def finish(self) -> None:
-        """Finish the session, write and show its last events, and close the files."""
-        self._show(None, self.session.finish())
-        self.files.close()
-
-    def _show(self, packet: Packet | None, events: list[Event]) -> None:
-        self.collector.take(packet, events)
-        for event in events:
-            self.files.write_event(event)
-        if self.publish is not None:
-            self.publish(events)
+async def _connect(options: argparse.Namespace, stack: AsyncExitStack) -> Devices:
+    """Return the connections to the devices that the options name, or to those that are in range."""
+    drivers = drivers_of(options)
+    configs = named_devices(options, drivers)
+    backend = await stack.enter_async_context(backend_of(options.via))
+    if not configs:
+        print(f"looking for sensors for {SCAN_TIME:g} s ...", flush=True)
+        configs = choose_devices(await scan(SCAN_TIME, backend=backend), options.profile, drivers)
+    return await stack.enter_async_context(Devices(configs, backend=backend, pair=options.pair, profiles=drivers))
 
 
-def _publisher_of(options: argparse.Namespace, session: Session) -> Callable[[list[Event]], None] | None:
-    """Return the function that publishes samples, poses and events as --lsl says; None without --lsl."""
-    if options.lsl is None:
-        return None
+@asynccontextmanager
+async def _stream_items(options: argparse.Namespace) -> AsyncIterator[tuple[float, AsyncIterator[Sample | None]]]:
+    """Yield the time of LSL at which all streams are open, and their samples, with None while none comes."""
+    from pylsl import local_clock
+
+    from ...recording.lsl.inlet import LslError, LslInlet
+
+    inlets: list[LslInlet] = []
+
+    async def samples() -> AsyncIterator[Sample | None]:
+        while True:
+            for sample in sorted([one for inlet in inlets for one in inlet.pull()], key=lambda one: one.t):
+                yield sample
+            yield None
+            await asyncio.sleep(POLL_INTERVAL)
+
+    channels, units = stated(options)
+    try:
+        for site, name in stream_names_of(options).items():
+            inlets.append(await asyncio.to_thread(partial(LslInlet, site, name, channels=channels, units=units)))
+        start = local_clock()  # times of the session count from here
+        for inlet in inlets:
+            inlet.pull()
+            inlet.offset = start
+        yield start, samples()
+    except LslError as error:
+        raise Failure(str(error)) from None
+    for inlet in inlets:
+        if not inlet.received:
+            note(f"the stream {inlet.name!r} sent nothing")
+        inlet.close()
+
+
+def _outlets(name: str, offset: float | None) -> LslOutlets:
+    """Return the streams that publish a session; `offset` is that of a session whose samples are streams already."""
     from ...recording.lsl.clock import clock_offset
     from ...recording.lsl.outlet import LslOutlets
+
+    if offset is not None:
+        return LslOutlets(offset, name, with_samples=False)
+    return LslOutlets(clock_offset(asyncio.get_running_loop().time), name)
+
+
+def _publisher_of(outlets: LslOutlets | None, session: Session) -> Callable[[list[Event]], None]:
+    """Return the function that publishes samples, poses and events."""
+    if outlets is None:
+        return lambda events: None
     from ...recording.posed import PosedSession
 
-    outlets = LslOutlets(clock_offset(asyncio.get_running_loop().time), options.lsl)
     posed = PosedSession(session)
     return lambda events: outlets.push(posed.take(), events)
 
 
-REPORT_INTERVAL = 5.0
-"""Time between two reports when the state is printed as lines, s; chosen by hand."""
+@define
+class LiveFiles:
+    """The files that are written while a session runs; `failure` says why writing has failed, None while it works.
+
+    The recording is locked from the start. Files of an earlier run are replaced when a sensor sends its first packet,
+    not by what the receiver itself reports."""
+
+    record: Path | None
+    out: Path | None
+    places: bool
+    """True for a session with a floor plan."""
+    replace: bool
+    """True if an earlier recording may be replaced."""
+    failure: str | None = field(default=None, init=False)
+    is_started: bool = field(default=False, init=False)
+    """Flag: a sensor has sent something."""
+    _packets: PacketWriter | None = field(default=None, init=False)
+    _events: TrackFiles | None = field(default=None, init=False)
+    _held: deque[tuple[Packet | Sample | None, list[Event]]] = field(factory=lambda: deque(maxlen=MAX_HELD), init=False)
+    """What was not written, because no sensor has sent anything."""
+
+    def __attrs_post_init__(self) -> None:
+        """Open and lock the recording; raise Failure when it cannot be opened."""
+        if self.record is not None:
+            try:
+                self._packets = PacketWriter(self.record, start_keys(), replace=self.replace)
+            except RecordingError as error:
+                raise Failure(in_words(error)) from None
+
+    def take(self, item: Packet | Sample | None, events: list[Event]) -> None:
+        """Write an item and its events."""
+        self._held.append((item, events))
+        if isinstance(item, Sample) or isinstance(item, Packet) and not item.channel.startswith("receiver/"):
+            self.is_started = True
+        if self.is_started and self.failure is None:
+            with self._reported():
+                self._write()
+
+    def _write(self) -> None:
+        if self._events is None and self.out is not None:
+            self._events = TrackFiles(self.out, places=self.places)
+        while self._held:
+            item, events = self._held.popleft()
+            if self._packets is not None and isinstance(item, Packet):
+                self._packets.write(item)
+            if self._events is not None:
+                for event in events:
+                    self._events.write(event)
+
+    @contextmanager
+    def _reported(self) -> Iterator[None]:
+        """Let `failure` have the first error of writing."""
+        try:
+            yield
+        except (RecordingError, OSError) as error:
+            text = in_words(error) if isinstance(error, RecordingError) else file_error_text(error)
+            self.failure = self.failure or text
+
+    def close(self) -> None:
+        """Close all files; those for which nothing came stay as they were."""
+        packets, events, self._packets, self._events = self._packets, self._events, None, None
+        if packets is not None and not self.is_started:
+            packets.discard()
+            packets = None
+        for file in (packets, events):
+            with self._reported():
+                if file is not None:
+                    file.close()
 
 
 @contextmanager

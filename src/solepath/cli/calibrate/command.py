@@ -12,7 +12,7 @@ from ...calibration.records import merged
 from ...recording import printable
 from ...saving.files import identity
 from ..common.failure import Failure
-from ..common.files import CALIBRATION, OutputFile, check_outputs, check_writable
+from ..common.files import CALIBRATION, OutputFile, check_outputs
 from .kinds import KINDS
 
 MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stays."
@@ -41,9 +41,7 @@ def run(options: argparse.Namespace) -> int:
 
     if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # a folder gets an OSError
         raise Failure(f"{options.out}: is no regular file")
-    inputs = [*getattr(options, "files", []), getattr(options, "file", None), getattr(options, "marks", None)]
-    check_outputs([OutputFile(options.out, CALIBRATION)], inputs, force=False)
-    check_writable(options.out)
+    check_outputs(options, [OutputFile(options.out, CALIBRATION)])
     with progress_bar("calibrating") if not getattr(options, "live", False) else nullcontext():
         learnt, lines = options.learn(options, _read(options.out))
     while not _try_to_complete(options.out, learnt):

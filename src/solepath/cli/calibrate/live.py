@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..bluetooth.devices import need_bleak
 from ..common.failure import Failure
-from ..common.files import Kind, OutputFile, check_outputs, check_writable
+from ..common.files import Kind, OutputFile, check_outputs
 
 if TYPE_CHECKING:
     import asyncio
@@ -28,8 +28,7 @@ def check_live(options: argparse.Namespace, kind: Kind, purpose: str) -> None:
     `kind` is that of the file, and `purpose` the command with what it needs a person for."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise Failure(f"{purpose}: it needs a terminal")
-    check_outputs([OutputFile(options.file, kind)], [options.out], force=options.force)
-    check_writable(options.file)
+    check_outputs(options, [OutputFile(options.file, kind)], options.out)
     need_bleak()
 
 

@@ -12,7 +12,7 @@ from ...calibration import Calibration
 from ..bluetooth.devices import add_feet
 from ..common.failure import parse_count, parse_positive
 from ..common.files import Kind, add_force
-from ..common.view import add_view, need_page, page_address_of
+from ..common.view import add_view, page_address_of
 from .live import check_live, reject_live_options, run_live
 
 TIMES = 3
@@ -70,7 +70,6 @@ def _shoe(options: argparse.Namespace, known: Calibration) -> tuple[Calibration,
 def _measure(options: argparse.Namespace) -> None:
     """Write the file of postures, measured with a person at the terminal; raise SystemExit when that was stopped."""
     check_live(options, MEASUREMENTS, "calibrate shoe --live asks a person for what the rulers show")
-    need_page(options, options.view is not None)
     address = page_address_of(options)
     from .shoe_live import measure
 

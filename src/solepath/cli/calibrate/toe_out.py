@@ -15,7 +15,7 @@ from ..common.failure import Failure, parse_positive
 from ..common.files import RECORDING, add_force
 from ..common.inputs import add_foot, foot_of, source_of
 from ..common.own_devices import add_own_devices, drivers_of
-from ..common.view import add_view, need_page, page_address_of
+from ..common.view import add_view, page_address_of
 from .live import check_live, reject_live_options, run_live
 
 OF_LIVE = ("via", "left", "right", "profile", "pair", "view", "no_browser")
@@ -86,7 +86,6 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> tuple[Calibrati
 def _measure(options: argparse.Namespace) -> None:
     """Write the recording, walked by a person at the terminal; raise SystemExit when that was stopped."""
     check_live(options, RECORDING, "calibrate toe-out --live shows a person how to walk")
-    need_page(options, options.view is not None)
     address = page_address_of(options)
     from .toe_out_live import measure
 

@@ -11,15 +11,16 @@ import argparse
 import json
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from itertools import combinations
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from attrs import field, frozen
 
 from ...recording import printable
-from ...saving.files import FileReplacements, identity, write_whole
+from ...saving.files import FileReplacements, identity, replace_whole
 from ...saving.lock import LOCKED, locked
 from ...show.output import (
     CYCLE_COLUMNS,
@@ -36,6 +37,9 @@ from ...show.output import (
 from .failure import Failure
 from .run_file import RUN_FILE
 
+T = TypeVar("T")
+WRITTEN = {"out", "record", "report", "json", "figure", "resume", "dir"}
+"""Options that name files to be written, or a folder of folders that are read."""
 MAX_START = 1_000_000
 """Number of bytes of an existing file that are looked at, which say what it is."""
 
@@ -114,6 +118,14 @@ class OutputFile:
         if identity(self.path) != self._found and self.path.is_file() and not self.kind.is_own(self.path):
             raise Failure(f"{printable(str(self.path))}: another program wrote it meanwhile, so that it stays")
 
+    def replace(self, write: Callable[[Path], T]) -> T:
+        """Replace the file by what `write` writes to the path that it is given, once that is whole; return its result.
+
+        Raise OSError or Failure when it cannot be written."""
+        results: list[T] = []
+        replace_whole(self.path, lambda path: results.append(write(path)), lambda _: self.check_again())
+        return results[0]
+
 
 def replacements(outputs: Iterable[OutputFile]) -> FileReplacements:
     """Return what replaces these files at the end, each after another check."""
@@ -146,11 +158,15 @@ def files_of_track(
     return [OutputFile(out / name, kind) for name, kind in kinds.items()]
 
 
-def check_outputs(outputs: Sequence[OutputFile], inputs: Iterable[Path | None], *, force: bool) -> None:
-    """Check that no output is an input, another output, being recorded, or replaced with `force` only.
+def check_outputs(options: argparse.Namespace, outputs: Sequence[OutputFile], *inputs: Path) -> None:
+    """Check that no output is an input, another output, being recorded, not writable, or replaced with --force only.
 
-    A directory among `inputs` stands for the files in it. No file is changed. Raise Failure, with one sentence."""
-    read = [path for given in inputs if given is not None for path in _files_in(given)]
+    Inputs are all paths among the options, but those of options that name outputs, and `inputs`; a directory stands for
+    the files in it. No file is changed. Raise Failure, with one sentence, or OSError."""
+    written = {*WRITTEN, "file"} if getattr(options, "live", False) else WRITTEN
+    given = [value for name, value in vars(options).items() if name not in written]
+    given += [one for value in given if isinstance(value, list) for one in value]
+    read = [path for one in (*given, *inputs) if isinstance(one, Path) for path in _files_in(one)]
     for output in outputs:
         if any(_is_same(output.path, path) for path in read):
             raise Failure(f"{printable(str(output.path))}: is what this command reads; write to another file")
@@ -158,21 +174,18 @@ def check_outputs(outputs: Sequence[OutputFile], inputs: Iterable[Path | None], 
         if _is_same(one.path, other.path):
             raise Failure(f"{printable(str(other.path))}: two outputs cannot be one file")
     for output in outputs:
-        _check_unlocked(output.path)
-    for output in () if force else outputs:
-        if output.path.is_file() and not output.kind.is_own(output.path):
-            why = "exists" if output.kind.start is None else "exists and is no such file that solepath wrote"
-            raise Failure(f"{printable(str(output.path))}: {why}; --force replaces it")
-
-
-def _check_unlocked(path: Path) -> None:
-    """Raise Failure when another program records into a file."""
-    if path.is_file():
-        try:
-            with locked(path):
-                pass
-        except BlockingIOError:
-            raise Failure(f"{printable(str(path))}: {LOCKED}") from None
+        path, kind = output.path, output.kind
+        if path.is_file():
+            try:
+                with locked(path):
+                    pass
+            except BlockingIOError:
+                raise Failure(f"{printable(str(path))}: {LOCKED}") from None
+            if not getattr(options, "force", False) and not kind.is_own(path):
+                why = "exists" if kind.start is None else "exists and is no such file that solepath wrote"
+                raise Failure(f"{printable(str(path))}: {why}; --force replaces it")
+    for output in outputs:
+        _check_writable(output.path, getattr(options, "out", None))
 
 
 def _files_in(path: Path) -> list[Path]:
@@ -186,22 +199,20 @@ def _is_same(one: Path, other: Path) -> bool:
     return one.is_file() and other.exists() and os.path.samefile(one, other)
 
 
-def check_writable(path: Path, made: Path | None = None) -> None:
+def _check_writable(path: Path, made: Path | None) -> None:
     """Check that a file can be written, without changing its contents; raise OSError when it cannot.
 
-    `made` is a directory that will be made, with those above it, before the file is written."""
-    if made is not None and not path.parent.exists() and Path(_real(made)).is_relative_to(_real(path.parent)):
-        return
-    if not path.exists():
-        try:
-            path.open("xb").close()
-        except FileExistsError:
-            pass  # another program made it just now
-        else:
-            path.unlink()
+    `made` is a directory that will be made, with those above it and in it, before the file is written."""
+    if made not in (None, path) and not path.parent.exists():
+        one, other = Path(_real(made)), Path(_real(path.parent))
+        if one.is_relative_to(other) or other.is_relative_to(one):
             return
     if path.is_file() or path.is_dir():  # closing would end a pipe
         path.open("ab").close()
+    elif not path.exists():
+        with suppress(FileExistsError):  # another program made it just now
+            path.open("xb").close()
+            path.unlink()
 
 
 def _real(path: Path) -> str:
@@ -211,4 +222,4 @@ def _real(path: Path) -> str:
 def write_json(output: OutputFile, value: Any) -> None:
     """Write a value as indented JSON, whole or not at all; raise OSError or Failure when it cannot be written."""
     text = json.dumps(value, indent=1, allow_nan=False) + "\n"
-    write_whole(output.path, text, lambda _: output.check_again())
+    output.replace(lambda path: path.write_text(text, encoding="utf-8", newline="\n"))

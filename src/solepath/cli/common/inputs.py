@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import isfinite, nan, radians
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ...floorplan.plan import Start
     from ...link.driver import Driver
     from ...recipes import Recipe
+    from ...recording.btsnoop import BtsnoopLog
 
 
 def add_foot(command: argparse.ArgumentParser) -> None:
@@ -141,6 +142,26 @@ def source_of(
         source = open_source(files, foot, mapping=mapping, report=note)
     source.own_kinds = make_kinds(own)
     return source
+
+
+class Recording:
+    """The items of a recording up to the first fault, which `failure` then holds, with a line of progress."""
+
+    def __init__(self, source: Source | BtsnoopLog) -> None:
+        self.source = source
+        self.name = printable(source.name if isinstance(source, Source) else source.path.name)
+        self.failure: RecordingError | None = None
+
+    def __iter__(self) -> Iterator[Any]:
+        from ...show.tables.progress import progress_bar
+
+        with progress_bar(self.name, self.source.total) as show:
+            try:
+                for item in self.source:
+                    yield item
+                    show(self.source.done)
+            except RecordingError as error:
+                self.failure = error
 
 
 def assumed_foot(source: Source) -> str | None:

@@ -1,11 +1,12 @@
-"""Writes the results of `solepath track`: summary, files, picture of the floor plan, report."""
+"""Feeds a session, and writes the results of `solepath track`: files, picture of the plan, report."""
 
 from __future__ import annotations
 
-import json
+from argparse import Namespace
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from time import perf_counter
 from typing import TYPE_CHECKING
 
 from attrs import define, field
@@ -14,15 +15,16 @@ from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recording import printable
 from ...saving.files import FileReplacements
+from ...session import Session
 from ...show.output import PLAN_FILE, TrackFiles, os_errors_naming
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
 from ...walk.walk import Walk
-from .failure import Failure, note
+from .failure import Failure
 from .files import OutputFile, replacements
 from .own_devices import UnusedPackets
-from .run_file import RUN_FILE, Run
+from .run_file import RUN_FILE, write_run
 
 if TYPE_CHECKING:
     from ...show.outcomes.clinic import OutcomeRequest
@@ -31,109 +33,97 @@ if TYPE_CHECKING:
 
 @define
 class Results:
-    """The results of one recording, which are collected and written at the end.
+    """The results of one recording with one recipe, which are collected and written at the end.
 
     `out` is the directory of the files, `report` the file of the report; what is None is not written. Every method
-    raises OSError when something cannot be written. Files of an earlier run stay as they were until `write_and_print`
-    replaces them by complete ones."""
+    raises OSError when something cannot be written. Files of an earlier run stay as they were until `write` replaces
+    all of them by complete ones. Leaving the context removes what was not completed."""
 
+    session: Session
     title: str
     out: Path | None = None
     report: Path | None = None
     contents: Report | None = None
-    """The report, as its options describe it; None without `report`."""
+    """The report, as its options describe it; None without one."""
     plan: FloorPlan | None = None
     outputs: Sequence[OutputFile] = ()
     """All files of `out`, and `report`, as they were before the run."""
     outcomes: OutcomeRequest | None = None
     """Clinical outcomes; None without any."""
     unused: UnusedPackets = field(factory=UnusedPackets)
-    run: Run | None = None
-    """What run.json says of the run; None without this file."""
+    options: Namespace | None = None
+    """Options of the command, for run.json; None without this file."""
     walk: Walk = field(factory=Walk, init=False)
+    seconds: float = field(default=0.0, init=False)
+    """Wall time that `feed` took, s."""
     _files: TrackFiles | None = field(default=None, init=False)
-    _open: ExitStack = field(factory=ExitStack, init=False)
-    _file_replacements: FileReplacements = field(init=False)
-    _report_replacement: FileReplacements = field(init=False)
-    _picture_path: Path | None = field(default=None, init=False)
     _report_path: Path | None = field(default=None, init=False)
+    _replacements: FileReplacements = field(init=False)
+    _stack: ExitStack = field(factory=ExitStack, init=False)
 
     def __attrs_post_init__(self) -> None:
-        self._file_replacements, self._report_replacement = replacements(self.outputs), replacements(self.outputs)
+        self._replacements = replacements(self.outputs)
+        self._stack.callback(self._replacements.discard)
         if self.out is not None or self.outcomes is not None:
             self.walk.limit = None
         if self.contents is not None:
             self.contents.walk, self.contents.outcomes = self.walk, self.outcomes
 
-    def open_files(self) -> None:
-        """Open the files, if they are not open."""
-        if self._files is None and self.out is not None:
-            self._files = TrackFiles(
-                self.out, places=self.plan is not None, path_to_write=self._file_replacements.temporary_path
-            )
-            self._open.callback(self._files.close)
-            if self.plan is not None:
-                self._picture_path = self._file_replacements.temporary_path(self.out / PLAN_FILE)
-        if self._report_path is None and self.report is not None:
-            self._report_path = self._report_replacement.temporary_path(self.report)
+    def feed(self, item: Packet | Sample | None) -> None:
+        """Feed an item to the session, or None at the end of the recording."""
+        start = perf_counter()
+        self.add(item, self.session.finish() if item is None else self.session.feed(item))
+        self.seconds += perf_counter() - start
 
     def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
-        """Add a packet or sample and its events, or None and the last events at the end of the recording."""
+        """Add a packet or sample and its events, or None and the last events; the first one opens the files."""
+        if self._files is None and self.out is not None:
+            self._files = TrackFiles(self.out, self.plan is not None, self._replacements.temporary_path)
+            self._stack.callback(self._files.close)
+        if self._report_path is None and self.report is not None:
+            self._report_path = self._replacements.temporary_path(self.report)
         self.walk.take(item, events)
         self.unused.take(item, events)
         if self._files is not None:
             for event in events:
                 self._files.write(event)
 
-    def write_files(self) -> list[str]:
-        """Complete the files of `out`; return the lines of the clinical outcomes.
+    def write(self) -> list[str]:
+        """Complete files and report; return the lines of the summary.
 
         Raises Failure, and writes nothing, if no packet of the recording could be used."""
-        self._open.close()
         if self.unused.is_all:
             raise Failure(f"{self.title}: {'; '.join(self.unused.sentences())}")
-        if self.plan is not None and self._picture_path is not None and self.out is not None:
-            with os_errors_naming(self.out):
-                PlanPicture(self.plan, self.walk.placed).write(self._picture_path, self.title)
-        results = None if self.outcomes is None else self.outcomes.results(self.walk)
-        if results is not None and self.out is not None:
-            from ...show.outcomes.files import BOUTS_FILE, OUTCOMES_FILE, write_bouts, write_outcomes
-
-            with os_errors_naming(self.out):
-                write_bouts(results, self._file_replacements.temporary_path(self.out / BOUTS_FILE))
-                write_outcomes(results, self._file_replacements.temporary_path(self.out / OUTCOMES_FILE))
-        if self.run is not None and self.out is not None:
-            with os_errors_naming(self.out):
-                content = json.dumps(self.run.describe(self.walk), indent=1, allow_nan=False)
-                self._file_replacements.temporary_path(self.out / RUN_FILE).write_text(content + "\n", encoding="utf-8")
-        self._file_replacements.move_to_targets()
-        return [] if self.outcomes is None or results is None else self.outcomes.lines(results)
-
-    def write_and_print(self, seconds: float) -> None:
-        """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
-        clinical_lines = self.write_files()
-        print(summary(self.walk, title=self.title, seconds=seconds))
+        lines = [summary(self.walk, title=self.title, seconds=self.seconds)]
         if self.plan is not None:
-            print("\n".join(place_lines(self.walk.places)))
-        if clinical_lines:
-            print("\n".join(clinical_lines))
-        if self.out is not None:
-            print(f"written to {printable(str(self.out))}")
+            lines += place_lines(self.walk.places)
+        found = None if self.outcomes is None else self.outcomes.results(self.walk)
+        if self.outcomes is not None and found is not None:
+            lines += self.outcomes.lines(found)
+        if self._files is not None and self.out is not None:
+            self._files.close()
+            with os_errors_naming(self.out):
+                if self.plan is not None:
+                    picture = PlanPicture(self.plan, self.walk.placed)
+                    picture.write(self._replacements.temporary_path(self.out / PLAN_FILE), self.title)
+                if self.options is not None:
+                    run = self._replacements.temporary_path(self.out / RUN_FILE)
+                    write_run(run, self.session.recipe, self.walk, self.options)
+                if found is not None:
+                    from ...show.outcomes.files import BOUTS_FILE, OUTCOMES_FILE, write_bouts, write_outcomes
+
+                    write_bouts(found, self._replacements.temporary_path(self.out / BOUTS_FILE))
+                    write_outcomes(found, self._replacements.temporary_path(self.out / OUTCOMES_FILE))
+            lines.append(f"written to {printable(str(self.out))}")
         if self.contents is not None and self._report_path is not None and self.report is not None:
             with os_errors_naming(self.report):
                 self.contents.write(self._report_path)
-            self._report_replacement.move_to_targets()
-            print(f"report in {printable(str(self.report))}")
-        for sentence in self.unused.sentences():
-            note(sentence)
+            lines.append(f"report in {printable(str(self.report))}")
+        self._replacements.move_to_targets()
+        return lines
 
     def __enter__(self) -> Results:
         return self
 
     def __exit__(self, *error: object) -> None:
-        """Close the files and remove temporary ones that were not moved to their targets."""
-        try:
-            self._open.close()
-        finally:
-            self._file_replacements.discard()
-            self._report_replacement.discard()
+        self._stack.close()

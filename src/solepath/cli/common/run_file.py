@@ -8,13 +8,10 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Sequence
 from hashlib import file_digest, sha256
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
-
-from attrs import frozen
 
 from ...recipes import Recipe
 from ...saving import codec
@@ -23,44 +20,33 @@ from ...walk.links import LinkLedger
 from ...walk.walk import Walk
 
 RUN_FILE = "run.json"
+WITHOUT_EFFECT = {"command", "out", "report", "force", "view", "no_browser", "speed"}
+"""Options that say where results are written and shown, which do not depend on them."""
 
 
-@frozen
-class Run:
-    """What a run of `solepath track` was made with."""
-
-    recipe: Recipe
-    inputs: Sequence[Path]
-    """Files that were read: recordings, calibration, mapping, floor plan."""
-    options: dict[str, Any]
-
-    def describe(self, walk: Walk) -> dict[str, Any]:
-        """Return the content of run.json for what the walk has counted."""
-        recipe = json.dumps(codec.save(self.recipe), sort_keys=True)
-        return {
-            "solepath": version("solepath"),
-            "recipe": self.recipe.name,
-            "recipe_sha256": sha256(recipe.encode()).hexdigest(),
-            "inputs": [{"name": path.name, "sha256": _digest(path)} for path in self.inputs if path.is_file()],
-            "options": self.options,
-            "sites": {site.value: _figures(link) for site, link in site_links(walk)},
-            "findings": [
-                {"code": defect.name.lower(), "site": site.value, "text": found.what}
-                for (site, defect), found in walk.found_defects.items()
-            ],
-        }
+def write_run(path: Path, recipe: Recipe, walk: Walk, options: argparse.Namespace) -> None:
+    """Write run.json of a recording that was run with this recipe, from what the walk has counted."""
+    settings = json.dumps(codec.save(recipe), sort_keys=True)
+    inputs = [*options.files, options.mapping, options.calibration, options.floorplan]
+    content = {
+        "solepath": version("solepath"),
+        "recipe": recipe.name,
+        "recipe_sha256": sha256(settings.encode()).hexdigest(),
+        "inputs": [{"name": one.name, "sha256": _digest(one)} for one in inputs if one is not None and one.is_file()],
+        "options": _given(options),
+        "sites": {site.value: _figures(link) for site, link in site_links(walk)},
+        "findings": [
+            {"code": defect.name.lower(), "site": site.value, "text": found.what}
+            for (site, defect), found in walk.found_defects.items()
+        ],
+    }
+    path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 
-def given_options(options: argparse.Namespace) -> dict[str, Any]:
-    """Return the options that a person gave a command, as JSON has them; files are given by their names."""
-    given = {name: value for name, value in vars(options).items() if value not in (None, False, [], ())}
-    return {name: _plain(value) for name, value in sorted(given.items()) if name != "command" and not callable(value)}
-
-
-def inputs_of(options: argparse.Namespace) -> list[Path]:
-    """Return the files that a command reads: recordings, mapping, calibration, floor plan."""
-    given = [*options.files, options.mapping, options.calibration, options.floorplan]
-    return [path for path in given if path is not None]
+def _given(options: argparse.Namespace) -> dict[str, Any]:
+    """Return the options that a person gave, as JSON has them; files are given by their names."""
+    given = {name: value for name, value in sorted(vars(options).items()) if value not in (None, False, [], ())}
+    return {name: _plain(value) for name, value in given.items() if not (name in WITHOUT_EFFECT or callable(value))}
 
 
 def _plain(value: Any) -> Any:

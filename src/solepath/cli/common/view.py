@@ -54,18 +54,15 @@ def add_speed(command: argparse.ArgumentParser, default: str) -> None:
     command.add_argument("--speed", metavar="X", type=parse_positive, help=f"times real time (default: {default})")
 
 
-def need_page(options: argparse.Namespace, has_page: bool) -> None:
-    """Raise Failure for an option of the page if there is no page."""
-    for name in ("speed", "no_browser"):
-        if not has_page and getattr(options, name, None):
-            raise Failure(f"--{name.replace('_', '-')} is for the page: it goes with --view")
-
-
 def page_address_of(options: argparse.Namespace) -> PageAddress | None:
     """Return the address of --view, None without it.
 
-    Failure is raised when it is malformed or in use, or when aiohttp is not installed."""
+    Failure is raised when it is malformed or in use, when aiohttp is not installed, or for an option of the page
+    without --view."""
     if options.view is None:
+        for name in ("speed", "no_browser"):
+            if getattr(options, name, None):
+                raise Failure(f"--{name.replace('_', '-')} is for the page: it goes with --view")
         return None
     browser = sys.stdout.isatty() and not options.no_browser
     if options.view == "":

@@ -8,7 +8,7 @@ from math import degrees, radians
 import numpy as np
 
 from ....types.vector import GRAVITY
-from .fit import ACC, ACC_BIAS, GYRO, SYMMETRIC, Fit
+from .fit import ACC, ACC_BIAS, BASIS, COLUMNS, GYRO, ROWS, Fit
 from .pauses import Floats
 
 LARGEST_SCALE_SIGMA, LARGEST_AXIS_SIGMA, LARGEST_BIAS_SIGMA = 0.005, radians(0.5), 0.1
@@ -23,10 +23,7 @@ AXES = "xyz"
 def sigmas(fit: Fit) -> tuple[Floats, Floats, Floats]:
     """Return standard deviations of A, (3, 3), of a, m/s^2, (3), and of G, (3, 3)."""
     sigma = np.sqrt(np.diag(fit.covariance))
-    acc = np.zeros((3, 3))
-    for value, (i, j) in zip(sigma[ACC], SYMMETRIC, strict=True):
-        acc[i, j] = acc[j, i] = value
-    return acc, sigma[ACC_BIAS], sigma[GYRO].reshape(3, 3)
+    return np.tensordot(sigma[ACC], BASIS, 1), sigma[ACC_BIAS], sigma[GYRO].reshape(3, 3)
 
 
 def open_questions(fit: Fit) -> list[str]:
@@ -67,18 +64,12 @@ def missing_orientation(fit: Fit) -> str:
 
     It is the one after which the variances, each divided by the square of the largest standard deviation that is good
     enough, have the least sum."""
-    covariance = fit.covariance[:9, :9]
     limits = np.array([LARGEST_SCALE_SIGMA] * 3 + [LARGEST_AXIS_SIGMA] * 3 + [LARGEST_BIAS_SIGMA] * 3)
-    best: tuple[int, ...] = ()
-    best_gain = -1.0
-    for signs in product((0, 1, -1), repeat=3):
-        if not any(signs):
-            continue
-        up = np.array(signs) / np.linalg.norm(signs)
-        row = np.array([*[GRAVITY * up[i] * up[j] * (1.0 if i == j else 2.0) for i, j in SYMMETRIC], *-up])
-        seen = covariance @ row
-        gain = float(np.sum((seen / limits) ** 2)) / (fit.noise[0] ** 2 + float(row @ seen))
-        if gain > best_gain * (1.0 + 1e-9):
-            best, best_gain = signs, gain
+    signs = np.array([one for one in product((0, 1, -1), repeat=3) if any(one)])
+    up = signs / np.linalg.norm(signs, axis=1, keepdims=True)
+    rows = np.hstack((GRAVITY * up[:, ROWS] * up[:, COLUMNS] * [1, 1, 1, 2, 2, 2], -up))
+    seen = rows @ fit.covariance[:9, :9]
+    gain = np.sum((seen / limits) ** 2, axis=1) / (fit.noise[0] ** 2 + np.sum(rows * seen, axis=1))
+    best = signs[np.argmax(gain >= gain.max() * (1.0 - 1e-9))]  # the first of those that are as good
     parts = [f"{AXES[k]} axis {'up' if sign > 0 else 'down'}" for k, sign in enumerate(best) if sign]
     return f"a rest with the sensor's {' and '.join(parts)} is missing"

@@ -49,6 +49,10 @@ class Recorded:
     at_end: NDArray[np.bool_]
     """True where a sensor was at the end of its range, (N)."""
 
+    def rows(self, rows: slice | NDArray[np.bool_]) -> Recorded:
+        """Return some of the samples."""
+        return Recorded(self.t[rows], self.acc[rows], self.gyro[rows], self.at_end[rows])
+
     @property
     def interval(self) -> float:
         """Usual time between two samples, s."""
@@ -75,6 +79,8 @@ class Pause:
     """Standard deviation of the components of `rate` across the vertical as a bias, rad/s."""
     upright_sigma: float
     """Standard deviation of the component of `rate` along the vertical as a bias, rad/s: no creep is seen there."""
+    noise: float
+    """Variance of one reading of the rate, mean of the axes, (rad/s)^2."""
 
     @property
     def middle(self) -> float:
@@ -102,34 +108,28 @@ class WayBetween:
 
 def recorded_of(samples: Sequence[Sample], foot: Foot) -> Recorded:
     """Return the samples of a foot's sensor with finite values; raise CalibrationError for fewer than two seconds."""
-    rows = [one for one in samples if one.site.foot is foot and one.acc is not None and one.gyro is not None]
-    t = np.array([one.t for one in rows], dtype=np.float64)
-    acc = np.array([one.acc for one in rows], dtype=np.float64).reshape(-1, 3)
-    gyro = np.array([one.gyro for one in rows], dtype=np.float64).reshape(-1, 3)
-    at_end = np.array([one.saturated for one in rows], dtype=np.bool_)
-    good = np.isfinite(t) & np.isfinite(acc).all(axis=1) & np.isfinite(gyro).all(axis=1)
-    if len(t):
-        good &= np.concatenate(([True], t[1:] > np.maximum.accumulate(t)[:-1]))
-    t, acc, gyro, at_end = t[good], acc[good], gyro[good], at_end[good]
+    rows = [
+        (one.t, *one.acc, *one.gyro, one.saturated)
+        for one in samples
+        if one.site.foot is foot and one.acc is not None and one.gyro is not None
+    ]
+    table = np.array(rows, dtype=np.float64).reshape(-1, 8)
+    table = table[np.isfinite(table).all(axis=1)]
+    table = table[np.diff(np.maximum.accumulate(table[:, 0]), prepend=-np.inf) > 0.0]
+    t, acc, gyro = table[:, 0], table[:, 1:4], table[:, 4:7]
     if len(t) < 8 or t[-1] - t[0] < 2.0:
-        raise CalibrationError(f"the {foot.value} foot has too few samples of accelerometer and gyroscope")
-    return Recorded(t, acc, gyro, at_end | _clipped(gyro))
-
-
-def _clipped(gyro: Floats) -> NDArray[np.bool_]:
-    """Return where a rate stays at the largest value of its axis, as at the end of a range."""
-    clipped = np.zeros(len(gyro), dtype=np.bool_)
+        raise CalibrationError(f"the {foot} foot has too few samples of accelerometer and gyroscope")
+    at_end = table[:, 7] > 0.0
     for axis in (*gyro.T, *-gyro.T):
-        if axis.max() < CLIPPED_RATE:
-            continue
-        for first, end in _runs(axis >= axis.max() * (1.0 - SAME)):
-            clipped[first:end] |= end - first >= LEAST_CLIPPED
-    return clipped
+        if axis.max() >= CLIPPED_RATE:
+            for first, end in _runs(axis >= axis.max() * (1.0 - SAME)):
+                at_end[first:end] |= end - first >= LEAST_CLIPPED
+    return Recorded(t, acc, gyro, at_end)
 
 
 def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
     """Return the first index of every run of true flags, and the index after its last."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], flags.astype(np.int8), [0])))).tolist()
+    edges = np.flatnonzero(np.diff(flags.astype(np.int8), prepend=0, append=0)).tolist()
     return list(zip(edges[::2], edges[1::2], strict=True))
 
 
@@ -146,87 +146,78 @@ def find_pauses(recorded: Recorded) -> list[Pause]:
         bias = np.median(rate[still], axis=0)
         slow = still & (np.linalg.norm(rate - bias, axis=1) < STILL_RATE)
         still = slow if slow.any() else still
-    step = _smallest_step(recorded.gyro)
+    steps = np.abs(np.diff(recorded.gyro, axis=0))
+    step = float(np.min(steps, where=steps > 0.0, initial=steps.max()))
     middles = recorded.t[count // 2 : count // 2 + len(slow)]
-    pauses = []
-    for first, end in _runs(slow):
-        if middles[end - 1] - middles[first] >= SHORTEST_PAUSE:
-            rows = slice(first + count // 2, end + count // 2)
-            pauses.append(_pause(recorded.t[rows], recorded.acc[rows], recorded.gyro[rows], step))
+    pauses = [
+        _pause(recorded.rows(slice(first + count // 2, end + count // 2)), step)
+        for first, end in _runs(slow)
+        if middles[end - 1] - middles[first] >= SHORTEST_PAUSE
+    ]
     # a hand that creeps in one rest does so in others, and seldom about a level axis alone
-    usual = 0.5 * float(np.mean([rest.creep**2 for rest in pauses])) if pauses else 0.0
+    usual = 0.5 * float(np.mean([rest.creep**2 for rest in pauses] or [0.0]))
     return [evolve(rest, upright_sigma=(0.5 * (rest.upright_sigma**2 + usual)) ** 0.5) for rest in pauses]
 
 
 def _windows(values: Floats, count: int) -> tuple[Floats, Floats]:
     """Return mean and variance, summed over the axes, of every window of `count` rows."""
-    centred = values - values.mean(axis=0)
-    sums = np.concatenate((np.zeros((1, 3)), np.cumsum(centred, axis=0)))
-    squares = np.concatenate(([0.0], np.cumsum(np.sum(centred**2, axis=1))))
-    means = (sums[count:] - sums[:-count]) / count
-    variance = (squares[count:] - squares[:-count]) / count - np.sum(means**2, axis=1)
-    return means + values.mean(axis=0), np.maximum(variance, 0.0)
+    middle = values.mean(axis=0)
+    powers = np.stack((values - middle, (values - middle) ** 2))
+    sums = np.cumsum(np.pad(powers, ((0, 0), (1, 0), (0, 0))), axis=1)
+    mean, square = (sums[:, count:] - sums[:, :-count]) / count
+    return mean + middle, np.sum(square - mean**2, axis=1)
 
 
-def _smallest_step(values: Floats) -> float:
-    """Return the smallest change from one reading to the next of any axis, as of a digit; 0 if all readings agree."""
-    steps = np.abs(np.diff(values, axis=0))
-    return float(np.min(steps, where=steps > 0.0, initial=float(steps.max(initial=0.0))))
-
-
-def _pause(t: Floats, acc: Floats, gyro: Floats, step: float) -> Pause:
+def _pause(rest: Recorded, step: float) -> Pause:
     """Return a rest; its creep about the horizontal is seen by gravity, and that about the vertical is like it.
 
     Every reading is turned into the sensor frame in the middle of the rest. An even creep cancels, so the turn is that
     of the rates beyond their mean, which no bias changes. Rates that never change may be wrong by half a `step`."""
-    half, duration = len(t) // 2, float(t[-1] - t[0])
-    rate = gyro.mean(axis=0)
-    uneven = 0.5 * np.diff(t)[:, None] * (gyro[1:] + gyro[:-1] - 2.0 * rate)
+    t, half = rest.t, len(rest.t) // 2
+    duration, rate = float(t[-1] - t[0]), rest.gyro.mean(axis=0)
+    uneven = 0.5 * np.diff(t)[:, None] * (rest.gyro[1:] + rest.gyro[:-1] - 2.0 * rate)
     turned = np.concatenate((np.zeros((1, 3)), np.cumsum(uneven, axis=0)))
-    at_middle = np.array([np.interp(0.5 * (t[0] + t[-1]), t, axis) for axis in turned.T])
-    acc = acc + np.cross(turned - at_middle, acc)
+    acc = rest.acc + np.cross(turned - _interpolate(0.5 * (t[0] + t[-1]), t, turned), rest.acc)
     mean, sigma = acc.mean(axis=0), _block_variance(acc) ** 0.5
     size = float(np.linalg.norm(mean))
     change = acc[half:].mean(axis=0) - acc[:half].mean(axis=0)
     creep = -np.cross(mean, change) / (size * size) / (0.5 * duration)
-    variance = _block_variance(gyro) or step * step / 12.0
-    # the mean of a half has twice the variance of the whole mean
-    level = (variance + (4.0 * sigma / (size * duration)) ** 2) ** 0.5
     slow = float(np.linalg.norm(creep))
+    variance = _block_variance(rest.gyro) or step * step / 12.0
+    # the mean of a half has twice the variance of the whole mean
+    level_variance = variance + (4.0 * sigma / (size * duration)) ** 2
+    upright_variance = variance + 0.5 * slow * slow
+    noise = float(np.mean(np.var(np.diff(rest.gyro, axis=0), axis=0))) / 2.0
     return Pause(
-        float(t[0]), float(t[-1]), mean, sigma, rate - creep, slow, level, (variance + 0.5 * slow * slow) ** 0.5
+        float(t[0]), float(t[-1]), mean, sigma, rate - creep, slow, level_variance**0.5, upright_variance**0.5, noise
     )
+
+
+def _interpolate(t: float | Floats, times: Floats, values: Floats) -> Floats:
+    """Return vectors at other times."""
+    return np.stack([np.interp(t, times, axis) for axis in values.T], axis=-1)
 
 
 def _block_variance(values: Floats) -> float:
     """Return the variance of the mean of one axis by the scatter of its eight blocks, without their common slope."""
     blocks = np.array([block.mean(axis=0) for block in np.array_split(values, 8)])
-    differences = np.diff(blocks, axis=0)
-    return float(np.mean(differences**2)) / 2.0 / 8.0
+    return float(np.mean(np.diff(blocks, axis=0) ** 2)) / 2.0 / 8.0
 
 
 def find_ways(recorded: Recorded, pauses: Sequence[Pause]) -> list[WayBetween]:
     """Return the way from each rest to the next, also those that are spoilt."""
-    noise = [
-        float(np.mean(np.var(np.diff(recorded.gyro[_inside(recorded, rest)], axis=0), axis=0))) / 2.0 for rest in pauses
-    ]
-    density = float(np.sqrt(np.median(noise) * recorded.interval)) if pauses else 0.0
+    density = float(np.sqrt(np.median([rest.noise for rest in pauses]) * recorded.interval))
     ways = []
     for number, (one, other) in enumerate(zip(pauses, pauses[1:], strict=False)):
         inside = (recorded.t > one.middle) & (recorded.t < other.middle)
         t = np.concatenate(([one.middle], recorded.t[inside], [other.middle]))
-        gyro = np.stack([np.interp(t, recorded.t, axis) for axis in recorded.gyro.T], axis=1)
+        gyro = _interpolate(t, recorded.t, recorded.gyro)
         turning = np.linalg.norm(gyro - 0.5 * (one.rate + other.rate), axis=1)
-        turning = np.where((t > one.end) & (t < other.start), turning, 0.0)
-        angle = float(np.trapezoid(turning, t))
+        turning[(t <= one.end) | (t >= other.start)] = 0.0
         spoilt = ""
         if np.diff(t).max() > LONGEST_GAP * recorded.interval:
             spoilt = "samples are lost"
         elif recorded.at_end[inside].any():
             spoilt = "a sensor was at the end of its range: turn more slowly, or choose a larger range"
-        ways.append(WayBetween(number, t, gyro, angle, density, spoilt))
+        ways.append(WayBetween(number, t, gyro, float(np.trapezoid(turning, t)), density, spoilt))
     return ways
-
-
-def _inside(recorded: Recorded, rest: Pause) -> NDArray[np.bool_]:
-    return (recorded.t >= rest.start) & (recorded.t <= rest.end)

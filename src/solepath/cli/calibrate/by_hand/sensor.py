@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from math import degrees, pi
+from typing import Any
 
 import numpy as np
 from attrs import evolve, frozen
 
 from ....calibration import Calibration, CalibrationError, SensorCalibration
 from ....calibration.records import TriadCalibration
-from ....types import Foot, Sample, Vec3
+from ....types import Foot, Sample
 from ....types.vector import GRAVITY
 from .coverage import open_questions, sigmas
-from .fit import FIRST_NODE, PER_PAUSE, Fit, fit, integrate
+from .fit import FIRST_NODE, I3, PER_PAUSE, Fit, Unknowns, fit, integrate
 from .pauses import Floats, Pause, Recorded, WayBetween, find_pauses, find_ways, recorded_of
 
 LEAST_PAUSES = 9
@@ -75,12 +76,12 @@ def _fit_foot(foot: Foot, samples: Sequence[Sample]) -> SensorFit:
     pauses = find_pauses(recorded)
     if len(pauses) < LEAST_PAUSES:
         raise CalibrationError(
-            f"the {foot.value} foot has {len(pauses)} rests of a second and more, and {LEAST_PAUSES} are the least: "
+            f"the {foot} foot has {len(pauses)} rests of a second and more, and {LEAST_PAUSES} are the least: "
             "leave the sensor alone for three seconds in each of twelve orientations, on or against what does not move"
         )
     force = float(np.median([np.linalg.norm(rest.acc) for rest in pauses]))
     if not LEAST_GRAVITY < force < LARGEST_GRAVITY:
-        raise CalibrationError(f"the {foot.value} foot reads {force:.3g} m/s^2 at rest: its unit is not m/s^2")
+        raise CalibrationError(f"the {foot} foot reads {force:.3g} m/s^2 at rest: its unit is not m/s^2")
     ways = find_ways(recorded, pauses)
     found, kept, ways = _fit_what_closes(foot, pauses, ways)
     missing = open_questions(found)
@@ -91,20 +92,23 @@ def _fit_foot(foot: Foot, samples: Sequence[Sample]) -> SensorFit:
         if way.spoilt
     ]
     if missing:
-        raise CalibrationError(f"{foot.value} foot: {'; '.join([*missing, *notes])}")
+        raise CalibrationError(f"{foot} foot: {'; '.join([*missing, *notes])}")
     turned = [round(way.angle / (2.0 * pi)) for way in kept]
+    # without the calibration, the gyroscope has the bias of the rests all the same, which every recipe learns
+    before = evolve(found.unknowns, acc=I3, acc_bias=np.zeros(3), gyro=I3)
+    gravity, closure = zip(*[_errors(one, pauses, kept) for one in (before, found.unknowns)], strict=True)
     return SensorFit(
         foot, _record(found), len(pauses), tuple([count for count in turned if count >= TURNS]),
-        *_errors(found, pauses, kept), pauses[-1].end - pauses[0].start, tuple(notes),
+        gravity, closure, pauses[-1].end - pauses[0].start, tuple(notes),
     )  # fmt: skip
 
 
 def _check_units(foot: Foot, recorded: Recorded) -> None:
     if not np.ptp(recorded.gyro, axis=0).any():
-        raise CalibrationError(f"the {foot.value} foot's gyroscope always reads the same: it does not measure")
+        raise CalibrationError(f"the {foot} foot's gyroscope always reads the same: it does not measure")
     rate = float(np.abs(recorded.gyro).max())
     if rate > LARGEST_RATE:
-        raise CalibrationError(f"the {foot.value} foot turns by {rate:.3g} rad/s: its rates look like degrees/s")
+        raise CalibrationError(f"the {foot} foot turns by {rate:.3g} rad/s: its rates look like degrees/s")
 
 
 def _fit_what_closes(
@@ -119,9 +123,7 @@ def _fit_what_closes(
         kept = [way for way in every if not way.spoilt]
         if len(kept) < LEAST_PAUSES - 1:
             reasons = "; ".join(sorted({way.spoilt for way in every if way.spoilt}))
-            raise CalibrationError(
-                f"the {foot.value} foot has {len(kept)} ways between rests that can be used: {reasons}"
-            )
+            raise CalibrationError(f"the {foot} foot has {len(kept)} ways between rests that can be used: {reasons}")
         found = fit(pauses, kept)
         worst = int(np.argmax(found.excess))
         if found.excess[worst] < LARGEST_EXCESS or left_out == most:
@@ -129,10 +131,10 @@ def _fit_what_closes(
         angle = degrees(found.closures[worst])
         spoilt = f"gravity ends {angle:.2g} degrees off (a knock, or a slip of the clock)"
         every = [evolve(way, spoilt=spoilt) if way is kept[worst] else way for way in every]
-    if not found.converged or found.noise[1] > LARGEST_WAY_NOISE or max(found.excess) >= LARGEST_EXCESS:
+    if not found.converged or found.noise[1] > LARGEST_WAY_NOISE or found.excess.max() >= LARGEST_EXCESS:
         raise CalibrationError(
-            f"the {foot.value} foot's rates do not turn gravity from one rest to the next, by up to "
-            f"{degrees(max(found.closures)):.2g} degrees: are axes mirrored or exchanged, is a unit wrong, or were "
+            f"the {foot} foot's rates do not turn gravity from one rest to the next, by up to "
+            f"{degrees(found.closures.max()):.2g} degrees: are axes mirrored or exchanged, is a unit wrong, or were "
             "samples lost? `solepath check` on a recording of a walk says more"
         )
     return found, kept, every
@@ -141,44 +143,28 @@ def _fit_what_closes(
 def _record(found: Fit) -> SensorCalibration:
     acc_sigma, acc_bias_sigma, gyro_sigma = sigmas(found)
     unknowns = found.unknowns
-    nodes = np.sqrt(np.diag(found.covariance))[FIRST_NODE:].reshape(-1, PER_PAUSE)
-    spread = unknowns.biases.std(axis=0)
-    bias_sigma = np.sqrt(np.mean(nodes[:, :3] ** 2, axis=0) + spread**2)
+    nodes = np.diag(found.covariance)[FIRST_NODE:].reshape(-1, PER_PAUSE)
+    bias_sigma = np.sqrt(np.mean(nodes[:, :3], axis=0) + unknowns.biases.var(axis=0))
     return SensorCalibration(
-        TriadCalibration(_flat(unknowns.acc), _vector(unknowns.acc_bias), _flat(acc_sigma), _vector(acc_bias_sigma)),
-        TriadCalibration(
-            _flat(unknowns.gyro), _vector(unknowns.biases.mean(axis=0)), _flat(gyro_sigma), _vector(bias_sigma)
-        ),
+        _triad(unknowns.acc, unknowns.acc_bias, acc_sigma, acc_bias_sigma),
+        _triad(unknowns.gyro, unknowns.biases.mean(axis=0), gyro_sigma, bias_sigma),
     )
 
 
-def _flat(matrix: Floats) -> tuple[float, ...]:
-    return tuple(matrix.ravel().tolist())
+def _triad(*parts: Floats) -> TriadCalibration:
+    """Return a record of matrix, bias, and standard deviations of both."""
+    values: list[Any] = [tuple(part.ravel().tolist()) for part in parts]
+    return TriadCalibration(*values)
 
 
-def _vector(values: Floats) -> Vec3:
-    x, y, z = values.tolist()
-    return x, y, z
-
-
-def _errors(
-    found: Fit, pauses: Sequence[Pause], ways: Sequence[WayBetween]
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return errors of gravity, m/s^2, and of closures, rad, before and after, without and with the calibration.
-
-    Before it, the gyroscope has the bias of the rests all the same, which every recipe learns."""
-    unknowns = found.unknowns
-    raw = np.array([rest.acc for rest in pauses])
-    corrected = (raw - unknowns.acc_bias) @ unknowns.acc.T
-    gravity, closure = [], []
-    for force, gyro in ((raw, np.eye(3)), (corrected, unknowns.gyro)):
-        length = np.linalg.norm(force, axis=1)
-        gravity.append(float(np.sqrt(np.mean((length - GRAVITY) ** 2))))
-        up = force / length[:, None]
-        angles = []
-        for way in ways:
-            k = way.number
-            turned = integrate(way, gyro, unknowns.biases[k], unknowns.biases[k + 1]).turn.T @ up[k]
-            angles.append(float(np.arctan2(np.linalg.norm(np.cross(turned, up[k + 1])), turned @ up[k + 1])))
-        closure.append(float(np.sqrt(np.mean(np.array(angles) ** 2))))
-    return (gravity[0], gravity[1]), (closure[0], closure[1])
+def _errors(unknowns: Unknowns, pauses: Sequence[Pause], ways: Sequence[WayBetween]) -> tuple[float, float]:
+    """Return the root mean squares of errors of gravity, m/s^2, and of closures, rad, of corrected readings."""
+    force = (np.array([rest.acc for rest in pauses]) - unknowns.acc_bias) @ unknowns.acc.T
+    length = np.linalg.norm(force, axis=1)
+    up = force / length[:, None]
+    angles = []
+    for way in ways:
+        turn, _ = integrate(way, unknowns)
+        turned, target = turn.T @ up[way.number], up[way.number + 1]
+        angles.append(np.arctan2(np.linalg.norm(np.cross(turned, target)), turned @ target))
+    return float(np.sqrt(np.mean((length - GRAVITY) ** 2))), float(np.sqrt(np.mean(np.square(angles))))
