@@ -37,7 +37,7 @@ def call(worker: Worker, name: str, *arguments: Any) -> Any:
 
 def shown(worker: Worker) -> Any:
     """Return all that a page shows that is opened now."""
-    return json.loads(json.dumps(worker.scene.whole_message()[0]))
+    return json.loads(json.dumps(worker.scene.whole_message()))
 
 
 @pytest.fixture

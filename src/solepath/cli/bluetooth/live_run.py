@@ -18,7 +18,7 @@ from ...floorplan.plan import Start
 from ...recipes import Recipe
 from ...recording import printable
 from ...session import Session
-from ...show.page.body import LiveBody, legs_of
+from ...show.page.body import LiveBody
 from ...show.page.live_commands import position_of
 from ...show.page.scene.scales import newtons_of
 from ...show.page.scene.scene import Scene
@@ -72,7 +72,7 @@ async def listen(
         if address is not None:
             floor_plan, newtons = None if plan is None else plan.plan, newtons_of(calibration)
             scene = Scene("Live", recipe.name, "live", plan=floor_plan, newtons=newtons, walk=walk)
-            scene.body = LiveBody(lambda: legs_of(session))
+            scene.body = LiveBody(session)
             await stack.enter_async_context(
                 serve_page(scene, address, lambda command: packets.report_position(position_of(command, floor_plan)))
             )

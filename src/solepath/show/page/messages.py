@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from enum import Enum
 from functools import cached_property
 from math import isfinite
 from typing import Any
 
+import attrs
 from attrs import frozen
 
 from ...wire.receiver import PositionFrame, build_position
@@ -137,11 +138,20 @@ def _is_number(value: Any) -> bool:
         return False
 
 
-def rounded(value: float | None, digits: int = 3) -> float | None:
-    """Return `value` with `digits` digits after the point; None if it is not finite, since JSON has no such numbers."""
-    return None if value is None or not isfinite(value) else round(value, digits)
+def plain(value: Any, digits: int = 3) -> Any:
+    """Return a value as data for JSON: numbers with `digits` digits after the point, a record as an object."""
+    match value:
+        case float():
+            return round(value, digits) if isfinite(value) else None  # JSON has no such numbers
+        case Enum():
+            return value.value
+        case tuple() | list():
+            return [plain(one, digits) for one in value]
+    if attrs.has(type(value)):
+        return members(value, *[one.name for one in attrs.fields(type(value))])
+    return value
 
 
-def rounded_all(values: Iterable[float], digits: int = 3) -> list[float | None]:
-    """Return each value with `digits` digits after the point; None for a number that is not finite."""
-    return [rounded(value, digits) for value in values]
+def members(record: Any, *names: str, **digits: int) -> dict[str, Any]:
+    """Return fields of a record as members of a message; `digits` after the point are 3 where they are not named."""
+    return {name: plain(getattr(record, name), digits.get(name, 3)) for name in names}

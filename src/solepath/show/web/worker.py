@@ -27,7 +27,7 @@ from ..page.live_commands import position_of
 from ..page.messages import CommandError, encode, parse_command
 from ..page.player.player import Player
 from ..page.scene.scales import newtons_of
-from ..page.scene.scene import Cursor, Scene
+from ..page.scene.scene import Follower, Scene
 from ..report import Report
 from .live_walk import LiveWalk
 from .opening import OpenedRecording, kind_of, open_calibration, open_plan, open_recording, words_of_json
@@ -63,8 +63,7 @@ class Worker:
     plan: IndexedPlan | None = field(default=None, init=False)
     recipe: Recipe = field(default=DEFAULT, init=False)
     _idle_scene: Scene = field(factory=lambda: Scene("", DEFAULT.name, "live"), init=False)
-    _sent_scene: Scene | None = field(default=None, init=False)
-    _cursor: Cursor | None = field(default=None, init=False)
+    _follower: Follower = field(factory=Follower, init=False)
     _task: Task | None = field(default=None, init=False)
 
     # --- messages for the page
@@ -78,22 +77,13 @@ class Worker:
 
     def message(self) -> str | None:
         """Return the next message for the page: the whole scene at first, then what has changed; None for no change."""
-        scene = self.scene
-        if self._cursor is None or scene is not self._sent_scene:
-            message, self._cursor = scene.whole_message()
-        else:
-            changes, self._cursor = scene.message_since(self._cursor)
-            if changes is None:
-                return None
-            message = changes
-        self._sent_scene = scene
-        if message["type"] == "scene":
-            message["control"] = self.player is not None or (self.walk is not None and not self.walk.finished)
-        return encode(message)
+        control = self.player is not None or (self.walk is not None and not self.walk.finished)
+        message = self._follower.message(self.scene, control)
+        return None if message is None else encode(message)
 
     def heartbeat(self) -> str:
         """Return a message with nothing but the time."""
-        return encode(self.scene.heartbeat_message())
+        return encode(self.scene.frame_message())
 
     # --- a walk that is measured now
 
@@ -152,7 +142,7 @@ class Worker:
         """End the walk; the page goes on to show the end of it."""
         if self.walk is not None:
             self.walk.finish()
-            self._sent_scene = None  # the page learns that it has nothing to control any more
+            self._follower.restart()  # the page learns that it has nothing to control any more
 
     # --- recordings and other files
 

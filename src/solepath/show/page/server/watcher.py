@@ -12,7 +12,7 @@ from typing import Any, Protocol
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from ..messages import MAX_MESSAGE_SIZE, Command, CommandError, encode, parse_command
-from ..scene.scene import Cursor, Scene
+from ..scene.scene import Follower, Scene
 from .access import AccessDenied
 from .client_errors import ClientErrors
 from .connection import HEADERS
@@ -47,9 +47,7 @@ class Watcher:
         )
         self._socket.headers.update(HEADERS)
         self._transport: asyncio.WriteTransport | None = None
-        self._scene: Scene | None = None
-        """The scene of the last message; `_cursor` says how much of it was sent."""
-        self._cursor: Cursor | None = None
+        self._follower = Follower()
 
     async def watch(self, request: web.BaseRequest) -> web.StreamResponse:
         """Serve the browser from the handshake to the end; raise AccessDenied if the request is not for a WebSocket."""
@@ -114,7 +112,7 @@ class Watcher:
             else:
                 message = self._next()
                 if message is None and now - sent >= MAX_FRAME_INTERVAL:
-                    message = self._page.scene.heartbeat_message()
+                    message = self._page.scene.frame_message()
                 if message is not None:
                     async with asyncio.timeout(READ_TIMEOUT):
                         await self._socket.send_str(encode(message))
@@ -124,15 +122,7 @@ class Watcher:
 
     def _next(self) -> dict[str, Any] | None:
         """Return the next message; None when nothing has changed."""
-        newest, message = self._page.scene, None
-        if self._cursor is None or newest is not self._scene:
-            message, self._cursor = newest.whole_message()
-        else:
-            message, self._cursor = newest.message_since(self._cursor)
-        self._scene = newest
-        if message is not None and message["type"] == "scene":
-            message["control"] = self.may_control and self._page.commands is not None
-        return message
+        return self._follower.message(self._page.scene, self.may_control and self._page.commands is not None)
 
     def _unread(self) -> bool:
         """Return whether the send buffer still holds data that the browser has not read."""
