@@ -13,10 +13,6 @@ from attrs import frozen
 
 from ...wire.receiver import PositionFrame, build_position
 
-TAKES_VALUE = {"play": False, "pause": False, "speed": True, "seek": True}
-"""Commands of a page that plays a recording; True for a command with a value."""
-HERE = "here"
-"""Command of a page that shows a live session: a person reports where the wearer is."""
 MIN_SPEED, MAX_SPEED = 0.1, 32.0
 """Bounds of the speed at which a recording is played, in multiples of real time."""
 MAX_MESSAGE_SIZE = 4096
@@ -48,45 +44,35 @@ class Command:
 def parse_command(text: str) -> Command:
     """Return the command that a text encodes; raise CommandError for any other text."""
     try:
-        message = json.loads(text, parse_constant=_no_number, object_pairs_hook=_unique_members)
+        message = json.loads(text, parse_int=float, parse_constant=_no_number, object_pairs_hook=_unique_members)
     except CommandError:
         raise
     except (ValueError, RecursionError):
         raise CommandError("a message is not JSON", is_json=False) from None
     if not isinstance(message, dict):
         raise CommandError("a message is not a JSON object")
-    do = message.get("do")
-    if do == HERE:
-        return Command(HERE, position=_reported_position(message))
-    if not isinstance(do, str) or do not in TAKES_VALUE:
-        raise CommandError("a message asks for nothing that there is")
-    if message.keys() != ({"do", "value"} if TAKES_VALUE[do] else {"do"}):
-        raise CommandError(f"a message to {do} has other members than it should")
-    if not TAKES_VALUE[do]:
-        return Command(do)
-    value = message["value"]
-    if not _is_number(value):
-        raise CommandError(f"a message to {do} has a value that is no number")
-    if do == "speed" and not MIN_SPEED <= value <= MAX_SPEED:
-        raise CommandError(f"a message asks for another speed than {MIN_SPEED:g} to {MAX_SPEED:g}")
-    return Command(do, float(value))
-
-
-def _reported_position(message: dict[str, Any]) -> PositionFrame:
-    """Return the position that a message reports: the start, a place in the world frame, or one on a level."""
-    if not {"sigma"} <= message.keys() - {"do"} <= {"sigma", "at", "level"}:
-        raise CommandError("a message with a position has other members than it should")
-    sigma, at, level = message["sigma"], message.get("at", []), message.get("level", "")
-    if not isinstance(at, list) or len(at) != (2 if "at" in message else 0) or not all(map(_is_number, [sigma, *at])):
-        raise CommandError("a message with a position has a value that is no number")
-    if not isinstance(level, str) or ("level" in message and not (level and at)):
-        raise CommandError("a message with a position has a level that is none")
-    position = PositionFrame((float(at[0]), float(at[1])) if at else None, float(sigma), level=level)
+    match len(message), message:
+        case 1, {"do": "play" | "pause" as do}:
+            return Command(do)
+        case 2, {"do": "seek", "value": float(value)} if isfinite(value):
+            return Command("seek", value)
+        case 2, {"do": "speed", "value": float(value)}:
+            if not MIN_SPEED <= value <= MAX_SPEED:
+                raise CommandError(f"a message asks for another speed than {MIN_SPEED:g} to {MAX_SPEED:g}")
+            return Command("speed", value)
+        case 2, {"do": "here", "sigma": float(sigma)}:
+            position = PositionFrame(None, sigma)
+        case 3, {"do": "here", "sigma": float(sigma), "at": [float(x), float(y)]}:
+            position = PositionFrame((x, y), sigma)
+        case 4, {"do": "here", "sigma": float(sigma), "at": [float(x), float(y)], "level": str(level)} if level:
+            position = PositionFrame((x, y), sigma, level=level)
+        case _:
+            raise CommandError("a message asks for nothing that there is, or has wrong members")
     try:
         build_position(position)
     except ValueError:
         raise CommandError("a message has a position that cannot be") from None
-    return position
+    return Command("here", position=position)
 
 
 def encode(message: dict[str, Any]) -> str:
@@ -128,14 +114,6 @@ def _unique_members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(message) != len(pairs):
         raise CommandError("a message has a member twice")
     return message
-
-
-def _is_number(value: Any) -> bool:
-    """Return whether a value of JSON is a number that a float can hold."""
-    try:
-        return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
-    except OverflowError:
-        return False
 
 
 def plain(value: Any, digits: int = 3) -> Any:

@@ -22,7 +22,7 @@ from ....floorplan.index import IndexedPlan
 from ....session import Session
 from ....types import Packet, Sample
 from ..body import LiveBody
-from ..messages import HERE, MAX_SPEED, MIN_SPEED, Command, CommandError
+from ..messages import MAX_SPEED, MIN_SPEED, Command, CommandError
 from ..scene.scene import Scene
 from .packed_items import PackedItems
 from .playback import Playback
@@ -86,17 +86,17 @@ class Player:
         """Execute a command of the page; a value out of range is replaced by the nearest in range.
 
         CommandError is raised for a position that a person reports: nothing is received while a recording plays."""
-        if command.do == HERE:
-            raise CommandError("a browser reported a position, and a recording is played")
-        match command.do:
-            case "play":
+        match command:
+            case Command("play"):
                 self.play()
-            case "pause":
+            case Command("pause"):
                 self.pause()
-            case "speed" if command.value is not None:
-                self.set_speed(command.value)
-            case "seek" if command.value is not None:
-                self.seek(command.value)
+            case Command("speed", float(speed)):
+                self.set_speed(speed)
+            case Command("seek", float(t)):
+                self.seek(t)
+            case _:
+                raise CommandError("a browser reported a position, and a recording is played")
 
     def play(self) -> None:
         """Continue to play; a recording that has ended plays from its start."""
