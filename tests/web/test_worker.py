@@ -10,10 +10,10 @@ import pytest
 from recordings import recorded
 from shown import walked
 from walks import insoles
+from worker_walks import connect, send_frames
 
 from solepath import Packet
 from solepath.emulate import Route
-from solepath.show.web.rehearsal import connect, send_frames
 from solepath.show.web.worker import Worker
 
 HEADER = b'{"format": "solepath-packets", "version": 1}\n'
