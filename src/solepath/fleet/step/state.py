@@ -6,6 +6,7 @@ have their own checksum: no event number is used twice, even if the other bytes 
 from __future__ import annotations
 
 from binascii import crc32
+from io import BytesIO
 from itertools import pairwise
 from math import isfinite
 from struct import Struct as Layout
@@ -24,7 +25,6 @@ from construct import (
     Sequence,
     Struct,
     Switch,
-    Tell,
     VarInt,
     this,
 )
@@ -68,9 +68,8 @@ _REST = Struct(
         VarInt, Struct("run" / VarInt, "number" / VarInt, "kind" / Byte, "fields" / Switch(this.kind, _FORMS, _NO_KIND))
     ),
     "failure" / _TEXT,
-    "size" / Tell,
 )
-"""What follows the first bytes, up to its checksum; `size` is its number of bytes."""
+"""What follows the first bytes, up to its checksum."""
 
 
 class StateError(ValueError):
@@ -142,9 +141,10 @@ def read_rest(state: bytes) -> StateRest:
         raise StateError(f"a state of version {version}; this release reads {VERSION}")
     data = state[_HEAD.size + _CHECKSUM.size :]
     try:
-        rest = _REST.parse(data)
-        session = data[rest.size + _CHECKSUM.size :]
-        if data[rest.size : rest.size + _CHECKSUM.size] != _CHECKSUM.pack(crc32(data[: rest.size])):
+        stream = BytesIO(data)
+        rest = _REST.parse_stream(stream)
+        size = stream.tell()
+        if stream.read(_CHECKSUM.size) != _CHECKSUM.pack(crc32(data[:size])):
             raise StateError("the state was damaged: its checksum is another")
         held_rows = {
             (row.run, row.number): _KINDS[row.kind](**dict(zip(_FIELDS[row.kind], row.fields, strict=True)))
@@ -161,5 +161,5 @@ def read_rest(state: bytes) -> StateRest:
         StrayRows(*rest.strays),
         held_rows,
         rest.failure,
-        session if rest.flags & _SESSION else None,
+        stream.read() if rest.flags & _SESSION else None,
     )
