@@ -38,7 +38,7 @@ async def test_a_walk_is_drawn_while_it_goes_on_and_its_figures_are_those_of_the
         assert await view.text("activity") == "Walking"
         assert float(await view.text("speed")) == pytest.approx(expected["pace"]["speed"], abs=0.005)
         assert float(await view.text("cadence")) == pytest.approx(expected["pace"]["cadence"], abs=0.5)
-        tracks = json.loads(encode(scene.whole_message()[0]))["tracks"]
+        tracks = json.loads(encode(scene.whole_message()))["tracks"]
         assert await view.tab.evaluate("solepath.state.tracks") == tracks and len(tracks["left"]) > 5
         for foot in Foot:
             force = float((await view.text(f"force-{foot.value}")).split()[0])

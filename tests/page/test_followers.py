@@ -17,9 +17,9 @@ from shown import later
 from solepath import Event, Foot, FootMoved, FootPressed, PacketRejected, Placed, SampleGap, StrideTaken, WearerMoved
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.page.messages import encode
-from solepath.show.page.scene.lists import MAX_BEHIND, MAX_POINTS
+from solepath.show.page.scene.lists import MAX_POINTS
 from solepath.show.page.scene.log import MAX_LINES
-from solepath.show.page.scene.scene import Scene
+from solepath.show.page.scene.scene import Follower, Scene
 
 LISTS = ("phases", "tracks", "places", "log")
 
@@ -68,25 +68,27 @@ class Reader:
 
 @cache
 def long_track() -> list[Event]:
-    return [step(1.0 + k, 0.7 * k) for k in range(MAX_POINTS + 2 * MAX_BEHIND)]
+    return [step(1.0 + k, 0.7 * k) for k in range(2 * MAX_POINTS)]
 
 
 def agree(events: list[Event], read_indices: list[int], scene: Scene | None = None) -> Reader:
     """Check that a watcher who reads after each of these events ends with the scene of a watcher who comes last."""
     scene = Scene("a walk", "default", plan=BUILDING) if scene is None else scene
     reader = Reader()
-    message, cursor = scene.whole_message()
-    reader.take(encode(message))
+    follower = Follower()
+
+    def read() -> None:
+        news = follower.message(scene)
+        if news is not None:
+            reader.take(encode(news))
+
+    read()
     for index, event in enumerate(events):
         scene.take(None, [event])
         for _ in range(read_indices.count(index)):
-            news, cursor = scene.message_since(cursor)
-            if news is not None:
-                reader.take(encode(news))
-    news, cursor = scene.message_since(cursor)
-    if news is not None:
-        reader.take(encode(news))
-    late = json.loads(encode(scene.whole_message()[0]))
+            read()
+    read()
+    late = json.loads(encode(scene.whole_message()))
     for one in (late, reader.scene):
         for key in LISTS:
             one["frame"].pop(key, None)
@@ -105,16 +107,17 @@ def test_the_changes_add_up_to_the_scene_of_a_late_watcher(data: st.DataObject) 
 
 
 @settings(max_examples=8)
-@given(st.lists(st.integers(0, MAX_POINTS + 2 * MAX_BEHIND), max_size=30))
+@given(st.lists(st.integers(0, 2 * MAX_POINTS), max_size=30))
 @pytest.mark.soak
 def test_a_long_track_is_thinned_alike_on_both_sides(read_indices: list[int]) -> None:
     agree(long_track(), read_indices)
 
 
-def test_a_page_that_is_far_behind_gets_the_whole_scene_again() -> None:
-    events: list[Event] = [step(1.0 + k, 0.7 * k) for k in range(MAX_BEHIND + 10)]
+def test_a_page_that_is_too_far_behind_to_thin_its_track_gets_the_whole_scene_again() -> None:
+    events = long_track()[: MAX_POINTS + 10]
+    assert agree(events[:MAX_POINTS], []).scene_count == 1
     assert agree(events, []).scene_count == 2
-    assert agree(events, [MAX_BEHIND // 2]).scene_count == 1
+    assert agree(events, [MAX_POINTS - 1, MAX_POINTS]).scene_count == 1
 
 
 @pytest.mark.long
@@ -131,7 +134,7 @@ def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
                 event = evolve(event, position=(x + lap, y, z))
             scene.take(None, [event])
         if lap % 125 == 124:
-            message = scene.whole_message()[0]
+            message = scene.whole_message()
             assert all(len(track) <= MAX_POINTS for track in message["tracks"].values())
             assert len(message["places"]) <= MAX_POINTS
             assert len(message["log"]) == MAX_LINES

@@ -10,9 +10,8 @@ from page_events import foot_moved
 from shown import open_page, shown
 
 from solepath import Foot
-from solepath.show.page.posture import ShownPosture
+from solepath.show.page.guide import ShownFoot, ShownPosture, ShownToeOut
 from solepath.show.page.scene.scene import Scene
-from solepath.show.page.toe_out import ShownFoot, ShownToeOut
 
 
 @pytest.mark.soak
@@ -23,7 +22,7 @@ async def test_the_page_shows_pitch_target_and_task_as_they_change(chromium: Bro
         await view.until("document.getElementById('posture-task').innerText === 'Stand flat.'")
         assert await view.text("posture-words") == "Left foot: unsteady"
         posture.task, posture.target = "Raise the heel.", radians(22.0)
-        posture.pitch, posture.lean, posture.is_still = radians(-23.44), radians(-7.2), True
+        posture.pitch, posture.lean, posture.still = radians(-23.44), radians(-7.2), True
         await view.until("document.getElementById('posture-task').innerText === 'Raise the heel.'")
         assert await view.text("posture-pitch") == "−23.4°"
         assert await view.text("posture-words") == "Left foot: steady, leans 7° sideways"

@@ -15,7 +15,7 @@ from solepath import Session
 from solepath.emulate.routes.route import Route
 from solepath.show.page.player.packed_items import PackedItems
 from solepath.show.page.player.player import Player
-from solepath.show.page.player.player_loop import PlayerLoop
+from solepath.show.page.player.player_loop import play_on
 from solepath.show.page.scene.scene import Playback, Scene
 
 WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
@@ -27,10 +27,9 @@ async def played(chromium: Browser, **given: Any) -> AsyncIterator[tuple[Window,
     """Yield a page that plays a recording of WALK, and its player's state; `given` goes to `open_page`."""
     packets = PackedItems(walked(WALK, cells=16))
     player = Player(packets, Session(poses=True, pressures=True), Scene("a recording", "default", "recording"))
-    playing = PlayerLoop(player)
     async with (
-        open_page(chromium, player.scene, playing.command, **given) as (view, page),
-        meanwhile(playing.run(page, asyncio.Event())),
+        open_page(chromium, player.scene, player.command, **given) as (view, page),
+        meanwhile(play_on(page, player, asyncio.Event())),
     ):
         await view.tab.locator("#playback").wait_for(state="visible")
         yield view, player.playback

@@ -78,7 +78,7 @@ def stop_at(player: Player, t: float, items: int = 100) -> None:
 
 def shown(player: Player) -> dict:
     """Return the message that a new watcher gets, without the state and the speed of the playback."""
-    message, _ = player.scene.whole_message()
+    message = player.scene.whole_message()
     message["frame"]["playback"] = (player.playback.t, player.playback.seeking)
     return message
 

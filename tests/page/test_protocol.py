@@ -32,7 +32,7 @@ def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
     for event in feed_session(insoles(Route().stand(1.5).walk(14.0, 1.3)).packets)[1]:
         scene.take(None, [later(event, 100.0)])
     scene.take(None, [FeetSwapped(t=scene.now, known_at=scene.now)])
-    message = json.loads(encode(scene.whole_message()[0]))
+    message = json.loads(encode(scene.whole_message()))
     frame = message["frame"]
     assert message.keys() == keys("`scene`")
     assert frame.keys() == keys("`frame`")
@@ -53,7 +53,7 @@ def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
 
 def test_the_examples_of_the_protocol_are_what_is_sent() -> None:
     news, before = [json.loads(text) for text in re.findall(r"^```json\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)]
-    assert json.loads(encode(Scene("left and right insole", "default").whole_message()[0])) == before
+    assert json.loads(encode(Scene("left and right insole", "default").whole_message())) == before
     assert news.keys() <= keys("`frame`")
     assert news["feet"]["left"].keys() == keys("foot")
     assert news["links"]["left foot"].keys() == keys("link")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import json
+import tarfile
 from pathlib import Path
 
 import pytest
@@ -14,23 +16,30 @@ from solepath.show.web.serve import serving
 from solepath.show.web.site import MARK, build_site, write_site
 
 
-@pytest.fixture
-def own_registry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return the folder of a registry on this machine, which has no package yet."""
-    folder = tmp_path / "registry"
-    (folder / "pyodide" / "-").mkdir(parents=True)
-    return folder
-
-
-def test_another_package_than_the_pinned_one_is_rejected_and_not_kept(
-    own_registry: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (own_registry / "pyodide" / "-" / f"pyodide-{pyodide.VERSION}.tgz").write_bytes(b"something else")
-    with serving(own_registry) as address:
+def test_another_package_than_the_pinned_one_is_rejected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    manifest = {"name": "pyodide", "version": pyodide.VERSION}
+    with tarfile.open(tmp_path / "other.tgz", "w:gz") as archive:
+        text = json.dumps(manifest).encode()
+        info = tarfile.TarInfo("package/package.json")
+        info.size = len(text)
+        archive.addfile(info, io.BytesIO(text))
+    with serving(tmp_path) as address:
+        about = {"versions": {pyodide.VERSION: {**manifest, "dist": {"tarball": f"{address}other.tgz"}}}}
+        (tmp_path / "pyodide").write_text(json.dumps({"name": "pyodide", **about}))
         monkeypatch.setenv("NPM_CONFIG_REGISTRY", address)
+        monkeypatch.setenv("NPM_CONFIG_CACHE", str(tmp_path / "cache"))
         with pytest.raises(BuildError, match="its hash is another"):
-            package_files(tmp_path / "cache")
-    assert not (tmp_path / "cache").exists()
+            package_files()
+
+
+def test_a_registry_without_the_package_is_said_in_one_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with serving(tmp_path) as address:
+        monkeypatch.setenv("NPM_CONFIG_REGISTRY", address)
+        monkeypatch.setenv("NPM_CONFIG_CACHE", str(tmp_path / "cache"))
+        with pytest.raises(BuildError, match=f"npm pack pyodide@{pyodide.VERSION} failed: .*404"):
+            package_files()
 
 
 def test_a_folder_with_other_files_is_not_replaced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

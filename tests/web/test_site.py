@@ -24,7 +24,7 @@ TO_THE_END = """(() => { const seek = document.getElementById('seek');
 async def test_without_its_server_the_demonstration_gives_the_strides_that_cpython_gives(
     chromium: Browser, site: Path
 ) -> None:
-    expected = json.loads(encode(scene_of(demo_packets(site)).whole_message()[0]))
+    expected = json.loads(encode(scene_of(demo_packets(site)).whole_message()))
     with ExitStack() as server:
         url = server.enter_context(serving(site))
         async with open_site(chromium, url) as view:

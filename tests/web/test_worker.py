@@ -10,10 +10,10 @@ import pytest
 from recordings import recorded
 from shown import walked
 from walks import insoles
+from worker_walks import connect, send_frames
 
 from solepath import Packet
 from solepath.emulate import Route
-from solepath.show.web.rehearsal import connect, send_frames
 from solepath.show.web.worker import Worker
 
 HEADER = b'{"format": "solepath-packets", "version": 1}\n'
@@ -37,7 +37,7 @@ def call(worker: Worker, name: str, *arguments: Any) -> Any:
 
 def shown(worker: Worker) -> Any:
     """Return all that a page shows that is opened now."""
-    return json.loads(json.dumps(worker.scene.whole_message()[0]))
+    return json.loads(json.dumps(worker.scene.whole_message()))
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Iterable
+from contextlib import suppress
 
 from ..link.driver import Driver
 from ..link.setup.config import DeviceConfig, check_configs
@@ -62,7 +63,8 @@ class Devices:
         self._backend = backend
         self._tasks: list[asyncio.Task[None]] = []
         self._connections: list[Connection] = []
-        self._waiter: asyncio.Future[None] | None = None
+        self._arrival = asyncio.Event()
+        """Set when a packet has arrived, or a task has ended."""
         self._taken_in_a_row = 0
         self._entered = False
         """True once `async with` was entered."""
@@ -73,7 +75,7 @@ class Devices:
         for member in roster.add(configs):
             emitter = Emitter(self._inbox, member)
             self._connections.append(Connection(roster, member, backend, self._scanner, emitter, pair, patience, own))
-        self._inbox.on_arrival = self._wake
+        self._inbox.on_arrival = self._arrival.set
 
     @property
     def connections(self) -> tuple[Connection, ...]:
@@ -115,7 +117,7 @@ class Devices:
             await asyncio.gather(*self._tasks, return_exceptions=True)
         finally:
             self._tasks, self._fault, self._in_use = [], None, False
-            self._wake()
+            self._arrival.set()
 
     def __aiter__(self) -> AsyncIterator[Packet]:
         return self
@@ -134,17 +136,13 @@ class Devices:
         packet = self._next()
         if packet is not None:
             return packet
-        if self._waiter is not None:
-            raise RuntimeError("somebody else waits for the next packet already")
-        loop = asyncio.get_running_loop()
-        self._taken_in_a_row, self._waiter = 0, loop.create_future()
-        timer = loop.call_later(TICK_INTERVAL, self._wake)
-        try:
-            await self._waiter
-        finally:
-            timer.cancel()
-            self._waiter = None
-        return self._next() or Packet(loop.time(), self._connections[0].site, "receiver/tick", b"")
+        self._taken_in_a_row = 0
+        self._arrival.clear()
+        with suppress(TimeoutError):
+            async with asyncio.timeout(TICK_INTERVAL):
+                await self._arrival.wait()
+        now = asyncio.get_running_loop().time()
+        return self._next() or Packet(now, self._connections[0].site, "receiver/tick", b"")
 
     def _next(self) -> Packet | None:
         """Return the oldest packet that waits, or None; raise StopAsyncIteration when no more can come."""
@@ -155,15 +153,11 @@ class Devices:
             raise StopAsyncIteration
         return packet
 
-    def _wake(self) -> None:
-        if self._waiter is not None and not self._waiter.done():
-            self._waiter.set_result(None)
-
     def _note_end(self, task: asyncio.Task[None]) -> None:
         """Note the end of a task as a fault, since a task ends only when it is cancelled or raises."""
         if not task.cancelled():
             self._fault = task
-        self._wake()
+        self._arrival.set()
 
     def _report_trouble(self, text: str) -> None:
         for connection in self._connections:

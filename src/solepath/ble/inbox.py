@@ -23,71 +23,52 @@ class Inbox:
     Values that were read or written and reports of the receiver are not dropped to make room for a notification, so
     that a recording keeps its ranges and layouts. At most `capacity` of these are held too; beyond it the oldest are
     dropped. A packet receiver/dropped counts the dropped packets of a site and takes their place among the kept packets
-    of that site. When it does not fit among the kept packets, the next packet receiver/dropped includes its count."""
+    of that site."""
 
     capacity: int
     _packets: deque[tuple[Packet, bool]] = field(factory=deque, init=False)
     _kept_packets: deque[Packet] = field(factory=deque, init=False)
-    """Packets older than all of `_packets`: those that a notification does not displace, and the next one to take."""
-    _drop_counts: dict[Site, int] = field(factory=dict, init=False)
-    """Number of packets of each site that were dropped since its last packet receiver/dropped."""
-    _newest_removed: dict[Site, Packet] = field(factory=dict, init=False)
-    """The newest packet of each site that has left `_packets` other than by `take`; it gives receiver/dropped its time.
-
-    The time cannot be later, since kept packets are taken before `_packets`."""
+    """Packets older than all of `_packets`: counts, those that a notification does not displace, and the next one."""
     on_arrival: Callable[[], None] | None = field(default=None, init=False)
-
-    def __len__(self) -> int:
-        return len(self._packets) + len(self._kept_packets) + len(self._drop_counts)
 
     def put(self, packet: Packet, is_notification: bool) -> None:
         """Add one packet; `is_notification` is True when the device sent it without a request, so it may be dropped."""
         self._packets.append((packet, is_notification))
         if len(self._packets) > self.capacity:
-            self._make_room()
+            oldest, may_be_dropped = self._packets.popleft()
+            if may_be_dropped:
+                self._drop(oldest)
+            else:
+                self._kept_packets.append(oldest)
+            while len(self._kept_packets) > max(self.capacity, len(Site)):  # there may be a count of each site
+                self._drop(self._kept_packets.popleft())
         if self.on_arrival is not None:
             self.on_arrival()
 
-    def _make_room(self) -> None:
-        packet, is_notification = self._packets.popleft()
-        if is_notification:
-            self._newest_removed[packet.site] = packet
-            self._drop(packet)
-            return
-        if packet.site in self._drop_counts:
-            self._kept_packets.append(self._make_dropped_packet(packet.site))
-        self._newest_removed[packet.site] = packet
-        self._kept_packets.append(packet)
-        while len(self._kept_packets) > self.capacity:
-            counts = (index for index, kept in enumerate(self._kept_packets) if kept.channel == DROPPED)
-            dropped_index = next(counts, 0)  # a count can be reported later, a value cannot
-            self._drop(self._kept_packets[dropped_index])
-            del self._kept_packets[dropped_index]
-
     def _drop(self, packet: Packet) -> None:
-        """Count a dropped packet; a packet receiver/dropped adds its own count."""
-        count = parse_dropped(packet.data) if packet.channel == DROPPED else 1
-        self._drop_counts[packet.site] = self._drop_counts.get(packet.site, 0) + count
-
-    def _make_dropped_packet(self, site: Site) -> Packet:
-        """Return a packet receiver/dropped with the unreported count of a site."""
-        newest = self._newest_removed[site]
-        return Packet(newest.t, site, DROPPED, build_dropped(self._drop_counts.pop(site)), newest.device)
+        """Count a dropped packet, or those of a packet receiver/dropped, after the kept packets of its site."""
+        kept, count, t = self._kept_packets, _count(packet), packet.t
+        newest = next((one for one in reversed(kept) if one.site is packet.site), None)
+        if newest is not None and newest.channel == DROPPED:
+            kept.remove(newest)
+            count += _count(newest)
+        if kept:
+            t = max(t, kept[-1].t)  # an older one may be counted again
+        kept.append(Packet(t, packet.site, DROPPED, build_dropped(count), packet.device))
 
     def take(self) -> Packet | None:
         """Remove and return the oldest packet; None when there is none."""
-        if self._kept_packets:
-            return self._kept_packets.popleft()
-        if self._drop_counts:
-            dropped = self._make_dropped_packet(next(iter(self._drop_counts)))
-            if self._packets:  # keep the next packet: otherwise a slow consumer could get nothing but counts
-                packet, _ = self._packets.popleft()
-                if packet.site in self._drop_counts:
-                    self._kept_packets.append(self._make_dropped_packet(packet.site))
-                self._newest_removed[packet.site] = packet
-                self._kept_packets.append(packet)
-            return dropped
-        return self._packets.popleft()[0] if self._packets else None
+        if not self._kept_packets:
+            return self._packets.popleft()[0] if self._packets else None
+        taken = self._kept_packets.popleft()
+        if taken.channel == DROPPED and self._packets:
+            # keep the next packet: otherwise a slow consumer could get nothing but counts
+            self._kept_packets.append(self._packets.popleft()[0])
+        return taken
+
+
+def _count(packet: Packet) -> int:
+    return parse_dropped(packet.data) if packet.channel == DROPPED else 1
 
 
 @define(eq=False)

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any
 
-from ..calibration import Calibration
-from ..floorplan.index import IndexedPlan
-from ..floorplan.plan import FloorPlan
-from ..link.driver import Driver
-from ..recipes import DEFAULT, Recipe
+from attrs import frozen
+
 from .step.keyed import Keyed
 from .step.sent import NumberedEvent, Sent, Unreadable
 from .step.sessions import Sessions
 from .step.state import StateHead, StateRest, write_state
 
 
-class Fleet:
+@frozen(eq=False)
+class Fleet(Sessions):
     """The configuration of a job, the same for all wearers and on every worker; it holds no wearer's state.
 
     `recipe`, `floorplan`, `profiles`, `poses`, `pressures` are arguments of Session, `parts` of Session.restore.
@@ -33,30 +31,6 @@ class Fleet:
 
             def __reduce__(self) -> tuple[type, tuple[()]]:
                 return Ours, ()"""
-
-    __slots__ = ("_sessions",)
-
-    def __init__(
-        self,
-        recipe: Recipe = DEFAULT,
-        *,
-        calibrations: Mapping[str, Calibration] = {},
-        floorplan: FloorPlan | IndexedPlan | None = None,
-        profiles: Iterable[Driver] = (),
-        parts: Iterable[type] = (),
-        window: int = 256,
-        poses: bool = False,
-        pressures: bool = False,
-    ) -> None:
-        if not isinstance(calibrations, Mapping):
-            raise TypeError(f"calibrations is a mapping by wearer, not a {type(calibrations).__name__}")
-        if type(window) is not int or window < 0:
-            raise ValueError(f"window is {window}; it is a number of rows")
-        plan = IndexedPlan(floorplan) if isinstance(floorplan, FloorPlan) else floorplan
-        app_code = (tuple(profiles), tuple(parts))
-        self._sessions = Sessions(recipe, calibrations, plan, *app_code, poses, pressures, window)
-        # an error that concerns all wearers is raised here, not in a worker
-        self._sessions.unpack(self._sessions.make_session("", calibrated=False).pack())
 
     def step(
         self, wearer: str, state: bytes | None, sent: Iterable[Sent | Unreadable]
@@ -76,7 +50,7 @@ class Fleet:
 
     def open(self, wearer: str, state: bytes | None) -> Keyed:
         """Return the wearer as an object, for engines that keep objects between snapshots; raises as `step` does."""
-        return Keyed(self._sessions, wearer, state)
+        return Keyed(self, wearer, state)
 
     def adopt(self, snapshot: Any) -> bytes:
         """Return a state that continues a Session.snapshot taken elsewhere.
@@ -84,7 +58,7 @@ class Fleet:
         With it a phone hands its wearer over to the fleet; the next row of the phone is number 0 of a run. Events are
         numbered from 0. From now on the settings of the job's recipe are used, not those in the snapshot. Raises
         SnapshotError when the session cannot continue here (Session.unpack) or is finished."""
-        session = self._sessions.restore_session(snapshot)
+        session = self.restore_session(snapshot)
         now = session.now
         head = StateHead(-1, 0, 0, 0.0 if now is None else now)
         return write_state(head, StateRest(session=session.pack()))

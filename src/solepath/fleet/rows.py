@@ -5,12 +5,16 @@ protocol/fleet.md describes every column."""
 from __future__ import annotations
 
 import json
+from binascii import unhexlify
 from collections.abc import Mapping
+from contextlib import suppress
 from operator import index
 from typing import Any, SupportsIndex
 
 from ..types import Packet, Site
-from .step.sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_NAME_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
+from .events import SentRejection
+from .step.order import RejectedItem, check_payload
+from .step.sent import MAX_COUNT, MAX_NAME_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
 
 SENT_COLUMNS: Mapping[str, type] = {
     "wearer": str, "run": int, "number": int, "t": float, "site": str, "channel": str, "data": bytes, "device": str,
@@ -53,35 +57,35 @@ def read_sent(row: Any) -> Sent | Unreadable:
     try:
         if not isinstance(row, Mapping):
             raise _RowFlaw(f"a row is a mapping, not a {type(row).__name__}")
-        wearer = _read_name(row, "wearer")
+        wearer = _check_text(row.get("wearer"), "wearer")
         run = _read_count(row, "run", 0)
         number = _read_count(row, "number", None)
-        return Sent(wearer, number, _read_payload(row), run)
+        what = _read_payload(row)
+        checked = check_payload(what)
+        if not isinstance(checked, RejectedItem):
+            what = checked
+        elif checked.reason is not SentRejection.NOT_FINITE:  # which is reported in its turn
+            raise _RowFlaw(checked.detail)
+        return Sent(wearer, number, what, run)
     except _RowFlaw as flaw:
         return Unreadable(wearer, str(flaw), run, number)
 
 
 def _read_payload(row: Mapping[str, Any]) -> Packet | Tick | End:
-    channel, site = _read_name(row, "channel"), row.get("site")
+    """Return the payload of a row; its values may be of wrong types."""
+    values: Any = [row.get(key) for key in ("channel", "site", "t", "data")]
+    channel, site, t, data = values
     if site is None and channel == "end":
         return End()
     if site is None and channel == "tick":
-        return Tick(_read_time(row))
+        return Tick(t)
     if not isinstance(site, str) or site not in _SITES:
         raise _RowFlaw(f"site is not one of {', '.join(_SITES)}")
-    data = row.get("data")
-    if isinstance(data, bytearray | memoryview):
-        data = bytes(data)
-    if not isinstance(data, bytes):
-        raise _RowFlaw(f"data is no bytes but a {type(data).__name__}")
-    if len(data) > MAX_DATA_LENGTH:
-        raise _RowFlaw(f"data of {len(data)} bytes; {MAX_DATA_LENGTH} are the most")
-    device = "" if row.get("device") is None else _read_name(row, "device")
-    return Packet(_read_time(row), _SITES[site], channel, data, device)
+    device = "" if row.get("device") is None else row["device"]
+    return Packet(t, _SITES[site], _check_text(channel, "channel"), data, _check_text(device, "device"))
 
 
-def _read_name(row: Mapping[str, Any], key: str) -> str:
-    value = row.get(key)
+def _check_text(value: Any, key: str) -> str:
     if not isinstance(value, str):
         raise _RowFlaw(f"{key} is no text but a {type(value).__name__}")
     if len(value) > MAX_NAME_LENGTH:
@@ -105,19 +109,6 @@ def _read_count(row: Mapping[str, Any], key: str, default: int | None) -> int:
     return value
 
 
-def _read_time(row: Mapping[str, Any]) -> float:
-    """Return the row's `t`, s, as a float; the session rejects infinity and NaN."""
-    value = row.get("t")
-    if type(value) is float:
-        return value
-    if isinstance(value, bool) or not isinstance(value, float | int):
-        raise _RowFlaw(f"t is no number but a {type(value).__name__}")
-    try:
-        return float(value)
-    except OverflowError:
-        raise _RowFlaw("t is no time") from None
-
-
 def sent_line(sent: Sent) -> bytes:
     """Return an item as one line of JSON with its line feed; raise ValueError for a time that is not finite."""
     row = sent_row(sent)
@@ -135,12 +126,8 @@ def read_line(line: Any) -> Sent | Unreadable:
         return Unreadable("", str(flaw))
     data = row.get("data")
     if isinstance(data, str):
-        try:
-            data_bytes = bytes.fromhex(data)
-        except ValueError:
-            return read_sent(row)
-        if 2 * len(data_bytes) == len(data):  # fromhex accepts blanks too, the protocol does not
-            row["data"] = data_bytes
+        with suppress(ValueError):
+            row["data"] = unhexlify(data)
     return read_sent(row)
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import subprocess
 import sys
 import tempfile
 from importlib import import_module
@@ -26,7 +25,7 @@ from solepath.emulate.radio import CLEAN  # noqa: E402
 from solepath.emulate.routes.route import Route  # noqa: E402
 from solepath.emulate.walk import emulate  # noqa: E402
 from solepath.recording import PacketWriter  # noqa: E402
-from solepath.show.web.pyodide import VERSION, node_program, package_files  # noqa: E402
+from solepath.show.web.pyodide import VERSION, package_files, run_node  # noqa: E402
 from solepath.show.web.site import OWN_PACKAGES  # noqa: E402
 
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
@@ -55,9 +54,8 @@ def time_pyodide(folder: Path) -> list[float]:
             ignore=shutil.ignore_patterns("__pycache__"),
         )
     shutil.copy(HERE / "feeding.py", folder / "source")
-    words = [node_program(), str(HERE / "energy.mjs"), str(folder), str(RUNS)]
-    done = subprocess.run(words, capture_output=True, text=True, check=True, stdin=subprocess.DEVNULL)
-    times: list[float] = json.loads(done.stdout.splitlines()[-1])
+    printed = run_node("node", str(HERE / "energy.mjs"), str(folder), str(RUNS))
+    times: list[float] = json.loads(printed.splitlines()[-1])
     return times
 
 

@@ -28,7 +28,7 @@ from solepath.floorplan.plan import FloorPlan
 from solepath.show.page.messages import Command
 from solepath.show.page.player.packed_items import PackedItems
 from solepath.show.page.player.player import Player
-from solepath.show.page.player.player_loop import PlayerLoop
+from solepath.show.page.player.player_loop import play_on
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server.server import Page
 from solepath.types import Site
@@ -116,7 +116,6 @@ def played(title: str, items: Iterable[Packet | Sample], moment: float = inf) ->
     """Return the state of a recording that is paused at the time `moment`, s, or has been played to its end."""
     scene = Scene(title, "default", "recording")
     player = Player(PackedItems(items), Session(poses=True, pressures=True), scene)
-    loop = PlayerLoop(player)
     player.seek(min(moment, player.playback.end) - LAST)
     while player.feed_due(lambda: False):
         pass
@@ -124,10 +123,10 @@ def played(title: str, items: Iterable[Packet | Sample], moment: float = inf) ->
     async def rest(page: Page) -> None:
         stop = asyncio.Event()
         asyncio.get_running_loop().call_later(LAST if moment < inf else 10.0 * LAST, stop.set)
-        await loop.run(page, stop, once=True)
+        await play_on(page, player, stop, once=True)
         player.pause()
 
-    return Shown(scene, loop.command, rest, lambda page: loop.run(page, asyncio.Event()))
+    return Shown(scene, player.command, rest, lambda page: play_on(page, player, asyncio.Event()))
 
 
 @frozen

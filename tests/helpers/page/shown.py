@@ -66,7 +66,7 @@ def shown(events: Iterable[Event], scene: Scene | None = None) -> Scene:
 
 def frame(scene: Scene) -> dict[str, Any]:
     """Return the present frame of a scene, as a page gets it."""
-    whole = json.loads(encode(scene.whole_message()[0]))["frame"]
+    whole = json.loads(encode(scene.whole_message()))["frame"]
     assert isinstance(whole, dict)
     return whole
 

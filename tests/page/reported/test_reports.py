@@ -63,7 +63,7 @@ def show_until(packets: tuple[Packet, ...], report: int) -> tuple[Session, Scene
 
 def whole(player: Player) -> Any:
     """Return what a new watcher gets, without the state of the playback."""
-    message = json.loads(encode(player.scene.whole_message()[0]))
+    message = json.loads(encode(player.scene.whole_message()))
     message["frame"]["playback"] = None
     return message
 
@@ -75,11 +75,11 @@ def test_the_drawn_track_ends_where_the_session_is_after_a_revision(report: int)
     assert isinstance(events[1], TrackRevised) and hypot(*events[1].by) > 0.08
     assert session.position is not None
     x, y, _ = session.position.position
-    last = scene.wearer.track.points[-1]
+    last = scene.wearer.track.items[-1]
     assert last[1:3] == pytest.approx((x, y), abs=0.02)
     wearer = frame(scene)["wearer"]
     assert wearer["position"][:2] == pytest.approx((x, y), abs=0.001)
     assert wearer["covariance"] is None, "it is not known before the next stride"
     for foot in Foot:
-        was, now = before.feet[foot].track.points[-1], scene.feet[foot].track.points[-1]
+        was, now = before.feet[foot].track.items[-1], scene.feet[foot].track.items[-1]
         assert (now[1] or 0.0) - (was[1] or 0.0) == pytest.approx(events[1].by[0], abs=0.06)

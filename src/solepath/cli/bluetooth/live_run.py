@@ -24,7 +24,7 @@ from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, printable
 from ...session import Session
 from ...show.output import TrackFiles
-from ...show.page.body import LiveBody, legs_of
+from ...show.page.body import LiveBody
 from ...show.page.live_commands import position_of
 from ...show.page.scene.scales import newtons_of
 from ...show.page.scene.scene import Scene
@@ -88,7 +88,7 @@ async def listen(
         publish = _publisher_of(outlets, session)
         if address is not None:
             collector = Scene("Live", recipe.name, "live", plan=floor, newtons=newtons_of(calibration), walk=walk)
-            collector.body = LiveBody(lambda: legs_of(session))
+            collector.body = LiveBody(session)
 
             def report_position(command: Command) -> None:
                 if isinstance(items, Devices):

@@ -19,7 +19,7 @@ from ...link.decoder import Decoder
 from ...papers.kupt_dfpc.shoe.fit import CONSTANT_COLUMNS, LONGEST_SHOE, MeasuredPosture, write_measurements
 from ...papers.kupt_dfpc.shoe.gauge import STILL_TIME, PitchGauge
 from ...recording import printable
-from ...show.page.posture import ShownPosture
+from ...show.page.guide import ShownPosture
 from ...show.page.scene.scene import Scene
 from ...types import Foot, Packet, Sample, Site
 from ..bluetooth.backend import backend_of
@@ -121,9 +121,9 @@ class LiveShoe:
     def _show(self) -> None:
         """Show the present pitch on the page."""
         posture, reading = self.posture, None if self.is_silent else self.gauge.read()
-        posture.is_still, posture.pitch, posture.lean = False, None, None
+        posture.still, posture.pitch, posture.lean = False, None, None
         if reading is not None:
-            posture.is_still = reading.is_still
+            posture.still = reading.is_still
             posture.pitch = None if self.gauge.flat is None else reading.pitch
             posture.lean = reading.sideways if degrees(abs(reading.sideways)) > SEEN_LEAN else None
 

@@ -17,8 +17,8 @@ from ...ble.record import start_keys
 from ...calibration import CalibrationError
 from ...papers.footstep_tracker.toe_out import ERRORS, FEWEST_STRIDES, ToeOutWalk
 from ...recording import PacketWriter, RecordingError
+from ...show.page.guide import ShownFoot, ShownToeOut
 from ...show.page.scene.scene import Scene
-from ...show.page.toe_out import ShownFoot, ShownToeOut
 from ...types import Foot, Packet
 from ..bluetooth.backend import backend_of
 from ..bluetooth.devices import named_devices

@@ -114,15 +114,15 @@ def play(player: Player, address: PageAddress, pace: float) -> None:
     """Play `player` on a page, at `pace` times real time, until Ctrl-C; without a terminal until the recording ends."""
     import asyncio
 
-    from ...show.page.player.player_loop import PlayerLoop
+    from ...show.page.player.player_loop import play_on
     from .loop import run_to_end
 
     async def main(stop: asyncio.Event) -> int:
-        player_loop, once = PlayerLoop(player), not has_terminal()
-        async with serve_page(player.scene, address, player_loop.command) as page:
+        once = not has_terminal()
+        async with serve_page(player.scene, address, player.command) as page:
             if not once:
                 print("Ctrl-C ends it", flush=True)
-            await player_loop.run(page, stop, once=once)
+            await play_on(page, player, stop, once=once)
         return 0
 
     player.set_speed(pace)

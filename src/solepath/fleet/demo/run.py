@@ -21,7 +21,6 @@ from ...events import Event
 from ...recipes import by_name
 from ...recording import printable
 from ...session import Session
-from ...types import Packet
 from ..jvm import java_environment
 from .compare import Row, compare_sessions, differences, read_events
 from .job import CHECKPOINT, EVENTS, PLAN, SENT
@@ -168,8 +167,8 @@ class DemoStage:
         for wearer in self.wearers:
             inputs, session, events = wearer.inputs(), Session(recipe), list[Event]()
             started_at = process_time()
-            for payload in inputs:
-                events += session.feed(payload) if isinstance(payload, Packet) else session.finish()
+            for packet in inputs:
+                events += session.feed(packet)
             self.session_seconds += process_time() - started_at
             self.sessions[wearer.name] = events
 

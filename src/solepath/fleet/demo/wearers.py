@@ -21,23 +21,21 @@ from ...emulate.walk import emulate
 from ...link.decoder import Decoder
 from ...types import Packet, Sample, Site
 from ..rows import sent_line
-from ..step.sent import MAX_DATA_LENGTH, End, Sent
+from ..step.sent import MAX_DATA_LENGTH, Sent
 
 POOR_RADIO = Radio(loss=0.02, duplicate=0.005, corrupt=0.005, truncate=0.005, latency=0.01, jitter=0.03)
 """A poor radio connection: of a hundred notifications two never arrive, and one is damaged."""
 WALKING_SPEED = 1.3
 """Walking speed, m/s."""
-DEVICES: dict[str, Device] = {
-    "insoles": Insole(cells=48),
-    "insoles in fragments": Insole(cells=24, rate=50.0, mtu=23),
-    "insoles with broken cells": Insole(cells=35, batch=4, quaternion=True, broken=((5, 0), (6, 4095))),
-    "CC2650": CC2650(presses=(2.0,)),
-    "CC2541": CC2541(rate=20.0),
-    "insoles of 96 cells": Insole(cells=96),
-}
-"""Device on both feet, by the name of the walk."""
 LARGE_INSOLES = "insoles of 96 cells"
 """Name of the walk of which the demonstration has no wearer, since it would take half its time."""
+DEVICES: dict[str, Device] = {
+    "insoles": Insole(cells=48),
+    "CC2650": CC2650(),
+    "CC2541": CC2541(rate=20.0),
+    LARGE_INSOLES: Insole(cells=96),
+}
+"""Device on both feet, by the name of the walk."""
 DEMO_WALKS = tuple(name for name in DEVICES if name != LARGE_INSOLES)
 LATE_SHARE, MAX_DELAY_ROWS = 0.02, 100
 """Share of the rows that come late, and the largest number of rows that overtake one; less than the fleet's window."""
@@ -52,11 +50,8 @@ POISON_EVERY, GAP_EVERY = 97, 10
 FIRST_RUN = 1_790_000_000_000
 """Time at which the first phone was started, ms since 1970; it is the number of a run."""
 
-Payload = Packet | End
-Row = dict[str, Any]
-"""A row of a faulty phone: the columns of protocol/fleet.md with any values."""
-Item = tuple[int, int, Payload | Row]
-"""(index of the phone's run, number, payload)."""
+Item = tuple[int, Packet | dict[str, Any]]
+"""Number and packet, or for a faulty phone the columns of protocol/fleet.md with any values."""
 
 
 @frozen
@@ -82,13 +77,13 @@ class Sending:
     in the right order. `remarks` holds the names of the events that the fleet itself must emit."""
 
     bundles: tuple[tuple[Item, ...], ...]
-    ordered: tuple[Payload, ...]
+    ordered: tuple[Packet, ...]
     remarks: tuple[str, ...] = ()
 
 
 @frozen
 class DemoWearer:
-    """One wearer; `shift` is added to the times of the walk, s, and `run` to the run indices of the Sending."""
+    """One wearer; `shift` is added to the times of the walk, s."""
 
     name: str
     sending: Sending
@@ -100,27 +95,27 @@ class DemoWearer:
         bundles = self.sending.bundles
         return b"".join(map(self._line, bundles[number])) if number < len(bundles) else b""
 
-    def inputs(self) -> list[Payload]:
+    def inputs(self) -> list[Packet]:
         """Return the input of this wearer's session, in order."""
-        return [self._shifted(payload) for payload in self.sending.ordered]
+        return [self._shifted(packet) for packet in self.sending.ordered]
 
     def _line(self, item: Item) -> bytes:
-        run, number, payload = item
-        if isinstance(payload, dict):
-            return json.dumps({**payload, "wearer": self.name, "run": self.run + run}).encode() + b"\n"
-        return sent_line(Sent(self.name, number, self._shifted(payload), self.run + run))
+        number, what = item
+        if isinstance(what, Packet):
+            return sent_line(Sent(self.name, number, self._shifted(what), self.run))
+        return json.dumps({**what, "wearer": self.name, "run": self.run}).encode() + b"\n"
 
-    def _shifted(self, payload: Payload) -> Payload:
-        return payload if isinstance(payload, End) else evolve(payload, t=payload.t + self.shift)
+    def _shifted(self, packet: Packet) -> Packet:
+        return evolve(packet, t=packet.t + self.shift)
 
 
 def make_wearers(plan: DemoPlan) -> list[DemoWearer]:
     """Emulate the walks and return the wearers, the same for the same plan."""
     walks = [walk(name, plan.seconds, plan.seed + number) for number, name in enumerate(plan.walks)]
     rng = Random(f"sendings {plan.seed}")
-    healthy = [make_sending(packets, rng, **kind) for packets in walks for kind in ({}, {"ends": True}, {"runs": 2})]
-    poisons = [make_poison(packets, rng) for packets in walks]
-    gaps = [gap for packets in walks if (gap := make_gap(packets, rng)) is not None] or healthy
+    makers = (make_healthy, make_poison, make_gap)
+    healthy, poisons, gaps = [[make(packets, rng) for packets in walks] for make in makers]
+    gaps = [sending for sending in gaps if sending.remarks] or healthy
     wearers = []
     for number in range(plan.wearers):
         rng = Random(f"wearer {plan.seed} {number}")
@@ -139,47 +134,41 @@ def walk(name: str, seconds: float, seed: int) -> list[Packet]:
     return [p for p in emulate(route, devices=worn, radio=POOR_RADIO, seed=seed).packets if p.t < seconds]
 
 
-def make_sending(packets: Sequence[Packet], rng: Random, *, runs: int = 1, ends: bool = False) -> Sending:
-    """Return the Sending of a walk; `runs` is the number of times that the phone's app was started during the walk."""
-    received: list[Payload] = [*packets, *([End()] if ends else [])]
-    cuts = [len(received) * k // runs for k in range(runs + 1)]
-    arrived: list[Item] = []
-    for run in range(runs):
-        arrived += _disturb([(run, n, what) for n, what in enumerate(received[cuts[run] : cuts[run + 1]])], rng)
-    return Sending(_make_bundles(arrived), tuple(received))
+def make_healthy(packets: Sequence[Packet], rng: Random) -> Sending:
+    """Return the Sending of a walk with rows that come late, twice and out of order."""
+    return Sending(_make_bundles(_disturb([*enumerate(packets)], rng)), tuple(packets))
 
 
-def make_gap(packets: Sequence[Packet], rng: Random) -> Sending | None:
+def make_gap(packets: Sequence[Packet], rng: Random) -> Sending:
     """Return the Sending of a walk that loses LOST_ROWS consecutive rows; one of them comes after it was given up.
 
-    Returns None when the walk has too few rows for that."""
+    A walk with too few rows for that loses none."""
     first = len(packets) // 8
-    end = first + LOST_ROWS
-    bundles = _make_bundles(_disturb([(0, n, what) for n, what in enumerate(packets) if not first <= n < end], rng))
+    lost = [*enumerate(packets)][first : first + LOST_ROWS]
+    kept = [item for item in enumerate(packets) if item not in lost]
+    *bundles, last = _make_bundles(_disturb(kept, rng))
     # the engine may use the rows of a bundle in any order, so the late row comes in a later bundle
-    if sum(map(len, bundles[:-1])) < end + TOO_LATE_ROWS:
-        return None
-    late = rng.randrange(first, end)
-    bundles = (*bundles[:-1], (*bundles[-1], (0, late, packets[late])))
-    ordered = (*packets[:first], *packets[end:])
-    return Sending(bundles, ordered, ("NumbersMissing", "SentRejected"))
+    if sum(map(len, bundles)) < first + LOST_ROWS + TOO_LATE_ROWS:
+        return make_healthy(packets, rng)
+    late = rng.choice(lost)
+    ordered = tuple([packet for _, packet in kept])
+    return Sending((*bundles, (*last, late)), ordered, ("NumbersMissing", "SentRejected"))
 
 
 def make_poison(packets: Sequence[Packet], rng: Random) -> Sending:
     """Return a Sending of a walk with random bytes in many packets, and with invalid rows."""
-    received, items = list[Payload](), list[Item]()
+    items = list[Item]()
     for number, packet in enumerate(packets):
+        what: Packet | dict[str, Any] = packet
         draw = rng.random()
         if draw < INVALID_ROW_SHARE:
-            items.append((0, number, {"number": number, "t": packet.t, "site": "tail", "channel": packet.channel}))
-            continue
-        if draw < CHANGED_SHARE:
+            what = {"number": number, "t": packet.t, "site": "tail", "channel": packet.channel}
+        elif draw < CHANGED_SHARE:
             data = rng.randbytes(rng.choice((0, 1, 20, 244, MAX_DATA_LENGTH)))
-            packet = Packet(packet.t, rng.choice(list(Site)), rng.choice((packet.channel, "\N{SKULL}")), data)
-        received.append(packet)
-        items.append((0, number, packet))
-    remarks = ("SentRejected",) * (len(packets) - len(received))
-    return Sending(_make_bundles(items), tuple(received), remarks)
+            what = Packet(packet.t, rng.choice(list(Site)), rng.choice((packet.channel, "\N{SKULL}")), data)
+        items.append((number, what))
+    received = tuple([what for _, what in items if isinstance(what, Packet)])
+    return Sending(_make_bundles(items), received, ("SentRejected",) * (len(items) - len(received)))
 
 
 def _disturb(sent: Iterable[Item], rng: Random) -> list[Item]:
@@ -197,9 +186,7 @@ def _make_bundles(items: Iterable[Item]) -> tuple[tuple[Item, ...], ...]:
     """Return bundles of a second by the newest time that arrived; late rows may make the last bundle longer."""
     bundles: list[list[Item]] = [[]]
     for item in items:
-        payload = item[2]
-        t = payload.t if isinstance(payload, Packet) else 0.0
-        while t >= len(bundles):
+        while isinstance(item[1], Packet) and item[1].t >= len(bundles):
             bundles.append([])
         bundles[-1].append(item)
     return tuple(map(tuple, bundles))
@@ -209,6 +196,6 @@ def _make_bundles(items: Iterable[Item]) -> tuple[tuple[Item, ...], ...]:
 def count_samples(sending: Sending) -> int:
     """Return the number of samples that links make of the packets."""
     links = {site: Decoder(site) for site in Site}
-    outputs = [links[packet.site].feed(packet) for packet in sending.ordered if isinstance(packet, Packet)]
+    outputs = [links[packet.site].feed(packet) for packet in sending.ordered]
     outputs += [link.finish() for link in links.values()]
     return sum(isinstance(item, Sample) for output in outputs for item in output)

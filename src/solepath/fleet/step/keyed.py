@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TypeVar
+from typing import TypeGuard
+
+from attrs import asdict
 
 from ...events import Event
 from ...saving.codec import SnapshotError
 from ...session import Session
 from ...types import Packet
 from ..events import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
-from .order import MissingNumbers, RejectedItem, RowOrder, check_payload
+from .order import MissingNumbers, Payload, RejectedItem, RowOrder, check_payload
 from .sent import MAX_COUNT, MAX_DETAIL_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
 from .sessions import Sessions
 from .state import StateError, StateHead, StateRest, read_head, read_rest, write_state
 
 EVENTS_PER_ROW = 64
 """Largest mean number of events per row of a phone for which identities stay unique (protocol/fleet.md)."""
-
-_Kind = TypeVar("_Kind", NumbersMissing, SentRejected, StateRejected, WearerFailed)
 
 
 class Keyed:
@@ -29,22 +29,25 @@ class Keyed:
     if the app's parts can be saved at any moment (Fleet.step)."""
 
     __slots__ = (
+        "_emitted",
         "_known_at",
         "_has_numbers",
         "_opened_state",
         "_order",
         "_pending",
         "_session",
-        "_sessions",
+        "_fleet",
         "_next_event",
         "_wearer",
     )
 
-    def __init__(self, sessions: Sessions, wearer: str, state: bytes | None) -> None:
-        self._sessions, self._wearer = sessions, wearer
-        self._order = RowOrder(sessions.window)
+    def __init__(self, fleet: Sessions, wearer: str, state: bytes | None) -> None:
+        self._fleet, self._wearer = fleet, wearer
+        self._order = RowOrder(fleet.window)
         self._session: Session | None = None
         self._next_event, self._known_at = 0, 0.0
+        self._emitted: list[NumberedEvent] = []
+        """Events that `feed` returns when it has used all rows."""
         self._pending: tuple[type[StateRejected | WearerFailed], str] | None = None
         """Kind and detail of a failure of the state or session, to be reported before other events."""
         self._opened_state: bytes | None = None
@@ -65,31 +68,28 @@ class Keyed:
         """Return the events of the wearer's session and of the fleet for these rows.
 
         A row in its turn, neither late nor early, is used at once."""
-        emitted: list[NumberedEvent] = []
         if self._pending is not None and self._has_numbers:
-            self._emit_pending(emitted)
+            self._report_pending()
         for item in sent:
-            self._use_in_order(item, emitted)
+            self._use_in_order(item)
+        emitted, self._emitted = self._emitted, []
         return emitted
 
     def state(self) -> bytes:
         """Return the whole state, with which `Fleet.open` or `Fleet.step` continues."""
         if self._opened_state is not None:
             return self._opened_state
-        order, session, known_at, failure = self._order, None, self._known_at, ""
-        if self._session is not None:
-            known_at = self._now()
-            try:
-                session = self._session.pack()
-            except MemoryError:
-                raise
-            except Exception as error:  # of a part of the app's own
-                self._session, self._known_at = None, known_at
-                self._pending = (WearerFailed, _describe(error))
-        if self._pending is not None:
-            failure = self._pending[1]
+        order, session = self._order, None
+        try:
+            session = None if self._session is None else self._session.pack()
+        except MemoryError:
+            raise
+        except Exception as error:  # of a part of the app's own
+            self._drop_session()
+            self._pending = (WearerFailed, _describe(error))
+        failure = "" if self._pending is None else self._pending[1]
         rest = StateRest(order.ended, order.unused, order.strays, order.held_rows, failure, session)
-        return write_state(StateHead(order.run, order.next_number, self._next_event, known_at), rest)
+        return write_state(StateHead(order.run, order.next_number, self._next_event, self._now()), rest)
 
     def _open(self, state: bytes) -> None:
         head = read_head(state)
@@ -97,7 +97,7 @@ class Keyed:
             self._pending, self._opened_state = (StateRejected, "nothing of the state can be read"), state
             self._has_numbers = False
             return
-        window, self._next_event, self._known_at = self._sessions.window, head.next_event, head.known
+        window, self._next_event, self._known_at = self._fleet.window, head.next_event, head.known
         self._order = RowOrder(window, head.run, head.next)
         try:
             rest = read_rest(state)
@@ -106,7 +106,7 @@ class Keyed:
             if rest.failure:
                 self._pending = (WearerFailed, rest.failure)
             elif rest.session is not None:
-                self._session = self._sessions.unpack(rest.session)
+                self._session = self._fleet.unpack(rest.session)
         except (StateError, SnapshotError) as error:
             self._pending = (StateRejected, str(error)[:MAX_DETAIL_LENGTH])
         except MemoryError:
@@ -116,80 +116,77 @@ class Keyed:
         if self._pending is not None:
             self._opened_state = state
 
-    def _use_in_order(self, item: object, emitted: list[NumberedEvent]) -> None:
+    def _use_in_order(self, item: object) -> None:
         """Check a row, put it in order, and use the rows whose turn has come."""
-        rejection = self._reject_unnumbered(item)
-        if rejection is not None:
-            if self._has_numbers:
-                self._emit(emitted, rejection)
-            return
-        if isinstance(item, Sent):
-            run, number, payload = item.run, item.number, check_payload(item.what)
-        elif isinstance(item, Unreadable) and item.number is not None:
-            rejected = RejectedItem(SentRejection.UNREADABLE, item.what[:MAX_DETAIL_LENGTH])
-            run, number, payload = item.run, item.number, rejected
-        else:
-            return
+        payload: Payload
+        match item:
+            case Sent(wearer=self._wearer, run=run, number=number) if _is_count(run) and _is_count(number):
+                payload = check_payload(item.what)
+            case Unreadable(run=run, number=number, what=str(what)) if _is_count(run) and _is_count(number):
+                payload = RejectedItem(SentRejection.UNREADABLE, what[:MAX_DETAIL_LENGTH])
+            case _:
+                if self._has_numbers:
+                    self._reject_unnumbered(item)
+                return
         if not self._has_numbers:
             self._has_numbers, self._next_event = True, first_event_number(run, number)
-            self._emit_pending(emitted)
+            self._report_pending()
         for row_run, row_number, row in self._order.take(run, number, payload):
             if isinstance(row, MissingNumbers):
-                self._emit(emitted, self._event(NumbersMissing, run=row_run, first=row_number, count=row.count))
+                self._report(NumbersMissing, run=row_run, first=row_number, count=row.count)
             elif isinstance(row, RejectedItem):
-                fields = {"reason": row.reason, "count": row.count, "detail": row.detail}
-                self._emit(emitted, self._event(SentRejected, run=row_run, number=row_number, **fields))
+                self._report(SentRejected, run=row_run, number=row_number, **asdict(row))
             else:
-                self._use(row, emitted)
+                self._use(row)
 
-    def _reject_unnumbered(self, item: object) -> SentRejected | None:
-        """Return the rejection of a row of another wearer or without valid run and number; None for any other row."""
+    def _reject_unnumbered(self, item: object) -> None:
+        """Reject a row of another wearer or without valid run and number."""
+        reason = SentRejection.NOT_SENT
         if isinstance(item, Unreadable):
-            if _is_count(item.number) and _is_count(item.run) and isinstance(item.what, str):
-                return None
-            detail = item.what if isinstance(item.what, str) else "a row that cannot be read"
-            return self._event(SentRejected, reason=SentRejection.UNREADABLE, detail=detail[:MAX_DETAIL_LENGTH])
-        if not isinstance(item, Sent):
+            reason, detail = SentRejection.UNREADABLE, "a row that cannot be read"
+            detail = item.what if isinstance(item.what, str) else detail
+        elif not isinstance(item, Sent):
             detail = f"a {type(item).__name__}, not a Sent"
         elif item.wearer != self._wearer:
             detail = "of another wearer"
-        elif not _is_count(item.run) or not _is_count(item.number):
-            detail = "run and number are whole numbers from 0 to 2**53 - 1"
         else:
-            return None
-        return self._event(SentRejected, reason=SentRejection.NOT_SENT, detail=detail[:MAX_DETAIL_LENGTH])
+            detail = "run and number are whole numbers from 0 to 2**53 - 1"
+        self._report(SentRejected, reason=reason, detail=detail[:MAX_DETAIL_LENGTH])
 
-    def _use(self, payload: Packet | Tick | End, emitted: list[NumberedEvent]) -> None:
+    def _use(self, payload: Packet | Tick | End) -> None:
         """Feed the payload of a row that is in its turn to the session."""
         session = self._session
         try:
-            if session is None and type(payload) is not End:
-                session = self._session = self._start_session(emitted)
+            if session is None and not isinstance(payload, End):
+                session = self._session = self._start_session()
             if session is None:
                 return
-            if type(payload) is Packet:
-                events = session.feed(payload)
-            else:
-                events = session.advance(payload.t) if isinstance(payload, Tick) else session.finish()
+            match payload:
+                case Packet():
+                    events = session.feed(payload)
+                case Tick(t):
+                    events = session.advance(t)
+                case End():
+                    events = session.finish()
         except MemoryError:
             raise
         except Exception as error:  # raised by a part of the app's own: it must not stop the other wearers
             self._drop_session()
-            self._emit(emitted, self._event(WearerFailed, detail=_describe(error)))
+            self._report(WearerFailed, detail=_describe(error))
             return
         for event in events:
-            self._emit(emitted, event)
-        if type(payload) is End:
+            self._emit(event)
+        if isinstance(payload, End):
             self._drop_session()
 
-    def _start_session(self, emitted: list[NumberedEvent]) -> Session:
+    def _start_session(self) -> Session:
         try:
-            return self._sessions.make_session(self._wearer)
+            return self._fleet.make_session(self._wearer)
         except MemoryError:
             raise
         except Exception as error:  # raised for this wearer's calibration
-            self._emit(emitted, self._event(WearerFailed, detail=_describe(error)))
-            return self._sessions.make_session(self._wearer, calibrated=False)
+            self._report(WearerFailed, detail=_describe(error))
+            return self._fleet.make_session(self._wearer, calibrated=False)
 
     def _drop_session(self) -> None:
         self._known_at, self._session = self._now(), None
@@ -199,20 +196,20 @@ class Keyed:
         now = None if self._session is None else self._session.now
         return self._known_at if now is None else max(self._known_at, now)
 
-    def _event(self, kind: Callable[..., _Kind], **fields: object) -> _Kind:
+    def _report(self, kind: Callable[..., FleetEvent], **fields: object) -> None:
+        """Emit an event of the fleet itself."""
         now = self._now()
-        return kind(t=now, known_at=now, **fields)
+        self._emit(kind(t=now, known_at=now, **fields))
 
-    def _emit(self, emitted: list[NumberedEvent], event: Event | FleetEvent) -> None:
-        emitted.append(NumberedEvent(self._wearer, self._next_event, event))
-        self._next_event += 1
-
-    def _emit_pending(self, emitted: list[NumberedEvent]) -> None:
+    def _report_pending(self) -> None:
         if self._pending is not None:
             kind, detail = self._pending
             self._pending = self._opened_state = None
-            now = self._now()
-            self._emit(emitted, kind(t=now, known_at=now, detail=detail))
+            self._report(kind, detail=detail)
+
+    def _emit(self, event: Event | FleetEvent) -> None:
+        self._emitted.append(NumberedEvent(self._wearer, self._next_event, event))
+        self._next_event += 1
 
 
 def first_event_number(run: int, number: int) -> int:
@@ -223,7 +220,7 @@ def first_event_number(run: int, number: int) -> int:
     return EVENTS_PER_ROW * (run + number + 1)
 
 
-def _is_count(value: object) -> bool:
+def _is_count(value: object) -> TypeGuard[int]:
     return type(value) is int and 0 <= value <= MAX_COUNT
 
 

@@ -2,35 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from functools import partial
 from typing import Any
 
-from attrs import astuple, field, frozen
+from attrs import asdict, field, frozen
+from attrs.validators import ge, instance_of
 
 from ...calibration import Calibration
 from ...floorplan.index import IndexedPlan
+from ...floorplan.plan import FloorPlan
 from ...link.driver import Driver
-from ...recipes import Recipe, shared_copy
+from ...recipes import DEFAULT, Recipe, shared_copy
 from ...saving.codec import SnapshotError
 from ...session import Session
 
 
-@frozen
+def _indexed(plan: FloorPlan | IndexedPlan | None) -> IndexedPlan | None:
+    return IndexedPlan(plan) if isinstance(plan, FloorPlan) else plan
+
+
+def _drivers(profiles: Iterable[Driver]) -> tuple[Driver, ...]:
+    return tuple(profiles)
+
+
+def _classes(parts: Iterable[type]) -> tuple[type, ...]:
+    return tuple(parts)
+
+
+@frozen(eq=False)
 class Sessions:
     """The maker of new and restored sessions; it holds no session."""
 
-    recipe: Recipe = field(converter=shared_copy)
+    recipe: Recipe = field(default=DEFAULT, converter=shared_copy)
     """A private copy of the recipe, which never changes, so no session has to check for changes."""
-    calibrations: Mapping[str, Calibration]
-    floorplan: IndexedPlan | None
-    profiles: tuple[Driver, ...]
-    parts: tuple[type, ...]
-    poses: bool
-    pressures: bool
-    window: int
+    calibrations: Mapping[str, Calibration] = field(
+        factory=dict,
+        kw_only=True,
+        validator=instance_of(Mapping),  # type: ignore[type-abstract]
+    )
+    floorplan: IndexedPlan | None = field(default=None, kw_only=True, converter=_indexed)
+    profiles: tuple[Driver, ...] = field(default=(), kw_only=True, converter=_drivers)
+    parts: tuple[type, ...] = field(default=(), kw_only=True, converter=_classes)
+    window: int = field(default=256, kw_only=True, validator=[instance_of(int), ge(0)])
+    poses: bool = field(default=False, kw_only=True)
+    pressures: bool = field(default=False, kw_only=True)
 
-    def __reduce__(self) -> tuple[type[Sessions], tuple[Any, ...]]:
-        return Sessions, astuple(self, recurse=False)  # converted again where it is unpickled
+    def __attrs_post_init__(self) -> None:
+        # an error that concerns all wearers is raised here, not in a worker
+        self.unpack(self.make_session("", calibrated=False).pack())
+
+    def __reduce__(self) -> tuple[Any, tuple[()]]:
+        return partial(type(self), **asdict(self, recurse=False)), ()  # converted again where it is unpickled
 
     def make_session(self, wearer: str, calibrated: bool = True) -> Session:
         """Return a session without any input; `calibrated` applies the wearer's calibration."""

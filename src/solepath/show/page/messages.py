@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from enum import Enum
 from functools import cached_property
 from math import isfinite
 from typing import Any
 
+import attrs
 from attrs import frozen
 
 from ...wire.receiver import PositionFrame, build_position
 
-TAKES_VALUE = {"play": False, "pause": False, "speed": True, "seek": True}
-"""Commands of a page that plays a recording; True for a command with a value."""
-HERE = "here"
-"""Command of a page that shows a live session: a person reports where the wearer is."""
 MIN_SPEED, MAX_SPEED = 0.1, 32.0
 """Bounds of the speed at which a recording is played, in multiples of real time."""
 MAX_MESSAGE_SIZE = 4096
@@ -47,45 +44,35 @@ class Command:
 def parse_command(text: str) -> Command:
     """Return the command that a text encodes; raise CommandError for any other text."""
     try:
-        message = json.loads(text, parse_constant=_no_number, object_pairs_hook=_unique_members)
+        message = json.loads(text, parse_int=float, parse_constant=_no_number, object_pairs_hook=_unique_members)
     except CommandError:
         raise
     except (ValueError, RecursionError):
         raise CommandError("a message is not JSON", is_json=False) from None
     if not isinstance(message, dict):
         raise CommandError("a message is not a JSON object")
-    do = message.get("do")
-    if do == HERE:
-        return Command(HERE, position=_reported_position(message))
-    if not isinstance(do, str) or do not in TAKES_VALUE:
-        raise CommandError("a message asks for nothing that there is")
-    if message.keys() != ({"do", "value"} if TAKES_VALUE[do] else {"do"}):
-        raise CommandError(f"a message to {do} has other members than it should")
-    if not TAKES_VALUE[do]:
-        return Command(do)
-    value = message["value"]
-    if not _is_number(value):
-        raise CommandError(f"a message to {do} has a value that is no number")
-    if do == "speed" and not MIN_SPEED <= value <= MAX_SPEED:
-        raise CommandError(f"a message asks for another speed than {MIN_SPEED:g} to {MAX_SPEED:g}")
-    return Command(do, float(value))
-
-
-def _reported_position(message: dict[str, Any]) -> PositionFrame:
-    """Return the position that a message reports: the start, a place in the world frame, or one on a level."""
-    if not {"sigma"} <= message.keys() - {"do"} <= {"sigma", "at", "level"}:
-        raise CommandError("a message with a position has other members than it should")
-    sigma, at, level = message["sigma"], message.get("at", []), message.get("level", "")
-    if not isinstance(at, list) or len(at) != (2 if "at" in message else 0) or not all(map(_is_number, [sigma, *at])):
-        raise CommandError("a message with a position has a value that is no number")
-    if not isinstance(level, str) or ("level" in message and not (level and at)):
-        raise CommandError("a message with a position has a level that is none")
-    position = PositionFrame((float(at[0]), float(at[1])) if at else None, float(sigma), level=level)
+    match len(message), message:
+        case 1, {"do": "play" | "pause" as do}:
+            return Command(do)
+        case 2, {"do": "seek", "value": float(value)} if isfinite(value):
+            return Command("seek", value)
+        case 2, {"do": "speed", "value": float(value)}:
+            if not MIN_SPEED <= value <= MAX_SPEED:
+                raise CommandError(f"a message asks for another speed than {MIN_SPEED:g} to {MAX_SPEED:g}")
+            return Command("speed", value)
+        case 2, {"do": "here", "sigma": float(sigma)}:
+            position = PositionFrame(None, sigma)
+        case 3, {"do": "here", "sigma": float(sigma), "at": [float(x), float(y)]}:
+            position = PositionFrame((x, y), sigma)
+        case 4, {"do": "here", "sigma": float(sigma), "at": [float(x), float(y)], "level": str(level)} if level:
+            position = PositionFrame((x, y), sigma, level=level)
+        case _:
+            raise CommandError("a message asks for nothing that there is, or has wrong members")
     try:
         build_position(position)
     except ValueError:
         raise CommandError("a message has a position that cannot be") from None
-    return position
+    return Command("here", position=position)
 
 
 def encode(message: dict[str, Any]) -> str:
@@ -129,19 +116,20 @@ def _unique_members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return message
 
 
-def _is_number(value: Any) -> bool:
-    """Return whether a value of JSON is a number that a float can hold."""
-    try:
-        return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
-    except OverflowError:
-        return False
+def plain(value: Any, digits: int = 3) -> Any:
+    """Return a value as data for JSON: numbers with `digits` digits after the point, a record as an object."""
+    match value:
+        case float():
+            return round(value, digits) if isfinite(value) else None  # JSON has no such numbers
+        case Enum():
+            return value.value
+        case tuple() | list():
+            return [plain(one, digits) for one in value]
+    if attrs.has(type(value)):
+        return members(value, *[one.name for one in attrs.fields(type(value))])
+    return value
 
 
-def rounded(value: float | None, digits: int = 3) -> float | None:
-    """Return `value` with `digits` digits after the point; None if it is not finite, since JSON has no such numbers."""
-    return None if value is None or not isfinite(value) else round(value, digits)
-
-
-def rounded_all(values: Iterable[float], digits: int = 3) -> list[float | None]:
-    """Return each value with `digits` digits after the point; None for a number that is not finite."""
-    return [rounded(value, digits) for value in values]
+def members(record: Any, *names: str, **digits: int) -> dict[str, Any]:
+    """Return fields of a record as members of a message; `digits` after the point are 3 where they are not named."""
+    return {name: plain(getattr(record, name), digits.get(name, 3)) for name in names}

@@ -1,19 +1,14 @@
-"""Reads the files that a person opens on the page: recordings, floor plans and calibrations, with errors in words."""
+"""Finds out what a file is that a person opens on the page, and reads recordings, with errors in words."""
 
 from __future__ import annotations
 
-import json
+from collections import deque
 from collections.abc import Generator
 from pathlib import Path
 
 from attrs import frozen
 
-from ...calibration import Calibration
 from ...calibration.file import FORMAT as CALIBRATION_FORMAT
-from ...calibration.file import read_calibration
-from ...floorplan.checks import find_warnings
-from ...floorplan.importers.reading import read_floorplan
-from ...floorplan.index import IndexedPlan
 from ...recording import RecordingError, read_packets, read_start_time
 from ...recording.errors import SAMPLE_SUFFIXES
 from ...recording.packets import FORMAT as RECORDING_FORMAT
@@ -40,14 +35,6 @@ class OpenedRecording:
     """Sentences on lines that were left out."""
 
 
-@frozen
-class OpenedPlan:
-    """A floor plan, with sentences on what is strange in it."""
-
-    plan: IndexedPlan
-    notes: tuple[str, ...]
-
-
 def kind_of(path: Path) -> str:
     """Return "recording", "plan" or "calibration" for a file; raise RecordingError for samples."""
     if path.suffix.lower() in SAMPLE_SUFFIXES:
@@ -58,13 +45,9 @@ def kind_of(path: Path) -> str:
         return "recording"
     if f'"{CALIBRATION_FORMAT}"'.encode() in start:
         return "calibration"
-    if start.startswith((b"PK", b"<")) or _is_json(start):
+    if start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith((b"PK", b"<", b"{")):
         return "plan"
     raise RecordingError(path, "is neither a recording of packets, nor a floor plan, nor a calibration")
-
-
-def _is_json(start: bytes) -> bool:
-    return start.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{"
 
 
 def open_recording(path: Path) -> Generator[float, None, OpenedRecording]:
@@ -73,13 +56,13 @@ def open_recording(path: Path) -> Generator[float, None, OpenedRecording]:
     RecordingError is raised for a file without any packet that can be used. A flaw behind good packets is a note."""
     header = read_header(path)
     moment = read_start_time(header)
-    size, done, notes = max(1, path.stat().st_size), [0], list[str]()
+    size, done, notes = max(1, path.stat().st_size), deque([0], maxlen=1), list[str]()
     items = PackedItems()
     try:
-        for packet in read_packets(path, report=notes.append, progress=lambda count: done.__setitem__(0, count)):
+        for packet in read_packets(path, report=notes.append, progress=done.append):
             items.append(packet)
             if len(items) % PACKETS_PER_STEP == 0:
-                yield done[0] / size
+                yield done[-1] / size
     except RecordingError as error:
         if not len(items):
             raise
@@ -88,19 +71,3 @@ def open_recording(path: Path) -> Generator[float, None, OpenedRecording]:
         raise RecordingError(path, "holds no packets")
     when = "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
     return OpenedRecording(items, path.name, when, tuple(notes[:NOTE_COUNT]))
-
-
-def open_plan(path: Path) -> OpenedPlan:
-    """Return the floor plan in a file; raise FloorPlanError when it cannot be used."""
-    plan = read_floorplan(path)
-    return OpenedPlan(IndexedPlan(plan), tuple(f"{path.name}: {words}" for words in find_warnings(plan))[:NOTE_COUNT])
-
-
-def open_calibration(path: Path) -> Calibration:
-    """Return the calibration in a file; raise CalibrationError when it cannot be used."""
-    return read_calibration(path)
-
-
-def words_of_json(value: object) -> str:
-    """Return a value as JSON for the page."""
-    return json.dumps(value, allow_nan=False, separators=(",", ":"))

@@ -10,21 +10,19 @@ import gzip
 import io
 import json
 import shutil
-import subprocess
-import sys
 import zipfile
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
 from hashlib import sha256
+from importlib import import_module
 from importlib.metadata import version
-from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ...recording import PacketWriter
 from ...types import Packet
 from ..report.style import STYLE
-from .pyodide import LOCK, RUNTIME, STANDARD_LIBRARY, VERSION, BuildError, minimal_lock, node_program, package_files
+from .pyodide import LOCK, RUNTIME, STANDARD_LIBRARY, VERSION, BuildError, minimal_lock, package_files, run_node
 
 HERE = Path(__file__).parent
 PAGE = HERE.parent / "page" / "static"
@@ -37,8 +35,6 @@ EPOCH = (1980, 1, 1, 0, 0, 0)
 """Date of all files in an archive: the earliest that a zip file can have."""
 HEAD, CONTROLS = "</head>", "</header>"
 """Places of index.html before and behind which the site adds its own elements."""
-MAX_ERROR = 600
-"""Largest number of characters of an error of node that are shown."""
 
 
 def build_site(out: Path, demo: Iterable[Packet]) -> dict[str, bytes]:
@@ -100,9 +96,6 @@ def compressed_size(data: bytes) -> int:
 def _index(text: str, head: str, controls: str) -> str:
     """Return the page with the site's own elements in its head and below its heading."""
     style = b64encode(sha256(STYLE.encode()).digest()).decode()
-    for place in (HEAD, CONTROLS):
-        if text.count(place) != 1:
-            raise BuildError(f"index.html has no single {place}")
     text = text.replace(HEAD, f"{head.replace('{report style}', style)}{HEAD}")
     return text.replace(CONTROLS, f"{CONTROLS}\n\n{controls}")
 
@@ -125,14 +118,10 @@ def _library(build: Path, package: Mapping[str, bytes]) -> bytes:
     for name in (*RUNTIME, STANDARD_LIBRARY, LOCK):
         (build / "pyodide" / name).write_bytes(package[name])
     for name in OWN_PACKAGES:
-        shutil.copytree(
-            _folder_of(name), build / "source" / name, ignore=shutil.ignore_patterns("__pycache__", "static")
-        )
+        folder = Path(str(import_module(name).__file__)).parent
+        shutil.copytree(folder, build / "source" / name, ignore=shutil.ignore_patterns("__pycache__", "static"))
     shutil.copy(HERE / "node" / "prepare.mjs", build)
-    words = [node_program(), str(build / "prepare.mjs"), str(build)]
-    done = subprocess.run(words, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
-    if done.returncode != 0:
-        raise BuildError(f"Pyodide in node failed: {(done.stderr or done.stdout).strip()[-MAX_ERROR:]}")
+    run_node("node", str(build / "prepare.mjs"), str(build))
     modules = _files_below(build / "compiled", "**/*.pyc")
     models = [_files_below(build / "source", f"solepath/{room}/**/*.json") for room in ("body", "papers")]
     return _archive(modules | models[0] | models[1])
@@ -148,10 +137,3 @@ def _archive(files: Mapping[str, bytes]) -> bytes:
         for name in sorted(files):
             archive.writestr(zipfile.ZipInfo(name, EPOCH), files[name])
     return gzip.compress(out.getvalue(), 9, mtime=0)
-
-
-def _folder_of(package: str) -> Path:
-    spec = find_spec(package)
-    if spec is None or spec.origin is None:
-        raise BuildError(f"the package {package} is not installed in {sys.prefix}")
-    return Path(spec.origin).parent

@@ -5,6 +5,7 @@ chosen by hand and not swept."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Generator, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -15,6 +16,9 @@ from typing import Any
 from attrs import define, field
 
 from ...calibration import Calibration, CalibrationError
+from ...calibration.file import read_calibration
+from ...floorplan.checks import find_warnings
+from ...floorplan.importers.reading import read_floorplan
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import FloorPlan, FloorPlanError
 from ...link.catalogue import BY_NAME
@@ -27,10 +31,10 @@ from ..page.live_commands import position_of
 from ..page.messages import CommandError, encode, parse_command
 from ..page.player.player import Player
 from ..page.scene.scales import newtons_of
-from ..page.scene.scene import Cursor, Scene
+from ..page.scene.scene import Follower, Scene
 from ..report import Report
 from .live_walk import LiveWalk
-from .opening import OpenedRecording, kind_of, open_calibration, open_plan, open_recording, words_of_json
+from .opening import NOTE_COUNT, OpenedRecording, kind_of, open_recording
 
 
 class WalkRunning(Exception):
@@ -63,8 +67,7 @@ class Worker:
     plan: IndexedPlan | None = field(default=None, init=False)
     recipe: Recipe = field(default=DEFAULT, init=False)
     _idle_scene: Scene = field(factory=lambda: Scene("", DEFAULT.name, "live"), init=False)
-    _sent_scene: Scene | None = field(default=None, init=False)
-    _cursor: Cursor | None = field(default=None, init=False)
+    _follower: Follower = field(factory=Follower, init=False)
     _task: Task | None = field(default=None, init=False)
 
     # --- messages for the page
@@ -78,28 +81,19 @@ class Worker:
 
     def message(self) -> str | None:
         """Return the next message for the page: the whole scene at first, then what has changed; None for no change."""
-        scene = self.scene
-        if self._cursor is None or scene is not self._sent_scene:
-            message, self._cursor = scene.whole_message()
-        else:
-            changes, self._cursor = scene.message_since(self._cursor)
-            if changes is None:
-                return None
-            message = changes
-        self._sent_scene = scene
-        if message["type"] == "scene":
-            message["control"] = self.player is not None or (self.walk is not None and not self.walk.finished)
-        return encode(message)
+        control = self.player is not None or (self.walk is not None and not self.walk.finished)
+        message = self._follower.message(self.scene, control)
+        return None if message is None else encode(message)
 
     def heartbeat(self) -> str:
         """Return a message with nothing but the time."""
-        return encode(self.scene.heartbeat_message())
+        return encode(self.scene.frame_message())
 
     # --- a walk that is measured now
 
     def choices(self) -> str:
         """Return the names of all recipes and of all kinds of devices, as JSON."""
-        return words_of_json({"recipes": NAMES, "profiles": tuple(BY_NAME)})
+        return encode({"recipes": NAMES, "profiles": tuple(BY_NAME)})
 
     def choose_recipe(self, name: str) -> None:
         """Use this recipe for the next walk and for what is played; raise UnknownRecipe for another name."""
@@ -124,7 +118,7 @@ class Worker:
 
     def sensor_filters(self) -> str:
         """Return the conditions under which a browser offers a device, as JSON."""
-        return words_of_json(filters())
+        return json.dumps(filters())
 
     def save(self) -> str | None:
         """Return the walk as JSON; None when there is nothing to save."""
@@ -152,7 +146,7 @@ class Worker:
         """End the walk; the page goes on to show the end of it."""
         if self.walk is not None:
             self.walk.finish()
-            self._sent_scene = None  # the page learns that it has nothing to control any more
+            self._follower.restart()  # the page learns that it has nothing to control any more
 
     # --- recordings and other files
 
@@ -164,16 +158,16 @@ class Worker:
         kind = kind_of(path)
         notes: Sequence[str] = ()
         if kind == "plan":
-            opened = open_plan(path)
-            self.plan, notes = opened.plan, opened.notes
+            plan = read_floorplan(path)
+            self.plan, notes = IndexedPlan(plan), [f"{path.name}: {words}" for words in find_warnings(plan)]
         elif kind == "calibration":
-            self.calibration = open_calibration(path)
+            self.calibration = read_calibration(path)
         else:
             self._check_idle()
             self.recording = yield from open_recording(path)
             self.walk, notes = None, self.recording.notes
         self._use_choices()
-        return {"kind": kind, "notes": list(notes)}
+        return {"kind": kind, "notes": list(notes[:NOTE_COUNT])}
 
     def open_demo(self, name: str, title: str) -> Task:
         """Play the recording that comes with the site."""
@@ -250,26 +244,24 @@ class Worker:
     def step(self, budget: float) -> str:
         """Run the started method for about `budget` s; return {"share"}, or at the end {"value"} or {"problem"}."""
         end = monotonic() + budget
+        answer: dict[str, Any] = {"value": None}
         try:
             while self._task is not None:
                 share = next(self._task)
                 if monotonic() >= end:
-                    return words_of_json({"share": share})
+                    return encode({"share": share})
         except StopIteration as ended:
-            self._task = None
-            return words_of_json({"value": ended.value})
+            answer = {"value": ended.value}
         except PROBLEMS as error:
-            self._task = None
-            return words_of_json({"problem": str(error)})
-        return words_of_json({"value": None})
+            answer = {"problem": str(error)}
+        self._task = None
+        return encode(answer)
 
     def _run(self, name: str, arguments: Sequence[Any]) -> Task:
         if name not in CALLS:
             raise ValueError(f"the worker has no call {name}")
         value = getattr(self, name)(*arguments)
-        if isinstance(value, GeneratorType):
-            value = yield from value
-        return value
+        return (yield from value) if isinstance(value, GeneratorType) else value
 
 
 CALLS = (

@@ -6,7 +6,7 @@ from typing import Any
 
 from attrs import define
 
-from ..messages import rounded
+from ..messages import members, plain
 
 
 @define
@@ -25,11 +25,4 @@ class Playback:
 
     def frame(self) -> dict[str, Any]:
         """Return the member "playback" of a frame."""
-        return {
-            "begin": rounded(self.start),
-            "end": rounded(self.end),
-            "t": rounded(self.t),
-            "state": self.state,
-            "speed": rounded(self.speed),
-            "seeking": rounded(self.seeking),
-        }
+        return {"begin": plain(self.start), **members(self, "end", "t", "state", "speed", "seeking")}

@@ -10,7 +10,6 @@ not swept."""
 
 from __future__ import annotations
 
-import json
 import pickle
 import zlib
 from collections.abc import Callable
@@ -22,8 +21,8 @@ from ....events import Event
 from ....floorplan.index import IndexedPlan
 from ....session import Session
 from ....types import Packet, Sample
-from ..body import LiveBody, legs_of
-from ..messages import HERE, MAX_SPEED, MIN_SPEED, Command, CommandError
+from ..body import LiveBody
+from ..messages import MAX_SPEED, MIN_SPEED, Command, CommandError
 from ..scene.scene import Scene
 from .packed_items import PackedItems
 from .playback import Playback
@@ -41,12 +40,11 @@ OnEvents = Callable[[Packet | Sample | None, list[Event]], None]
 
 @frozen
 class _SavedState:
-    """The state of the player at `t`, s, before item number `next` was fed; session and scene are compressed."""
+    """The compressed `state` of session and scene at `t`, s, before item number `next` was fed."""
 
     t: float
     next: int
-    session: bytes
-    scene: bytes
+    state: bytes
 
 
 @define
@@ -80,25 +78,25 @@ class Player:
     def __attrs_post_init__(self) -> None:
         start, end = self.items.start, self.items.end
         self._due = start
-        self.playback = Playback(start=start, end=end, t=start, state="playing", speed=1.0, seeking=None)
-        self.scene.playback, self.scene.body = self.playback, LiveBody(lambda: legs_of(self.session))
+        self.playback = Playback(start, end, start, "playing")
+        self._show_session()
         self._save(start)
 
     def command(self, command: Command) -> None:
         """Execute a command of the page; a value out of range is replaced by the nearest in range.
 
         CommandError is raised for a position that a person reports: nothing is received while a recording plays."""
-        if command.do == HERE:
-            raise CommandError("a browser reported a position, and a recording is played")
-        match command.do:
-            case "play":
+        match command:
+            case Command("play"):
                 self.play()
-            case "pause":
+            case Command("pause"):
                 self.pause()
-            case "speed" if command.value is not None:
-                self.set_speed(command.value)
-            case "seek" if command.value is not None:
-                self.seek(command.value)
+            case Command("speed", float(speed)):
+                self.set_speed(speed)
+            case Command("seek", float(t)):
+                self.seek(t)
+            case _:
+                raise CommandError("a browser reported a position, and a recording is played")
 
     def play(self) -> None:
         """Continue to play; a recording that has ended plays from its start."""
@@ -202,19 +200,20 @@ class Player:
 
     def _save(self, t: float) -> None:
         scene = copy(self.scene)
-        # plans are large, and a lambda cannot be pickled; `_restore` sets all four again
-        scene.plan = scene.drawing = scene.playback = scene.body = None
-        session = json.dumps(self.session.snapshot()).encode()
-        packed = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)  # only this process reads it
-        self._saved.append(_SavedState(t, self._next, zlib.compress(session, 1), zlib.compress(packed, 1)))
+        scene.plan = scene.playback = scene.body = None  # `_restore` sets them again
+        saved = pickle.dumps((self.session.snapshot(), scene), pickle.HIGHEST_PROTOCOL)  # only this process reads it
+        self._saved.append(_SavedState(t, self._next, zlib.compress(saved, 1)))
         if len(self._saved) > MAX_SAVED_STATES:
             del self._saved[1::2]
             self.spacing *= 2.0
 
     def _restore(self, saved: _SavedState) -> None:
-        plan, drawing, body = self.scene.plan, self.scene.drawing, self.scene.body
-        self.session = Session.restore(json.loads(zlib.decompress(saved.session)), floorplan=self.plan)
-        self.scene = pickle.loads(zlib.decompress(saved.scene))
-        self.scene.plan, self.scene.drawing, self.scene.playback = plan, drawing, self.playback
-        self.scene.body = body
+        plan = self.scene.plan
+        snapshot, self.scene = pickle.loads(zlib.decompress(saved.state))
+        self.session = Session.restore(snapshot, floorplan=self.plan)
+        self.scene.plan = plan
+        self._show_session()
         self._next, self._finished = saved.next, False
+
+    def _show_session(self) -> None:
+        self.scene.playback, self.scene.body = self.playback, LiveBody(self.session)

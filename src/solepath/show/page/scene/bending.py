@@ -10,7 +10,6 @@ from attrs import frozen
 
 from ....events import TrackRevised
 from ....walk.links import SET_BACK_TOLERANCE
-from ..messages import rounded
 from .lists import TrackPoint
 
 Numbers = tuple[float, ...]
@@ -28,15 +27,15 @@ class Bend:
 
     def apply(self, points: Sequence[TrackPoint]) -> list[TrackPoint]:
         """Return the points of a track, (t, x, y, z) in s and m, with the correction of each one's time added."""
-        bent = list(points)
-        if not self.times:
-            return bent
-        for k in range(_first_of_clock(points), len(points)):
-            t, x, y, *rest = points[k]
-            if t is not None and x is not None and y is not None and t >= self.times[0]:
-                dx, dy = _interpolate(t, self.times, self.shifts)
-                bent[k] = (t, rounded(x + dx), rounded(y + dy), *rest)
-        return bent
+        start = _start_of_clock([point[0] for point in points], SET_BACK_TOLERANCE)
+        return [*points[:start], *map(self._bent, points[start:])]
+
+    def _bent(self, point: TrackPoint) -> TrackPoint:
+        t, x, y, *rest = point
+        if not self.times or t < self.times[0]:
+            return point
+        dx, dy = _interpolate(t, self.times, self.shifts)
+        return (t, round(x + dx, 3), round(y + dy, 3), *rest)
 
 
 def bend_of(event: TrackRevised, walked: Sequence[TrackPoint]) -> Bend:
@@ -44,42 +43,27 @@ def bend_of(event: TrackRevised, walked: Sequence[TrackPoint]) -> Bend:
 
     At each node the correction is the distance from the drawn track to the node. In between it grows with the distance
     walked, not with time: who stood still before the report was in one place."""
-    times, drawn = _drawn_until(event, walked)
-    nodes = list(event.nodes)
-    for k in range(len(nodes) - 1, 0, -1):
-        if nodes[k - 1].t > nodes[k].t:  # a clock was set back in between
-            nodes = nodes[k:]
-            break
+    nodes = event.nodes[_start_of_clock([node.t for node in event.nodes]) :]
+    if not nodes:
+        return Bend((), ())
+    end = (event.t, nodes[-1].x - event.by[0], nodes[-1].y - event.by[1])
+    times, drawn = list[float](), list[Numbers]()
+    start = _start_of_clock([point[0] for point in walked], SET_BACK_TOLERANCE)
+    for t, x, y, *_ in (*walked[start:], end):
+        before = drawn[-1] if drawn else (x, y, 0.0)
+        times.append(t)
+        drawn.append((x, y, before[2] + hypot(x - before[0], y - before[1])))
     distances, shifts = list[float](), list[Numbers]()
     for node in nodes:
         x, y, distance = _interpolate(node.t, times, drawn)
         distances.append(distance)
         shifts.append((node.x - x, node.y - y))
-    if not nodes:
-        return Bend((), ())
     bend_times, bend_shifts = [nodes[0].t], shifts[:1]
     for t, (_, _, distance) in zip(times, drawn, strict=True):
         if t > bend_times[-1]:
             bend_times.append(t)
             bend_shifts.append(_interpolate(distance, distances, shifts))
     return Bend(bend_times, bend_shifts)
-
-
-def _drawn_until(event: TrackRevised, walked: Sequence[TrackPoint]) -> tuple[list[float], list[Numbers]]:
-    """Return the times, s, of the wearer's track up to the event, and x, y and the distance walked at each, m."""
-    places = [(t, x, y) for t, x, y, *_ in walked[_first_of_clock(walked) :]]
-    if event.nodes:
-        end = event.nodes[-1]
-        places.append((event.t, end.x - event.by[0], end.y - event.by[1]))
-    times, drawn, distance = list[float](), list[Numbers](), 0.0
-    for t, x, y in places:
-        if t is None or x is None or y is None:
-            continue
-        if drawn:
-            distance += hypot(x - drawn[-1][0], y - drawn[-1][1])
-        times.append(t)
-        drawn.append((x, y, distance))
-    return times, drawn
 
 
 def _interpolate(at: float, places: Sequence[float], values: Sequence[Numbers]) -> Numbers:
@@ -91,10 +75,7 @@ def _interpolate(at: float, places: Sequence[float], values: Sequence[Numbers]) 
     return tuple([a + share * (b - a) for a, b in zip(values[k - 1], values[k], strict=True)])
 
 
-def _first_of_clock(points: Sequence[TrackPoint]) -> int:
-    """Return the index of the first point after the newest time at which a clock was set back; 0 without one."""
-    for k in range(len(points) - 1, 0, -1):
-        t, before = points[k][0], points[k - 1][0]
-        if t is not None and before is not None and t < before - SET_BACK_TOLERANCE:
-            return k
-    return 0
+def _start_of_clock(times: Sequence[float], tolerance: float = 0.0) -> int:
+    """Return the index of the first time after a clock was set back for the last time; 0 if it never was, s."""
+    falls = [k for k in range(1, len(times)) if times[k] < times[k - 1] - tolerance]
+    return falls[-1] if falls else 0

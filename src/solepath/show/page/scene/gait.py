@@ -13,7 +13,7 @@ from ....events import GaitCycleMeasured
 from ....types import Activity, Foot
 from ....types.attrs import NOT_SAVED
 from ...tables.gait import MIN_STRIDES, GaitRow, gait_rows, strides_of
-from ..messages import rounded
+from ..messages import members, plain
 
 PACE_STRIDES = 2
 """Number of consecutive strides of a foot over which the pace is averaged: a single stride errs by some per cent."""
@@ -69,7 +69,7 @@ class ScenePace:
         cadence = _mean([_mean([stride.cadence for stride in strides]) for strides in recent])
         speeds = [[stride.speed for stride in strides if stride.speed is not None] for strides in recent]
         means = [_mean(foot_speeds) for foot_speeds in speeds if foot_speeds]
-        return {"cadence": rounded(cadence, 1), "speed": rounded(_mean(means), 2) if means else None}
+        return {"cadence": plain(cadence, 1), "speed": plain(_mean(means), 2) if means else None}
 
 
 def _mean(values: list[float]) -> float:
@@ -82,55 +82,49 @@ def activity_frame(since: float, activity: Activity, silent_since: float | None)
     `silent_since` is None while a foot sends. While no foot sends, it is the time of the last sample, s, and the
     activity is unknown."""
     if silent_since is None:
-        return {"now": activity.value, "since": rounded(since), "last": None}
+        return {"now": activity.value, "since": plain(since), "last": None}
     last = None if activity is Activity.UNKNOWN else activity.value
-    return {"now": Activity.UNKNOWN.value, "since": rounded(silent_since), "last": last}
+    return {"now": Activity.UNKNOWN.value, "since": plain(silent_since), "last": last}
 
 
 @define
 class SceneGaitMeans:
     """The means that a page shows: those of running if the newest stride was one of running, else those of walking."""
 
-    _newest: tuple[GaitCycleMeasured | None, GaitCycleMeasured | None] = field(default=(None, None), metadata=NOT_SAVED)
-    _frames: tuple[dict[str, Any] | None, dict[str, Any] | None] = field(default=(None, None), metadata=NOT_SAVED)
+    _newest: dict[Foot, GaitCycleMeasured | None] = field(factory=dict, metadata=NOT_SAVED)
+    """Newest strides in `_frames`."""
+    _frames: dict[str, Any] = field(factory=dict, metadata=NOT_SAVED)
 
     def frames(self, recent: GaitMeans, total: GaitMeans) -> dict[str, Any]:
         """Return the members "gait", of recent means, and "total", of those since the start; None before any stride."""
-        newest = (recent.newest[Foot.LEFT], recent.newest[Foot.RIGHT])
-        if newest[0] is not self._newest[0] or newest[1] is not self._newest[1]:
-            self._newest = newest
+        if self._newest != recent.newest:
+            self._newest = dict(recent.newest)
             near, all_strides = recent.parameters, total.parameters
-            self._frames = (
-                None if near is None else _gait_frame(near),
-                None if all_strides is None else _total_frame(all_strides),
-            )
-        return dict(zip(("gait", "total"), self._frames, strict=True))
+            self._frames = {
+                "gait": None if near is None else _gait_frame(near),
+                "total": None if all_strides is None else _total_frame(all_strides),
+            }
+        return self._frames
 
 
 def _total_frame(parameters: GaitParameters) -> dict[str, Any]:
     speed = parameters.both.speed
     return {
-        "cadence": rounded(parameters.cadence, 1),
-        "speed": None if speed is None else rounded(speed.mean, 2),
+        "cadence": plain(parameters.cadence, 1),
+        "speed": None if speed is None else plain(speed.mean, 2),
         "rows": [_row(row) for row in gait_rows(parameters) if row.name in FIRST_ROWS],
     }
 
 
 def _gait_frame(parameters: GaitParameters) -> dict[str, Any]:
     return {
-        "running": parameters.running,
-        "cadence": rounded(parameters.cadence, 1),
-        "coordination": rounded(parameters.coordination, 4),
+        **members(parameters, "running", "cadence", "coordination", cadence=1, coordination=4),
         "strides": {foot.value: strides_of(parameters, foot) for foot in Foot},
         "enough": MIN_STRIDES,
-        "rows": [_row(row) for row in gait_rows(parameters)],
+        "rows": [*map(_row, gait_rows(parameters))],
     }
 
 
 def _row(row: GaitRow) -> dict[str, Any]:
-    frame = asdict(row)
-    for name in ("left", "right", "both", "sd", "difference"):
-        frame[name] = rounded(frame[name], row.digits)
-    for name in ("cv", "asymmetry"):
-        frame[name] = rounded(frame[name], 4)
-    return frame
+    digits = dict.fromkeys(("left", "right", "both", "sd", "difference"), row.digits)
+    return members(row, *asdict(row), **digits, cv=4, asymmetry=4)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from attrs import define, field
+from attrs import define, field, frozen
 
 from ....events import (
     CellFault,
@@ -22,7 +22,7 @@ from ....events import (
 from ....recording import printable
 from ....types import SITE_OF_FOOT, Foot, Site
 from ....walk.links import LinkLedger
-from ..messages import rounded
+from ..messages import members, plain
 
 FAULTS = {
     CellFault.DEAD: ("cell shows no load", "cells show no load"),
@@ -62,32 +62,22 @@ BRIEF_COARSE = "sensor: its figures are less accurate"
 
 def brief_of(event: DefectFound) -> str:
     """Return one plain sentence on what a defect of a sensor means, without its reason."""
-    words = BRIEF_OF_DEFECT.get(event.defect) if event.needs_action else None
-    site = event.site
-    name = f"{site.foot} " if site.foot is not None else f"{site.words} "
-    return f"{name}{words or (BRIEF_SPOILT if event.needs_action else BRIEF_COARSE)}."
+    words = BRIEF_OF_DEFECT.get(event.defect, BRIEF_SPOILT) if event.needs_action else BRIEF_COARSE
+    return f"{event.site.words if event.site.foot is None else event.site.foot} {words}."
 
 
 def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
     """Return one member of "links" of a frame at `now`, s."""
-    state = link.state(now)
-    silent = state in ("silent", "lost") and link.last_sample_at is not None
-    rate = link.recent_rate(now)
-    if rate is not None:
-        rate = round(rate) if rate >= 20.0 else round(rate, 1)
+    state, rate = link.state(now), link.recent_rate(now)
+    silent_for = max(now - link.last_sample_at, 0.0) if link.last_sample_at is not None else None
     return {
+        **members(link, "missing", "gaps", "battery", "name", "signal", "trouble"),
         "state": state,
-        "rate": rate,
-        "missing": link.missing,
-        "missing_share": rounded(link.missing_share, 4),
-        "recent_share": rounded(link.recent_share(now), 4) if state == "ok" else None,
+        "rate": rate if rate is None else round(rate) if rate >= 20.0 else round(rate, 1),
+        "missing_share": plain(link.missing_share, 4),
+        "recent_share": plain(link.recent_share(now), 4) if state == "ok" else None,
         "rejected": link.rejected.total(),
-        "gaps": link.gaps,
-        "battery": rounded(link.battery),
-        "name": link.name,
-        "signal": link.signal,
-        "silent_for": rounded(max(now - (link.last_sample_at or 0.0), 0.0), 1) if silent else None,
-        "trouble": link.trouble,
+        "silent_for": plain(silent_for, 1) if state in ("silent", "lost") else None,
     }
 
 
@@ -103,62 +93,72 @@ def fault_words(event: CellsFailed) -> str:
     return f"{len(event.cells)} {FAULTS[event.fault][len(event.cells) != 1]}"
 
 
+@frozen
+class Finding:
+    """What a check found in the data; the member of "findings" of a frame has its fields."""
+
+    t: float
+    """Time at which it was found, s."""
+    site: str
+    """Sensor in words; "" for both feet."""
+    brief: str
+    """One sentence: what it means for the figures."""
+    what: str
+    """Sentences for the wearer: what is wrong, and what to do about it."""
+    act: bool
+    """True if results are wrong until somebody acts."""
+
+
 @define
 class SceneFindings:
     """Findings of the checks that still hold, at most one of each kind for each sensor."""
 
-    found: dict[str, tuple[float, str, str, str, bool]] = field(factory=dict)
-    """(t, site in words or "" for both feet, one sentence, all of them, whether results are wrong until somebody acts),
-    by site and kind; t in s."""
+    found: dict[tuple[str, str], Finding] = field(factory=dict)
+    """Findings by site and kind."""
 
     def add_event(self, event: Event) -> None:
         """Add what an event found, or remove what no longer holds; other events change nothing."""
         match event:
-            case DefectFound(site=site, defect=defect, what=what):
-                self._add(event, site, defect.value, brief_of(event), what, event.needs_action)
+            case DefectFound(defect=defect, what=what):
+                self._add(event, defect.value, brief_of(event), what, event.needs_action)
             case CellsFailed(site=site, fault=fault):
                 words = f"{fault_words(event)}; left out from now on. Have the insole repaired; its other cells count."
-                self._add(event, site, fault.value, f"{site.words}: {fault_words(event)}.", words, False)
+                self._add(event, fault.value, f"{site.words}: {fault_words(event)}.", words)
             case InsoleNeverUnloads(site=site):
-                self._add(event, site, "load", f"{site.words}: the insole is never without load.", UNLOADS_NEVER, False)
+                self._add(event, "load", f"{site.words}: the insole is never without load.", UNLOADS_NEVER)
             case FeetSwapped():
-                self._add(
-                    event, None, "swapped", "the insoles may be swapped: left is right, and right left.", SWAPPED, True
-                )
+                brief = "the insoles may be swapped: left is right, and right left."
+                self._add(event, "swapped", brief, SWAPPED, True)
             case FootSilent(foot=foot):
-                self._add(
-                    event, SITE_OF_FOOT[foot], "silent", f"{foot} foot: no data while the other walks on.", SILENT, True
-                )
-            case FootResumed(foot=foot):
-                self.found.pop(_key(SITE_OF_FOOT[foot], "silent"), None)
-            case Connected(site=site) | ClockReset(site=site, restarted=True):
-                start = _key(site, "")
-                self.found = {key: one for key, one in self.found.items() if not key.startswith(start)}
+                self._add(event, "silent", f"{foot} foot: no data while the other walks on.", SILENT, True)
+            case FootResumed():
+                self.found.pop((_site_words(event), "silent"), None)
+            case Connected() | ClockReset(restarted=True):
+                site_words = _site_words(event)
+                self.found = {key: one for key, one in self.found.items() if key[0] != site_words}
             case _:
                 pass
 
-    def _add(self, event: Event, site: Site | None, kind: str, brief: str, what: str, act: bool) -> None:
-        words = "" if site is None else site.words
-        self.found[_key(site, kind)] = (rounded(event.t) or 0.0, words, brief, printable(what, 300), act)
+    def _add(self, event: Event, kind: str, brief: str, what: str, act: bool = False) -> None:
+        words = _site_words(event)
+        self.found[words, kind] = Finding(event.t, words, brief, printable(what, 300), act)
 
     @property
     def unsound(self) -> frozenset[Foot]:
         """Feet whose figures cannot be right until somebody acts."""
-        sites = {site for _, site, _, _, act in self.found.values() if act}
+        sites = {one.site for one in self.found.values() if one.act}
         return frozenset(foot for foot in Foot if SITE_OF_FOOT[foot].words in sites)
 
-    def frame(self, broken: frozenset[Site] = frozenset()) -> list[dict[str, Any]]:
+    def frame(self, broken: frozenset[str]) -> list[dict[str, Any]]:
         """Return the member "findings" of a frame: those that somebody must act on first, then the newest first.
 
-        That a foot sends nothing is left out where its link is `broken`: the link says it."""
-        silent = {_key(site, "silent") for site in broken}
-        ordered = sorted(
-            [one for key, one in self.found.items() if key not in silent], key=lambda one: (not one[4], -one[0])
-        )
-        return [
-            {"t": t, "site": site, "brief": brief, "what": what, "act": act} for t, site, brief, what, act in ordered
-        ]
+        That a foot sends nothing is left out where its link is one of `broken`, in words: the link says it."""
+        shown = [one for (site, kind), one in self.found.items() if kind != "silent" or site not in broken]
+        return [plain(one) for one in sorted(shown, key=lambda one: (not one.act, -one.t))]
 
 
-def _key(site: Site | None, kind: str) -> str:
-    return f"{'' if site is None else site.words}: {kind}"
+def _site_words(event: Event) -> str:
+    """Return the sensor that an event is about, in words; "" for both feet."""
+    foot: Foot | None = getattr(event, "foot", None)
+    site: Site | None = getattr(event, "site", None) if foot is None else SITE_OF_FOOT[foot]
+    return "" if site is None else site.words

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import degrees
+from math import degrees, hypot
 
 from attrs import define, field
 
@@ -34,19 +34,35 @@ from ....events import (
     TurnMade,
 )
 from ....recording import printable
-from ....types import SITE_OF_FOOT, Activity, Turn
+from ....types import SITE_OF_FOOT, Activity, Site, Turn
 from ....walk.walk import Walk
-from ..messages import rounded
 from .links import fault_words
-from .lists import RecentItems
-from .reports import outcome_words
+from .lists import GrowingList
 
 MAX_LINES = 50
 LOW_BATTERY = 0.15
 """Charge, 0 to 1, at or below which the log reports the battery; chosen by hand."""
+UP = {True: "up", False: "down"}
 TURNS = {Turn.LEFT: "turned left", Turn.RIGHT: "turned right", Turn.ABOUT: "turned about"}
 
-LogLine = tuple[float | None, str, str]
+LINES: dict[type[Event], tuple[str, str]] = {
+    Disconnected: ("fault", "the connection is lost"),
+    StreamStale: ("fault", "nothing has come for {0.silent_for:.1f} s"),
+    StreamResumed: ("link", "data come again after {0.silent_for:.1f} s"),
+    StreamRestarted: ("link", "the data had stopped, the sensor was set up again"),
+    LinkTrouble: ("fault", "{0.what}"),
+    Limitation: ("wear", "{0.what}"),
+    InsoleNeverUnloads: ("wear", "the insole is never without load; the shoe may be too tight for it"),
+    FeetSwapped: ("fault", "the insoles may be swapped: what comes as the left foot looks like a right one"),
+    FootSilent: ("fault", "{0.foot} foot: nothing comes while the other foot walks on"),
+    FootResumed: ("link", "{0.foot} foot: samples again after {0.silent_for:.1f} s"),
+    PlaceLost: ("place", "{0.what}"),
+    PlanContradicted: ("place", "{0.what}"),
+    PositionRejected: ("here", "position rejected: {0.what}"),
+}
+"""Kind and sentence on each event that always has one, without its sensor; `_line` has the others."""
+
+LogLine = tuple[float, str, str]
 """(t, kind, sentence), t in s."""
 
 
@@ -54,7 +70,7 @@ LogLine = tuple[float | None, str, str]
 class SceneLog:
     """The log of a page: the newest MAX_LINES sentences on events."""
 
-    lines: RecentItems[LogLine] = field(factory=lambda: RecentItems(MAX_LINES))
+    lines: GrowingList[LogLine] = field(factory=lambda: GrowingList(MAX_LINES))
 
     def add_event(self, event: Event, walk: Walk) -> None:
         """Add the line of an event, if it has one and the log does not say the same already.
@@ -66,14 +82,14 @@ class SceneLog:
         if isinstance(event, FootSilent) and walk.link(SITE_OF_FOOT[event.foot]).state(walk.now) != "ok":
             return
         if isinstance(event, BatteryLevel):
-            level = walk.link(event.site).battery
-            if level is not None and level <= LOW_BATTERY:
+            before = walk.link(event.site).battery
+            if before is not None and before <= LOW_BATTERY:
                 return
         self.add(event.t, *line)
 
     def add(self, t: float, kind: str, text: str) -> None:
         """Add a line on what happened at `t`, s; `kind` is as in `sentence`."""
-        self.lines.add((rounded(t), kind, text))
+        self.lines.add((round(t, 3), kind, text))
 
 
 def sentence(event: Event) -> tuple[str, str] | None:
@@ -81,69 +97,42 @@ def sentence(event: Event) -> tuple[str, str] | None:
 
     `kind` is "fault" (until somebody acts, results are wrong or absent), "wear" (they are only less accurate), "link",
     "gait", "place" or "here"."""
-    line = _link(event) or _wear(event) or _gait(event)
-    return None if line is None else (line[0], printable(line[1], 300))
+    kind, text = LINES.get(type(event)) or _line(event)
+    if not text:
+        return None
+    site: Site | None = getattr(event, "site", None)
+    return kind, printable(("" if site is None else f"{site.words}: ") + text.format(event), 300)
 
 
-def _link(event: Event) -> tuple[str, str] | None:
+def _line(event: Event) -> tuple[str, str]:
+    """Return kind and sentence on an event of which it depends whether and what the log says; "" for none."""
     match event:
-        case Connected(site=site, name=name):
-            return "link", f"{site.words}: connected{f', {name}' if name else ''}"
-        case Disconnected(site=site):
-            return "fault", f"{site.words}: the connection is lost"
-        case StreamStale(site=site, silent_for=seconds):
-            return "fault", f"{site.words}: nothing has come for {seconds:.1f} s"
-        case StreamResumed(site=site, silent_for=seconds):
-            return "link", f"{site.words}: data come again after {seconds:.1f} s"
-        case StreamRestarted(site=site):
-            return "link", f"{site.words}: the data had stopped, the sensor was set up again"
-        case ClockReset(site=site, restarted=restarted):
-            return "wear", f"{site.words}: {'the sensor has restarted' if restarted else 'its clock has jumped'}"
-        case PacketsDropped(site=site, count=count):
-            return "wear", f"{site.words}: {count} packet{'s' * (count != 1)} came too fast to be used"
-        case LinkTrouble(site=site, what=what):
-            return "fault", f"{site.words}: {what}"
-        case BatteryLevel(site=site, level=level) if level <= LOW_BATTERY:
-            return "wear", f"{site.words}: the battery is at {100.0 * level:.0f} %"
-        case _:
-            return None
-
-
-def _wear(event: Event) -> tuple[str, str] | None:
-    match event:
-        case DefectFound(site=site, what=what):
-            return "fault" if event.needs_action else "wear", f"{site.words}: {what}"
-        case Limitation(site=site, what=what):
-            return "wear", what if site is None else f"{site.words}: {what}"
-        case CellsFailed(site=site):
-            return "wear", f"{site.words}: {fault_words(event)}; left out from now on"
-        case InsoleNeverUnloads(site=site):
-            return "wear", f"{site.words}: the insole is never without load; the shoe may be too tight for it"
-        case FeetSwapped():
-            return "fault", "the insoles may be swapped: what comes as the left foot looks like a right one"
-        case FootSilent(foot=foot):
-            return "fault", f"{foot} foot: nothing comes while the other foot walks on"
-        case FootResumed(foot=foot, silent_for=seconds):
-            return "link", f"{foot} foot: samples again after {seconds:.1f} s"
-        case _:
-            return None
-
-
-def _gait(event: Event) -> tuple[str, str] | None:
-    match event:
+        case Connected(name=name):
+            return "link", "connected, {0.name}" if name else "connected"
+        case ClockReset(restarted=restarted):
+            return "wear", "the sensor has restarted" if restarted else "its clock has jumped"
+        case PacketsDropped(count=count):
+            return "wear", f"{_counted(count, 'packet')} came too fast to be used"
+        case BatteryLevel(level=level) if level <= LOW_BATTERY:
+            return "wear", f"the battery is at {100.0 * level:.0f} %"
+        case DefectFound():
+            return "fault" if event.needs_action else "wear", "{0.what}"
+        case CellsFailed():
+            return "wear", f"{fault_words(event)}; left out from now on"
         case TurnMade(turn=turn, angle=angle, final=True) if turn is not None:
             return "gait", f"{TURNS[turn]} by {abs(degrees(angle)):.0f} degrees"
         case FlightClimbed(up=up, steps=strides, height=height, final=True):
-            direction = "up" if up else "down"
-            return "gait", f"stairs {direction}: {strides} stride{'s' * (strides != 1)}, {abs(height):.1f} m"
+            return "gait", f"stairs {UP[up]}: {_counted(strides, 'stride')}, {abs(height):.1f} m"
         case ActivityChanged(activity=Activity.ELEVATOR_UP | Activity.ELEVATOR_DOWN as activity, final=True):
-            return "gait", f"in a lift that goes {'up' if activity is Activity.ELEVATOR_UP else 'down'}"
+            return "gait", f"in a lift that goes {UP[activity is Activity.ELEVATOR_UP]}"
         case LiftRidden(up=up, height=height, final=True):
-            height_text = "" if height is None else f", {abs(height):.1f} m"
-            return "gait", f"lift {'up' if up else 'down'}{height_text}"
-        case PlaceLost(what=what) | PlanContradicted(what=what):
-            return "place", what
-        case TrackRevised() | PositionRejected():
-            return "here", outcome_words(event)
+            return "gait", f"lift {UP[up]}{'' if height is None else f', {abs(height):.1f} m'}"
+        case TrackRevised(by=by, turn=angle):
+            turned = _counted(round(abs(degrees(angle))), "degree")
+            return "here", f"track revised: moved by {hypot(*by):.1f} m, turned by {turned}"
         case _:
-            return None
+            return "", ""
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}{'s' * (count != 1)}"

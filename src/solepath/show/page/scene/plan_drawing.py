@@ -4,45 +4,28 @@ from __future__ import annotations
 
 from typing import Any
 
-from ....floorplan.plan import Connector, Door, FloorPlan, Level, Wall
-from ..messages import EncodedOnce, rounded, rounded_all
+from ....floorplan.plan import Door, FloorPlan, Level, Wall
+from ..messages import EncodedOnce, members, plain
 
 
-def draw_plan(plan: FloorPlan) -> EncodedOnce:
-    """Return the member "plan" of a scene, in the plan frame, m.
+def draw_plan(plan: FloorPlan | EncodedOnce | None) -> EncodedOnce | None:
+    """Return the member "plan" of a scene, in the plan frame, m; a drawing and None are returned as they are.
 
     It holds lines and outlines of each level, and the stops of stairs and elevators. Computing takes some 10 us a wall.
     """
-    return EncodedOnce(
-        name=plan.name,
-        levels=[_level(level) for level in plan.levels],
-        connectors=[_connector(connector) for connector in plan.connectors],
-    )
+    if not isinstance(plan, FloorPlan):
+        return plan
+    connectors = [
+        members(one, "kind", "name") | {"stops": [members(stop, "level", "place", "outline") for stop in one.stops]}
+        for one in plan.connectors
+    ]
+    return EncodedOnce(name=plan.name, levels=[*map(_level, plan.levels)], connectors=connectors)
 
 
 def _level(level: Level) -> dict[str, Any]:
-    return {
-        "id": level.id,
-        "name": level.name,
-        "elevation": rounded(level.elevation),
-        "walls": [_line(wall) for wall in level.walls],
-        "doors": [_line(door) for door in level.doors],
-        "rooms": [[rounded_all(point) for point in room] for room in level.rooms],
-        "room_names": list(level.room_names),
-    }
+    lines = {"walls": _lines(level.walls), "doors": _lines(level.doors)}
+    return members(level, "id", "name", "elevation", "rooms", "room_names") | lines
 
 
-def _line(wall: Wall | Door) -> list[float | None]:
-    return rounded_all((*wall.start, *wall.end))
-
-
-def _connector(connector: Connector) -> dict[str, Any]:
-    stops = [
-        {
-            "level": stop.level,
-            "place": rounded_all(stop.place),
-            "outline": [rounded_all(point) for point in stop.outline],
-        }
-        for stop in connector.stops
-    ]
-    return {"kind": connector.kind.value, "name": connector.name, "stops": stops}
+def _lines(walls: tuple[Wall, ...] | tuple[Door, ...]) -> Any:
+    return plain([(*wall.start, *wall.end) for wall in walls])

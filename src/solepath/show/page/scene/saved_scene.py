@@ -21,5 +21,5 @@ def save_scene(scene: Scene) -> Json:
 def restore_scene(saved: Any, plan: FloorPlan | None = None) -> Scene:
     """Return the scene that `save_scene` saved, with its floor plan; raise SnapshotError when it does not fit."""
     scene = load(Scene, saved, part_class)
-    scene.plan, scene.drawing = plan, None if plan is None else draw_plan(plan)
+    scene.plan = draw_plan(plan)
     return scene

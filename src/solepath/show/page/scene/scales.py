@@ -9,14 +9,14 @@ Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from math import floor, inf, log10
+from math import floor, log10
 from typing import Any
 
 from attrs import define, field
 
 from ....calibration import Calibration
 from ....types import Foot, Layout
-from ..messages import rounded
+from ..messages import plain
 
 END_MULTIPLES = (1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
 """Multiples of a power of ten at which a scale may end."""
@@ -35,10 +35,6 @@ class UnitScale:
     end: float
     highest: float = 0.0
     """Highest value of any cell so far."""
-
-    def frame(self) -> dict[str, Any]:
-        """Return one member of "scales" of a frame."""
-        return {"top": rounded(self.end), "beyond": self.highest > self.end}
 
 
 @define
@@ -91,13 +87,12 @@ class Scales:
             values = tuple([value * factor for value, factor in zip(values, insole.factors, strict=False)])
         scale = self.units[insole.unit]
         largest = max(values, default=0.0)
-        if scale.highest < largest < inf:
-            scale.highest = largest
+        scale.highest = max(scale.highest, largest)
         if not largest > scale.end:
             insole.recent = ()
             return
         reached = insole.add(values)
-        if scale.end < reached < inf:
+        if reached > scale.end:
             scale.end = scale_end(reached)
 
     def end_stance(self, foot: Foot) -> None:
@@ -108,7 +103,7 @@ class Scales:
 
     def frame(self) -> dict[str, Any]:
         """Return the member "scales" of a frame."""
-        return {unit: scale.frame() for unit, scale in self.units.items()}
+        return {unit: {"top": plain(one.end), "beyond": one.highest > one.end} for unit, one in self.units.items()}
 
 
 def scale_end(value: float) -> float:

@@ -4,11 +4,10 @@ protocol/page.md says what the messages hold. Nothing here uses a clock, a threa
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from math import isfinite
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from attrs import define, field, frozen
+from attrs import define, field
 
 from ....events import (
     ClockReset,
@@ -24,27 +23,27 @@ from ....events import (
     PlaceLost,
     PositionRejected,
     PositionReported,
+    StrideFused,
     StrideTaken,
     ToeOff,
     TrackRevised,
     WearerMoved,
 )
-from ....floorplan.plan import FloorPlan
+from ....foot.phase import SUPPORT
 from ....recording import printable
-from ....types import SITE_OF_FOOT, Foot, Packet, Sample, Site
+from ....types import SITE_OF_FOOT, Foot, Layout, Packet, Sample, Site
 from ....types.attrs import NOT_SAVED
 from ....walk.valid import has_valid_numbers
 from ....walk.walk import REJECTIONS, Walk
-from ..body import LiveBody
-from ..guide import Guide, guide_frame
-from ..messages import EncodedOnce, rounded
+from ..body import LiveBody, body_frame
+from ..guide import Guide, ShownPosture, ShownToeOut
+from ..messages import EncodedOnce, members, plain
 from ..player.playback import Playback
 from .bending import bend_of
-from .both_feet import both_feet_frame
 from .feet import NO_COUNTS, PHASE_OF_EVENT, FootScene
 from .gait import SceneGaitMeans, ScenePace, activity_frame
-from .growing import GrowingLists
 from .links import SceneFindings, feet_silent_since, link_frame
+from .lists import GrowingList
 from .log import SceneLog
 from .plan_drawing import draw_plan
 from .reports import SceneReports, report_words
@@ -52,18 +51,8 @@ from .scales import Scales
 from .wearer import WearerScene
 
 VERSION = 1
-
-
-@frozen
-class Cursor:
-    """The record of what a watcher has been sent.
-
-    `whole_count` is that of the scene that was sent whole, `numbers` how many items had been added to each list of it,
-    `values` the value that was sent last for each other key."""
-
-    whole_count: int
-    numbers: dict[str, int]
-    values: dict[str, Any]
+Lists = dict[tuple[str, ...], GrowingList[Any]]
+"""The lists of a scene, by their place in its messages: key, and for some the name in the object there."""
 
 
 @define
@@ -72,20 +61,20 @@ class Scene:
 
     Times are in s on the session's clock; positions in m, in the world frame, places on `plan` in the plan frame.
     `source` is "live", "demo" or "recording". `newtons` are the feet whose calibration turns counts into N. A player
-    writes `playback`, who measures a shoe or a walk `guide`. The scene feeds `walk` and shows its counts.
-    `take` is cheap: it is called for every packet. `message_since` takes some 0.1 ms and is for at most 30 calls a
-    second. Memory is bounded. Two threads must not use a scene at once."""
+    writes `playback`, who measures a shoe or a walk `guide`. The scene feeds `walk` and shows its counts. An event with
+    a number that is not finite is not shown, as it is not counted. `take` is cheap: it is called for every packet.
+    Memory is bounded. Two threads must not use a scene at once."""
 
     title: str
     recipe: str
     source: str = "live"
-    plan: FloorPlan | None = field(default=None, metadata=NOT_SAVED)
+    plan: EncodedOnce | None = field(default=None, converter=draw_plan, metadata=NOT_SAVED)
     playback: Playback | None = field(default=None, metadata=NOT_SAVED)
     guide: Guide | None = field(default=None, metadata=NOT_SAVED)
     body: LiveBody | None = field(default=None, metadata=NOT_SAVED)
     newtons: tuple[Foot, ...] = ()
     walk: Walk = field(factory=lambda: Walk(limit=0))
-    feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
+    feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene() for foot in Foot}, init=False)
     wearer: WearerScene = field(factory=WearerScene, init=False)
     gait_means: SceneGaitMeans = field(factory=SceneGaitMeans, init=False)
     pace: ScenePace = field(factory=ScenePace, init=False)
@@ -93,12 +82,6 @@ class Scene:
     log: SceneLog = field(factory=SceneLog, init=False)
     findings: SceneFindings = field(factory=SceneFindings, init=False)
     reports: SceneReports = field(factory=SceneReports, init=False)
-    whole_count: int = field(default=0, init=False)
-    """Number of layouts that became known and of revised tracks; after each a watcher needs the whole scene again."""
-    drawing: EncodedOnce | None = field(default=None, init=False, metadata=NOT_SAVED)  # of the plan, made once
-
-    def __attrs_post_init__(self) -> None:
-        self.drawing = None if self.plan is None else draw_plan(self.plan)
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
         """Add a packet or sample that the session was fed, and the events that it returned.
@@ -109,7 +92,7 @@ class Scene:
                 self.tick(event.known_at)  # a silent foot is shown as silent before the event that ends it
         self.walk.count_item(item, events)
         for event in events:
-            if isfinite(event.known_at) and isfinite(event.t):
+            if has_valid_numbers(event):
                 self._show(event)
         if not events:
             self._mark_silent_feet()
@@ -129,9 +112,44 @@ class Scene:
         self.log.add_event(event, self.walk)
         self.findings.add_event(event)
         self.walk.add(event)
-        handle = HANDLERS.get(type(event))
-        if handle is not None:
-            handle(self, event)
+        match event:
+            case FootMoved(foot=foot) if self._is_connected(foot):
+                self.feet[foot].add_position(event)
+            case FootPressed(foot=foot) if self._is_connected(foot):
+                self.feet[foot].add_pressure(event)
+                self.scales.add_sample(foot, event.values)
+            case HeelStrike(foot=foot) | FootFlat(foot=foot) | HeelOff(foot=foot) | ToeOff(foot=foot):
+                if self._is_connected(foot):
+                    self.feet[foot].start_phase(event.t, PHASE_OF_EVENT[type(event)])
+                    if isinstance(event, ToeOff):
+                        self.scales.end_stance(foot)
+            case StrideTaken(foot=foot):
+                self.feet[foot].add_stride(event)
+            case GaitCycleMeasured():
+                self.pace.add_stride(event)
+            case WearerMoved():
+                self.wearer.add_position(event)
+            case Placed(level=level) if self.wearer.add_place(event):
+                self.log.add(event.t, "place", f"on {self._level_name(level)}")
+            case PlaceLost():
+                self.wearer.level = None
+            case PositionReported(level=level):
+                moved = self.wearer.moved
+                self.reports.add(event, None if moved is None else moved.position)
+                self.log.add(event.t, "here", printable(report_words(event, self._level_name(level)), 300))
+            case PositionRejected() | TrackRevised():
+                self.reports.settle(event)
+                if isinstance(event, TrackRevised):
+                    bend = bend_of(event, self.wearer.track.items)
+                    for foot_scene in self.feet.values():
+                        foot_scene.revise(bend, event.by)
+                    self.wearer.revise(event, bend)
+            case LayoutKnown(site=site, layout=layout) if site.foot is not None:
+                newtons = site.foot in self.newtons or layout.scale is not None
+                if self.feet[site.foot].set_layout(layout):
+                    self.scales.set_layout(site.foot, layout, newtons)
+            case ClockReset(site=site) if site.foot is not None:
+                self.pace.reset(site.foot)
         if getattr(event, "site", None) is not None:
             self._mark_silent_feet()
 
@@ -146,155 +164,127 @@ class Scene:
             if not foot_scene.phase_started_after(link.silent_from):
                 foot_scene.mark_silent(self.now if link.last_sample_at is None else link.last_sample_at)
 
-    def _connected(self, foot: Foot) -> bool:
+    def _is_connected(self, foot: Foot) -> bool:
         """Return whether a foot is connected; late samples of a broken connection do not count."""
         return self.walk.link(SITE_OF_FOOT[foot]).broken_at is None
 
-    def _moved(self, event: FootMoved) -> None:
-        if self._connected(event.foot):
-            self.feet[event.foot].add_position(event)
-
-    def _pressed(self, event: FootPressed) -> None:
-        if self._connected(event.foot):
-            self.feet[event.foot].add_pressure(event)
-            self.scales.add_sample(event.foot, event.values)
-
-    def _phase_started(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
-        if self._connected(event.foot):
-            self.feet[event.foot].start_phase(event.t, PHASE_OF_EVENT[type(event)])
-            if isinstance(event, ToeOff):
-                self.scales.end_stance(event.foot)
-
-    def _stride_taken(self, event: StrideTaken) -> None:
-        self.feet[event.foot].add_stride(event)
-
-    def _layout_known(self, event: LayoutKnown) -> None:
-        foot = event.site.foot
-        if foot is not None and self.feet[foot].set_layout(event.layout):
-            self.whole_count += 1
-            self.scales.set_layout(foot, event.layout, foot in self.newtons or event.layout.scale is not None)
-
-    def _reset(self, event: ClockReset) -> None:
-        if event.site.foot is not None:
-            self.pace.reset(event.site.foot)
-
-    def _placed(self, event: Placed) -> None:
-        level = self.wearer.add_place(event)
-        if level is not None:
-            self.log.add(event.t, "place", f"on {self._level_name(level)}")
-
-    def _reported(self, event: PositionReported) -> None:
-        moved = self.wearer.moved
-        self.reports.add(event, None if moved is None else moved.position[:2])
-        self.log.add(event.t, "here", printable(report_words(event, self._level_name(event.level)), 300))
-
-    def _revised(self, event: TrackRevised) -> None:
-        self.reports.settle(event)
-        if has_valid_numbers(event):
-            bend = bend_of(event, self.wearer.track.points)
-            for foot_scene in self.feet.values():
-                foot_scene.revise(bend, event.by)
-            self.wearer.revise(event, bend)
-            self.whole_count += 1
-
     def _level_name(self, level: str) -> str:
-        names = [] if self.plan is None else [known.name for known in self.plan.levels if known.id == level]
+        names = [] if self.plan is None else [known["name"] for known in self.plan["levels"] if known["id"] == level]
         return names[0] if names and names[0] else f"level {level}"
 
-    def whole_message(self) -> tuple[dict[str, Any], Cursor]:
-        """Return the message "scene" with everything, and the cursor from which `message_since` continues."""
-        values, lists = self._values(), self._lists()
-        message = {
+    def whole_message(self, control: bool = False) -> dict[str, Any]:
+        """Return the message "scene" with everything; `control` says whether its page may send commands."""
+        lists = self.lists()
+        return {
             "type": "scene",
             "v": VERSION,
             "title": self.title,
             "recipe": self.recipe,
             "source": self.source,
-            "control": False,
-            "plan": self.drawing,
+            "control": control,
+            "plan": self.plan,
             "layouts": {foot.value: one.layout_message(foot in self.newtons) for foot, one in self.feet.items()},
-            **lists.whole(),
-            "frame": {"type": "frame", "t": self._t(), **values, **lists.empty()},
+            **_nested({place: [*one.items] for place, one in lists.items()}),
+            "frame": self.frame_message(self.values() | _nested({place: [] for place in lists})),
         }
-        return message, Cursor(self.whole_count, lists.numbers(), values)
 
-    def message_since(self, cursor: Cursor) -> tuple[dict[str, Any] | None, Cursor]:
-        """Return the message "frame" with what has changed since `cursor`, and the next cursor.
+    def frame_message(self, news: Mapping[str, Any] = {}) -> dict[str, Any]:
+        """Return the message "frame" with what is new; without anything a page learns that the server is there."""
+        return {"type": "frame", "t": plain(self.now) or 0.0, **news}
 
-        The message is None when nothing has changed. It is "scene" for a watcher that is too far behind, or has an old
-        layout or a track that was revised since."""
-        if cursor.whole_count != self.whole_count:
-            return self.whole_message()
-        values, lists = self._values(), self._lists()
-        message = {key: value for key, value in values.items() if value != cursor.values[key]}
-        numbers = lists.numbers()
-        if numbers != cursor.numbers:
-            news = lists.since(cursor.numbers)
-            if news is None:
-                return self.whole_message()
-            message |= news
-        if not message:
-            return None, cursor
-        return {"type": "frame", "t": self._t(), **message}, Cursor(self.whole_count, numbers, values)
+    def lists(self) -> Lists:
+        """Return the lists of which a frame has only what is new."""
+        return {
+            **{("tracks", foot.value): one.track for foot, one in self.feet.items()},
+            ("tracks", "wearer"): self.wearer.track,
+            **{("phases", foot.value): one.phases for foot, one in self.feet.items()},
+            ("places",): self.wearer.places,
+            ("log",): self.log.lines,
+            ("reports",): self.reports.marks,
+        }
 
-    def heartbeat_message(self) -> dict[str, Any]:
-        """Return the message "frame" with nothing but the time."""
-        return {"type": "frame", "t": self._t()}
-
-    def _t(self) -> float:
-        return rounded(self.now) or 0.0
-
-    def _lists(self) -> GrowingLists:
-        return GrowingLists(
-            {**{foot.value: one.track for foot, one in self.feet.items()}, "wearer": self.wearer.track},
-            {foot.value: one.phases for foot, one in self.feet.items()},
-            self.wearer.places,
-            {"log": self.log.lines, "reports": self.reports.marks},
-        )
-
-    def _values(self) -> dict[str, Any]:
+    def values(self) -> dict[str, Any]:
+        """Return the other members of a frame, whole."""
         now, walk = self.now, self.walk
-        links = {site: link_frame(walk.links[site], now) for site in Site if site in walk.links}
+        links = {site.words: link_frame(walk.links[site], now) for site in Site if site in walk.links}
         feet: dict[str, Any] = {}
         for foot, foot_scene in self.feet.items():
-            link = links.get(SITE_OF_FOOT[foot])
-            rate = 0.0 if link is None else link["rate"]
-            feet[foot.value] = foot_scene.frame(rate, walk.feet.get(foot, NO_COUNTS))
+            link = links.get(SITE_OF_FOOT[foot].words)
+            feet[foot.value] = foot_scene.frame(0.0 if link is None else link["rate"], walk.feet.get(foot, NO_COUNTS))
         silent_since, (since, activity) = feet_silent_since(walk.links, now), walk.timeline.last
+        silent = frozenset(site for site, link in links.items() if link["state"] in ("silent", "lost"))
+        left, right = [one.phase for one in self.feet.values()]
+        down, fused = walk.touchdown, walk.fused
+        legs = None if self.body is None else self.body.frame(now)
+        if legs is None and down is not None and down.legs is not None:
+            legs = body_frame(down.t, down.legs)
         return {
             "feet": feet,
             "wearer": self.wearer.wearer_frame(),
             "place": self.wearer.place_frame(walk.places.last),
             "activity": activity_frame(since, activity, silent_since),
             "pace": None if silent_since is not None else self.pace.frame(now, activity, since, self.findings.unsound),
-            **both_feet_frame(self.feet, walk, self.body),
+            "support": None if left is None or right is None else SUPPORT[left][right].value,
+            "touchdown": None if down is None else members(down, "t", "foot", "mode", "position"),
+            "body": legs,
+            "fused": None if fused is None else _fused_frame(fused),
             "scales": self.scales.frame(),
             **self.gait_means.frames(walk.recent_gait, walk.gait),
-            "findings": self.findings.frame(
-                frozenset(site for site, link in links.items() if link["state"] in ("silent", "lost"))
-            ),
-            "links": {site.words: link for site, link in links.items()},
+            "findings": self.findings.frame(silent),
+            "links": links,
             "playback": None if self.playback is None else self.playback.frame(),
-            **guide_frame(self.guide),
+            "posture": plain(self.guide) if isinstance(self.guide, ShownPosture) else None,
+            "toe_out": plain(self.guide) if isinstance(self.guide, ShownToeOut) else None,
         }
 
 
-HANDLERS: dict[type, Callable[[Scene, Any], None]] = {
-    FootMoved: Scene._moved,
-    FootPressed: Scene._pressed,
-    HeelStrike: Scene._phase_started,
-    FootFlat: Scene._phase_started,
-    HeelOff: Scene._phase_started,
-    ToeOff: Scene._phase_started,
-    StrideTaken: Scene._stride_taken,
-    GaitCycleMeasured: lambda scene, event: scene.pace.add_stride(event),
-    WearerMoved: lambda scene, event: scene.wearer.add_position(event),
-    Placed: Scene._placed,
-    PlaceLost: lambda scene, event: scene.wearer.forget_level(),
-    PositionReported: Scene._reported,
-    TrackRevised: Scene._revised,
-    PositionRejected: lambda scene, event: scene.reports.settle(event),
-    LayoutKnown: Scene._layout_known,
-    ClockReset: Scene._reset,
-}
-"""Function that changes the scene at each event; the walk and the log get every event besides."""
+@define
+class Follower:
+    """The record of what one page was sent of a scene, from which it follows what comes next.
+
+    `message` takes some 0.1 ms and is for at most 30 calls a second."""
+
+    _scene: Scene | None = None
+    _layouts: list[Layout | None] = field(factory=list)
+    _counts: dict[tuple[str, ...], int] = field(factory=dict)
+    """Count of changes of each list."""
+    _values: dict[str, Any] = field(factory=dict)
+
+    def message(self, scene: Scene, control: bool = False) -> dict[str, Any] | None:
+        """Return the message "frame" with what has changed; None when nothing has.
+
+        It is "scene" at first, for another scene, with a new layout, and after a track was revised. `control` says
+        whether the page may send commands."""
+        lists, values, sent = scene.lists(), scene.values(), self._values
+        layouts = [one.layout for one in scene.feet.values()]
+        is_whole = scene is not self._scene or layouts != self._layouts
+        news = {} if is_whole else {place: one.since(self._counts[place]) for place, one in lists.items()}
+        self._scene, self._layouts, self._values = scene, layouts, values
+        self._counts = {place: one.count for place, one in lists.items()}
+        if is_whole or None in news.values():
+            return scene.whole_message(control)
+        message = {key: value for key, value in values.items() if value != sent[key]}
+        message |= _nested({place: items for place, items in news.items() if items})
+        return scene.frame_message(message) if message else None
+
+    def restart(self) -> None:
+        """Send the whole scene again."""
+        self._scene = None
+
+
+def _nested(members: dict[tuple[str, ...], Any]) -> dict[str, Any]:
+    """Return members of a message, those with two names as objects."""
+    message: dict[str, Any] = {}
+    for (key, *names), value in members.items():
+        for name in names:
+            message.setdefault(key, {})[name] = value
+        if not names:
+            message[key] = value
+    return message
+
+
+def _fused_frame(fused: StrideFused) -> dict[str, Any]:
+    """Return the member "fused": the last stride of a recipe that fuses strides (Chen et al. 2019, (9) to (13))."""
+    names = ("t", "foot", "similarity", "error_index", "chosen", "distance")
+    lengths = {"length": plain(fused.stride_length), "share": plain(fused.coefficient)}
+    return members(fused, *names, error_index=4, distance=2) | lengths

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections import deque
 from logging import Logger
 from time import monotonic
 
 from attrs import define, field
 
-BURST_SIZE = 10
-"""Largest number of lines that may come at once."""
-LINE_INTERVAL = 60.0
-"""Time after which one more line may come, s."""
+MAX_LINES = 10
+"""Largest number of lines in each TIME_OF_LINES."""
+TIME_OF_LINES = 600.0
+"""Time in which MAX_LINES may come, s."""
 
 
 @define
@@ -20,19 +21,17 @@ class ClientErrors:
     Lines that were left out are counted; the next line gives their number."""
 
     logger: Logger
-    _lines_left: float = field(default=float(BURST_SIZE), init=False)
-    _updated_at: float = field(factory=monotonic, init=False)
+    _times: deque[float] = field(factory=lambda: deque(maxlen=MAX_LINES), init=False)
+    """Times of the newest lines, s."""
     _unreported: int = field(default=0, init=False)
 
     def report(self, text: str) -> None:
         """Write a line, or only count it when the limit is reached; `text` holds nothing that a client sent."""
         now = monotonic()
-        self._lines_left = min(self._lines_left + (now - self._updated_at) / LINE_INTERVAL, float(BURST_SIZE))
-        self._updated_at = now
-        if self._lines_left < 1.0:
+        if len(self._times) == MAX_LINES and now - self._times[0] < TIME_OF_LINES:
             self._unreported += 1
             return
-        self._lines_left -= 1.0
         more = f" ({self._unreported} more were not logged)" if self._unreported else ""
         self._unreported = 0
+        self._times.append(now)
         self.logger.warning("%s%s", text, more)

@@ -32,7 +32,7 @@ class Closable(Protocol):
     def peer(self) -> str:
         """Peer to which the connection counts."""
 
-    def close_for_another(self) -> None:
+    def close_now(self) -> None:
         """Close the connection at once."""
 
 
@@ -59,7 +59,7 @@ class OpenConnections:
         largest = max(self._by_peer.values(), key=lambda those: (len(those), -next(iter(those.values()))))
         oldest = next(iter(largest))
         self.remove(oldest)
-        oldest.close_for_another()
+        oldest.close_now()
         return True
 
     def remove(self, connection: Closable) -> None:

@@ -9,11 +9,9 @@ It needs aiohttp (the extra `view`). The limits below were chosen by hand and no
 from __future__ import annotations
 
 import asyncio
-import logging
 import secrets
-from collections.abc import Callable
-from importlib.resources import files
-from importlib.resources.abc import Traversable
+from collections.abc import Awaitable, Callable
+from pathlib import Path
 from typing import cast
 
 from aiohttp import web
@@ -22,18 +20,16 @@ from ..messages import Command
 from ..scene.scene import Scene
 from .access import AccessDenied, PageAccess, listen, url_host
 from .client_errors import ClientErrors
-from .connection import HEADERS, BrowserConnection
+from .connection import HEADERS, IDLE_TIMEOUT, LOGGER, MAX_UNWATCHED_TIME, BrowserConnection
 from .open_connections import ACCEPTED_AT_ONCE, MAX_CONNECTIONS, OpenConnections
 from .watcher import Watcher
 
 MAX_WATCHERS = 8
 """Largest number of browsers that watch at one time."""
-IDLE_TIMEOUT = 5.0
-"""Time after which a connection without a complete request is closed, s."""
 WAITING_CONNECTIONS = 128
 """Number of new connections that the system holds until the page accepts them."""
-METHODS = ("GET", "HEAD")
-CONTENT_TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+FILES = Path(__file__).parents[1] / "static"
+CONTENT_TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript", "svg": "image/svg+xml"}
 
 
 class Page:
@@ -63,15 +59,16 @@ class Page:
     ) -> None:
         self.scene = scene
         self.commands = commands
-        self.client_errors = ClientErrors(logging.getLogger("solepath.show.page"))
+        self.client_errors = ClientErrors(LOGGER)
         self._host = host.removeprefix("[").removesuffix("]")
         self._port = port
         self._access = PageAccess(self._host, secrets.token_urlsafe(16) if token is None else token)
-        self._files = _files(files("solepath.show.page") / "static")
+        self._files = {path.name: path.read_bytes() for path in FILES.iterdir() if path.suffix[1:] in CONTENT_TYPES}
+        """Content of the page's files, which may be slow to read; nothing else can be requested."""
         self._watchers: dict[Watcher, None] = {}
         """Watchers, in the order in which they came."""
         self._open = OpenConnections(MAX_CONNECTIONS)
-        self._server: web.Server | None = None
+        self._runner: web.AppRunner | None = None
         self._listening: asyncio.Server | None = None
 
     @property
@@ -89,69 +86,62 @@ class Page:
     async def __aenter__(self) -> Page:
         socket = listen(self._host, self._port)
         self._port = socket.getsockname()[1]
-        self._server = web.Server(self._answer)
+        app = web.Application(middlewares=[self._check])
+        app.router.add_get("/ws", self._watch)
+        app.router.add_get("/{name:.*}", self._file)
+        app.on_response_prepare.append(_add_headers)
+        runner = self._runner = web.AppRunner(app, shutdown_timeout=1.0)
+        await runner.setup()
+
+        def connect() -> BrowserConnection:
+            return BrowserConnection(cast(web.Server, runner.server), self._open, self.client_errors)
+
         loop = asyncio.get_running_loop()
-        self._listening = await loop.create_server(self._connect, sock=socket, backlog=ACCEPTED_AT_ONCE)
+        self._listening = await loop.create_server(connect, sock=socket, backlog=ACCEPTED_AT_ONCE)
         socket.listen(WAITING_CONNECTIONS)  # the loop takes its backlog for both numbers
         return self
 
     async def __aexit__(self, *error: object) -> None:
-        if self._listening is not None:
+        if self._listening is not None and self._runner is not None:
             self._listening.close()
-        if self._server is not None:
-            self._server.pre_shutdown()
             await asyncio.gather(*[watcher.end() for watcher in self._watchers], return_exceptions=True)
-            await self._server.shutdown(1.0)
+            await self._runner.cleanup()
 
-    def _connect(self) -> asyncio.BaseProtocol:
-        """Return the protocol for a new connection."""
-        if self._server is None:
-            raise RuntimeError("the page is not served yet")
-        return BrowserConnection(self._server, IDLE_TIMEOUT, self._open, self.client_errors)
-
-    async def _answer(self, request: web.BaseRequest) -> web.StreamResponse:
-        connection = cast(BrowserConnection, request.protocol)
-        connection.handle_request()
+    @web.middleware
+    async def _check(
+        self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
+    ) -> web.StreamResponse:
+        """Answer a request to this page; a denied one is logged."""
+        cast(BrowserConnection, request.protocol).close_after(MAX_UNWATCHED_TIME)
         try:
-            host = request.headers.get("Host")
-            self._access.check_host(host)
-            if request.method not in METHODS:
-                return web.Response(status=405, headers={**HEADERS, "Allow": ", ".join(METHODS)})
-            if request.path == "/ws":
-                return await self._watched(request, connection, host or "")
-            return self._file(request)
+            self._access.check_host(request.headers.get("Host", ""))
+            return await handler(request)
         except AccessDenied as denied:
             self.client_errors.report(f"{denied}: turned away")
-            return web.Response(status=denied.status, text=f"{denied}\n", headers=HEADERS)
-        except ConnectionError:
-            return web.Response(headers=HEADERS)  # the client has gone, so nobody gets it
-        except Exception:
-            logging.getLogger("solepath.show.page").exception("the page could not answer")
-            return web.Response(status=500, headers=HEADERS)
+            return web.Response(status=denied.status, text=f"{denied}\n")
 
-    def _file(self, request: web.BaseRequest) -> web.Response:
-        file = self._files.get("index.html" if request.path == "/" else request.path.removeprefix("/"))
-        if file is None:
-            return web.Response(status=404, text="there is no such file\n", headers=HEADERS)
-        body, content_type = file
-        return web.Response(body=body, content_type=content_type, charset="utf-8", headers=HEADERS)
+    async def _file(self, request: web.Request) -> web.StreamResponse:
+        name = request.match_info["name"] or "index.html"
+        if name not in self._files:
+            raise web.HTTPNotFound
+        content_type = CONTENT_TYPES[name.rpartition(".")[2]]
+        return web.Response(body=self._files[name], content_type=content_type, charset="utf-8")
 
-    async def _watched(self, request: web.BaseRequest, connection: BrowserConnection, host: str) -> web.StreamResponse:
-        if request.method != "GET":
-            raise AccessDenied("a request for the socket is none for a WebSocket", 400)
+    async def _watch(self, request: web.Request) -> web.StreamResponse:
         if "Sec-WebSocket-Protocol" in request.headers:
             raise AccessDenied("somebody requested another protocol", 400)
-        self._access.check_origin(request.headers.getall("Origin", []), host)
+        self._access.check_origin(request.headers.getall("Origin", []), request.headers["Host"])
         may_control = self._access.may_control(request.query.getall("token", []))
         if len(self._watchers) >= MAX_WATCHERS:
             self._make_room(may_control)
-        watcher = Watcher(self, may_control)
+        watcher, connection = Watcher(self, may_control), cast(BrowserConnection, request.protocol)
         self._watchers[watcher] = None
+        connection.stay_open()
         try:
-            with connection.watching():
-                return await watcher.watch(request)
+            return await watcher.watch(request)
         finally:
             self._watchers.pop(watcher, None)
+            connection.close_after(IDLE_TIMEOUT)
 
     def _make_room(self, has_token: bool) -> None:
         """Disconnect the oldest watcher without the token for one who has it; raise AccessDenied if that cannot be."""
@@ -163,11 +153,5 @@ class Page:
         others[0].make_room()
 
 
-def _files(folder: Traversable) -> dict[str, tuple[bytes, str]]:
-    """Return content and content type of each file of the page by its name; nothing else can be requested."""
-    contents = {}
-    for file in folder.iterdir():
-        content_type = CONTENT_TYPES.get(f".{file.name.rpartition('.')[2]}")
-        if content_type is not None and file.is_file():
-            contents[file.name] = (file.read_bytes(), content_type)
-    return contents
+async def _add_headers(request: web.BaseRequest, response: web.StreamResponse) -> None:
+    response.headers.update(HEADERS)

@@ -5,17 +5,16 @@ The times below were chosen by hand and not swept."""
 from __future__ import annotations
 
 import asyncio
-import logging
 from collections.abc import Callable
 from typing import Any, Protocol
 
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from ..messages import MAX_MESSAGE_SIZE, Command, CommandError, encode, parse_command
-from ..scene.scene import Cursor, Scene
+from ..scene.scene import Follower, Scene
 from .access import AccessDenied
 from .client_errors import ClientErrors
-from .connection import HEADERS
+from .connection import LOGGER
 
 FRAME_INTERVAL = 1.0 / 30.0
 """Mean time from one frame to the next, s."""
@@ -43,24 +42,26 @@ class Watcher:
         self._page = page
         self._leaving: asyncio.Task[None] | None = None
         self._socket = web.WebSocketResponse(
-            timeout=1.0, heartbeat=PING_INTERVAL, compress=False, max_msg_size=MAX_MESSAGE_SIZE + 1, autoclose=True
+            timeout=1.0,
+            heartbeat=PING_INTERVAL,
+            compress=False,
+            max_msg_size=MAX_MESSAGE_SIZE + 1,
+            writer_limit=0,  # together with the limit below: a message waits until the last one was read
         )
-        self._socket.headers.update(HEADERS)
         self._transport: asyncio.WriteTransport | None = None
-        self._scene: Scene | None = None
-        """The scene of the last message; `_cursor` says how much of it was sent."""
-        self._cursor: Cursor | None = None
+        self._follower = Follower()
 
     async def watch(self, request: web.BaseRequest) -> web.StreamResponse:
         """Serve the browser from the handshake to the end; raise AccessDenied if the request is not for a WebSocket."""
-        transport = self._transport = request.transport
         try:
             await self._socket.prepare(request)
         except web.HTTPException:
             raise AccessDenied("a request for the socket is none for a WebSocket", 400) from None
-        if transport is None:
+        self._transport = request.transport
+        if self._transport is None:
             return self._socket
-        sending = asyncio.create_task(self._show(transport))
+        self._transport.set_write_buffer_limits(0)
+        sending = asyncio.create_task(self._show())
         try:
             await self._listen()
         finally:
@@ -80,64 +81,40 @@ class Watcher:
         """Close the connection within a second; with `last`, send what has changed before."""
         try:
             async with asyncio.timeout(1.0):
-                if self._unread() or not self._socket.prepared:
-                    self._abort()
-                    return
-                message = self._next() if last else None
+                message = self._next() if last and self._socket.prepared else None
                 if message is not None:
                     await self._socket.send_str(encode(message))
                 await self._socket.close(code=code, message=reason.encode())
-        except (TimeoutError, ConnectionError):
+        except (TimeoutError, ConnectionError, RuntimeError):
             self._abort()
 
-    async def _show(self, transport: asyncio.WriteTransport) -> None:
+    async def _show(self) -> None:
+        """Send frames until the socket closes, or the browser reads nothing."""
         try:
-            await self._show_all(transport)
+            loop = asyncio.get_running_loop()
+            sent = due = loop.time()
+            while not self._socket.closed:
+                message = self._next()
+                if message is None and loop.time() - sent >= MAX_FRAME_INTERVAL:
+                    message = self._page.scene.frame_message()
+                if message is not None:
+                    async with asyncio.timeout(READ_TIMEOUT):
+                        await self._socket.send_str(encode(message))
+                    sent = loop.time()
+                due = max(due + FRAME_INTERVAL, loop.time())  # a sleep that was too long does not delay later frames
+                await asyncio.sleep(due - loop.time())
         except TimeoutError:
             self._page.client_errors.report(f"a browser that had read nothing for {READ_TIMEOUT:.0f} s was let go")
             self._abort()
         except ConnectionError:
             self._abort()
         except Exception:
-            logging.getLogger("solepath.show.page").exception("a browser could not be shown the session")
+            LOGGER.exception("a browser could not be shown the session")
             self._abort()
-
-    async def _show_all(self, transport: asyncio.WriteTransport) -> None:
-        """Send frames until the socket closes; raise TimeoutError when the browser does not read."""
-        loop = asyncio.get_running_loop()
-        sent = due = loop.time()
-        while not self._socket.closed:
-            now = loop.time()
-            if self._unread():
-                if now - sent > READ_TIMEOUT:
-                    raise TimeoutError
-            else:
-                message = self._next()
-                if message is None and now - sent >= MAX_FRAME_INTERVAL:
-                    message = self._page.scene.heartbeat_message()
-                if message is not None:
-                    async with asyncio.timeout(READ_TIMEOUT):
-                        await self._socket.send_str(encode(message))
-                    sent = loop.time()
-            due = max(due + FRAME_INTERVAL, loop.time())  # a sleep that was too long does not delay later frames
-            await asyncio.sleep(due - loop.time())
 
     def _next(self) -> dict[str, Any] | None:
         """Return the next message; None when nothing has changed."""
-        newest, message = self._page.scene, None
-        if self._cursor is None or newest is not self._scene:
-            message, self._cursor = newest.whole_message()
-        else:
-            message, self._cursor = newest.message_since(self._cursor)
-        self._scene = newest
-        if message is not None and message["type"] == "scene":
-            message["control"] = self.may_control and self._page.commands is not None
-        return message
-
-    def _unread(self) -> bool:
-        """Return whether the send buffer still holds data that the browser has not read."""
-        transport = self._transport
-        return transport is not None and transport.get_write_buffer_size() > 0
+        return self._follower.message(self._page.scene, self.may_control and self._page.commands is not None)
 
     def _abort(self) -> None:
         if self._transport is not None:

@@ -1,0 +1,35 @@
+"""Two insoles that a worker of the site connects and receives, with the values of packets."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+from solepath import Packet
+from solepath.link.devices.insole import PROFILE as INSOLE
+from solepath.link.profile import Access
+from solepath.show.web.worker import Worker
+
+
+def connect(worker: Worker, packets: Sequence[Packet]) -> None:
+    """Connect two insoles, whose values are those of the packets; their sites are also their addresses."""
+    values = {(packet.site.value, packet.channel): packet.data.hex() for packet in packets}
+    for device in {packet.site.value for packet in packets}:
+        about = {"device": device, "t": packets[0].t}
+        characteristics = [[one.service, one.characteristic, one.access is Access.NOTIFY] for one in INSOLE.channels]
+        _send(worker, type="add", device=device)
+        answers = _send(worker, type="connected", characteristics=characteristics, **about)
+        while answers:
+            value = values.get((device, answers[-1]["channel"]), "")
+            answers = _send(worker, type="done", value=value, **about)
+
+
+def send_frames(worker: Worker, packets: Sequence[Packet]) -> None:
+    """Let the insoles send the frames of the packets."""
+    frames = [packet for packet in packets if packet.channel in INSOLE.streams]
+    _send(worker, type="values", values=[[one.t, one.site.value, one.channel, one.data.hex()] for one in frames])
+
+
+def _send(worker: Worker, **message: Any) -> Any:
+    return json.loads(worker.receive(json.dumps(message)))
