@@ -1,29 +1,19 @@
 // The log of events as sentences, the newest at the top.
 
-import { capital, child, clock } from "./words.js";
+import { capital, child, clock, element, setData, show } from "./words.js";
 
-export class Log {
-  uses = ["log", "scene"];
-
-  constructor() {
-    this.list = document.getElementById("log");
-    this.waiting = document.getElementById("log-waiting");
-  }
+export const logPanel = {
+  uses: ["log", "scene"],
 
   draw({ log, start }) {
-    this.waiting.hidden = log.length > 0;
-    this.list.replaceChildren(
-      ...log
-        .map(([t, kind, words]) => {
-          const item = document.createElement("li");
-          item.dataset.kind = kind;
-          child(item, "time").textContent = clock(t - start);
-          child(item, "i"); // mark of a fault
-          child(item, "span").textContent = capital(words);
-          return item;
-        })
-        .reverse(),
-    );
-    return "done";
-  }
-}
+    show("log-waiting", log.length === 0);
+    element("log").replaceChildren();
+    for (const [t, kind, words] of log.toReversed()) {
+      const item = child(element("log"), "li");
+      setData(item, { kind });
+      child(item, "time", "", clock(t - start));
+      child(item, "i"); // mark of a fault
+      child(item, "span", "", capital(words));
+    }
+  },
+};

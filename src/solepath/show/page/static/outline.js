@@ -1,5 +1,7 @@
 // The outline of a sole, as a ring of [x, y] in the foot frame (x to the toe, y to the left, m).
 
+import { clamp, range } from "./canvas.js";
+
 // Left shoe: x, and the y of its outer and inner edge there, as shares of the length. Drawn by eye.
 const SOLE_OUTLINE = [
   [0, 0, 0],
@@ -20,7 +22,6 @@ const SOLE_OUTLINE = [
 const STATION_COUNT = 44;
 const MIN_CELLS = 16; // number of cells from which on they show the outline of a sole by themselves
 const MIN_COVERAGE = 0.75; // share of the length that these cells must cover
-
 // Outline of a shoe of `length` m without a known layout.
 export function shoe(foot, length) {
   const side = foot === "left" ? 1 : -1;

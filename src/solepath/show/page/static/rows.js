@@ -3,48 +3,47 @@
 // Largest differences that count as none (docs/page.md): shares of a value, and shares of a stride for those measured in them.
 const EVEN = 0.02;
 const EVEN_OF_A_STRIDE = 0.012;
+const PARTS = ["initial_double_support", "terminal_double_support"];
 
-const find = (rows, name) => rows.find((row) => row.name === name);
-const named = (name, label, unit) => (rows) => find(rows, name) ?? { name, label, unit };
+// Each row: its name and label; the unit while nothing is known; what it is called beside “left and right”, and how the
+// longer side is.
+const MAIN = [
+  { name: "stride_length", label: "stride length", unit: "m" },
+  { name: "speed", label: "speed", unit: "m/s", more: "faster" },
+  { name: "stride_time", label: "stride time", unit: "s" },
+  { name: "stance_time", label: "foot on the ground", unit: "%", short: "ground time" },
+  { name: "double_support", label: "both on the ground", unit: "%", short: "both down" },
+];
 
 // The time with both feet on the ground, from both of its parts; below zero it is the time with both in the air.
-export function doubleSupport(rows) {
-  const parts = ["initial", "terminal"].map((part) => find(rows, `${part}_double_support`));
-  const sums = Object.fromEntries(
-    ["left", "right", "both"].map((key) => [key, parts.reduce((sum, part) => sum + (part?.[key] ?? NaN), 0)]),
-  );
-  const flies = [sums.left, sums.right, sums.both].some((sum) => sum < 0);
-  const [left, right, both] = [sums.left, sums.right, sums.both].map((sum) => (flies ? -sum : sum));
-  const label = flies ? "both in the air" : "both on the ground";
-  return { name: "double_support", label, unit: "%", digits: 1, left, right, both };
+function doubleSupport(rows) {
+  const parts = PARTS.map((name) => rows.find((row) => row.name === name) ?? {});
+  const sums = ["left", "right", "both"].map((key) => parts.reduce((sum, part) => sum + (part[key] ?? NaN), 0));
+  const flies = sums.some((sum) => sum < 0);
+  const [left, right, both] = sums.map((sum) => (flies ? -sum : sum));
+  return { digits: 1, left, right, both, ...(flies ? { label: "both in the air" } : {}) };
 }
 
-const stance = (rows) => ({ ...named("stance_time", "", "%")(rows), label: "foot on the ground" });
-
-// Functions that make each row from those of a message.
-export const MAIN = [
-  named("stride_length", "stride length", "m"),
-  named("speed", "speed", "m/s"),
-  named("stride_time", "stride time", "s"),
-  stance,
-  doubleSupport,
-];
+// The five rows, from those of a message.
+export const mainRows = (rows) =>
+  MAIN.map((main) => {
+    const { label, ...known } = rows.find((row) => row.name === main.name) ?? {};
+    return { ...main, ...known, ...(main.name === "double_support" ? doubleSupport(rows) : {}) };
+  });
 
 // How far the right foot is from the left: a share of their mean, or of a stride for what is measured in such shares.
 export function difference({ unit, left, right, asymmetry }) {
   const points = unit === "%";
-  const share = points ? (Number.isFinite(left) && Number.isFinite(right) ? (right - left) / 100 : NaN) : (asymmetry ?? NaN);
+  const share = !points ? (asymmetry ?? NaN) : Number.isFinite(left) && Number.isFinite(right) ? (right - left) / 100 : NaN;
   return { share, points, size: Math.abs(share) / (points ? EVEN_OF_A_STRIDE : EVEN) };
 }
 
-const SHORT = { stance_time: "ground time", double_support: "both down" };
-const MORE = { speed: "faster" };
-
-// The row that differs most, in multiples of what counts as none: {name, share, points, even, more}; null while none is known.
+// The row that differs most, in multiples of what counts as none: {name, share, points, even, more}; undefined while none
+// is known.
 export function mostDifferent(rows) {
-  const all = MAIN.map((make) => make(rows))
-    .map((row) => ({ ...difference(row), name: SHORT[row.name] ?? row.label, more: MORE[row.name] ?? "longer" }))
-    .filter(({ size }) => Number.isFinite(size));
-  const most = all.reduce((a, b) => (a === null || b.size > a.size ? b : a), null);
-  return most && { ...most, even: most.size <= 1 };
+  return mainRows(rows)
+    .map((row) => ({ ...row, ...difference(row) }))
+    .filter(({ size }) => Number.isFinite(size))
+    .map(({ label, short = label, more = "longer", share, points, size }) => ({ name: short, share, points, size, even: size <= 1, more }))
+    .sort((a, b) => b.size - a.size)[0];
 }

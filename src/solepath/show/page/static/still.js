@@ -9,23 +9,22 @@ export class Still {
   #view = null; // that of the picture
   fresh = true; // true while nothing is drawn
 
-  // Returns the context and px([x, y] in m) in which to draw what is new. middle: px of the view's middle in the canvas;
-  // settled: the view does not zoom.
-  begin(surface, view, middle, key, settled) {
-    const { width, height, ratio } = surface;
-    const whole = `${key} ${width} ${height} ${ratio} ${middle}`;
-    this.fresh = whole !== this.#key || !this.#usable(surface, view, middle, settled);
+  // Returns the context and px([x, y] in m) in which to draw what is new. view: {x, y, scale, middle: px of the view's
+  // middle in the canvas}; settled: the view does not zoom.
+  begin({ width, height, ratio }, view, key, settled) {
+    this.size = [width + 2 * MARGIN, height + 2 * MARGIN];
+    const whole = `${key} ${width} ${height} ${ratio} ${view.middle}`;
+    this.fresh = whole !== this.#key || !this.#isUsable(width, height, view, settled);
     if (this.fresh) {
       this.#key = whole;
-      this.#view = { ...view };
-      this.#layer.width = Math.round((width + 2 * MARGIN) * ratio);
-      this.#layer.height = Math.round((height + 2 * MARGIN) * ratio);
+      this.#view = view;
+      [this.#layer.width, this.#layer.height] = this.size.map((side) => Math.round(side * ratio));
     }
     const context = this.#layer.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     const { x, y, scale } = this.#view;
-    const [left, top] = [MARGIN + middle[0], MARGIN + middle[1]];
-    return { context, scale, size: [width + 2 * MARGIN, height + 2 * MARGIN], px: ([mx, my]) => [left + (mx - x) * scale, top - (my - y) * scale] };
+    const [left, top] = view.middle.map((at) => MARGIN + at);
+    return { context, scale, size: this.size, px: ([mx, my]) => [left + (mx - x) * scale, top - (my - y) * scale] };
   }
 
   // The view, moved by less than a pixel so that the picture lies on whole ones and stays sharp.
@@ -35,26 +34,22 @@ export class Still {
     return { ...view, x: whole(view.x, this.#view.x), y: whole(view.y, this.#view.y) };
   }
 
-  draw(context, { width, height }, view, middle) {
-    const [left, top, stretch] = this.#corner(view, middle);
-    context.drawImage(this.#layer, left, top, (width + 2 * MARGIN) * stretch, (height + 2 * MARGIN) * stretch);
+  draw(context, view) {
+    context.drawImage(this.#layer, ...this.#frame(view));
   }
 
-  #corner(view, middle) {
-    const { x, y, scale } = this.#view;
-    const stretch = view.scale / scale;
-    return [
-      middle[0] + (x - view.x) * view.scale - stretch * (MARGIN + middle[0]),
-      middle[1] - (y - view.y) * view.scale - stretch * (MARGIN + middle[1]),
-      stretch,
-    ];
+  // Where the picture lies in the canvas: its left and its upper edge, its width and its height, px.
+  #frame({ x, y, scale, middle }) {
+    const stretch = scale / this.#view.scale;
+    const left = middle[0] + (this.#view.x - x) * scale - stretch * (MARGIN + middle[0]);
+    const top = middle[1] - (this.#view.y - y) * scale - stretch * (MARGIN + middle[1]);
+    return [left, top, ...this.size.map((side) => side * stretch)];
   }
 
-  #usable({ width, height }, view, middle, settled) {
-    const [left, top, stretch] = this.#corner(view, middle);
-    if (settled && stretch !== 1) return false;
-    if (stretch < STRETCH[0] || stretch > STRETCH[1]) return false;
-    const [right, bottom] = [left + (width + 2 * MARGIN) * stretch, top + (height + 2 * MARGIN) * stretch];
-    return left <= 0 && top <= 0 && right >= width && bottom >= height;
+  #isUsable(width, height, view, settled) {
+    const stretch = view.scale / this.#view.scale;
+    if (settled ? stretch !== 1 : stretch < STRETCH[0] || stretch > STRETCH[1]) return false;
+    const [left, top, w, h] = this.#frame(view);
+    return left <= 0 && top <= 0 && left + w >= width && top + h >= height;
   }
 }
