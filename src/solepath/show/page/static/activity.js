@@ -1,9 +1,9 @@
 // What is looked at first: what the wearer does and where, and four figures; of the whole walk once it has ended.
 
+import { mostDifferent } from "./gait.js";
 import { nameOf, whereOf } from "./position.js";
-import { mostDifferent } from "./rows.js";
 import { distance, isWrong, means, sidesKnown, sourceWords, unsound } from "./trust.js";
-import { ACTIVITIES, SUPPORTS, activityText, capital, describe, fixed, setData, span, wordOf, write } from "./words.js";
+import { SUPPORTS, activityText, capital, describe, element, fixed, setData, span, wordOf, write } from "./words.js";
 
 const LIFTS = ["ELEVATOR_UP", "ELEVATOR_DOWN"];
 
@@ -16,7 +16,7 @@ export const activityPanel = {
     const silent = !finished && activity !== null && activity.last !== null;
     write("activity", headline(state));
     setData("activity", { activity: name, known: !silent });
-    describe("activity-icon", "href", `#icon-${name in ACTIVITIES || finished ? name : "UNKNOWN"}`);
+    describe("activity-icon", "href", `#icon-${element(`icon-${name}`) ? name : "UNKNOWN"}`);
     const dated = !finished && strides !== null && activity !== null && activity.since >= start;
     const since = dated ? `for ${span(t - activity.since)}` : "";
     const source = strides > 0 && !silent ? sourceWords(state) : "";

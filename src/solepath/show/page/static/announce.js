@@ -16,9 +16,8 @@ export class Announcer {
   #broken = new Set();
   #activity = null;
   #place = null; // level of the decided place
-  #found = new Set(); // what the checks found so far
+  #said = new Set(); // what the checks found, and lines of the log on reported positions
   #finished = false;
-  #report = null; // newest line of the log on a reported position; "" for none, null before the first log
 
   announce(words) {
     this.#waiting.push(words);
@@ -30,7 +29,7 @@ export class Announcer {
 
   // During a seek nothing on the way is announced.
   update(state, changed) {
-    const { activity, findings, links, place, plan, strides, finished } = state;
+    const { activity, findings, finished, links, log, place, plan, strides, t } = state;
     const announce = (words) => state.playback?.seeking == null && this.announce(words);
     if (activity && activityText(activity) !== this.#activity) announce((this.#activity = activityText(activity)));
     for (const [site, link] of changed.has("links") ? Object.entries(links) : []) {
@@ -40,29 +39,19 @@ export class Announcer {
       if (broken) this.#broken.add(site);
       if (link.state === "ok") this.#broken.delete(site);
     }
-    for (const words of findings.map(({ site, what }) => findingText(site, what))) {
-      if (!this.#found.has(words)) announce(words);
-      this.#found.add(words);
+    const found = findings.map(({ site, what }) => [findingText(site, what)]);
+    const reports = log.filter(([at, kind]) => kind === "here" && at > t - RECENT).map(([at, , words]) => [capital(words), at]);
+    for (const [words, at = ""] of [...found, ...reports]) {
+      if (!this.#said.has(at + words)) announce(words);
+      this.#said.add(at + words);
     }
     if (finished !== this.#finished && strides !== null) {
       this.#finished = finished;
       if (finished) announce(`Finished: ${summary(state)}`);
     }
-    if (changed.has("log")) this.#reports(state, announce);
     if (changed.has("place") && place) {
       if (place.decided && place.level !== this.#place) announce(`On ${whereOf(plan, place)}`);
       this.#place = place.decided ? place.level : null;
     }
-  }
-
-  // A scene brings the whole log again: only the lines after the one that was the newest are new.
-  #reports({ log, t: now }, announce) {
-    const lines = log.filter(([, kind]) => kind === "here");
-    const keys = lines.map((line) => line.join(" "));
-    if (this.#report !== null) {
-      const known = keys.lastIndexOf(this.#report);
-      for (const [t, , words] of lines.slice(known + 1)) if (t > now - RECENT) announce(capital(words));
-    }
-    this.#report = keys.at(-1) ?? "";
   }
 }

@@ -6,14 +6,6 @@ import { FEET, describe, fixed, note, setData, show, wordOf, write } from "./wor
 const SCALE = 100; // units of the drawing per m
 const OLD = 0.5; // age of legs that are not those of now, s
 const FLOOR = 114; // where the lower foot stands, units of the drawing
-const MODES = {
-  STRAIGHT: "straight on",
-  LEFT_WIDE: "wide bend to the left",
-  LEFT_TIGHT: "tight bend to the left",
-  RIGHT_WIDE: "wide bend to the right",
-  RIGHT_TIGHT: "tight bend to the right",
-  STANDING: "standing",
-};
 
 export const bodyFigure = {
   uses: ["body", "touchdown", "fused", "scene", "second"],
@@ -38,7 +30,9 @@ export const bodyFigure = {
 const fixedPoint = (value) => value.toFixed(1); // a number of SVG, with a plain minus
 
 function touchdownText({ foot, mode, position: [x, y] }) {
-  return `${wordOf(MODES, mode)}; ${foot} foot came down at ${fixed(x, 2)}, ${fixed(y, 2)} m`;
+  const [way, width] = mode.toLowerCase().split("_"); // as in LEFT_WIDE
+  const words = width ? `${width} bend to the ${way}` : wordOf({ straight: "straight on" }, way);
+  return `${words}; ${foot} foot came down at ${fixed(x, 2)}, ${fixed(y, 2)} m`;
 }
 
 function fusedText({ foot, chosen, length, distance, similarity, error_index: error, share }) {

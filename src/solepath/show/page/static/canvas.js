@@ -19,7 +19,7 @@ export class Surface {
     this.context = this.canvas.getContext("2d");
     this.resized = resized;
     new ResizeObserver(() => this.fit()).observe(this.canvas);
-    this.#watchRatio();
+    addEventListener("resize", () => this.fit()); // zooming the page may change only the pixel ratio, not the size
     this.fit();
   }
 
@@ -54,15 +54,6 @@ export class Surface {
       this.#silent = false;
       if (this.#words !== null) this.#speak();
     }, SPEECH_INTERVAL);
-  }
-
-  // Zooming the page or moving it to another screen may change only the pixel ratio, not the size.
-  #watchRatio() {
-    const changed = () => {
-      this.fit();
-      this.#watchRatio();
-    };
-    matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", changed, { once: true });
   }
 }
 

@@ -8,8 +8,6 @@ const BORDER = 1.5; // m around the plan
 const MIDDLE = 0.3; // share of the picture to each side of its middle in which the wearer stays with reduced motion
 const ZOOMS = [0.25, 8]; // limits of the factor by which the followed part is nearer than usual
 export const ZOOM_FACTOR = 1.4;
-const MIN_WEIGHT = 0.05; // share from which on a candidate counts
-const MAX_SPREAD = 8; // m from the likeliest candidate to the others, within which it is followed
 const PATIENCE = 3000; // ms for which the likeliest candidate is followed after the place was decided
 const LEAST_STEP = 0.5; // m between two places that show a direction
 
@@ -59,15 +57,12 @@ export class Follower {
     this.zoom = clamp(this.zoom * (nearer ? ZOOM_FACTOR : 1 / ZOOM_FACTOR), ...ZOOMS);
   }
 
-  // What is followed: the wearer's mark, or the likeliest candidate while the others are close to it, and while it is not
-  // long that the place was decided. null: the candidates are spread.
+  // What is followed: the wearer's mark, or the likeliest candidate while it is not long that the place was decided; or null.
   target(place, level, wearer, now) {
     if (wearer) this.#decidedAt = now;
-    if (wearer || !place) return wearer;
-    const [best, ...others] = place.candidates.filter(({ weight }, i) => i === 0 || weight >= MIN_WEIGHT);
-    if (!best || best.level !== level.id) return null;
-    const close = others.every(({ level: of, x, y }) => of === level.id && Math.hypot(x - best.x, y - best.y) < MAX_SPREAD);
-    return close || now - this.#decidedAt < PATIENCE ? [best.x, best.y] : null;
+    const best = place?.candidates[0];
+    const isFollowed = !wearer && best?.level === level.id && now - this.#decidedAt < PATIENCE;
+    return isFollowed ? [best.x, best.y] : wearer;
   }
 
   // {x, y, scale} of the view; it stops at the edge of the plan, and a plan that fits is in the middle

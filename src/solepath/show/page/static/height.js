@@ -9,6 +9,7 @@ const LABEL_WIDTH = 44; // px, for heights as numbers; names of levels are on th
 const TIME_SPACE = 20; // px, for the times below
 const TIME_STEPS = [5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200]; // s between two times
 const TIME_WIDTH = 64; // px, least distance of two times
+const REACH = 4; // px around the line in which the name of a level is rather not
 const NEAR = 5; // m by which a level may be above or below the track and still be shown
 
 export class Height {
@@ -41,13 +42,15 @@ export class Height {
     const line = points.map(([t, z]) => [x(t), y(z)]);
 
     this.labels.start();
+    for (const [a, b] of line) this.labels.avoid(a - REACH, b - REACH, 2 * REACH, 2 * REACH);
     for (const { elevation: z, name } of onPlan ? levels : roundHeights(low, high, 2.5)) {
       if (y(z) < 2 || y(z) > height - TIME_SPACE) continue;
       const at = Math.round(y(z)) + 0.5;
       paint(context, polyline([[side, at], [width, at]]), { line: "strong-line", dash: [2, 4], cap: "butt" });
       // the level at which the wearer is has its name first
       const weight = 5 - Math.min(4, last ? Math.abs(z - last[1]) : 0);
-      this.labels.add(name, onPlan ? levelSpots(line, y(z), width) : [[side - 8, y(z), "right"]], { weight });
+      const above = [[2, y(z) - 11, "left"], [width - 12, y(z) - 11, "right"]];
+      this.labels.add(name, onPlan ? above : [[side - 8, y(z), "right"]], { weight });
     }
     const step = TIME_STEPS.find((s) => ((to - from) / s) * TIME_WIDTH < width - side) ?? round((to - from) / 4);
     for (let t = Math.ceil((from - state.start) / step) * step; t <= to - state.start; t += step) {
@@ -66,19 +69,6 @@ export function roundHeights(low, high, count) {
   const first = Math.ceil(low / step);
   const heights = Array.from({ length: Math.floor(high / step) - first + 1 }, (_, i) => (first + i) * step);
   return heights.map((elevation) => ({ elevation, name: `${fixed(elevation, step < 1 ? 1 : 0)} m` }));
-}
-
-// Above the line of a level at y, at that end at which the track, a line of [x, y], does not run there, or else below it.
-function levelSpots(line, y, width) {
-  const between = (a, b, from, to) => Math.max(a, b) >= from && Math.min(a, b) <= to;
-  const isNear = (from, to) =>
-    line.some(([x1, y1], i) => {
-      const [x0, y0] = line[Math.max(0, i - 1)];
-      return between(x0, x1, from, to) && between(y0, y1, y - 19, y - 3);
-    });
-  const ends = [[2, "left", 0, 110], [width - 12, "right", width - 110, width]];
-  const free = ends.filter(([, , from, to]) => !isNear(from, to));
-  return [...free, ...ends].map(([at, align]) => [at, y - 11, align]);
 }
 
 // [t, z] of the known points, and the levels if the points are in the plan frame.

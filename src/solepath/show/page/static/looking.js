@@ -4,7 +4,7 @@
 import { child, element, press, show } from "./words.js";
 
 const ZOOMS = { "+": true, "=": true, "-": false, _: false }; // nearer
-const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const WAYS = { ArrowLeft: [-48, 0], ArrowRight: [48, 0], ArrowUp: [0, 48], ArrowDown: [0, -48] }; // px to the right and up
 
 export class Looking {
   #levels = ""; // those that have buttons
@@ -15,13 +15,17 @@ export class Looking {
       Object.assign(track, choice);
       redraw();
     };
+    const alone = (byItself) => {
+      Object.assign(track, { byItself, whole: false });
+      track.view.all(true);
+    };
     const actions = {
       "zoom-in": () => track.nearer(true),
       "zoom-out": () => track.nearer(false),
       "zoom-fit": () => track.all(),
       "zoom-follow": () => track.follow(),
-      "show-plan": () => this.#show(false),
-      "show-track": () => this.#show(true),
+      "show-plan": () => alone(false),
+      "show-track": () => alone(true),
       "show-feet": () => chosen({ feetShown: !track.feetShown }),
     };
     for (const [id, act] of Object.entries(actions)) element(id).addEventListener("click", act);
@@ -59,16 +63,11 @@ export class Looking {
     for (const button of element("levels").children) press(button, button.value === track.shown(state).id);
   }
 
-  #show(byItself) {
-    Object.assign(this.track, { byItself, whole: false });
-    this.track.view.all(true);
-  }
-
   #arrow(event) {
     const way = WAYS[event.key];
     if (!way || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
     event.stopPropagation();
-    this.track.view.push(...way);
+    this.track.view.move(...way);
   }
 }

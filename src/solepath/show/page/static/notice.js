@@ -1,8 +1,8 @@
 // The line at the top: what needs attention, in words, the worst first; else one sentence on the links. Its height never
-// changes, so that nothing below it moves: all of it is in a list above the page.
+// changes, so that nothing below it moves: all of it is in a list above the page. And the log of what happened.
 
 import { linksText, losesMany, problems } from "./links.js";
-import { capital, child, element, setData, write } from "./words.js";
+import { capital, child, clock, element, setData, show, write } from "./words.js";
 
 export class Notice {
   uses = ["links", "findings", "playback", "scene"];
@@ -44,3 +44,20 @@ function attention(state) {
 }
 
 export const findingText = (site, what) => capital(site ? `${site}: ${what}` : what);
+
+// Sentences on events, the newest at the top.
+export const logPanel = {
+  uses: ["log", "scene"],
+
+  draw({ log, start }) {
+    show("log-waiting", log.length === 0);
+    element("log").replaceChildren();
+    for (const [t, kind, words] of log.toReversed()) {
+      const item = child(element("log"), "li");
+      setData(item, { kind });
+      child(item, "time", "", clock(t - start));
+      child(item, "i"); // mark of a fault
+      child(item, "span", "", capital(words));
+    }
+  },
+};

@@ -3,7 +3,6 @@
 import { bounds, clamp, paint, polygon, polyline, rectangle } from "./canvas.js";
 import { measured } from "./labels.js";
 import { WEARER_RADIUS } from "./marks.js";
-import { outerWalls } from "./outer.js";
 import { nameIn, usualKind } from "./rooms.js";
 import { badgeSize, drawBadge, drawFlight } from "./symbols.js";
 
@@ -15,6 +14,15 @@ const LEAST_WAY = 90; // px between two places for a name along its room
 const NARROW = 8; // px; where a name has no more space to each side it is left out rather than put on the track
 const CLEAR = 22; // px from the middle of the wearer's mark within which nothing else is
 const MAX_PLACES = 12; // places for a name along its room, to each side of its middle
+
+// Outer walls are those beside the ground that is reached from outside without a wall or a door in between, on a small
+// picture of the level.
+const SIDE = 256; // px of the picture
+const BORDER = 6; // px around the level
+const LINE = 1.6; // px, width of a wall in the picture
+const OFF = 2.5; // px from a wall to the ground beside it
+const SAMPLES = [0.25, 0.5, 0.75]; // along a wall; most of them must be beside the outside
+const OPAQUE = 60; // opacity of a px from which on it is no ground
 
 // [least x, greatest x, least y, greatest y] of all levels, m; null for an empty plan.
 export function extent({ levels, connectors }) {
@@ -102,4 +110,48 @@ function spotsOf({ words, upright, slack }, [x, y], bold) {
   const step = count > 0 ? way : along;
   const ways = Array.from({ length: 2 * Math.max(1, count) + 1 }, (_, i) => (i % 2 ? 1 : -1) * Math.ceil(i / 2) * step);
   return ways.flatMap((a) => ASIDE.map((share) => (lying ? [x + a, y + share * across] : [x + share * across, y + a])));
+}
+
+const known = new WeakMap(); // which walls of a level are outer ones
+
+// A list with true for each outer wall. outlines: those of the level's stairs and lifts; extent: of the plan.
+function outerWalls(level, outlines, extent) {
+  if (!known.has(level)) known.set(level, found(level, outlines, extent));
+  return known.get(level);
+}
+
+function found({ walls, doors, rooms }, outlines, [x0, x1, y0, y1]) {
+  const scale = (SIDE - 2 * BORDER) / Math.max(1, x1 - x0, y1 - y0);
+  const px = ([x, y]) => [BORDER + (x - x0) * scale, BORDER + (y - y0) * scale];
+  const path = new Path2D();
+  for (const ring of [...rooms, ...outlines]) polygon(ring.map(px), path);
+  const canvas = Object.assign(document.createElement("canvas"), { width: SIDE, height: SIDE });
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  paint(context, path, { fill: "#000", line: "#000", width: LINE });
+  const lines = new Path2D();
+  for (const [ax, ay, bx, by] of [...walls, ...doors]) polyline([px([ax, ay]), px([bx, by])], lines);
+  paint(context, lines, { line: "#000", width: LINE });
+  const outside = flooded(context.getImageData(0, 0, SIDE, SIDE).data);
+  return walls.map(([ax, ay, bx, by]) => {
+    const length = Math.hypot(bx - ax, by - ay) || 1;
+    const off = [((ay - by) / length) * OFF, ((bx - ax) / length) * OFF];
+    const beside = SAMPLES.filter((share) => {
+      const [x, y] = px([ax + share * (bx - ax), ay + share * (by - ay)]);
+      return outside(x + off[0], y + off[1]) || outside(x - off[0], y - off[1]);
+    });
+    return 2 * beside.length > SAMPLES.length;
+  });
+}
+
+// Whether a place is reached from the corner of the picture.
+function flooded(data) {
+  const reached = new Uint8Array(SIDE * SIDE);
+  const open = [0];
+  while (open.length > 0) {
+    const at = open.pop();
+    if (at < 0 || at >= reached.length || reached[at] || data[4 * at + 3] > OPAQUE) continue;
+    reached[at] = 1;
+    open.push(at - 1, at + 1, at - SIDE, at + SIDE); // the ends of two rows touch in the border, which is ground
+  }
+  return (x, y) => reached[Math.round(y) * SIDE + Math.round(x)] === 1;
 }

@@ -3,7 +3,6 @@
 import { bounds } from "./canvas.js";
 import { measured } from "./labels.js";
 
-const ASPECTS = [5, 2, 0.8, 0.2]; // width by height of the boxes in which a name may be
 const SEARCHED = 9; // places tried along each side of a room
 const CENTRED = 0.3; // by how much a box at the edge of a room must be larger than one in its middle, as a share
 const MAX_NAME = 60; // letters
@@ -25,7 +24,7 @@ function facts(ring) {
   return once(ring, () => {
     let twice = 0;
     eachWall(ring, ([x, y], [a, b]) => (twice += x * b - a * y));
-    return { ends: bounds(ring), area: Math.abs(twice) / 2 };
+    return { ends: bounds(ring), area: Math.abs(twice) / 2, boxes: {} };
   });
 }
 
@@ -59,14 +58,13 @@ export function nameIn(ring, name, scale, bold = false, kind = null) {
 function fitted(one, ring, name, scale, bold, kind) {
   const [x0, x1, y0, y1] = one.ends;
   if (Math.max(x1 - x0, y1 - y0) * scale < LEAST_ROOM) return null;
-  one.boxes ??= ASPECTS.map((aspect) => largestBox(ring, one.ends, aspect));
   for (const [words, upright] of forms(name.slice(0, MAX_NAME), y1 - y0 > TALL * (x1 - x0), kind)) {
     const size = measured(words, bold).map((side, k) => side / 2 + PADDING[k]);
     const [wide, high] = upright ? [size[1], size[0]] : size;
-    const fits = one.boxes
-      .map(({ aspect, at, half }) => ({ words, at, upright, slack: [aspect * half * scale - wide, half * scale - high] }))
-      .filter(({ slack }) => Math.min(...slack) >= 0);
-    if (fits.length > 0) return fits.reduce((a, b) => (b.slack[0] + b.slack[1] > a.slack[0] + a.slack[1] ? b : a));
+    const key = `${words} ${upright} ${bold}`;
+    const { at, half } = (one.boxes[key] ??= largestBox(ring, one.ends, wide / high));
+    const slack = [(half * wide * scale) / high - wide, half * scale - high];
+    if (slack[1] >= 0) return { words, at, upright, slack };
   }
   return null;
 }
@@ -106,11 +104,11 @@ function largestBox(ring, [x0, x1, y0, y1], aspect) {
   const far = Math.hypot(x1 - x0, y1 - y0) || 1;
   const shares = Array.from({ length: SEARCHED }, (_, i) => (i + 0.5) / SEARCHED);
   const places = shares.flatMap((a) => shares.map((b) => [x0 + a * (x1 - x0), y0 + b * (y1 - y0)]));
-  let best = { aspect, at: [mx, my], half: 0, worth: 0 };
+  let best = { at: [mx, my], half: 0, worth: 0 };
   for (const [x, y] of [[mx, my], ...places]) {
     const half = isWithin(ring, x, y) ? halfAt(ring, x, y, aspect) : 0;
     const worth = half * (1 - (CENTRED * Math.hypot(x - mx, y - my)) / far);
-    if (worth > best.worth) best = { aspect, at: [x, y], half, worth };
+    if (worth > best.worth) best = { at: [x, y], half, worth };
   }
   return best;
 }

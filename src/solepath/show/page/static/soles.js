@@ -1,8 +1,7 @@
 // Draws both soles from above: pressure where the positions of the cells are known, else contact, or outlines.
 
 import { Surface, bounds, circle, paint, polygon, polyline, rectangle, within } from "./canvas.js";
-import { Field } from "./field.js";
-import { around, shoe, spacing } from "./outline.js";
+import { Field, outlineOf } from "./field.js";
 import { theme } from "./theme.js";
 import { isGone } from "./trust.js";
 import { FEET, LINKS, PHASES, capital, element, fixed, note, setData, show, wordOf, write } from "./words.js";
@@ -48,17 +47,15 @@ class Sole {
   constructor(foot, redraw) {
     this.foot = foot;
     this.surface = new Surface(`sole-${foot}`, redraw);
-    this.written = 0;
     this.#shape(null);
   }
 
   // Computed once for a layout: outline, and the field within it.
   #shape(layout) {
     this.layout = layout;
-    const apart = layout && spacing(layout.cells);
-    this.ring = layout ? around(layout.cells, layout.length, this.foot, apart) : shoe(this.foot, DEFAULT_LENGTH);
+    this.ring = outlineOf(this.foot, layout?.length ?? DEFAULT_LENGTH, layout?.cells ?? []);
     this.box = bounds(this.ring);
-    this.field = layout && new Field(layout.cells, apart, this.box);
+    this.field = layout && new Field(layout.cells, this.box);
   }
 
   draw(state, now) {
@@ -86,7 +83,6 @@ class Sole {
     if (this.shows === "pressure") this.#centre(context, state.trails[this.foot].map(place), foot.centre && place(foot.centre));
   }
 
-  // The text below the picture and its text alternative show one moment: both are written together.
   #words(foot, layout, lost, link, now, finished) {
     const phase = foot?.phase ? wordOf(PHASES, foot.phase) : "–";
     const force = foot && foot.force !== null && !lost ? fixed(foot.force) : "";
@@ -94,7 +90,6 @@ class Sole {
     write(`phase-${this.foot}`, lost ? wordOf(LINKS, link) : finished && foot?.phase ? `last: ${phase}` : phase);
     this.#number(force && `${force} ${forces ? "N" : "counts"}`, phase, now);
     this.surface.setText(() => {
-      this.put();
       const side = capital(this.foot);
       if (lost) return `${side} sole: no signal`;
       if (!foot) return `${side} sole: no data yet`;
@@ -103,18 +98,11 @@ class Sole {
     });
   }
 
-  // Writes the force at most every MIN_TEXT_INTERVAL, but at once with a new phase; the last text is always written.
+  // Writes the force at most every MIN_TEXT_INTERVAL, but at once with a new phase.
   #number(words, phase, now) {
-    clearTimeout(this.timer);
-    const wait = phase === this.writtenPhase ? MIN_TEXT_INTERVAL - (now - this.written) : 0;
-    this.writtenPhase = phase;
-    this.put = () => {
-      clearTimeout(this.timer);
-      this.written = performance.now();
-      write(`force-${this.foot}`, words);
-    };
-    if (wait > 0) this.timer = setTimeout(this.put, wait);
-    else this.put();
+    if (phase === this.writtenPhase && now - this.writtenAt < MIN_TEXT_INTERVAL) return;
+    [this.writtenPhase, this.writtenAt] = [phase, now];
+    write(`force-${this.foot}`, words);
   }
 
   #where({ centre }) {

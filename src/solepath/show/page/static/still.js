@@ -1,7 +1,6 @@
 // A picture of what does not move, larger than the canvas: while the view moves over it, nothing is drawn again.
 
 const MARGIN = 140; // px beyond each edge of the canvas
-const STRETCH = [0.6, 1.7]; // by how much the picture may be scaled while the view zooms
 
 export class Still {
   #layer = document.createElement("canvas");
@@ -10,11 +9,11 @@ export class Still {
   fresh = true; // true while nothing is drawn
 
   // Returns the context and px([x, y] in m) in which to draw what is new. view: {x, y, scale, middle: px of the view's
-  // middle in the canvas}; settled: the view does not zoom.
-  begin({ width, height, ratio }, view, key, settled) {
+  // middle in the canvas}
+  begin({ width, height, ratio }, view, key) {
     this.size = [width + 2 * MARGIN, height + 2 * MARGIN];
-    const whole = `${key} ${width} ${height} ${ratio} ${view.middle}`;
-    this.fresh = whole !== this.#key || !this.#isUsable(width, height, view, settled);
+    const whole = `${key} ${width} ${height} ${ratio} ${view.middle} ${view.scale}`;
+    this.fresh = whole !== this.#key || this.#corner(view).some((at) => at > 0 || at < -2 * MARGIN);
     if (this.fresh) {
       this.#key = whole;
       this.#view = view;
@@ -35,21 +34,11 @@ export class Still {
   }
 
   draw(context, view) {
-    context.drawImage(this.#layer, ...this.#frame(view));
+    context.drawImage(this.#layer, ...this.#corner(view), ...this.size);
   }
 
-  // Where the picture lies in the canvas: its left and its upper edge, its width and its height, px.
-  #frame({ x, y, scale, middle }) {
-    const stretch = scale / this.#view.scale;
-    const left = middle[0] + (this.#view.x - x) * scale - stretch * (MARGIN + middle[0]);
-    const top = middle[1] - (this.#view.y - y) * scale - stretch * (MARGIN + middle[1]);
-    return [left, top, ...this.size.map((side) => side * stretch)];
-  }
-
-  #isUsable(width, height, view, settled) {
-    const stretch = view.scale / this.#view.scale;
-    if (settled ? stretch !== 1 : stretch < STRETCH[0] || stretch > STRETCH[1]) return false;
-    const [left, top, w, h] = this.#frame(view);
-    return left <= 0 && top <= 0 && left + w >= width && top + h >= height;
+  // The upper left corner of the picture in the canvas, px.
+  #corner({ x, y, scale }) {
+    return [(this.#view.x - x) * scale - MARGIN, (y - this.#view.y) * scale - MARGIN];
   }
 }

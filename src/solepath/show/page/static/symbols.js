@@ -4,7 +4,6 @@ import { bounds, clamp, paint, polygon, polyline, within } from "./canvas.js";
 
 const TREAD = 0.3; // m between two lines
 const LEAST_TREAD = 4; // px
-const MAX_TREADS = 200;
 // Steps for stairs, and arrows up and down for a lift, in a square from -1 to 1.
 const STEPS = [[-0.65, 0.55], [-0.65, 0.19], [-0.23, 0.19], [-0.23, -0.17], [0.19, -0.17], [0.19, -0.53], [0.61, -0.53]];
 const ARROWS = [-1, 1].map((up) => [[-0.5, up * 0.14], [0, up * 0.7], [0.5, up * 0.14]]);
@@ -29,7 +28,7 @@ function treads(path, points, step) {
   const [dx, dy] = sides.reduce((a, b) => (Math.hypot(...b) > Math.hypot(...a) ? b : a));
   const [cos, sin] = [dx, dy].map((d) => d / Math.hypot(dx, dy));
   const [from, to, least, most] = bounds(points.map(([x, y]) => [x * cos + y * sin, y * cos - x * sin]));
-  for (let i = 1; i < Math.min(MAX_TREADS, (to - from) / step); i++) {
+  for (let i = 1; i < (to - from) / step; i++) {
     const at = from + i * step;
     polyline([least, most].map((across) => [at * cos - across * sin, at * sin + across * cos]), path);
   }

@@ -1,7 +1,7 @@
 // Draws the track from above, alone or on the floor plan. What does not move is kept as a picture, to which only new
 // points are added while the view does not change.
 
-import { Surface, reducedMotion } from "./canvas.js";
+import { Surface } from "./canvas.js";
 import { Follower, Glide, MAX_JUMP, heading } from "./following.js";
 import { Labels } from "./labels.js";
 import { WEARER_RADIUS, axes, drawArea, drawCandidates, drawCross, drawFoot, drawGrid } from "./marks.js";
@@ -17,13 +17,13 @@ import { LINES, Possibility, avoidPlaces, boxOf, dashed, drawLine, drawPlaces } 
 import { FEET, element, note, setData } from "./words.js";
 
 const [EDGE_MARGIN, BUTTON_MARGIN] = [20, 56]; // px around the fitted part, and at the buttons
-const SLOW_INTERVAL = 200; // ms between pictures with reduced motion
 const CALM_INTERVAL = 25; // ms between pictures while the wearer's mark moves, and the view with it
 const GLIDE_TIMES = [150, 900]; // ms, least and longest time in which the mark goes to a new place
 const SPARE = 0.14; // share of the picture that is left for new parts of the track
 
 export class Track {
   uses = ["tracks", "places", "reports", "feet", "wearer", "place", "findings", "links", "scene", "theme"];
+  slow = 200; // ms between pictures with reduced motion
   pointing = false; // true while a person chooses a place on the drawing
   level = null; // chosen by hand; null follows the wearer
   byItself = null; // chosen by hand: true without the plan, false on it; null on it once there is a place
@@ -69,7 +69,6 @@ export class Track {
 
   // ms between two pictures
   get interval() {
-    if (reducedMotion.matches) return SLOW_INTERVAL;
     return this.view.scaled && (this.following || this.view.settled) ? CALM_INTERVAL : 0; // 0: a person moves the view
   }
 
@@ -195,7 +194,7 @@ export class Track {
   #drawStill(state, level, here, since) {
     const { generation, thinned } = state;
     const key = [theme.version, generation, thinned, level?.id, since, here, this.feetShown, this.trust].join(" ");
-    const layer = this.#still.begin(this.surface, this.shownPart, key, this.view.scaled);
+    const layer = this.#still.begin(this.surface, this.shownPart, key);
     const { context, px, scale, size } = layer;
     if (this.#still.fresh) {
       this.drawn = { left: 0, right: 0, wearer: 0, places: 0 };

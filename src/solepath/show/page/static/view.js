@@ -5,7 +5,6 @@ import { ZOOM_FACTOR } from "./following.js";
 
 const EASING_TIME = 220; // ms in which the view covers about two thirds of the distance to its goal
 const SCALES = [0.2, 400]; // px per metre
-const PUSH_DISTANCE = 48; // px
 const WHEEL_FACTOR = 0.004; // of a wheel's movement, in the logarithm of the scale
 
 export class View {
@@ -105,10 +104,6 @@ export class View {
   move(right, up) {
     const { x, y, scale } = this.#here();
     this.#take({ x: x + right / scale, y: y + up / scale, scale }, true);
-  }
-
-  push(right, up) {
-    this.move(right * PUSH_DISTANCE, up * PUSH_DISTANCE);
   }
 
   #here() {

@@ -2,24 +2,16 @@
 
 export const FEET = ["left", "right"];
 export const PHASES = { LOADING: "loading", STATIONARY: "flat", PUSH_OFF: "push-off", SWING: "swing" };
-export const ACTIVITIES = {
-  STANDING: "Standing",
-  WALKING: "Walking",
-  RUNNING: "Running",
-  STAIRS_UP: "Stairs up",
-  STAIRS_DOWN: "Stairs down",
-  ELEVATOR_UP: "Lift up",
-  ELEVATOR_DOWN: "Lift down",
-  UNKNOWN: "Not clear",
-};
 export const SUPPORTS = { DOUBLE: "both feet", LEFT: "left foot", RIGHT: "right foot", FLIGHT: "in the air" };
 export const LINKS = { ok: "connected", silent: "silent", lost: "lost", waiting: "waiting" };
 
-// A word of a newer version is shown as it comes.
+const ACTIVITIES = { ELEVATOR_UP: "lift up", ELEVATOR_DOWN: "lift down", UNKNOWN: "not clear" };
+
+// What has no word of its own here is shown as it comes.
 export const wordOf = (words, key) => words[key] ?? String(key ?? "").toLowerCase().replaceAll("_", " ");
 // Activity of the wearer in words; it is not known while no foot sends.
 export const activityText = ({ now, last }) =>
-  last === null ? wordOf(ACTIVITIES, now) : `Not known, last: ${wordOf(ACTIVITIES, last).toLowerCase()}`;
+  last === null ? capital(wordOf(ACTIVITIES, now)) : `Not known, last: ${wordOf(ACTIVITIES, last)}`;
 export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
 export const fixed = (value, digits = 0) => {

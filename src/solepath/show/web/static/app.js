@@ -1,11 +1,12 @@
 // The site's own controls: demonstration, files, walks on this device, report; what the page cannot do, in words.
 
-import { addSensor, bluetoothWords, sensors } from "./bluetooth.js";
+import { addSensor, bluetoothWords, sensors, wornWords } from "./bluetooth.js";
 import { computer } from "./computer.js";
 import { running } from "./live.js"; // loaded first: it hears of a walk that goes on before anybody connects a sensor
 import "./pocket.js";
 import { child, element, note, show, write } from "./words.js";
 
+const SITES = ["left_foot", "right_foot", "pelvis", "left_thigh", "right_thigh", "left_shank", "right_shank"];
 const KEPT_TIME = 60_000; // ms for which a file waits to be downloaded
 const say = (text) => write("site-words", text);
 function sayToo(text) {
@@ -176,6 +177,7 @@ async function updateLock() {
 }
 
 document.addEventListener("visibilitychange", keepAwake);
+for (const site of SITES) element("worn").add(new Option(wornWords(site), site));
 show("connect-part", bluetoothWords() === "");
 note("bluetooth-words", bluetoothWords());
 if ("serviceWorker" in navigator) {

@@ -48,6 +48,8 @@ export async function addSensor(site, profile) {
   computer.emit("sensors", sensors);
 }
 
+export const wornWords = (site) => `on the ${site.replace("_", " ")}`;
+
 function filterOf({ name, prefix, service }) {
   if (service) return { services: [service] };
   return prefix ? { namePrefix: prefix } : { name };
@@ -82,7 +84,7 @@ class Sensor {
 
   // What the page says of it.
   get words() {
-    const worn = this.site === null ? "" : ` on the ${this.site.replace("_", " ")}`;
+    const worn = this.site === null ? "" : ` ${wornWords(this.site)}`;
     return `${this.name || "Sensor without a name"}${worn}: ${this.#connected ? "connected" : "connecting"}`;
   }
 

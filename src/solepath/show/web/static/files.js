@@ -1,8 +1,7 @@
 // Files in the worker: those that a person opens, and the recordings of walks on this device.
 
-import { Problem } from "./python.js";
+import { Problem, unpacked } from "./python.js";
 import { walksFolder } from "./recording.js";
-import { unpacked } from "./unpack.js";
 
 const DEMO = "demo.jsonl";
 const MAX_SIZE = 400_000_000; // bytes of a file that is opened; an hour of two insoles takes 240 MB
@@ -25,9 +24,7 @@ export class Files {
   async open(file) {
     const name = nameOf(file.name);
     if (file.size > MAX_SIZE) throw new Problem(`${name}: is larger than ${MAX_SIZE / 1_000_000} MB`);
-    const bytes = await unpacked(file).catch(() => {
-      throw new Problem(`${name}: cannot be read`);
-    });
+    const bytes = await orProblem(unpacked(file), `${name}: cannot be read`);
     const inner = name.replace(/\.gz$/, "");
     const result = await this.#runWith(inner, bytes, "open", [inner]);
     if (result.kind !== "recording") this.used = { ...this.used, [result.kind]: { name: inner, bytes } };
@@ -53,22 +50,14 @@ export class Files {
     return this.#runWith(name, await unpacked(await this.get(name)), "report", [name, title]);
   }
 
-  async get(name) {
-    try {
-      return await (await (await walksFolder()).getFileHandle(name)).getFile();
-    } catch {
-      throw new Problem(`${name} is not on this device any more.`);
-    }
+  get(name) {
+    const file = walksFolder().then((folder) => folder.getFileHandle(name));
+    return orProblem(file.then((handle) => handle.getFile()), `${name} is not on this device any more.`);
   }
 
-  async remove(name) {
-    try {
-      await (await walksFolder()).removeEntry(name);
-    } catch {
-      throw new Problem(`${name} cannot be deleted now.`);
-    } finally {
-      await this.list();
-    }
+  remove(name) {
+    const removed = walksFolder().then((folder) => folder.removeEntry(name));
+    return orProblem(removed, `${name} cannot be deleted now.`).finally(() => this.list());
   }
 
   // Tells the page which walks are on this device, the newest first.
@@ -99,6 +88,12 @@ export class Files {
     return this.python.run(call, values, (share) => this.post({ progress: share })).finally(() => this.post({ progress: 1 }));
   }
 }
+
+// The same promise, which fails with words for a person.
+const orProblem = (promise, words) =>
+  promise.catch(() => {
+    throw new Problem(words);
+  });
 
 // The last part of a path, without characters that a file name cannot have.
 const nameOf = (path) => path.replace(/^.*[/\\]/, "").replace(/[\p{Cc}/\\]/gu, "_") || "file";

@@ -1,11 +1,18 @@
 // Python in the worker: Pyodide with solepath, and its calls that may take long.
 
 import { loadPyodide } from "./pyodide.mjs";
-import { unpacked } from "./unpack.js";
 
 const SLICE = 0.05; // s for which Python computes before the worker may do something else
 const METHODS = ["message", "heartbeat", "receive", "command", "play", "start", "step", "save", "sensor_filters", "choices", "take_lines"];
 const here = (name) => new URL(name, import.meta.url).href;
+
+// The bytes of a blob, unpacked if gzip packed them: some servers and browsers have unpacked such a file already.
+export async function unpacked(blob) {
+  const start = new Uint8Array(await blob.slice(0, 2).arrayBuffer());
+  const packed = start[0] === 0x1f && start[1] === 0x8b;
+  const source = packed ? new Response(blob.stream().pipeThrough(new DecompressionStream("gzip"))) : blob;
+  return new Uint8Array(await source.arrayBuffer());
+}
 
 // A fault that a person can understand.
 export class Problem extends Error {}

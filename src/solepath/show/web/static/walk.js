@@ -179,9 +179,5 @@ export class Walk {
   }
 }
 
-// Date and time of day where the person is, in a form that sorts and that every file system has.
-function localTime(date) {
-  const two = (number) => String(number).padStart(2, "0");
-  const parts = [date.getMonth() + 1, date.getDate(), date.getHours(), date.getMinutes(), date.getSeconds()];
-  return [date.getFullYear(), ...parts.map(two)].join("-");
-}
+// Date and time of day where the person is, as Swedes write them: in a form that sorts and that every file system has.
+const localTime = (date) => date.toLocaleString("sv").replace(/[ :]/g, "-");

@@ -9,7 +9,6 @@ const MIN_FRAME_TIME = 0.03; // s between two frames
 const HEARTBEAT_INTERVAL = 1000; // ms
 const COVERED_INTERVAL = 3000; // ms between two signs of life under the cover
 const BUDGET = 0.03; // s for which a recording is computed at once
-const FILE_CALLS = ["demo", "open", "choose", "report", "get", "remove"];
 
 let seen = true;
 let covered = false;
@@ -55,7 +54,7 @@ function receive(messages) {
 
 async function answer({ call, values, id }) {
   try {
-    const target = FILE_CALLS.includes(call) ? loaded.files : loaded.walk;
+    const target = call in loaded.files ? loaded.files : loaded.walk;
     postMessage({ answer: { id, result: await target[call](...values) } });
   } catch (error) {
     // After an error that Python did not expect what it holds is not to be trusted; a browser's own refusals end nothing.
