@@ -5,8 +5,6 @@ import { nameOf, whereOf } from "./position.js";
 import { distance, isWrong, means, sidesKnown, sourceWords, unsound } from "./trust.js";
 import { SUPPORTS, activityText, capital, describe, element, fixed, setData, span, wordOf, write } from "./words.js";
 
-const LIFTS = ["ELEVATOR_UP", "ELEVATOR_DOWN"];
-
 export const activityPanel = {
   uses: ["activity", "support", "pace", "feet", "gait", "total", "findings", "place", "wearer", "links", "playback", "scene", "second"],
 
@@ -71,7 +69,7 @@ function where(state) {
   if (finished) return strides > 0 ? `after ${lasted(state)}` : summary(state);
   if (plan !== null && place !== null) {
     if (!place.decided) return `${place.candidates.length} possible places`;
-    const inLift = LIFTS.includes(activity?.now);
+    const inLift = activity?.now.startsWith("ELEVATOR");
     return capital(inLift ? [nameOf(plan, place.level), place.door].filter(Boolean).join(", ") : whereOf(plan, place));
   }
   if (strides === 0) return "at the start";

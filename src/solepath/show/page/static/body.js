@@ -1,7 +1,7 @@
 // The legs as they are, or at the last touchdown, from the right: rods from hip to knee, ankle and the end of the foot;
 // and in words the last touchdown and the last fused stride, with recipes that have them.
 
-import { FEET, describe, fixed, note, setData, show, wordOf, write } from "./words.js";
+import { FEET, describe, fixed, note, show, wordOf, write } from "./words.js";
 
 const SCALE = 100; // units of the drawing per m
 const OLD = 0.5; // age of legs that are not those of now, s
@@ -13,7 +13,6 @@ export const bodyFigure = {
   draw({ body, touchdown, fused, t }) {
     show("legs-card", [body, touchdown, fused].some((one) => one !== null));
     note("touchdown", touchdown ? touchdownText(touchdown) : "");
-    setData("touchdown", { mode: touchdown?.mode ?? "" });
     note("fused", fused ? fusedText(fused) : "");
     show("body-figure", body !== null);
     if (body === null) return;

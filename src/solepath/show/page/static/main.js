@@ -32,7 +32,6 @@ const SOURCES = { live: "live sensors", demo: "an emulated walk", recording: "a 
 const state = new State();
 let changed = new Set();
 let frameRequested = false;
-let ready = false;
 
 const redraw = () => mark("theme");
 const send = (command) => connection.send(command);
@@ -62,13 +61,14 @@ const seen = (window.solepath = { frames: 0, messages: 0, state, track });
 
 function mark(...names) {
   for (const name of names) changed.add(name);
-  if (frameRequested || !ready || document.hidden) return;
+  if (frameRequested || document.hidden) return;
   frameRequested = true;
   requestAnimationFrame(draw);
 }
 
 function draw(now) {
   frameRequested = false;
+  if (!state.known) return;
   const news = changed;
   changed = new Set();
   let drew = false;
@@ -107,7 +107,7 @@ function writeHeading() {
 // Which regions there are follows from the sensors; what was shown once stays, so that nothing moves.
 function chooseRegions() {
   const { dataset } = document.body;
-  if (state.known) dataset.known = "";
+  dataset.known = "";
   if (state.soles !== "unknown" && dataset.soles !== "cells") setData(document.body, { soles: state.soles });
 }
 
@@ -127,6 +127,7 @@ function showConnection(how, wait) {
   setData("offline", { why: ended ? "ended" : "closed" });
   show("offline", broken !== ""); // while the first connection is tried, no alarm is needed
   notice.connection = how === "open" ? "" : capital(WORDS[how]);
+  if (!state.known) write("notice-quiet", notice.connection);
   document.body.classList.toggle("old", how !== "open" && state.known);
   mark("links", "activity");
   const at = performance.now() + 1000 * wait;
@@ -163,5 +164,3 @@ document.addEventListener("keydown", (event) => {
 });
 setInterval(() => mark("second"), 1000);
 startTheme(element("theme"), redraw);
-ready = true;
-mark("scene");

@@ -13,7 +13,7 @@ export class Notice {
     const all = attention(state);
     const level = all.some(({ act }) => act) ? "bad" : all.length > 0 ? "note" : "quiet";
     setData("notice", { level, loss: losesMany(state) });
-    write("notice-quiet", this.connection || (state.known ? linksText(state) : ""));
+    write("notice-quiet", this.connection || linksText(state));
     // Other words are a new element: in one, a browser would count a second line as a move of the first.
     const old = element("notice-words");
     const said = Object.assign(old.cloneNode(false), { textContent: all[0]?.brief ?? "" });

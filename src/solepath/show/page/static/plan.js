@@ -1,10 +1,9 @@
 // One level of a floor plan: rooms, walls, doors, stairs and lifts, and what they are called.
 
-import { bounds, clamp, paint, polygon, polyline, rectangle } from "./canvas.js";
+import { bounds, clamp, paint, polygon, polyline, rectangle, within } from "./canvas.js";
 import { measured } from "./labels.js";
 import { WEARER_RADIUS } from "./marks.js";
-import { nameIn, usualKind } from "./rooms.js";
-import { badgeSize, drawBadge, drawFlight } from "./symbols.js";
+import { nameIn, outerWalls, usualKind } from "./rooms.js";
 
 const OUTER = [0.1, 2.5, 4]; // width of an outer wall: m, and its limits, px
 const INNER = [0.045, 1.2, 2];
@@ -14,15 +13,11 @@ const LEAST_WAY = 90; // px between two places for a name along its room
 const NARROW = 8; // px; where a name has no more space to each side it is left out rather than put on the track
 const CLEAR = 22; // px from the middle of the wearer's mark within which nothing else is
 const MAX_PLACES = 12; // places for a name along its room, to each side of its middle
-
-// Outer walls are those beside the ground that is reached from outside without a wall or a door in between, on a small
-// picture of the level.
-const SIDE = 256; // px of the picture
-const BORDER = 6; // px around the level
-const LINE = 1.6; // px, width of a wall in the picture
-const OFF = 2.5; // px from a wall to the ground beside it
-const SAMPLES = [0.25, 0.5, 0.75]; // along a wall; most of them must be beside the outside
-const OPAQUE = 60; // opacity of a px from which on it is no ground
+const TREAD = 0.3; // m between two lines of stairs
+const LEAST_TREAD = 4; // px
+// Steps for stairs, and arrows up and down for a lift, in a square from -1 to 1.
+const STEPS = [[-0.65, 0.55], [-0.65, 0.19], [-0.23, 0.19], [-0.23, -0.17], [0.19, -0.17], [0.19, -0.53], [0.61, -0.53]];
+const ARROWS = [-1, 1].map((up) => [[-0.5, up * 0.14], [0, up * 0.7], [0.5, up * 0.14]]);
 
 // [least x, greatest x, least y, greatest y] of all levels, m; null for an empty plan.
 export function extent({ levels, connectors }) {
@@ -75,9 +70,16 @@ export function drawStops(context, labels, plan, level, px, scale, wearer) {
     if (covered) {
       const spots = [[at[0] + badge / 2 + 6, at[1], "left"], [at[0] - badge / 2 - 6, at[1], "right"]];
       labels.add(words, spots, { weight: 9, bold: true, colour: "ink" });
-    } else if (name && (wide >= 3 * badge || high >= 2.4 * badge) && nameIn(outline, words, scale)) {
-      labels.add(words, wide > high ? [[x + badge / 2 + 5, y, "left"]] : [[x, y + badge / 2 + 9]], { weight: 4 });
+      continue;
     }
+    const found = name ? nameIn(outline, words, scale) : null;
+    if (found === null) continue;
+    const { upright } = found;
+    const [w, h] = upright ? measured(found.words).toReversed() : measured(found.words);
+    const spots = [];
+    if (wide / 2 > badge / 2 + 5 + w) spots.push([x + badge / 2 + 5, y, "left"]);
+    if (high / 2 > badge / 2 + 2 + h) spots.push([x, y + badge / 2 + 2 + h / 2]);
+    labels.add(found.words, spots, { weight: 4, upright });
   }
 }
 
@@ -112,46 +114,40 @@ function spotsOf({ words, upright, slack }, [x, y], bold) {
   return ways.flatMap((a) => ASIDE.map((share) => (lying ? [x + a, y + share * across] : [x + share * across, y + a])));
 }
 
-const known = new WeakMap(); // which walls of a level are outer ones
+// Stairs and lifts: treads and a cabin in their outlines, and a badge that is recognised at any scale.
+const badgeSize = (scale) => Math.round(clamp(0.75 * scale, 12, 20));
 
-// A list with true for each outer wall. outlines: those of the level's stairs and lifts; extent: of the plan.
-function outerWalls(level, outlines, extent) {
-  if (!known.has(level)) known.set(level, found(level, outlines, extent));
-  return known.get(level);
+// The outline with treads across its longer side, or with the diagonals of a cabin.
+function drawFlight(context, kind, points, scale) {
+  const shape = polygon(points);
+  const marks = new Path2D();
+  if (kind === "stairs") treads(marks, points, Math.max(LEAST_TREAD, TREAD * scale));
+  else if (points.length === 4) for (const k of [0, 1]) polyline([points[k], points[k + 2]], marks);
+  within(context, shape, () => paint(context, marks, { line: "tread", cap: "butt" }));
+  paint(context, shape, { line: "inner-wall", cap: "butt" });
 }
 
-function found({ walls, doors, rooms }, outlines, [x0, x1, y0, y1]) {
-  const scale = (SIDE - 2 * BORDER) / Math.max(1, x1 - x0, y1 - y0);
-  const px = ([x, y]) => [BORDER + (x - x0) * scale, BORDER + (y - y0) * scale];
-  const path = new Path2D();
-  for (const ring of [...rooms, ...outlines]) polygon(ring.map(px), path);
-  const canvas = Object.assign(document.createElement("canvas"), { width: SIDE, height: SIDE });
-  const context = canvas.getContext("2d", { willReadFrequently: true });
-  paint(context, path, { fill: "#000", line: "#000", width: LINE });
-  const lines = new Path2D();
-  for (const [ax, ay, bx, by] of [...walls, ...doors]) polyline([px([ax, ay]), px([bx, by])], lines);
-  paint(context, lines, { line: "#000", width: LINE });
-  const outside = flooded(context.getImageData(0, 0, SIDE, SIDE).data);
-  return walls.map(([ax, ay, bx, by]) => {
-    const length = Math.hypot(bx - ax, by - ay) || 1;
-    const off = [((ay - by) / length) * OFF, ((bx - ax) / length) * OFF];
-    const beside = SAMPLES.filter((share) => {
-      const [x, y] = px([ax + share * (bx - ax), ay + share * (by - ay)]);
-      return outside(x + off[0], y + off[1]) || outside(x - off[0], y - off[1]);
-    });
-    return 2 * beside.length > SAMPLES.length;
+function treads(path, points, step) {
+  const sides = points.map(([x1, y1], i) => {
+    const [x2, y2] = points[(i + 1) % points.length];
+    return [x2 - x1, y2 - y1];
   });
+  const [dx, dy] = sides.reduce((a, b) => (Math.hypot(...b) > Math.hypot(...a) ? b : a));
+  const [cos, sin] = [dx, dy].map((d) => d / Math.hypot(dx, dy));
+  const [from, to, least, most] = bounds(points.map(([x, y]) => [x * cos + y * sin, y * cos - x * sin]));
+  for (let i = 1; i < (to - from) / step; i++) {
+    const at = from + i * step;
+    polyline([least, most].map((across) => [at * cos - across * sin, at * sin + across * cos]), path);
+  }
 }
 
-// Whether a place is reached from the corner of the picture.
-function flooded(data) {
-  const reached = new Uint8Array(SIDE * SIDE);
-  const open = [0];
-  while (open.length > 0) {
-    const at = open.pop();
-    if (at < 0 || at >= reached.length || reached[at] || data[4 * at + 3] > OPAQUE) continue;
-    reached[at] = 1;
-    open.push(at - 1, at + 1, at - SIDE, at + SIDE); // the ends of two rows touch in the border, which is ground
+function drawBadge(context, kind, [x, y], size) {
+  for (const [fill, half] of [["room", size / 2 + 1.5], ["muted", size / 2]]) {
+    const path = new Path2D();
+    path.roundRect(x - half, y - half, 2 * half, 2 * half, half / 2);
+    paint(context, path, { fill });
   }
-  return (x, y) => reached[Math.round(y) * SIDE + Math.round(x)] === 1;
+  const at = (points) => points.map(([right, down]) => [x + (right * size) / 2, y + (down * size) / 2]);
+  if (kind === "stairs") paint(context, polyline(at(STEPS)), { line: "room", width: Math.max(1.5, size / 9), cap: "butt" });
+  else for (const arrow of ARROWS) paint(context, polygon(at(arrow)), { fill: "room" });
 }

@@ -8,38 +8,16 @@ const MAX_ITEMS = { log: 50, reports: 100 };
 const MAX_TRAIL_POINTS = 240; // points of a centre of pressure's path
 const CELLS_TIME = 1; // s after the start within which cells of an insole have sent, if there are any
 
-// Members that a frame sends whole, with what they are before the first scene.
-const UNKNOWN = ["wearer", "place", "activity", "pace", "support", "touchdown", "body", "fused", "gait", "total", "playback", "posture", "toe_out"];
-const VALUES = {
-  feet: { left: null, right: null },
-  links: {},
-  findings: [],
-  scales: {},
-  ...Object.fromEntries(UNKNOWN.map((name) => [name, null])),
-};
+// Members that a frame sends whole, and those of which it sends what is new.
+const OF_THE_WEARER = ["feet", "wearer", "place", "activity", "pace", "support", "touchdown", "body", "fused", "gait", "total"];
+const VALUES = ["t", ...OF_THE_WEARER, "scales", "findings", "links", "playback", "posture", "toe_out"];
 const LISTS = ["tracks", "places", "phases", "log", "reports"];
 
+// Nothing but the next three is there before the first scene.
 export class State {
   known = false; // a scene came
   over = false; // the program behind the page has ended its session
   generation = 0; // number of scenes that came
-
-  constructor() {
-    this.#clear();
-  }
-
-  #clear() {
-    Object.assign(this, { title: "", recipe: "", source: "", control: false, plan: null, layouts: { ...VALUES.feet } }, VALUES);
-    this.t = 0;
-    this.start = null; // session time that is shown as 0:00, s; null before anything was received
-    this.trails = { left: [], right: [] };
-    this.phases = { left: [], right: [] };
-    this.tracks = { left: [], right: [], wearer: [] };
-    this.thinned = 0; // how often a track lost points, after which it must be drawn again
-    this.places = [];
-    this.log = [];
-    this.reports = [];
-  }
 
   // Whether there are pressure cells: "cells", "none", or "unknown" while too little has come to say it.
   get soles() {
@@ -68,24 +46,31 @@ export class State {
 
   // Returns the names of what changed; a message of an unknown type changes nothing.
   take(message) {
-    if (message.type === "scene") {
-      const { title, recipe, source, control, plan, layouts, frame } = message;
-      this.#clear();
-      this.known = true;
-      this.generation += 1;
-      Object.assign(this, { title, recipe, source, control, layouts, plan: plan?.levels.length ? plan : null });
-      for (const level of this.plan?.levels ?? []) level.name ||= level.id;
-      this.#frame({ ...frame, ...Object.fromEntries(LISTS.map((name) => [name, message[name]])) });
-      return new Set(["scene", "t", ...LISTS, ...Object.keys(VALUES)]);
-    }
+    if (message.type === "scene") return this.#scene(message).add("scene");
     return message.type === "frame" && this.known ? this.#frame(message) : new Set();
   }
 
+  #scene({ title, recipe, source, control, plan, layouts, frame, ...lists }) {
+    this.known = true;
+    this.generation += 1;
+    Object.assign(this, { title, recipe, source, control, layouts, plan: plan?.levels.length ? plan : null });
+    for (const level of this.plan?.levels ?? []) level.name ||= level.id;
+    this.start = null; // session time that is shown as 0:00, s; null before anything was received
+    this.feet = {};
+    this.trails = { left: [], right: [] };
+    this.phases = { left: [], right: [] };
+    this.tracks = { left: [], right: [], wearer: [] };
+    this.thinned = 0; // how often a track lost points, after which it must be drawn again
+    this.places = [];
+    this.log = [];
+    this.reports = [];
+    return this.#frame({ ...frame, ...lists });
+  }
+
   #frame(message) {
-    const changed = new Set(Object.keys(message).filter((name) => name === "t" || name in VALUES || LISTS.includes(name)));
-    this.t = message.t;
+    const changed = new Set([...VALUES, ...LISTS].filter((name) => name in message));
     const { feet: before } = this;
-    for (const name of changed) if (name in VALUES) this[name] = message[name];
+    for (const name of VALUES) if (changed.has(name)) this[name] = message[name];
     if (changed.has("feet")) for (const foot of FEET) this.#foot(foot, before[foot]);
     for (const [foot, phases] of Object.entries(message.phases ?? {})) {
       const known = this.phases[foot];
