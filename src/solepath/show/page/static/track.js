@@ -113,7 +113,7 @@ export class Track {
     const { labels } = this;
     labels.ground = level ? "room" : "inset";
     labels.start();
-    for (const box of this.above) labels.keep(...box);
+    for (const box of this.above ?? []) labels.keep(...box);
     if (this.surface.width > 0 && this.surface.height > 0) this.#still.draw(context, this.shownPart);
     if (level) drawStops(context, labels, state.plan, level, px, scale, wearer && px(wearer));
     else nameStart(labels, px([0, 0]));
