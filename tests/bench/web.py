@@ -54,7 +54,7 @@ async def measure(chromium: Browser, folder: Path) -> None:
             await view.tab.locator("#demo").click()
             await view.until("solepath.state.playback !== null", patience=PATIENCE)
             seconds = await view.tab.evaluate(COMPUTE)
-            length = await view.tab.evaluate("solepath.state.playback.end - solepath.state.playback.start")
+            length = await view.tab.evaluate("solepath.state.playback.end - solepath.state.playback.begin")
             print(f"the demonstration of {length:.0f} s computed in {seconds:.1f} s, drawn meanwhile")
 
 

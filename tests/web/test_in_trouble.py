@@ -17,7 +17,7 @@ from solepath.show.web.serve import serving
 IPHONE = "Mozilla/5.0 (iPhone; CPU iPhone OS 18_5 like Mac OS X) AppleWebKit/605.1.15 Version/18.5 Mobile Safari/604.1"
 WORDS_FOR = """(userAgent) => {
     Object.defineProperty(navigator, 'userAgent', { value: userAgent, configurable: true });
-    return import('./abilities.js').then((abilities) => abilities.bluetoothWords());
+    return import('./bluetooth.js').then((bluetooth) => bluetooth.bluetoothWords());
 }"""
 SPY = """
 globalThis.held = 0;

@@ -14,9 +14,10 @@ from solepath.types import Packet
 
 STREAM = PROFILE.streams[0]
 CONNECT = """async ({ characteristics, profile, recorded }) => {
-    const live = (globalThis.live = await import('./live.js')), { unpacked } = await import('./unpack.js');
+    const live = (globalThis.live = await import('./live.js'));
+    const unpacked = (answer) => new Response(answer.body.pipeThrough(new DecompressionStream('gzip'))).text();
     const demo = async () =>
-        new TextDecoder().decode(await unpacked(await (await fetch('demo.jsonl.gz')).blob()))
+        (await unpacked(await fetch('demo.jsonl.gz')))
             .trim().split('\\n').slice(1).map(JSON.parse);
     globalThis.rows = recorded ?? (await demo());
     const value = (device, channel) => rows.find((row) => row.site === device && row.channel === channel)?.data ?? '';

@@ -142,7 +142,7 @@ async def test_a_revision_and_a_rejection_are_shown_and_announced_once(chromium:
         track = await view.tab.evaluate("solepath.state.tracks.wearer")
         assert track[-1][1:3] == [round(x + 3.2, 3), round(y, 3)]
         assert await view.tab.evaluate("solepath.state.reports") == [
-            {"level": None, "x": round(x + 3.0, 3), "y": round(y, 3), "used": True}
+            [round(t, 3), None, round(x + 3.0, 3), round(y, 3), True]
         ]
         after = t + 1.0
         rejected = PositionRejected(t=after, known_at=after, distance=50.0, sigma=1.0, what="this is 50 m off")

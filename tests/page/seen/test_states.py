@@ -12,11 +12,11 @@ REDRAWN = """async () => {
 }"""
 """Waits until the page is drawn again in another size or theme, which takes some frames."""
 NOTE = "document.getElementById('track-note').innerText"
-AREA = "document.querySelector('.track .legend .of-track').hidden"
+AREA = "document.querySelector('.track .legend .of-track').checkVisibility()"
 SEEN = {
-    "check-failed": f"{NOTE}.startsWith('Not to be trusted') && {AREA} && solepath.track.drawn.wearer === 0",
-    "lost-link": f"{NOTE}.startsWith('Right foot only') && !{AREA} && solepath.state.phases.left.at(-1)[1] === ''",
-    "lift": "document.getElementById('track').dataset.labels.includes('lift B') &&"
+    "check-failed": f"{NOTE}.startsWith('Not to be trusted') && !{AREA} && solepath.track.drawn.wearer === 0",
+    "lost-link": f"{NOTE}.startsWith('Right foot only') && {AREA} && solepath.state.phases.left.at(-1)[1] === null",
+    "lift": "solepath.track.labels.placed.some(([words]) => words === 'lift B') &&"
     " document.getElementById('height').ariaLabel.includes('now 0.0 m in the heights of the plan')",
 }
 """What holds in a state beyond its layout."""

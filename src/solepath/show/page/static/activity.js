@@ -1,69 +1,58 @@
 // What is looked at first: what the wearer does and where, and four figures; of the whole walk once it has ended.
 
+import { mostDifferent } from "./gait.js";
 import { nameOf, whereOf } from "./position.js";
-import { mostDifferent } from "./rows.js";
-import { distance, isWrong, means, sidesKnown, sourceWords, unsound } from "./sound.js";
-import { ACTIVITIES, SUPPORTS, describe, activityText, capital, fixed, wordOf, show, span, setData, write } from "./words.js";
+import { distance, isWrong, means, sidesKnown, sourceWords, unsound } from "./trust.js";
+import { SUPPORTS, activityText, capital, describe, element, fixed, setData, span, wordOf, write } from "./words.js";
 
-const LIFTS = ["ELEVATOR_UP", "ELEVATOR_DOWN"];
-const FIGURES = ["speed", "cadence", "symmetry", "distance"];
-
-export class ActivityPanel {
-  uses = ["activity", "support", "pace", "feet", "gait", "total", "findings", "place", "wearer", "links", "playback", "scene", "second"];
-
-  constructor() {
-    for (const id of ["activity", "since", "support", "where", "first", "strides", "symmetry-words", "speed-label", "cadence-label", "symmetry-label", ...FIGURES])
-      this[id] = document.getElementById(id);
-    this.figures = Object.fromEntries(FIGURES.map((name) => [name, document.getElementById(`figure-${name}`)]));
-    this.list = document.getElementById("figures");
-    this.icon = document.getElementById("activity-icon");
-    this.supportWord = document.getElementById("support-word");
-  }
+export const activityPanel = {
+  uses: ["activity", "support", "pace", "feet", "gait", "total", "findings", "place", "wearer", "links", "playback", "scene", "second"],
 
   draw(state) {
-    const { activity, support, finished } = state;
+    const { activity, support, finished, strides, start, t } = state;
     const name = finished ? "FINISHED" : (activity?.now ?? "UNKNOWN");
     const silent = !finished && activity !== null && activity.last !== null;
-    write(this.activity, headline(state));
-    setData(this.activity, { activity: name, known: !silent });
-    describe(this.icon, "href", `#icon-${Object.hasOwn(ACTIVITIES, name) || finished ? name : "UNKNOWN"}`);
-    const dated = !finished && state.strides !== null && activity?.since != null && activity.since >= state.start;
-    const since = dated ? `for ${span(state.t - activity.since)}` : "";
-    const source = state.strides > 0 && !silent ? sourceWords(state) : "";
-    write(this.since, silent ? `no data from any foot ${since}` : [since, source].filter(Boolean).join(" · "));
-    write(this.where, where(state));
-    write(this.first, first(state));
-    setData(this.support, { support: finished ? "" : (support ?? "") });
-    write(this.supportWord, support ? wordOf(SUPPORTS, support) : "not known");
-    this.#figures(state);
-    return "done";
-  }
+    write("activity", headline(state));
+    setData("activity", { activity: name, known: !silent });
+    describe("activity-icon", "href", `#icon-${element(`icon-${name}`) ? name : "UNKNOWN"}`);
+    const dated = !finished && strides !== null && activity !== null && activity.since >= start;
+    const since = dated ? `for ${span(t - activity.since)}` : "";
+    const source = strides > 0 && !silent ? sourceWords(state) : "";
+    write("since", silent ? `no data from any foot ${since}` : [since, source].filter(Boolean).join(" · "));
+    write("where", where(state));
+    write("first", first(state));
+    setData("support", { support: finished ? "" : (support ?? "") });
+    write("support-word", support ? wordOf(SUPPORTS, support) : "not known");
+    figures(state);
+  },
+};
 
-  #figures(state) {
-    const { finished, pace, strides } = state;
-    const bad = unsound(state);
-    const whole = means(state);
-    const { cadence, speed } = (finished ? whole : pace) ?? {};
-    const rests = !finished && pace?.cadence == null; // nothing is new
-    const most = mostDifferent((finished ? whole.rows : state.gait?.rows) ?? []);
-    setData(this.list, { known: strides > 0 });
-    this.#figure("speed", fixed(speed ?? NaN, 2), bad.size < 2);
-    this.#figure("cadence", fixed(cadence ?? NaN), bad.size < 2);
-    const size = most && `${fixed(100 * Math.abs(most.share), 1)} ${most.points ? "points" : "%"}`;
-    this.#figure("symmetry", !most ? "–" : most.even ? "even" : `${fixed(100 * Math.abs(most.share), Math.abs(most.share) < 0.0995 ? 1 : 0)} %`, bad.size === 0 && sidesKnown(state) && !rests);
-    write(this["symmetry-words"], !most ? "" : rests ? "last walk" : most.even ? "" : `${most.share < 0 ? "left" : "right"} ${most.more}`);
-    const measure = most?.even ? `${most.name}: ${size}` : most?.name;
-    write(this["symmetry-label"], measure ?? "left and right");
-    const metres = distance(state);
-    this.#figure("distance", strides > 0 ? fixed(metres, metres < 99.95 ? 1 : 0) : "–", bad.size < 2);
-    write(this.strides, strides === null ? "–" : String(strides));
-    write(this["speed-label"], `${finished ? "mean speed" : "speed now"}, m/s`);
-    write(this["cadence-label"], `${finished ? "mean" : "cadence now,"} steps/min`);
-  }
-
-  #figure(name, words, sound) {
-    write(this[name], words);
-    setData(this.figures[name], { now: words !== "–", sound });
+function figures(state) {
+  const { finished, pace, strides } = state;
+  const bad = unsound(state).length;
+  const whole = means(state);
+  const { cadence, speed } = (finished ? whole : pace) ?? {};
+  const rests = !finished && pace?.cadence == null; // nothing is new
+  const most = mostDifferent((finished ? whole.rows : state.gait?.rows) ?? []);
+  const share = Math.abs(most?.share ?? NaN);
+  const side = most && `${most.share < 0 ? "left" : "right"} ${most.more}`;
+  const metres = distance(state);
+  const texts = {
+    speed: fixed(speed, 2),
+    cadence: fixed(cadence),
+    symmetry: !most ? "–" : most.even ? "even" : `${fixed(100 * share, share < 0.0995 ? 1 : 0)} %`,
+    distance: strides > 0 ? fixed(metres, metres < 99.95 ? 1 : 0) : "–",
+    strides: String(strides ?? "–"),
+    "symmetry-words": most && rests ? "last walk" : !most || most.even ? "" : side,
+    "symmetry-label": !most ? "left and right" : most.even ? `${most.name}: ${fixed(100 * share, 1)} ${most.points ? "points" : "%"}` : most.name,
+    "speed-label": `${finished ? "mean speed" : "speed now"}, m/s`,
+    "cadence-label": `${finished ? "mean" : "cadence now,"} steps/min`,
+  };
+  for (const [id, words] of Object.entries(texts)) write(id, words);
+  setData("figures", { known: strides > 0 });
+  for (const name of ["speed", "cadence", "symmetry", "distance"]) {
+    const sound = name === "symmetry" ? bad === 0 && sidesKnown(state) && !rests : bad < 2;
+    setData(`figure-${name}`, { now: texts[name] !== "–", sound });
   }
 }
 
@@ -75,16 +64,17 @@ function headline({ activity, finished, strides }) {
 }
 
 function where(state) {
-  const { finished, strides, place, plan, wearer, links } = state;
+  const { activity, finished, strides, place, plan, wearer, links } = state;
   if (strides === null) return Object.keys(links).length > 0 ? "for the first data" : "for the sensors";
   if (finished) return strides > 0 ? `after ${lasted(state)}` : summary(state);
   if (plan !== null && place !== null) {
-    if (LIFTS.includes(state.activity?.now) && place.decided) return capital([nameOf(plan, place.level), place.door].filter(Boolean).join(", "));
-    return place.decided ? capital(whereOf(plan, place)) : `${place.candidates.length} possible places`;
+    if (!place.decided) return `${place.candidates.length} possible places`;
+    const inLift = activity?.now.startsWith("ELEVATOR");
+    return capital(inLift ? [nameOf(plan, place.level), place.door].filter(Boolean).join(", ") : whereOf(plan, place));
   }
   if (strides === 0) return "at the start";
-  if (wearer !== null && isWrong(state)) return "place not reliable";
-  return wearer === null ? "" : `${fixed(Math.hypot(wearer.position[0], wearer.position[1]))} m from the start`;
+  if (wearer === null) return "";
+  return isWrong(state) ? "place not reliable" : `${fixed(Math.hypot(wearer.position[0], wearer.position[1]))} m from the start`;
 }
 
 // What is still missing, in place of the figures.
@@ -97,7 +87,7 @@ function first({ strides, finished, source, links }) {
   return "No sensor is connected yet. Switch them on, and keep them near.";
 }
 
-const lasted = ({ playback, t, start }) => span(playback === null ? t - start : playback.end - playback.start);
+const lasted = ({ playback, t, start }) => span(playback === null ? t - start : playback.end - playback.begin);
 
 // The whole walk in a sentence.
 export function summary(state) {

@@ -2,8 +2,10 @@
 // level, reported positions and what came of them, and the page's own connection.
 
 import { summary } from "./activity.js";
+import { findingText } from "./notice.js";
 import { whereOf } from "./position.js";
-import { capital, activityText } from "./words.js";
+import { isBroken } from "./trust.js";
+import { activityText, capital, element } from "./words.js";
 
 const JOIN_TIME = 1500; // ms; what comes within this time is announced together
 const RECENT = 5; // s; an older line of the log is not announced: a seek went past it
@@ -13,70 +15,43 @@ export class Announcer {
   #timer = 0;
   #broken = new Set();
   #activity = null;
-  #level = null;
-  #decided = false;
-  #found = new Set(); // what the checks found so far
+  #place = null; // level of the decided place
+  #said = new Set(); // what the checks found, and lines of the log on reported positions
   #finished = false;
-  #report = null; // newest line of the log on a reported position; "" for none, null before the first log
-
-  constructor() {
-    this.element = document.getElementById("announcer");
-  }
 
   announce(words) {
     this.#waiting.push(words);
-    if (this.#timer) return;
-    this.#timer = setTimeout(() => {
+    this.#timer ||= setTimeout(() => {
       this.#timer = 0;
-      this.element.textContent = this.#waiting.splice(0).join(". ");
+      element("announcer").textContent = this.#waiting.splice(0).join(". ");
     }, JOIN_TIME);
   }
 
   // During a seek nothing on the way is announced.
   update(state, changed) {
-    const announce = state.playback?.seeking != null ? () => {} : (words) => this.announce(words);
-    if (changed.has("activity") && state.activity) {
-      const words = activityText(state.activity);
-      if (words !== this.#activity) announce(words);
-      this.#activity = words;
+    const { activity, findings, finished, links, log, place, plan, strides, t } = state;
+    const announce = (words) => state.playback?.seeking == null && this.announce(words);
+    if (activity && activityText(activity) !== this.#activity) announce((this.#activity = activityText(activity)));
+    for (const [site, link] of changed.has("links") ? Object.entries(links) : []) {
+      const [before, broken] = [this.#broken.has(site), isBroken(link)];
+      if (broken && !before) announce(`No data from the ${site}`);
+      if (link.state === "ok" && before) announce(`${capital(site)} samples again`);
+      if (broken) this.#broken.add(site);
+      if (link.state === "ok") this.#broken.delete(site);
     }
-    if (changed.has("links")) {
-      for (const [site, { state: how }] of Object.entries(state.links)) {
-        const broken = how === "lost" || how === "silent";
-        if (broken && !this.#broken.has(site)) announce(`No data from the ${site}`);
-        if (how === "ok" && this.#broken.has(site)) announce(`${capital(site)} samples again`);
-        if (broken) this.#broken.add(site);
-        if (how === "ok") this.#broken.delete(site);
-      }
+    const found = findings.map(({ site, what }) => [findingText(site, what)]);
+    const reports = log.filter(([at, kind]) => kind === "here" && at > t - RECENT).map(([at, , words]) => [capital(words), at]);
+    for (const [words, at = ""] of [...found, ...reports]) {
+      if (!this.#said.has(at + words)) announce(words);
+      this.#said.add(at + words);
     }
-    if (changed.has("findings")) {
-      for (const { site, what } of state.findings) {
-        const words = capital(site ? `${site}: ${what}` : what);
-        if (!this.#found.has(words)) announce(words);
-        this.#found.add(words);
-      }
+    if (finished !== this.#finished && strides !== null) {
+      this.#finished = finished;
+      if (finished) announce(`Finished: ${summary(state)}`);
     }
-    if (state.finished !== this.#finished && state.strides !== null) {
-      this.#finished = state.finished;
-      if (this.#finished) announce(`Finished: ${summary(state)}`);
+    if (changed.has("place") && place) {
+      if (place.decided && place.level !== this.#place) announce(`On ${whereOf(plan, place)}`);
+      this.#place = place.decided ? place.level : null;
     }
-    if (changed.has("log")) this.#reports(state, announce);
-    if (changed.has("place") && state.place) {
-      const { decided } = state.place;
-      if (decided && (state.place.level !== this.#level || !this.#decided))
-        announce(`On ${whereOf(state.plan, state.place)}`);
-      [this.#level, this.#decided] = [state.place.level, decided];
-    }
-  }
-
-  // A scene brings the whole log again: only the lines after the one that was the newest are new.
-  #reports({ log, t: now }, announce) {
-    const lines = log.filter(([, kind]) => kind === "here");
-    const keys = lines.map((line) => line.join(" "));
-    if (this.#report !== null) {
-      const known = keys.lastIndexOf(this.#report);
-      for (const [t, , words] of lines.slice(known + 1)) if (t > now - RECENT) announce(capital(words));
-    }
-    this.#report = keys.at(-1) ?? "";
   }
 }

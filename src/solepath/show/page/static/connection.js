@@ -29,12 +29,10 @@ export class Connection {
   #timer = 0;
   #idleTicks = 0;
   #token = claimToken();
-  #withToken = true;
 
   // take(message), changed(state, s until the next try); state is "connecting" | "open" | "closed" | "ended"
   constructor(take, changed) {
-    this.take = take;
-    this.changed = changed;
+    Object.assign(this, { take, changed });
     // It counts ticks, not time: after the page slept, its messages are still queued behind the timer.
     setInterval(() => this.#listen(), 1000);
     addEventListener("online", () => this.retry());
@@ -49,35 +47,24 @@ export class Connection {
     return true;
   }
 
-  // Try now, instead of at the end of the wait.
+  // Tries now, instead of at the end of the wait.
   retry() {
-    if (this.#socket !== null) return;
-    clearTimeout(this.#timer);
-    if (this.#ended) [this.#failures, this.#withToken] = [0, true];
-    this.#open();
+    if (this.#socket === null) this.#open();
   }
 
   #open() {
+    clearTimeout(this.#timer);
     const address = new URL("ws", location.href);
     address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
-    address.hash = "";
-    address.search = "";
-    if (this.#token && this.#withToken) address.searchParams.set("token", this.#token);
+    if (this.#token) address.searchParams.set("token", this.#token);
     this.changed("connecting", 0);
     const socket = new WebSocket(address);
     this.#socket = socket;
     this.#idleTicks = 0;
     socket.onmessage = ({ data }) => {
-      this.#idleTicks = 0;
-      let message;
-      try {
-        message = JSON.parse(data);
-      } catch {
-        return;
-      }
-      this.#failures = 0;
+      this.#idleTicks = this.#failures = 0;
       this.#ended = false;
-      this.take(message);
+      this.take(JSON.parse(data));
     };
     socket.onopen = () => this.changed("open", 0);
     socket.onclose = ({ code }) => this.#closed(socket, code);
@@ -86,21 +73,12 @@ export class Connection {
   #closed(socket, code) {
     if (socket !== this.#socket) return;
     this.#socket = null;
-    this.#failures = code === ENDED_CODE ? 0 : this.#failures + 1;
+    this.#failures += 1;
     this.#ended ||= code === ENDED_CODE;
-    // A program that took the place of the ended one rejects its token, but may let this page watch without one.
-    const sure = this.#ended ? 1 : 3;
-    if (this.#token) this.#withToken = this.#failures < sure || (this.#failures - sure) % 2 === 1;
-    const wait = this.#wait() * (0.8 + 0.4 * Math.random());
-    this.changed(this.#ended ? "ended" : "closed", wait);
-    clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => this.#open(), 1000 * wait);
-  }
-
-  // s
-  #wait() {
-    if (this.#ended && this.#withToken) return ENDED_WAIT;
-    return Math.min(LONGEST_WAIT, FIRST_WAIT * 2 ** Math.min(Math.max(0, this.#failures - 1), 6));
+    const wait = this.#ended ? ENDED_WAIT : Math.min(LONGEST_WAIT, FIRST_WAIT * 2 ** (this.#failures - 1));
+    const spread = wait * (0.8 + 0.4 * Math.random());
+    this.#timer = setTimeout(() => this.#open(), 1000 * spread);
+    this.changed(this.#ended ? "ended" : "closed", spread);
   }
 
   #listen() {

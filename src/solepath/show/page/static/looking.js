@@ -1,33 +1,42 @@
 // Buttons and keys that move the view of the track: nearer, farther, around the wearer, all of it, another level, plan or
-// track alone.
+// track alone, both feet.
 
-import { describe, show } from "./words.js";
+import { child, element, press, show } from "./words.js";
+
+const ZOOMS = { "+": true, "=": true, "-": false, _: false }; // nearer
+const WAYS = { ArrowLeft: [-48, 0], ArrowRight: [48, 0], ArrowUp: [0, 48], ArrowDown: [0, -48] }; // px to the right and up
 
 export class Looking {
+  #levels = ""; // those that have buttons
+
   constructor(track, redraw) {
-    this.track = track;
-    this.redraw = redraw;
-    this.fit = document.getElementById("zoom-fit");
-    this.levels = document.getElementById("levels");
-    this.choice = document.getElementById("track-choice");
-    this.onPlan = document.getElementById("show-plan");
-    this.alone = document.getElementById("show-track");
-    this.follow = document.getElementById("zoom-follow") ?? followButton(this.fit);
-    document.getElementById("zoom-in").addEventListener("click", () => track.nearer(true));
-    document.getElementById("zoom-out").addEventListener("click", () => track.nearer(false));
-    this.fit.addEventListener("click", () => track.all());
-    this.follow.addEventListener("click", () => track.follow());
-    this.onPlan.addEventListener("click", () => this.#show(false));
-    this.alone.addEventListener("click", () => this.#show(true));
-    document.getElementById("track-section").addEventListener("keydown", (event) => this.#arrow(event));
+    Object.assign(this, { track, redraw });
+    const chosen = (choice) => {
+      Object.assign(track, choice);
+      redraw();
+    };
+    const alone = (byItself) => {
+      Object.assign(track, { byItself, whole: false });
+      track.view.all(true);
+    };
+    const actions = {
+      "zoom-in": () => track.nearer(true),
+      "zoom-out": () => track.nearer(false),
+      "zoom-fit": () => track.all(),
+      "zoom-follow": () => track.follow(),
+      "show-plan": () => alone(false),
+      "show-track": () => alone(true),
+      "show-feet": () => chosen({ feetShown: !track.feetShown }),
+    };
+    for (const [id, act] of Object.entries(actions)) element(id).addEventListener("click", act);
+    element("levels").addEventListener("click", ({ target }) => target.value && chosen({ level: target.value }));
+    element("track-section").addEventListener("keydown", (event) => this.#arrow(event));
   }
 
   // Returns true when the key was one of these.
   key(key) {
-    const { track } = this;
-    if (key === "+" || key === "=") track.nearer(true);
-    else if (key === "-" || key === "_") track.nearer(false);
-    else if (key === "0") track.all();
+    if (key === "0") this.track.all();
+    else if (key in ZOOMS) this.track.nearer(ZOOMS[key]);
     else return false;
     return true;
   }
@@ -35,66 +44,30 @@ export class Looking {
   draw(state) {
     const { track } = this;
     const onPlan = track.onPlan(state);
-    press(this.fit, track.view.follows && !track.following);
-    press(this.follow, track.following);
-    show(this.follow, state.plan !== null); // before there is a place on it as well, so that no button moves
-    this.follow.disabled = !onPlan;
-    show(this.choice, state.plan !== null);
-    press(this.onPlan, onPlan);
-    press(this.alone, !onPlan);
+    press("zoom-fit", track.view.follows && !track.following);
+    press("zoom-follow", track.following);
+    show("zoom-follow", state.plan !== null); // before there is a place on it as well, so that no button moves
+    element("zoom-follow").disabled = !onPlan;
+    show("track-choice", state.plan !== null);
+    press("show-plan", onPlan);
+    press("show-track", !onPlan);
+    press("show-feet", track.feetShown);
     const levels = onPlan && state.plan.levels.length > 1 ? state.plan.levels : [];
-    show(this.levels, levels.length > 0);
+    show("levels", levels.length > 0);
     const key = JSON.stringify(levels.map(({ id, name }) => [id, name]));
-    if (key !== this.listed) this.#list(levels, key);
-    if (levels.length === 0) return;
-    const shown = track.shown(state).id;
-    levels.forEach((level, i) => press(this.levels.children[i], level.id === shown));
-  }
-
-  #list(levels, key) {
-    this.listed = key;
-    this.levels.replaceChildren();
-    for (const { id, name } of levels) {
-      const button = document.createElement("button");
-      button.type = "button";
-      button.textContent = name;
-      button.addEventListener("click", () => {
-        this.track.level = id;
-        this.redraw();
-      });
-      this.levels.append(button);
+    if (key !== this.#levels) {
+      this.#levels = key;
+      element("levels").replaceChildren();
+      for (const { id, name } of levels) Object.assign(child(element("levels"), "button", "", name), { type: "button", value: id });
     }
-  }
-
-  #show(byItself) {
-    Object.assign(this.track, { byItself, whole: false });
-    this.track.view.all(true);
+    for (const button of element("levels").children) press(button, button.value === track.shown(state).id);
   }
 
   #arrow(event) {
-    const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    const way = WAYS[event.key];
     if (!way || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
     event.stopPropagation();
-    this.track.view.push(...way);
+    this.track.view.move(...way);
   }
 }
-
-// A button that shows the part of the plan around the wearer again.
-function followButton(fit) {
-  const button = document.createElement("button");
-  Object.assign(button, { type: "button", id: "zoom-follow", title: "Follow the wearer" });
-  button.setAttribute("aria-label", "Follow the wearer");
-  const space = "http://www.w3.org/2000/svg";
-  const picture = document.createElementNS(space, "svg");
-  const path = document.createElementNS(space, "path");
-  const given = { viewBox: "0 0 24 24", width: 20, height: 20, fill: "none", stroke: "currentColor", "stroke-width": 2, "aria-hidden": true };
-  for (const [name, value] of Object.entries(given)) picture.setAttribute(name, value);
-  path.setAttribute("d", "M12 6a6 6 0 1 0 0 12 6 6 0 1 0 0-12M12 2v4M12 18v4M2 12h4M18 12h4M12 11.5v1");
-  picture.append(path);
-  button.append(picture);
-  fit.before(button);
-  return button;
-}
-
-const press = (button, pressed) => describe(button, "aria-pressed", String(pressed));

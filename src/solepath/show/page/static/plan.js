@@ -1,133 +1,110 @@
 // One level of a floor plan: rooms, walls, doors, stairs and lifts, and what they are called.
 
+import { bounds, clamp, paint, polygon, polyline, rectangle, within } from "./canvas.js";
 import { measured } from "./labels.js";
-import { outerWalls } from "./outer.js";
 import { WEARER_RADIUS } from "./marks.js";
-import { isConnector } from "./position.js";
-import { nameIn, usualKind } from "./rooms.js";
-import { drawBadge, drawFlight, drawSymbol, badgeSize } from "./symbols.js";
-import { theme } from "./theme.js";
+import { nameIn, outerWalls, usualKind } from "./rooms.js";
 
 const OUTER = [0.1, 2.5, 4]; // width of an outer wall: m, and its limits, px
 const INNER = [0.045, 1.2, 2];
-const NAME_SIZE = 12; // px
 const HERE = { bold: true, colour: "ink", ground: "here", weight: 6 }; // name of the wearer's room
 const ASIDE = [0, -0.5, 0.5, -1, 1]; // where a name may be across its room: shares of the way from its middle to the walls
 const LEAST_WAY = 90; // px between two places for a name along its room
 const NARROW = 8; // px; where a name has no more space to each side it is left out rather than put on the track
 const CLEAR = 22; // px from the middle of the wearer's mark within which nothing else is
 const MAX_PLACES = 12; // places for a name along its room, to each side of its middle
+const TREAD = 0.3; // m between two lines of stairs
+const LEAST_TREAD = 4; // px
+// Steps for stairs, and arrows up and down for a lift, in a square from -1 to 1.
+const STEPS = [[-0.65, 0.55], [-0.65, 0.19], [-0.23, 0.19], [-0.23, -0.17], [0.19, -0.17], [0.19, -0.53], [0.61, -0.53]];
+const ARROWS = [-1, 1].map((up) => [[-0.5, up * 0.14], [0, up * 0.7], [0.5, up * 0.14]]);
 
-// [least x, least y, greatest x, greatest y] of all levels, m; null for an empty plan.
-export function extent(plan) {
-  const box = [Infinity, Infinity, -Infinity, -Infinity];
-  const hold = (x, y) => {
-    [box[0], box[1]] = [Math.min(box[0], x), Math.min(box[1], y)];
-    [box[2], box[3]] = [Math.max(box[2], x), Math.max(box[3], y)];
-  };
-  for (const level of plan.levels) {
-    for (const [x1, y1, x2, y2] of level.walls) {
-      hold(x1, y1);
-      hold(x2, y2);
-    }
-    for (const room of level.rooms) for (const point of room) hold(...point);
-  }
-  for (const { stop } of stopsOf(plan)) for (const point of stop.outline) hold(...point);
-  return box[0] === Infinity ? null : box;
+// [least x, greatest x, least y, greatest y] of all levels, m; null for an empty plan.
+export function extent({ levels, connectors }) {
+  const points = levels.flatMap(({ walls, rooms }) => [...walls.flatMap(([a, b, c, d]) => [[a, b], [c, d]]), ...rooms.flat()]);
+  points.push(...connectors.flatMap(({ stops }) => stops.flatMap(({ outline }) => outline)));
+  return points.length > 0 ? bounds(points) : null;
 }
 
-const stopsOf = (plan) => plan.connectors.flatMap(({ kind, name, stops }) => stops.map((stop) => ({ kind, name, stop })));
-const stopsOn = (plan, level) => stopsOf(plan).filter(({ stop }) => stop.level === level.id);
+const stopsOn = ({ connectors }, level) =>
+  connectors.flatMap(({ kind, name, stops }) => stops.filter((stop) => stop.level === level.id).map((stop) => ({ kind, name, ...stop })));
 
-// Number of the stairs or the lift on this level whose badge the wearer's mark at `at`, m, covers, or -1.
-export function coveredStop(plan, level, at, scale) {
-  const reach = WEARER_RADIUS + badgeSize(scale) / 2 + 3;
-  return stopsOn(plan, level).findIndex(({ stop }) => {
-    const middle = middleOf(stop);
-    return middle !== null && Math.hypot(middle[0] - at[0], middle[1] - at[1]) * scale < reach;
-  });
-}
-
-// The badge and the name that the wearer's mark at [x, y], px, would cover: above it, or below it at the top.
-export function nameCovered(context, labels, plan, level, covered, [x, y], scale) {
-  const { kind, name } = stopsOn(plan, level)[covered];
-  const badge = badgeSize(scale);
-  const off = CLEAR + badge / 2;
-  const at = [x, y > 2 * off ? y - off : y + off];
-  drawBadge(context, at, badge);
-  drawSymbol(context, kind, at, badge);
-  labels.keep(at[0] - badge / 2, at[1] - badge / 2, badge, badge);
-  const side = badge / 2 + 6;
-  const spots = [[at[0] + side, at[1], "left"], [at[0] - side, at[1], "right"]];
-  labels.add(name ? callOf(kind, name) : kind, spots, { size: NAME_SIZE, weight: 9, bold: true, colour: "ink", ground: "room" });
-}
-
-// What does not move. px: ([x, y]) => [px, px]; scale: px per m; size: of the picture, px; here: number of the wearer's room;
-// covered: number of the stop that has its badge elsewhere
-export function drawLevel(context, plan, level, { px, scale, size }, here, whole, covered = -1) {
-  const { colours } = theme;
-  const stops = stopsOn(plan, level);
-  const outlines = stops.map(({ stop }) => stop.outline).filter((outline) => outline.length > 2);
-  if (level.rooms.length > 0) {
-    context.fillStyle = colours.outside;
-    context.fillRect(0, 0, ...size);
-  }
-  fill(context, [...level.rooms, ...outlines], px, colours.room);
-  if (here >= 0) fill(context, [level.rooms[here]], px, colours.here);
-  for (const { kind, stop } of stops) {
-    if (stop.outline.length > 2) drawFlight(context, kind, stop.outline, px, scale);
-  }
+// What does not move. px: ([x, y]) => [px, px]; scale: px per m; size: of the picture, px; here: number of the wearer's
+// room; whole: extent of the plan
+export function drawLevel(context, plan, level, { px, scale, size }, here, whole) {
+  const flights = stopsOn(plan, level).filter(({ outline }) => outline.length > 2);
+  const outlines = flights.map(({ outline }) => outline);
+  if (level.rooms.length > 0) paint(context, rectangle(0, 0, ...size), { fill: "outside" });
+  const rooms = new Path2D();
+  for (const ring of [...level.rooms, ...outlines]) polygon(ring.map(px), rooms);
+  paint(context, rooms, { fill: "room" });
+  if (here >= 0) paint(context, polygon(level.rooms[here].map(px)), { fill: "here" });
+  for (const { kind, outline } of flights) drawFlight(context, kind, outline.map(px), scale);
   const outer = outerWalls(level, outlines, whole);
-  const seen = level.walls.map((wall) => isSeen(wall, px, size));
-  const [thick, thin] = [OUTER, INNER].map(([metres, least, most]) => Math.min(most, Math.max(least, metres * scale)));
-  lines(context, level.walls.filter((_, i) => seen[i] && !outer[i]), px, colours["inner-wall"], thin, "round");
-  lines(context, level.walls.filter((_, i) => seen[i] && outer[i]), px, colours.wall, thick, "round");
+  const [thick, thin] = [OUTER, INNER].map(([metres, least, most]) => clamp(metres * scale, least, most));
+  const lines = (some) => {
+    const path = new Path2D();
+    for (const [x1, y1, x2, y2] of some) polyline([px([x1, y1]), px([x2, y2])], path);
+    return path;
+  };
+  paint(context, lines(level.walls.filter((_, i) => !outer[i])), { line: "inner-wall", width: thin });
+  paint(context, lines(level.walls.filter((_, i) => outer[i])), { line: "wall", width: thick });
   // a door is a gap, also where the file draws the wall through it
-  lines(context, level.doors.filter((door) => isSeen(door, px, size)), px, colours.room, thick + 0.5, "butt");
-  stops.forEach(({ kind, stop }, i) => {
-    const middle = i === covered ? null : middleOf(stop);
-    if (middle) drawBadge(context, px(middle), badgeSize(scale));
-    if (middle) drawSymbol(context, kind, px(middle), badgeSize(scale));
-  });
+  paint(context, lines(level.doors), { line: "room", width: thick + 0.5, cap: "butt" });
 }
 
-// Names of rooms, stairs and lifts, where they fit.
-export function nameLevel(labels, plan, level, px, scale, here, covered = -1) {
+// Badges and names of stairs and lifts. The wearer's mark at `wearer`, px, covers none of them: there they are above it, or
+// below it at the top.
+export function drawStops(context, labels, plan, level, px, scale, wearer) {
   const badge = badgeSize(scale);
-  const onScreen = ([x, y]) => x > -60 && y > -60 && x < labels.width + 60 && y < labels.height + 60;
-  for (const [i, { kind, name, stop }] of stopsOn(plan, level).entries()) {
-    const middle = middleOf(stop);
-    if (i === covered || middle === null || !onScreen(px(middle))) continue;
-    const [x, y] = px(middle);
-    labels.keep(x - badge / 2, y - badge / 2, badge, badge);
-    if (!name || stop.outline.length < 3) continue;
-    const ends = stop.outline.map(px);
-    const [w, h] = [0, 1].map((k) => Math.max(...ends.map((p) => p[k])) - Math.min(...ends.map((p) => p[k])));
-    const words = callOf(kind, name);
-    const fits = nameIn(stop.outline, words, scale, { size: NAME_SIZE });
-    if (!fits || (w < 3 * badge && h < 2.4 * badge)) continue;
-    const spots = w > h ? [[x + badge / 2 + 5, y, "left"]] : [[x, y + badge / 2 + 9]];
-    labels.add(words, spots, { size: NAME_SIZE, weight: 4, ground: "room" });
+  for (const { kind, name, place, outline } of stopsOn(plan, level)) {
+    const [x0, x1, y0, y1] = bounds(outline.length > 2 ? outline : [place]);
+    const [x, y] = px([(x0 + x1) / 2, (y0 + y1) / 2]);
+    const covered = wearer !== null && Math.hypot(x - wearer[0], y - wearer[1]) < WEARER_RADIUS + badge / 2 + 3;
+    const off = CLEAR + badge / 2;
+    const at = covered ? [wearer[0], wearer[1] + (wearer[1] > 2 * off ? -off : off)] : [x, y];
+    const words = isConnector(name) ? name : `${kind} ${name}`.trim();
+    const [wide, high] = [(x1 - x0) * scale, (y1 - y0) * scale];
+    drawBadge(context, kind, at, badge);
+    labels.keepAround(at, badge / 2);
+    if (covered) {
+      const spots = [[at[0] + badge / 2 + 6, at[1], "left"], [at[0] - badge / 2 - 6, at[1], "right"]];
+      labels.add(words, spots, { weight: 9, bold: true, colour: "ink" });
+      continue;
+    }
+    const found = name ? nameIn(outline, words, scale) : null;
+    if (found === null) continue;
+    const { upright } = found;
+    const [w, h] = upright ? measured(found.words).toReversed() : measured(found.words);
+    const spots = [];
+    if (wide / 2 > badge / 2 + 5 + w) spots.push([x + badge / 2 + 5, y, "left"]);
+    if (high / 2 > badge / 2 + 2 + h) spots.push([x, y + badge / 2 + 2 + h / 2]);
+    labels.add(found.words, spots, { weight: 4, upright });
   }
+}
+
+// Whether this is the name of stairs or of a lift.
+const isConnector = (name) => /lift|elevator|stair|escalator|ramp/i.test(name);
+
+// Names of rooms, where they fit.
+export function nameRooms(labels, level, px, scale, here) {
+  const { width, height } = labels.surface;
   const kind = usualKind(level);
   level.rooms.forEach((room, i) => {
-    const name = level.names[i];
-    if (!name || !seesRing(room, px, labels)) return;
-    const style = { size: NAME_SIZE, ground: "room", weight: 5, ...(i === here ? HERE : {}) };
-    const found = nameIn(room, name, scale, style, kind);
-    if (!found) return;
-    labels.add(found.words, spotsOf(found, px(found.at), style).filter(onScreen), {
-      ...style,
-      upright: found.upright,
-      strict: Math.min(...found.slack) < NARROW || i === here, // a note names the wearer's room
-    });
+    const name = level.room_names[i];
+    const style = i === here ? HERE : { weight: 5 };
+    const found = name ? nameIn(room, name, scale, style.bold, kind) : null;
+    if (found === null) return;
+    const spots = spotsOf(found, px(found.at), style.bold).filter(([x, y]) => x > 0 && y > 0 && x < width && y < height);
+    const strict = Math.min(...found.slack) < NARROW || i === here; // a note names the wearer's room
+    labels.add(found.words, spots, { ...style, upright: found.upright, strict });
   });
 }
 
 // Where a name may be: in the middle of its room, and else aside of it or farther along the room. The places do not move
 // with the view, so that a name stays where it is as long as it is seen.
-function spotsOf({ words, upright, slack }, [x, y], style) {
-  const [wide, high] = measured(words, style);
+function spotsOf({ words, upright, slack }, [x, y], bold) {
+  const [wide, high] = measured(words, bold);
   const lying = slack[0] >= slack[1];
   const way = Math.max(LEAST_WAY, (lying === upright ? high : wide) + 20);
   const [along, across] = lying ? slack : [slack[1], slack[0]];
@@ -137,45 +114,40 @@ function spotsOf({ words, upright, slack }, [x, y], style) {
   return ways.flatMap((a) => ASIDE.map((share) => (lying ? [x + a, y + share * across] : [x + share * across, y + a])));
 }
 
-const callOf = (kind, name) => (isConnector(name) ? name : `${kind} ${name}`);
+// Stairs and lifts: treads and a cabin in their outlines, and a badge that is recognised at any scale.
+const badgeSize = (scale) => Math.round(clamp(0.75 * scale, 12, 20));
 
-function seesRing(ring, px, { width, height }) {
-  const points = ring.map(px);
-  const [left, right, top, bottom] = [0, 1].flatMap((k) => [Math.min(...points.map((p) => p[k])), Math.max(...points.map((p) => p[k]))]);
-  return right > 0 && left < width && bottom > 0 && top < height;
+// The outline with treads across its longer side, or with the diagonals of a cabin.
+function drawFlight(context, kind, points, scale) {
+  const shape = polygon(points);
+  const marks = new Path2D();
+  if (kind === "stairs") treads(marks, points, Math.max(LEAST_TREAD, TREAD * scale));
+  else if (points.length === 4) for (const k of [0, 1]) polyline([points[k], points[k + 2]], marks);
+  within(context, shape, () => paint(context, marks, { line: "tread", cap: "butt" }));
+  paint(context, shape, { line: "inner-wall", cap: "butt" });
 }
 
-function middleOf({ place, outline }) {
-  if (outline.length < 3) return place;
-  return [0, 1].map((k) => {
-    const values = outline.map((point) => point[k]);
-    return (Math.min(...values) + Math.max(...values)) / 2;
+function treads(path, points, step) {
+  const sides = points.map(([x1, y1], i) => {
+    const [x2, y2] = points[(i + 1) % points.length];
+    return [x2 - x1, y2 - y1];
   });
-}
-
-function isSeen([x1, y1, x2, y2], px, [width, height]) {
-  const [[a, b], [c, d]] = [px([x1, y1]), px([x2, y2])];
-  return Math.max(a, c) >= 0 && Math.min(a, c) <= width && Math.max(b, d) >= 0 && Math.min(b, d) <= height;
-}
-
-function fill(context, rings, px, colour) {
-  const path = new Path2D();
-  for (const points of rings) {
-    points.forEach((point, i) => (i === 0 ? path.moveTo(...px(point)) : path.lineTo(...px(point))));
-    path.closePath();
+  const [dx, dy] = sides.reduce((a, b) => (Math.hypot(...b) > Math.hypot(...a) ? b : a));
+  const [cos, sin] = [dx, dy].map((d) => d / Math.hypot(dx, dy));
+  const [from, to, least, most] = bounds(points.map(([x, y]) => [x * cos + y * sin, y * cos - x * sin]));
+  for (let i = 1; i < (to - from) / step; i++) {
+    const at = from + i * step;
+    polyline([least, most].map((across) => [at * cos - across * sin, at * sin + across * cos]), path);
   }
-  context.fillStyle = colour;
-  context.fill(path);
 }
 
-function lines(context, some, px, colour, width, cap) {
-  const path = new Path2D();
-  for (const [x1, y1, x2, y2] of some) {
-    path.moveTo(...px([x1, y1]));
-    path.lineTo(...px([x2, y2]));
+function drawBadge(context, kind, [x, y], size) {
+  for (const [fill, half] of [["room", size / 2 + 1.5], ["muted", size / 2]]) {
+    const path = new Path2D();
+    path.roundRect(x - half, y - half, 2 * half, 2 * half, half / 2);
+    paint(context, path, { fill });
   }
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  context.lineCap = cap;
-  context.stroke(path);
+  const at = (points) => points.map(([right, down]) => [x + (right * size) / 2, y + (down * size) / 2]);
+  if (kind === "stairs") paint(context, polyline(at(STEPS)), { line: "room", width: Math.max(1.5, size / 9), cap: "butt" });
+  else for (const arrow of ARROWS) paint(context, polygon(at(arrow)), { fill: "room" });
 }

@@ -7,12 +7,7 @@ import { fixed, percent } from "./words.js";
 // The wearer is between the feet; a foot's line has a point a stride, and nothing measures the distance between the feet.
 const EACH_FOOT = "Each foot’s own path: they differ by what the sensors cannot know, most at turns. The wearer is between them.";
 
-export function nameOf(plan, id) {
-  return plan?.levels.find((level) => level.id === id)?.name ?? id;
-}
-
-// Whether this is the name of stairs or of a lift.
-export const isConnector = (name) => /lift|elevator|stair|escalator|ramp/i.test(name);
+export const nameOf = (plan, id) => plan?.levels.find((level) => level.id === id)?.name ?? id;
 
 // A name that is a mere number is that of a door.
 const atDoor = (door) => (/^\d/.test(door) ? `at door ${door}` : `at ${door}`);
@@ -25,24 +20,17 @@ export function whereOf(plan, { level, room, door }) {
 // Note over a drawing of this level; "" when there is none: the words above the drawing name the wearer's room.
 export function noteOnPlan(state, level) {
   const { place, places, plan } = state;
-  if (!place && places.length > 0) return "The place was lost; the track by itself goes on.";
-  if (!place) return "Where on the plan is not known yet.";
-  if (!place.decided) return possible(place, plan);
-  return place.level === level.id ? trustWords(state) : `The wearer is on ${whereOf(plan, place)}.`;
+  if (!place) return places.length > 0 ? "The place was lost; the track by itself goes on." : "Where on the plan is not known yet.";
+  if (place.decided) return place.level === level.id ? trustWords(state) : `The wearer is on ${whereOf(plan, place)}.`;
+  const best = percent(Math.max(0, ...place.candidates.map((one) => one.weight)));
+  return `The wearer could be at ${place.candidates.length} places; most likely (${best}) ${whereOf(plan, place)}.`;
 }
 
 // Note on the track without a plan.
 export function noteAlone(state, feetShown) {
   const { place, places, plan } = state;
-  const trust = trustWords(state);
-  if (trust) return trust;
-  if (feetShown) return EACH_FOOT;
+  if (trustWords(state) || feetShown) return trustWords(state) || EACH_FOOT;
   return plan && !place && places.length === 0 ? "Where on the plan is not known yet; this is the track by itself." : "";
-}
-
-function possible(place, plan) {
-  const best = Math.max(0, ...place.candidates.map((one) => one.weight));
-  return `The wearer could be at ${place.candidates.length} places; most likely (${percent(best)}) ${whereOf(plan, place)}.`;
 }
 
 export function spokenOnPlan(state, level) {

@@ -1,18 +1,18 @@
 // The shown part of the plane: its middle and px per metre. It follows what is drawn until a person chooses a part.
 
-import { reducedMotion } from "./canvas.js";
+import { clamp, reducedMotion } from "./canvas.js";
+import { ZOOM_FACTOR } from "./following.js";
 
 const EASING_TIME = 220; // ms in which the view covers about two thirds of the distance to its goal
-const [MIN_SCALE, MAX_SCALE] = [0.2, 400]; // px per metre
-const ZOOM_FACTOR = 1.4;
-const PUSH_DISTANCE = 48; // px
+const SCALES = [0.2, 400]; // px per metre
+const WHEEL_FACTOR = 0.004; // of a wheel's movement, in the logarithm of the scale
 
 export class View {
   follows = true; // true while it shows everything by itself
   above = 0; // px by which its middle is above the canvas's, and left of it
   aside = 0;
-  #goal = null;
-  #now = null;
+  #goal = null; // null until what is drawn is fitted again
+  #now = { x: 0, y: 0, scale: 30 };
   #jumps = true; // to its next goal
   #fingers = new Map();
   #last = 0;
@@ -27,58 +27,57 @@ export class View {
     canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
   }
 
-  // box: [least x, least y, greatest x, greatest y] to be shown, m; spare: share of the picture left for new parts.
-  // It changes only when something gets near the edge. A view by hand ends with `all`.
-  fit(box, width, height, spare) {
+  // Shows [least x, greatest x, least y, greatest y], m; spare: share of the picture left for new parts. It changes only
+  // when something gets near the edge. A view by hand ends with `all`.
+  fit([x0, x1, y0, y1], width, height, spare) {
     if (!this.follows || width < 1 || height < 1) return;
-    const [x, y] = [0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])];
-    const fits = Math.min(width / Math.max(1e-3, box[2] - box[0]), height / Math.max(1e-3, box[3] - box[1]));
-    const scale = Math.min(MAX_SCALE, Math.max(MIN_SCALE, fits));
-    if (this.#goal !== null && this.#suits(box, width, height, scale)) return;
-    this.#go({ x, y, scale: scale * (1 - spare) });
+    const scale = clamp(Math.min(width / (x1 - x0), height / (y1 - y0)), ...SCALES);
+    if (this.#goal !== null && this.#goal.scale > 0.45 * scale) {
+      const { x, y, scale: shown } = this.#goal;
+      const [w, h] = [(0.5 * width) / shown, (0.5 * height) / shown];
+      if (x0 >= x - w && x1 <= x + w && y0 >= y - h && y1 <= y + h) return;
+    }
+    this.#go({ x: 0.5 * (x0 + x1), y: 0.5 * (y0 + y1), scale: scale * (1 - spare) }, this.#jumps);
   }
 
   // Shows this part, as long as no person chose another: {x, y, scale}.
   follow(part) {
-    if (this.follows) this.#go({ ...part, scale: Math.min(MAX_SCALE, Math.max(MIN_SCALE, part.scale)) });
+    if (this.follows) this.#go(part, this.#jumps);
   }
 
-  #go(goal) {
-    this.#goal = goal;
-    if (this.#jumps || reducedMotion.matches || this.#now === null) this.#now = { ...goal };
+  #go(goal, jumps) {
+    this.#goal = { ...goal, scale: clamp(goal.scale, ...SCALES) };
+    if (jumps || reducedMotion.matches) this.#now = { ...this.#goal };
     this.#jumps = false;
   }
 
-  // Returns whether the box is within the view and fills enough of it.
-  #suits(box, width, height, scale) {
-    const { x, y, scale: shown } = this.#goal;
-    const [w, h] = [(0.5 * width) / shown, (0.5 * height) / shown];
-    const inside = box[0] >= x - w && box[2] <= x + w && box[1] >= y - h && box[3] <= y + h;
-    return inside && shown > 0.45 * scale;
-  }
-
-  // Returns the view at the moment `now`: {x, y, scale}; `settled` once it has reached its goal.
+  // Returns the view at the moment `now`: {x, y, scale}.
   at(now) {
-    if (this.#now === null) return { x: 0, y: 0, scale: 30 };
-    if (this.#goal === null) return this.#now; // hidden since its size changed
     const passed = Math.min(100, now - this.#last);
     this.#last = now;
-    const share = this.settled ? 0 : 1 - Math.exp(-passed / EASING_TIME);
-    for (const key of ["x", "y"]) this.#now[key] += share * (this.#goal[key] - this.#now[key]);
-    this.#now.scale *= (this.#goal.scale / this.#now.scale) ** share;
-    if (Math.abs(Math.log(this.#goal.scale / this.#now.scale)) < 0.002) this.#now.scale = this.#goal.scale;
-    const off = Math.hypot(this.#goal.x - this.#now.x, this.#goal.y - this.#now.y) * this.#now.scale;
-    if (off < 0.3 && this.#now.scale === this.#goal.scale) this.#now = { ...this.#goal };
+    if (this.settled) return this.#now;
+    const share = 1 - Math.exp(-passed / EASING_TIME);
+    const { x, y, scale } = this.#goal;
+    const before = this.#now;
+    const next = before.scale * (scale / before.scale) ** share;
+    this.#now = {
+      x: before.x + share * (x - before.x),
+      y: before.y + share * (y - before.y),
+      scale: Math.abs(Math.log(scale / next)) < 0.002 ? scale : next,
+    };
+    const off = Math.hypot(x - this.#now.x, y - this.#now.y) * scale;
+    if (off < 0.3 && this.scaled) this.#now = { ...this.#goal };
     return this.#now;
   }
 
+  // True once it has reached its goal.
   get settled() {
-    return this.#now === null || this.#goal === null || ["x", "y", "scale"].every((key) => this.#now[key] === this.#goal[key]);
+    return this.#goal === null || ["x", "y", "scale"].every((key) => this.#now[key] === this.#goal[key]);
   }
 
   // True once it has reached its scale.
   get scaled() {
-    return this.#now === null || this.#goal === null || this.#now.scale === this.#goal.scale;
+    return this.#goal === null || this.#now.scale === this.#goal.scale;
   }
 
   // jumps: to another drawing, where nothing lies between.
@@ -97,29 +96,32 @@ export class View {
   }
 
   zoom(nearer) {
-    this.#take({ ...this.#here(), scale: this.#here().scale * (nearer ? ZOOM_FACTOR : 1 / ZOOM_FACTOR) });
+    const here = this.#here();
+    this.#take({ ...here, scale: here.scale * (nearer ? ZOOM_FACTOR : 1 / ZOOM_FACTOR) }, false);
   }
 
-  push(right, up) {
+  // Moves by so many px to the right and up.
+  move(right, up) {
     const { x, y, scale } = this.#here();
-    this.#take({ x: x + (right * PUSH_DISTANCE) / scale, y: y + (up * PUSH_DISTANCE) / scale, scale }, true);
+    this.#take({ x: x + right / scale, y: y + up / scale, scale }, true);
   }
 
   #here() {
-    return this.#goal ?? { x: 0, y: 0, scale: 30 };
+    return this.#goal ?? this.#now;
   }
 
   #take(view, atOnce) {
     this.follows = false;
-    this.#goal = { ...view, scale: Math.min(MAX_SCALE, Math.max(MIN_SCALE, view.scale)) };
-    if (atOnce || reducedMotion.matches || this.#now === null) this.#now = { ...this.#goal };
+    this.#go(view, atOnce);
     this.moved();
   }
 
-  // Zooms so that the same place stays under the point (px from the canvas's middle).
-  #about(px, py, factor) {
+  // Zooms so that the same place stays under a point of the window.
+  #about(clientX, clientY, factor) {
+    const frame = this.canvas.getBoundingClientRect();
+    const [px, py] = [clientX - frame.x - frame.width / 2 + this.aside, clientY - frame.y - frame.height / 2 + this.above];
     const { x, y, scale } = this.#here();
-    const next = Math.min(MAX_SCALE, Math.max(MIN_SCALE, scale * factor));
+    const next = clamp(scale * factor, ...SCALES);
     this.#take({ x: x + px / scale - px / next, y: y - py / scale + py / next, scale: next }, true);
   }
 
@@ -131,25 +133,15 @@ export class View {
   }
 
   #move(event) {
-    const before = this.#fingers.get(event.pointerId);
-    if (before === undefined) return;
+    if (!this.#fingers.has(event.pointerId)) return;
     const old = [...this.#fingers.values()];
     this.#fingers.set(event.pointerId, [event.clientX, event.clientY]);
     const now = [...this.#fingers.values()];
     if (now.length > 2) return;
     const middle = (points, k) => points.reduce((sum, point) => sum + point[k], 0) / points.length;
-    const [dx, dy] = [middle(now, 0) - middle(old, 0), middle(now, 1) - middle(old, 1)];
-    const { x, y, scale } = this.#here();
-    this.#take({ x: x - dx / scale, y: y + dy / scale, scale }, true);
-    if (now.length === 2) {
-      const apart = ([a, b]) => Math.max(10, Math.hypot(a[0] - b[0], a[1] - b[1]));
-      const frame = this.canvas.getBoundingClientRect();
-      this.#about(
-        middle(now, 0) - frame.x - frame.width / 2 + this.aside,
-        middle(now, 1) - frame.y - frame.height / 2 + this.above,
-        apart(now) / apart(old),
-      );
-    }
+    this.move(middle(old, 0) - middle(now, 0), middle(now, 1) - middle(old, 1));
+    const apart = ([a, b]) => Math.max(10, Math.hypot(a[0] - b[0], a[1] - b[1]));
+    if (now.length === 2) this.#about(middle(now, 0), middle(now, 1), apart(now) / apart(old));
   }
 
   #up(event) {
@@ -161,11 +153,6 @@ export class View {
   #wheel(event) {
     if (!event.ctrlKey) return;
     event.preventDefault();
-    const frame = this.canvas.getBoundingClientRect();
-    this.#about(
-      event.clientX - frame.x - frame.width / 2 + this.aside,
-      event.clientY - frame.y - frame.height / 2 + this.above,
-      Math.exp(-event.deltaY * 0.004),
-    );
+    this.#about(event.clientX, event.clientY, Math.exp(-event.deltaY * WHEEL_FACTOR));
   }
 }

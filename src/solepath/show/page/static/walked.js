@@ -1,82 +1,72 @@
-// The way walked: its extent and its lines.
+// The way walked: its extent, its lines, and the part of it that belongs to the present candidate.
 
-import { sure, stroke } from "./marks.js";
+import { bounds, paint } from "./canvas.js";
 import { MAX_JUMP } from "./following.js";
-import { FEET } from "./state.js";
-import { theme } from "./theme.js";
+import { sure } from "./marks.js";
 
 const MIN_EXTENT = 3; // m, least width and height that are shown
+const MAX_AREA_SHARE = 0.25; // of the extent of the track, for each side of the wearer's uncertainty
 const FAINT_WIDTH = 1.75; // px, of what was walked elsewhere or was drawn before
+const [REACH, SIDE, MAX_STEPS] = [6, 12, 10]; // px, of squares along the way in which labels are rather not; their number
+const MIN_DIFFERENCE = 5; // m by which the place moves more than the wearer when another candidate becomes the likeliest
+const DRIFT_SHARE = 0.2; // error of the track as a share of the distance between two places
+const DASH = [5, 9]; // px, of a track that is wrong; its ends are round
 
-// [least x, least y, greatest x, greatest y] of the track alone, m.
-export function boxOf({ tracks, feet, wearer }, feetShown) {
-  const box = [0, 0, 0, 0];
-  const hold = (x, y) => {
-    if (x < box[0]) box[0] = x;
-    if (y < box[1]) box[1] = y;
-    if (x > box[2]) box[2] = x;
-    if (y > box[3]) box[3] = y;
-  };
-  for (const name of feetShown ? [...FEET, "wearer"] : ["wearer"]) {
-    for (const point of tracks[name]) hold(point[1], point[2]);
-    if (feet[name]?.position) hold(feet[name].position[0], feet[name].position[1]);
-  }
+export const LINES = {
+  left: { line: "left", width: 1.5 },
+  right: { line: "right", width: 1.5 },
+  wearer: { line: "wearer", width: 4 },
+};
+export const dashed = (line) => ({ ...line, dash: DASH });
+
+// [least x, greatest x, least y, greatest y] of these tracks, m, with the uncertainty of the wearer.
+export function boxOf({ tracks, feet, wearer }, names) {
+  const points = names.flatMap((name) => [...tracks[name].map((point) => point.slice(1)), feet[name]?.position ?? [0, 0]]);
+  const box = bounds([[0, 0], ...points]);
   if (wearer?.covariance) {
     // as much of the uncertainty as leaves the track large enough to see
-    const most = 0.25 * Math.max(MIN_EXTENT, box[2] - box[0], box[3] - box[1]);
+    const most = MAX_AREA_SHARE * Math.max(MIN_EXTENT, box[1] - box[0], box[3] - box[2]);
     const [x, y] = wearer.position;
     const [dx, dy] = [0, 3].map((k) => Math.min(most, sure(wearer.covariance[k])));
-    hold(x - dx, y - dy);
-    hold(x + dx, y + dy);
+    points.push([x - dx, y - dy], [x + dx, y + dy]);
   }
-  for (const k of [0, 1]) {
-    const lacks = Math.max(0, MIN_EXTENT - (box[k + 2] - box[k])) / 2;
-    box[k] -= lacks;
-    box[k + 2] += lacks;
-  }
-  return box;
+  const [x0, x1, y0, y1] = bounds([[0, 0], ...points]);
+  const lacks = (from, to) => Math.max(0, MIN_EXTENT - (to - from)) / 2;
+  return [x0 - lacks(x0, x1), x1 + lacks(x0, x1), y0 - lacks(y0, y1), y1 + lacks(y0, y1)];
 }
-
-export const DASH = [5, 9]; // px, of a track that is wrong; its ends are round
 
 // A line through [t, x, y, ...]. Consecutive points on the same pixel are drawn as one.
-export function drawLine(context, points, px, width, colour, dash = []) {
+export function drawLine(context, points, px, style) {
   const path = new Path2D();
-  let [lastX, lastY] = [Infinity, Infinity];
-  points.forEach(([, mx, my], i) => {
-    const [x, y] = px([mx, my]);
-    if (i < points.length - 1 && Math.abs(x - lastX) < 0.8 && Math.abs(y - lastY) < 0.8) return;
-    if (lastX === Infinity) path.moveTo(x, y);
-    else path.lineTo(x, y);
-    [lastX, lastY] = [x, y];
+  let last = [Infinity, Infinity];
+  points.forEach(([, ...at], i) => {
+    const [x, y] = px(at);
+    if (i > 0 && i < points.length - 1 && Math.abs(x - last[0]) < 0.8 && Math.abs(y - last[1]) < 0.8) return;
+    path.lineTo(x, y);
+    last = [x, y];
   });
-  context.setLineDash(dash);
-  stroke(context, path, width, colour);
-  context.setLineDash([]);
+  paint(context, path, style);
 }
 
-// Labels are rather not on the places [t, level, x, y, ...] of this level.
+// Labels are rather not on the places [t, level, x, y, ...] of this level, nor between two that are close.
 export function avoidPlaces(labels, places, level, px) {
-  const [reach, side] = [6, 12]; // px
   let last = null;
-  for (const [, of, mx, my] of places) {
-    const [x, y] = px([mx, my]);
-    const seen = of === level && x > -side && y > -side && x < labels.width + side && y < labels.height + side;
-    const far = last ? Math.hypot(x - last[0], y - last[1]) : Infinity;
-    if (far < reach) continue;
-    const between = seen && far < 10 * side ? Math.floor(far / side) : 0; // so that no gap is left to the last one
-    for (let i = 0; i < between; i++) {
-      const share = i / between;
-      labels.avoid(last[0] + share * (x - last[0]) - reach, last[1] + share * (y - last[1]) - reach, side, side);
+  for (const [, of, ...at] of places) {
+    const [x, y] = px(at);
+    const [x0, y0] = last ?? [x, y];
+    const far = Math.hypot(x - x0, y - y0);
+    if (last !== null && far < REACH) continue;
+    const steps = far < MAX_STEPS * SIDE ? Math.max(1, Math.ceil(far / SIDE)) : 1;
+    for (let k = 1; k <= steps && of === level; k++) {
+      labels.avoid(x0 + (k / steps) * (x - x0) - REACH, y0 + (k / steps) * (y - y0) - REACH, SIDE, SIDE);
     }
-    if (seen) labels.avoid(x - reach, y - reach, side, side);
     last = [x, y];
   }
 }
 
 // Places [t, level, x, y, ...] from the index `from` on. Only a line between two places on this level is solid; on others it
 // is dotted. Before the index `since` the track of a rejected candidate is dashed.
-export function drawPlaces(context, places, from, since, level, px, width, dash = []) {
+export function drawPlaces(context, places, from, since, level, px, style) {
   const paths = { here: new Path2D(), elsewhere: new Path2D(), before: new Path2D() };
   for (let i = Math.max(1, from); i < places.length; i++) {
     const [[, a, x1, y1], [, b, x2, y2]] = [places[i - 1], places[i]];
@@ -86,11 +76,31 @@ export function drawPlaces(context, places, from, since, level, px, width, dash 
     path.moveTo(...px([x1, y1]));
     path.lineTo(...px([x2, y2]));
   }
-  context.setLineDash([4, 6]);
-  stroke(context, paths.before, FAINT_WIDTH, theme.colours.muted);
-  context.setLineDash([0.1, 5]);
-  stroke(context, paths.elsewhere, 1.5 * FAINT_WIDTH, theme.colours.wearer);
-  context.setLineDash(dash);
-  stroke(context, paths.here, width, theme.colours.wearer);
-  context.setLineDash([]);
+  paint(context, paths.before, { line: "muted", width: FAINT_WIDTH, dash: [4, 6] });
+  paint(context, paths.elsewhere, { line: "wearer", width: 1.5 * FAINT_WIDTH, dash: [0.1, 5] });
+  paint(context, paths.here, style);
+}
+
+// Finds where the track on the plan changes from a candidate that was rejected to the present one.
+export class Possibility {
+  #key = "";
+  #seen = 0;
+  #since = 0;
+
+  // Returns the index of the first place of the track that belongs to the present place.
+  since({ places, tracks, generation, thinned }) {
+    const key = `${generation} ${thinned}`;
+    if (key !== this.#key) [this.#key, this.#seen, this.#since] = [key, 1, 0];
+    for (; this.#seen < places.length; this.#seen++) {
+      if (jumped(places[this.#seen - 1], places[this.#seen], tracks.wearer)) this.#since = this.#seen;
+    }
+    return this.#since;
+  }
+}
+
+// The track turns and drifts against the plan, but its length is right.
+function jumped([t1, , x1, y1], [t2, , x2, y2], track) {
+  const [a, b] = [t1, t2].map((t) => track.findLast((point) => point[0] <= t) ?? track[0] ?? [0, 0, 0]);
+  const walked = Math.hypot(b[1] - a[1], b[2] - a[2]);
+  return Math.abs(Math.hypot(x2 - x1, y2 - y1) - walked) > MIN_DIFFERENCE + DRIFT_SHARE * walked;
 }

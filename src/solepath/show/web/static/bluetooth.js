@@ -19,43 +19,53 @@ computer.on("walk", (walk) => {
   }
 });
 
+// What this browser cannot do, in words; "" if it has Web Bluetooth.
+export function bluetoothWords() {
+  if (navigator.bluetooth) return "";
+  const rest = "Recordings and the demonstration can be played here.";
+  const { userAgent, maxTouchPoints } = navigator;
+  if (!isSecureContext) return `Sensors can be reached only from a page at an https address. ${rest}`;
+  if (/iPhone|iPad|iPod/.test(userAgent) || (/Macintosh/.test(userAgent) && maxTouchPoints > 1))
+    return `No browser on an iPhone or iPad lets a page reach Bluetooth sensors; Chrome on an Android phone or a computer does. ${rest}`;
+  if (/Chrom(e|ium)\//.test(userAgent) && /Linux/.test(userAgent) && !/Android/.test(userAgent))
+    return `Chrome on Linux lets a page reach Bluetooth sensors once chrome://flags/#enable-web-bluetooth is enabled. ${rest}`;
+  const name = /Firefox\//.test(userAgent) ? "Firefox" : /Safari\//.test(userAgent) && !/Chrom/.test(userAgent) ? "Safari" : "This browser";
+  return `${name} has no Web Bluetooth, so that it reaches no sensors; Chrome and Edge do. ${rest}`;
+}
+
 // Lets the person choose a sensor, and connects it; site is null for an insole, which knows its foot, and profile for a
 // sensor that shows its kind.
 export async function addSensor(site, profile) {
   const { filters, services } = computer.filters;
-  const options = { filters: filters.map(filterOf), optionalServices: services };
-  let device;
-  try {
-    device = await navigator.bluetooth.requestDevice(options);
-  } catch (error) {
-    throw new Error(chooserWords(error));
-  }
+  const device = await navigator.bluetooth
+    .requestDevice({ filters: filters.map(filterOf), optionalServices: services })
+    .catch((error) => {
+      throw new Error(chooserWords(error));
+    });
   await startWalk();
   await sensors.get(device.id)?.end();
   sensors.set(device.id, new Sensor(device, site, profile));
   computer.emit("sensors", sensors);
 }
 
+export const wornWords = (site) => `on the ${site.replace("_", " ")}`;
+
 function filterOf({ name, prefix, service }) {
   if (service) return { services: [service] };
   return prefix ? { namePrefix: prefix } : { name };
 }
 
-function chooserWords(error) {
-  const words = error.message ?? "";
-  if (error.name === "NotFoundError" && /adapter/i.test(words)) return "Bluetooth is off, or this device has none: turn it on.";
-  if (error.name === "NotFoundError") return "No sensor was chosen. Is it switched on and near?";
-  if (error.name === "SecurityError" || error.name === "NotAllowedError")
+function chooserWords({ name, message = "" }) {
+  if (name === "NotFoundError" && /adapter/i.test(message)) return "Bluetooth is off, or this device has none: turn it on.";
+  if (name === "NotFoundError") return "No sensor was chosen. Is it switched on and near?";
+  if (name === "SecurityError" || name === "NotAllowedError")
     return "This browser does not let the page use Bluetooth: allow it in the settings of the browser and of the system.";
-  return `No sensor can be chosen: ${words}`;
+  return `No sensor can be chosen: ${message}`;
 }
 
 // A sensor that is connected again and again until it is ended, or the walk is.
 class Sensor {
-  #device;
-  #site;
-  #profile;
-  #characteristics = new Map(); // by "service characteristic"
+  characteristics = new Map(); // by "service characteristic"; tests read what they cannot notify
   #ended = false;
   #connected = false; // the worker knows of a connection
   #connection = 0; // number of the connection
@@ -64,56 +74,48 @@ class Sensor {
   #run;
 
   constructor(device, site, profile) {
-    this.#device = device;
-    this.#site = site;
-    this.#profile = profile;
+    Object.assign(this, { device, site, profile });
     this.#run = this.#stayConnected();
   }
 
   get name() {
-    return this.#device.name ?? "";
+    return this.device.name ?? "";
   }
 
   // What the page says of it.
   get words() {
-    const worn = this.#site === null ? "" : ` on the ${this.#site.replace("_", " ")}`;
+    const worn = this.site === null ? "" : ` ${wornWords(this.site)}`;
     return `${this.name || "Sensor without a name"}${worn}: ${this.#connected ? "connected" : "connecting"}`;
-  }
-
-  // For tests, which read what they cannot notify.
-  get characteristics() {
-    return this.#characteristics;
   }
 
   reconnect() {
     this.#add();
-    this.#device.gatt.disconnect();
+    this.device.gatt.disconnect();
     this.#stopPause();
   }
 
   // Returns when the connection has ended and the worker knows of it.
   end() {
     this.#ended = true;
-    this.#device.gatt.disconnect();
+    this.device.gatt.disconnect();
     this.#stopPause();
     return this.#run;
   }
 
   take(order) {
-    if (order.type === "error" && order.of === "add") {
-      const isNowhere = this.#site === null && !["insole", null].includes(this.#profile); // a kind that names no foot
+    const { type, reason } = order;
+    if (type === "error" && order.of === "add") {
+      const isNowhere = this.site === null && !["insole", null].includes(this.profile); // a kind that names no foot
       const help = isNowhere ? "Choose how it is worn before you connect it." : "Disconnect another one first.";
-      computer.emit("words", `${this.name} cannot be added: ${order.reason}. ${help}`);
+      computer.emit("words", `${this.name} cannot be added: ${reason}. ${help}`);
       this.end();
-    } else if (order.connection !== this.#connection) {
-      // it was meant for a connection that has ended
-    } else if (order.type === "disconnect") {
-      if (order.wrong) {
-        computer.emit("words", `${order.reason}. Choose how it is worn before you connect it.`);
-        this.#ended = true;
-      }
-      this.#device.gatt.disconnect();
-    } else if (["read", "subscribe", "write"].includes(order.type)) {
+    }
+    if (order.connection !== this.#connection) return; // it was meant for a connection that has ended
+    if (type === "disconnect") {
+      if (order.wrong) computer.emit("words", `${reason}. Choose how it is worn before you connect it.`);
+      this.#ended ||= order.wrong;
+      this.device.gatt.disconnect();
+    } else if (["read", "subscribe", "write"].includes(type)) {
       this.#requests = this.#requests.then(() => this.#do(order));
     }
   }
@@ -131,26 +133,26 @@ class Sensor {
       if (!this.#ended) await new Promise((resolve) => ((this.#stopPause = resolve), setTimeout(resolve, pause)));
     }
     if (running()) this.#send({ type: "remove" });
-    sensors.delete(this.#device.id);
+    sensors.delete(this.device.id);
     computer.emit("sensors", sensors);
   }
 
   // Adding twice does nothing.
   #add() {
-    if (running()) send({ type: "add", device: this.#device.id, site: this.#site, profile: this.#profile, address: "" });
+    if (running()) send({ type: "add", device: this.device.id, site: this.site, profile: this.profile, address: "" });
   }
 
   async #use() {
-    const server = await this.#device.gatt.connect();
-    const lost = new Promise((resolve) => this.#device.addEventListener("gattserverdisconnected", resolve, { once: true }));
+    const server = await this.device.gatt.connect();
+    const lost = new Promise((resolve) => this.device.addEventListener("gattserverdisconnected", resolve, { once: true }));
     try {
       const characteristics = [];
-      this.#characteristics.clear();
+      this.characteristics.clear();
       for (const service of await server.getPrimaryServices())
         for (const one of await service.getCharacteristics()) {
           const key = `${service.uuid} ${one.uuid}`;
-          if (this.#characteristics.has(key)) continue;
-          this.#characteristics.set(key, one);
+          if (this.characteristics.has(key)) continue;
+          this.characteristics.set(key, one);
           characteristics.push([service.uuid, one.uuid, one.properties.notify || one.properties.indicate]);
         }
       if (!running() || this.#ended) return;
@@ -159,7 +161,7 @@ class Sensor {
       this.#setConnected(true);
       if (server.connected) await lost;
     } finally {
-      this.#device.gatt.disconnect();
+      this.device.gatt.disconnect();
       if (this.#connected && running()) this.#send({ type: "disconnected" });
       this.#setConnected(false);
     }
@@ -172,35 +174,33 @@ class Sensor {
 
   async #do(order) {
     const isOver = () => order.connection !== this.#connection || !this.#connected || !running();
-    const characteristic = this.#characteristics.get(`${order.service} ${order.characteristic}`);
     if (isOver()) return;
     try {
-      const value = await inTime(this.#perform(order, characteristic));
+      const value = await inTime(this.#perform(order));
       if (!isOver()) this.#send({ type: "done", connection: order.connection, value: value ? hex(value) : "" });
     } catch (error) {
-      if (isOver() || !this.#device.gatt.connected) return; // the loss of the connection says it all
+      if (isOver() || !this.device.gatt.connected) return; // the loss of the connection says it all
       if (error.name !== "TimeoutError")
         return this.#send({ type: "rejected", connection: order.connection, reason: error.message || error.name });
       this.#send({ type: "failed", reason: "the sensor did not answer in time: it is connected again" });
-      this.#device.gatt.disconnect();
+      this.device.gatt.disconnect();
     }
   }
 
-  async #perform({ type, channel, value }, characteristic) {
-    if (type === "read") return characteristic.readValue();
+  // Returns the value that was read; of a write and a subscription nothing.
+  async #perform({ type, service, characteristic, channel, value }) {
+    const one = this.characteristics.get(`${service} ${characteristic}`);
+    if (type === "read") return one.readValue();
     if (type === "write") {
-      const withResponse = characteristic.properties.write;
-      await (withResponse ? characteristic.writeValueWithResponse(bytes(value)) : characteristic.writeValueWithoutResponse(bytes(value)));
-      return null;
+      const { write } = one.properties;
+      return write ? one.writeValueWithResponse(bytes(value)) : one.writeValueWithoutResponse(bytes(value));
     }
-    const { id } = this.#device;
-    characteristic.oncharacteristicvaluechanged = () => running() && notified(id, channel, characteristic.value);
-    await characteristic.startNotifications();
-    return null;
+    one.oncharacteristicvaluechanged = () => running() && notified(this.device.id, channel, one.value);
+    await one.startNotifications();
   }
 
   #send(message) {
-    send({ ...message, device: this.#device.id, t: clock() });
+    send({ ...message, device: this.device.id, t: clock() });
   }
 }
 

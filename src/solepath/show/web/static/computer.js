@@ -26,6 +26,10 @@ class Computer {
     this.#listeners.push({ kind, listener });
   }
 
+  emit(kind, value) {
+    for (const one of this.#listeners) if (one.kind === kind) one.listener(value);
+  }
+
   start() {
     this.#worker?.terminate();
     // a worker from a blob has the Content-Security-Policy of this page, also where the server sends no header
@@ -38,8 +42,8 @@ class Computer {
     this.#tellSeen();
   }
 
-  post(message, transfer = []) {
-    if (this.state !== "dead") this.#worker?.postMessage(message, transfer);
+  post(message) {
+    if (this.state !== "dead") this.#worker?.postMessage(message);
   }
 
   // Returns what a function of worker.js returns; an error has words for a person.
@@ -62,14 +66,13 @@ class Computer {
     } else if (kind === "ready") {
       Object.assign(this, value);
       this.#set("ready");
-    }
-    else if (kind === "failed") this.#die(value);
+    } else if (kind === "failed") this.#die(value);
     else this.emit(kind, value);
   }
 
   #die(reason) {
-    if (reason) console.error(reason);
-    this.#worker.terminate();
+    console.error(reason);
+    this.kill();
     this.#set("dead");
     for (const { reject } of this.#calls.values()) reject(new Error("it was not finished"));
     this.#calls.clear();
@@ -91,10 +94,6 @@ class Computer {
     this.#tellSeen();
   }
 
-  emit(kind, value) {
-    for (const one of this.#listeners) if (one.kind === kind) one.listener(value);
-  }
-
   #tellSeen() {
     this.#silence = 0;
     this.post({ seen: this.seen, covered: this.#covered && !document.hidden });
@@ -107,7 +106,7 @@ class Computer {
     if (this.#silence > limit) this.#die("the worker does not answer");
   }
 
-  // For tests: what an operating system does that needs the memory.
+  // Ends the worker, as an operating system does that needs the memory.
   kill() {
     this.#worker.terminate();
   }

@@ -1,63 +1,41 @@
 // Files in the worker: those that a person opens, and the recordings of walks on this device.
 
-import { Problem } from "./python.js";
+import { Problem, unpacked } from "./python.js";
 import { walksFolder } from "./recording.js";
-import { unpacked } from "./unpack.js";
 
 const DEMO = "demo.jsonl";
 const MAX_SIZE = 400_000_000; // bytes of a file that is opened; an hour of two insoles takes 240 MB
 
 export class Files {
-  #python;
-  #post;
-  #used = { recipe: "default" }; // with floor plan and calibration in use: {recipe, plan: {name, bytes}, calibration: the same}
+  used = { recipe: "default" }; // with floor plan and calibration in use: {recipe, plan: {name, bytes}, calibration: the same}
 
+  // post(message) sends to the page
   constructor(python, post) {
-    this.#python = python;
-    this.#post = post;
-  }
-
-  get used() {
-    return this.#used;
+    Object.assign(this, { python, post });
   }
 
   async demo(title) {
     const answer = await fetch(new URL(`${DEMO}.gz`, import.meta.url)).catch(() => null);
     if (!answer?.ok) throw new Problem("The demonstration is not on this device yet, and the site cannot be reached.");
-    this.#python.write(DEMO, await unpacked(await answer.blob()));
-    try {
-      await this.#run("open_demo", [DEMO, title]);
-    } finally {
-      this.#python.remove(DEMO);
-    }
+    await this.#runWith(DEMO, await unpacked(await answer.blob()), "open_demo", [DEMO, title]);
   }
 
   // Opens a file that a person chose: {kind, notes}.
   async open(file) {
     const name = nameOf(file.name);
     if (file.size > MAX_SIZE) throw new Problem(`${name}: is larger than ${MAX_SIZE / 1_000_000} MB`);
-    let bytes;
-    try {
-      bytes = await unpacked(file);
-    } catch {
-      throw new Problem(`${name}: cannot be read`);
-    }
+    const bytes = await orProblem(unpacked(file), `${name}: cannot be read`);
     const inner = name.replace(/\.gz$/, "");
-    this.#python.write(inner, bytes);
-    try {
-      const result = await this.#run("open", [inner]);
-      if (result.kind !== "recording") this.#used = { ...this.#used, [result.kind]: { name: inner, bytes } };
-      return result;
-    } finally {
-      this.#python.remove(inner);
-    }
+    const result = await this.#runWith(inner, bytes, "open", [inner]);
+    if (result.kind !== "recording") this.used = { ...this.used, [result.kind]: { name: inner, bytes } };
+    return result;
   }
 
   // Uses this recipe from now on.
   async choose(recipe) {
     await this.#run("choose_recipe", [recipe]);
-    this.#used = { ...this.#used, recipe };
-    this.#post({ recipe }); // that of a walk that goes on was chosen in another tab
+    this.used = { ...this.used, recipe };
+    this.post({ recipe }); // that of a walk that goes on was chosen in another tab
   }
 
   // Uses recipe, floor plan and calibration of a saved walk again.
@@ -68,30 +46,18 @@ export class Files {
 
   // Returns the report, as HTML, of a walk on this device, or of what is played.
   async report(name, title) {
-    if (name) this.#python.write(name, await unpacked(await this.get(name)));
-    try {
-      return await this.#run("report", [name, title]);
-    } finally {
-      if (name) this.#python.remove(name);
-    }
+    if (!name) return this.#run("report", ["", title]);
+    return this.#runWith(name, await unpacked(await this.get(name)), "report", [name, title]);
   }
 
-  async get(name) {
-    try {
-      return await (await (await walksFolder()).getFileHandle(name)).getFile();
-    } catch {
-      throw new Problem(`${name} is not on this device any more.`);
-    }
+  get(name) {
+    const file = walksFolder().then((folder) => folder.getFileHandle(name));
+    return orProblem(file.then((handle) => handle.getFile()), `${name} is not on this device any more.`);
   }
 
-  async remove(name) {
-    try {
-      await (await walksFolder()).removeEntry(name);
-    } catch {
-      throw new Problem(`${name} cannot be deleted now.`);
-    } finally {
-      await this.list();
-    }
+  remove(name) {
+    const removed = walksFolder().then((folder) => folder.removeEntry(name));
+    return orProblem(removed, `${name} cannot be deleted now.`).finally(() => this.list());
   }
 
   // Tells the page which walks are on this device, the newest first.
@@ -105,14 +71,29 @@ export class Files {
     } catch {
       // storage may be forbidden: there are none
     }
-    walks.sort((one, other) => (one.name < other.name ? 1 : -1));
-    this.#post({ walks });
+    this.post({ walks: walks.sort((one, other) => (one.name < other.name ? 1 : -1)) });
   }
 
-  #run(name, values) {
-    return this.#python.run(name, values, (share) => this.#post({ progress: share })).finally(() => this.#post({ progress: 1 }));
+  // Runs a call of Python that reads a file with this name and these bytes.
+  async #runWith(name, bytes, call, values) {
+    this.python.write(name, bytes);
+    try {
+      return await this.#run(call, values);
+    } finally {
+      this.python.remove(name);
+    }
+  }
+
+  #run(call, values) {
+    return this.python.run(call, values, (share) => this.post({ progress: share })).finally(() => this.post({ progress: 1 }));
   }
 }
+
+// The same promise, which fails with words for a person.
+const orProblem = (promise, words) =>
+  promise.catch(() => {
+    throw new Problem(words);
+  });
 
 // The last part of a path, without characters that a file name cannot have.
 const nameOf = (path) => path.replace(/^.*[/\\]/, "").replace(/[\p{Cc}/\\]/gu, "_") || "file";

@@ -49,12 +49,9 @@ export function notified(device, channel, view) {
   flush();
 }
 
-export function hex(view) {
-  let text = "";
-  for (let at = 0; at < view.byteLength; at += 1) text += HEX[view.getUint8(at)];
-  return text;
-}
-
+// A DataView as text, and such a text as bytes.
+export const hex = ({ buffer, byteOffset, byteLength }) =>
+  Array.from(new Uint8Array(buffer, byteOffset, byteLength), (byte) => HEX[byte]).join("");
 export const bytes = (text) => Uint8Array.from(text.match(/../g) ?? [], (two) => parseInt(two, 16));
 
 function flush() {

@@ -3,11 +3,10 @@
 
 import { computer } from "./computer.js";
 import { running } from "./live.js";
-import { show } from "./words.js";
+import { element, show } from "./words.js";
 
 const HOLD_TIME = 1000; // ms for which the button is held: longer than what cloth touches by chance
 
-const element = (id) => document.getElementById(id);
 let held = 0; // timer
 let covered = false;
 
@@ -22,7 +21,7 @@ for (const name of ["pointerup", "pointercancel", "pointerleave"]) {
 element("uncover").addEventListener("click", (event) => event.detail === 0 && uncover()); // by a key or a screen reader
 element("uncover").addEventListener("contextmenu", (event) => event.preventDefault());
 computer.on("walk", (walk) => {
-  show(element("pocket"), walk !== null);
+  show("pocket", walk !== null);
   if (walk === null) uncover();
 });
 computer.on("state", (state) => state === "dead" && uncover()); // what has stopped is no longer covered

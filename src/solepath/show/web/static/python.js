@@ -1,10 +1,18 @@
 // Python in the worker: Pyodide with solepath, and its calls that may take long.
 
 import { loadPyodide } from "./pyodide.mjs";
-import { unpacked } from "./unpack.js";
 
 const SLICE = 0.05; // s for which Python computes before the worker may do something else
+const METHODS = ["message", "heartbeat", "receive", "command", "play", "start", "step", "save", "sensor_filters", "choices", "take_lines"];
 const here = (name) => new URL(name, import.meta.url).href;
+
+// The bytes of a blob, unpacked if gzip packed them: some servers and browsers have unpacked such a file already.
+export async function unpacked(blob) {
+  const start = new Uint8Array(await blob.slice(0, 2).arrayBuffer());
+  const packed = start[0] === 0x1f && start[1] === 0x8b;
+  const source = packed ? new Response(blob.stream().pipeThrough(new DecompressionStream("gzip"))) : blob;
+  return new Uint8Array(await source.arrayBuffer());
+}
 
 // A fault that a person can understand.
 export class Problem extends Error {}
@@ -25,16 +33,15 @@ export class Python {
     return new Python(runtime, worker);
   }
 
+  // worker: the one of worker.py; each look at a method of it would make another object
   constructor(runtime, worker) {
     this.runtime = runtime;
-    for (const name of ["message", "heartbeat", "receive", "command", "play", "start", "step", "save", "sensor_filters", "choices"])
-      this[name] = worker[name];
-    this.lines = worker.take_lines;
+    for (const name of METHODS) this[name] = worker[name];
   }
 
   // Returns the lines of the recording since the last call, as bytes.
   takeLines() {
-    const lines = this.lines();
+    const lines = this.take_lines();
     const bytes = lines.toJs();
     lines.destroy();
     return bytes;
@@ -42,14 +49,13 @@ export class Python {
 
   // Runs a method of worker.py; progress(share) is called meanwhile. Throws Problem.
   async run(name, values, progress = () => {}) {
-    const list = this.runtime.toPy(values);
-    this.start(name, list);
+    this.start(name, this.runtime.toPy(values));
     for (;;) {
       const answer = JSON.parse(this.step(SLICE));
       if ("problem" in answer) throw new Problem(answer.problem);
       if ("value" in answer) return answer.value;
       progress(answer.share);
-      await pause();
+      await new Promise((resolve) => setTimeout(resolve, 0));
     }
   }
 
@@ -61,5 +67,3 @@ export class Python {
     this.runtime.FS.unlink(`/files/${name}`);
   }
 }
-
-const pause = () => new Promise((resolve) => setTimeout(resolve, 0));

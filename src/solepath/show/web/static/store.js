@@ -1,6 +1,9 @@
 // A few values by name in IndexedDB; a value is replaced whole or not at all.
 
-import { ownName } from "./own.js";
+const PATH = new URL("./", import.meta.url).pathname;
+
+// Name of what this copy of the site stores: another copy, at another path of the same origin, has others.
+export const ownName = (name) => (PATH === "/" ? name : `${name} ${encodeURIComponent(PATH)}`);
 
 const opened = () =>
   new Promise((resolve, reject) => {

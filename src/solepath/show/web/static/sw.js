@@ -9,15 +9,12 @@ addEventListener("install", (event) => {
   event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(requests)));
 });
 
-addEventListener("activate", (event) => {
-  const old = (names) => Promise.all(names.filter((name) => name.startsWith(OWN) && name !== CACHE).map((name) => caches.delete(name)));
-  event.waitUntil(
-    caches
-      .keys()
-      .then(old)
-      .then(() => clients.claim()),
-  );
-});
+addEventListener("activate", (event) => event.waitUntil(takeOver()));
+async function takeOver() {
+  const old = (await caches.keys()).filter((name) => name.startsWith(OWN) && name !== CACHE);
+  await Promise.all(old.map((name) => caches.delete(name)));
+  await clients.claim();
+}
 
 addEventListener("fetch", (event) => {
   const { request } = event;

@@ -1,10 +1,9 @@
 // The walk that is measured now: packets go to Python and to the recording, and all of it is saved again and again.
 
 import { now } from "./clock.js";
-import { ownName } from "./own.js";
 import { Problem } from "./python.js";
 import { openRecording, storageWords } from "./recording.js";
-import { store } from "./store.js";
+import { ownName, store } from "./store.js";
 
 const SAVE_INTERVAL = 60; // s
 const WRITE_INTERVAL = 100; // ms between two writes of the recording: each is a message to the browser that is waited for
@@ -16,20 +15,16 @@ const LOCK_WAIT = 2000; // ms; a tab that was just killed may hold the lock a mo
 const ELSEWHERE = "another tab of this page is open: a walk goes on there";
 
 export class Walk {
-  #python;
-  #files;
-  #post;
   #recording = null;
   #record = null; // what the store has of this walk
   #savedAt = 0;
   #writtenAt = 0;
   #alone = false; // no other tab measures
 
+  // post(message) sends to the page
   constructor(python, files, post) {
-    this.#python = python;
-    this.#files = files;
-    this.#post = post;
-    setInterval(() => this.#tick(), TICK);
+    Object.assign(this, { python, files, post });
+    setInterval(() => now() - this.#savedAt > SAVE_INTERVAL && this.save(), TICK);
   }
 
   get running() {
@@ -39,15 +34,15 @@ export class Walk {
   // Starts a walk, or continues one that a closed tab left.
   async start(title) {
     if (this.running) await this.end();
-    if (!this.#alone && !(await this.#lock())) throw new Problem(ELSEWHERE);
+    if (!(await this.#lock())) throw new Problem(ELSEWHERE);
     await this.resume();
     if (this.running) return;
-    await this.#python.run("start_walk", [title]);
+    await this.python.run("start_walk", [title]);
     const began = now();
     const name = `walk-${localTime(new Date(1000 * began))}.jsonl`;
     this.#record = { name, title, began, size: 0, saved: undefined, savedT: began };
-    await this.#openRecording(name, began);
-    await store.put("files", this.#files.used).catch(() => {});
+    await this.#openRecording();
+    await store.put("files", this.files.used).catch(() => {});
     await this.#keep();
     this.#announce();
   }
@@ -56,18 +51,18 @@ export class Walk {
   async end() {
     if (!this.running) return "";
     const { name } = this.#record;
-    await this.#python.run("finish_walk", []);
-    const recorded = this.#recording !== null && this.#recording.count > 0;
+    await this.python.run("finish_walk", []);
+    const recorded = this.#recording?.count > 0;
     await this.#forget();
-    await this.#files.list();
+    await this.files.list();
     return recorded ? name : "";
   }
 
   // Takes messages of the page on sensors and returns the answers of Python (protocol/host.md).
   receive(messages) {
     if (!this.running) return [];
-    const answers = JSON.parse(this.#python.receive(JSON.stringify(messages)));
-    const lines = this.#python.takeLines();
+    const answers = JSON.parse(this.python.receive(JSON.stringify(messages)));
+    const lines = this.python.takeLines();
     if (lines.length > 0) this.#say(this.#recording?.add(lines));
     if (performance.now() - this.#writtenAt >= WRITE_INTERVAL) this.#flush();
     return answers;
@@ -78,7 +73,7 @@ export class Walk {
   async resume() {
     const record = await store.get("walk").catch(() => undefined);
     if (record === undefined) return this.#announce();
-    if (!this.#alone && !(await this.#lock())) {
+    if (!(await this.#lock())) {
       this.#say("Another tab of this page measures a walk.");
       return this.#announce();
     }
@@ -87,8 +82,8 @@ export class Walk {
     try {
       if (this.#record.attempts > MAX_ATTEMPTS) throw new Problem(`the page ended ${MAX_ATTEMPTS} times before it went on`);
       if (now() - record.savedT > MAX_PAUSE) throw new Problem("this page was closed for hours");
-      await this.#files.reopen(await store.get("files"));
-      await this.#openRecording(record.name, record.began);
+      await this.files.reopen(await store.get("files"));
+      await this.#openRecording();
       const t = await this.#continueOrCompute();
       this.#record.attempts = 0;
       this.#announce(true, t);
@@ -110,6 +105,16 @@ export class Walk {
     }
   }
 
+  async #continue(saved, size) {
+    const tail = this.#recording?.from(saved === undefined ? 0 : size);
+    if (tail) this.python.write("tail.jsonl", tail);
+    const elapsed = now() - this.#record.began;
+    const t = await this.python.run("resume_walk", [this.#record.title, saved, tail ? "tail.jsonl" : "", elapsed]);
+    if (t > elapsed) this.#record.began = now() - t; // the clock of this device was set back
+    if (tail) this.python.remove("tail.jsonl");
+    return t;
+  }
+
   async #forget() {
     this.#say(this.#recording?.close());
     this.#recording = this.#record = null;
@@ -118,26 +123,18 @@ export class Walk {
   }
 
   // Makes sure that two tabs do not write one walk; the lock lasts as long as this worker.
-  #lock() {
+  async #lock() {
+    if (this.#alone) return true;
     const signal = AbortSignal.timeout(LOCK_WAIT);
-    return new Promise((resolve) => {
+    await new Promise((resolve) => {
       const hold = () => {
         this.#alone = true;
-        resolve(true);
+        resolve();
         return new Promise(() => {});
       };
-      navigator.locks.request(LOCK, { signal }, hold).catch(() => resolve(false));
+      navigator.locks.request(LOCK, { signal }, hold).catch(resolve);
     });
-  }
-
-  async #continue(saved, size) {
-    const tail = this.#recording?.from(saved === undefined ? 0 : size);
-    if (tail) this.#python.write("tail.jsonl", tail);
-    const elapsed = now() - this.#record.began;
-    const t = await this.#python.run("resume_walk", [this.#record.title, saved, tail ? "tail.jsonl" : "", elapsed]);
-    if (t > elapsed) this.#record.began = now() - t; // the clock of this device was set back
-    if (tail) this.#python.remove("tail.jsonl");
-    return t;
+    return this.#alone;
   }
 
   // Saves session, scene and how much of the recording they have.
@@ -146,7 +143,7 @@ export class Walk {
     this.#savedAt = now();
     this.#flush();
     this.#recording?.sync();
-    const saved = this.#python.save();
+    const saved = this.python.save();
     if (saved === undefined) return;
     // what waits for room in the storage is part of the saved state, and must not be computed again
     Object.assign(this.#record, { saved, size: this.#recording?.wholeSize ?? 0, savedT: now() });
@@ -154,20 +151,16 @@ export class Walk {
   }
 
   async #keep() {
-    try {
-      await store.put("walk", this.#record);
-    } catch (error) {
-      this.#say(storageWords(error, "This walk cannot be saved for a restart"));
-    }
+    await store.put("walk", this.#record).catch((error) => this.#say(storageWords(error, "This walk cannot be saved for a restart")));
   }
 
-  async #openRecording(name, began) {
-    try {
-      this.#recording = await openRecording(name, { began: new Date(1000 * began).toISOString(), began_t: 0 });
-    } catch (error) {
-      this.#recording = null;
+  async #openRecording() {
+    const { name, began } = this.#record;
+    const header = { began: new Date(1000 * began).toISOString(), began_t: 0 };
+    this.#recording = await openRecording(name, header).catch((error) => {
       this.#say(storageWords(error, "This walk is shown, but not recorded"));
-    }
+      return null;
+    });
   }
 
   #flush() {
@@ -176,24 +169,15 @@ export class Walk {
   }
 
   #say(words) {
-    if (words) this.#post({ words });
-  }
-
-  #tick() {
-    if (!this.running) return;
-    if (now() - this.#savedAt > SAVE_INTERVAL) this.save();
+    if (words) this.post({ words });
   }
 
   // t: time of the walk that goes on, s
   #announce(resumed = false, t = 0) {
     const { began, title, name } = this.#record ?? {};
-    this.#post({ walk: this.running ? { began, title, name, resumed, t } : null });
+    this.post({ walk: this.running ? { began, title, name, resumed, t } : null });
   }
 }
 
-// Date and time of day where the person is, in a form that sorts and that every file system has.
-function localTime(date) {
-  const two = (number) => String(number).padStart(2, "0");
-  const day = [date.getFullYear(), two(date.getMonth() + 1), two(date.getDate())];
-  return [...day, two(date.getHours()), two(date.getMinutes()), two(date.getSeconds())].join("-");
-}
+// Date and time of day where the person is, as Swedes write them: in a form that sorts and that every file system has.
+const localTime = (date) => date.toLocaleString("sv").replace(/[ :]/g, "-");

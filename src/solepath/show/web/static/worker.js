@@ -15,83 +15,79 @@ let covered = false;
 let sentAt = 0; // ms, of the newest message for the page
 let playedAt = performance.now();
 let calls = Promise.resolve();
-let draw = () => {};
 let drawing = 0; // timer
+let loaded = null; // {python, walk, files}
 
-const ready = (async () => {
+const ready = load();
+ready.catch(failed);
+
+async function load() {
   const python = await Python.load();
   const post = (message) => postMessage(message);
   const files = new Files(python, post);
   const walk = new Walk(python, files, post);
   await walk.resume();
-  draw = () => guarded(() => frame(python));
+  loaded = { python, walk, files };
   drawRegularly();
   const choices = { ...JSON.parse(python.choices()), recipe: files.used.recipe };
   postMessage({ ready: { filters: JSON.parse(python.sensor_filters()), choices } });
   await files.list();
-  return { python, walk, files };
-})();
-ready.catch(failed);
+}
 
 onmessage = async ({ data }) => {
-  const parts = await ready;
-  if (data.sensors) guarded(() => receive(parts, data.sensors));
-  else if (data.command) guarded(() => parts.python.command(data.command));
+  await ready;
+  if (data.sensors) guarded(() => receive(data.sensors));
+  else if (data.command) guarded(() => loaded.python.command(data.command));
   else if ("seen" in data) {
     ({ seen, covered } = data);
     drawRegularly();
-    if (!seen) calls = calls.then(() => parts.walk.save()).catch(failed);
-  } else if (data.call) calls = calls.then(() => answer(parts, data)).catch(failed);
+    if (!seen) calls = calls.then(() => loaded.walk.save()).catch(failed);
+  } else if (data.call) calls = calls.then(() => answer(data)).catch(failed);
 };
 
 // Takes messages on sensors, passes on what the page has to do with them, and draws at once: to wake up costs as much.
-function receive({ python, walk }, messages) {
-  const orders = walk.receive(messages);
+function receive(messages) {
+  const orders = loaded.walk.receive(messages);
   if (orders.length > 0) postMessage({ orders });
-  frame(python);
+  draw();
 }
 
-async function answer({ walk, files }, { call, values, id }) {
+async function answer({ call, values, id }) {
   try {
-    const target = call in FILE_CALLS ? files : walk;
-    const result = await target[call](...values);
-    postMessage({ answer: { id, result } });
+    const target = call in loaded.files ? loaded.files : loaded.walk;
+    postMessage({ answer: { id, result: await target[call](...values) } });
   } catch (error) {
-    if (isOfPython(error)) throw error;
+    // After an error that Python did not expect what it holds is not to be trusted; a browser's own refusals end nothing.
+    if (error.constructor.name === "PythonError" || error instanceof WebAssembly.RuntimeError) throw error;
     if (!(error instanceof Problem)) console.warn(error);
     postMessage({ answer: { id, problem: error.message } });
   }
 }
 
-// After an error that Python did not expect what it holds is not to be trusted; a browser's own refusals end nothing.
-const isOfPython = (error) => error.constructor.name === "PythonError" || error instanceof WebAssembly.RuntimeError;
-
-const FILE_CALLS = { demo: 1, open: 1, choose: 1, report: 1, get: 1, remove: 1 };
-
 // A page that nobody sees needs no pictures, and each look for changes wakes a phone's processor.
 function drawRegularly() {
   clearInterval(drawing);
-  if (seen) drawing = setInterval(() => draw(), FRAME_INTERVAL);
+  if (seen) drawing = setInterval(() => guarded(draw), FRAME_INTERVAL);
   else if (covered) drawing = setInterval(() => postMessage({ alive: true }), COVERED_INTERVAL);
 }
 
-function frame(python) {
+function draw() {
+  const { python } = loaded;
   const now = performance.now();
   const passed = (now - playedAt) / 1000;
   if (passed < MIN_FRAME_TIME) return;
   playedAt = now;
   if (!seen) return;
   python.play(passed, BUDGET);
-  const text = python.message();
-  if (text !== undefined) postMessage({ text });
-  else if (now - sentAt >= HEARTBEAT_INTERVAL) postMessage({ text: python.heartbeat() });
-  else return;
+  const text = python.message() ?? (now - sentAt >= HEARTBEAT_INTERVAL ? python.heartbeat() : undefined);
+  if (text === undefined) return;
+  postMessage({ text });
   sentAt = now;
 }
 
-function guarded(what) {
+function guarded(act) {
   try {
-    what();
+    act();
   } catch (error) {
     failed(error);
   }
