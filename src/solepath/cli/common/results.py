@@ -99,7 +99,7 @@ class Results:
                 write_bouts(results, self._file_replacements.temporary_path(self.out / BOUTS_FILE))
                 write_outcomes(results, self._file_replacements.temporary_path(self.out / OUTCOMES_FILE))
         self._file_replacements.move_to_targets()
-        return [] if self.outcomes is None or results is None else self.outcomes.lines(results)
+        return [] if results is None else results.lines()
 
     def write_and_print(self, seconds: float) -> None:
         """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""

@@ -6,19 +6,32 @@ from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
-from attrs import define, field
+from attrs import define, field, frozen
 
-from ...events import Event
+from ...events import Event, FootMoved, StrideTaken, WearerMoved
 from ...floorplan.plan import FloorPlan
 from ...types import Foot, Packet, Sample
 from ...walk.walk import Walk
 from .bands import Band
 from .clock import ReportClock
-from .figures.track import TimedPosition
-from .sections.heading import ReportDetails
 
 if TYPE_CHECKING:
     from ..outcomes.clinic import OutcomeRequest
+
+TimedPosition = FootMoved | StrideTaken | WearerMoved
+"""Event with the position of a foot or the wearer, world frame, m."""
+
+
+@frozen
+class ReportDetails:
+    """Texts that a person gives for the head of a report; all may be empty."""
+
+    title: str = ""
+    subject: str = ""
+    """Person, code or test."""
+    date: str = ""
+    """Date of the walk; one such as 2026-11-26 is shown in words."""
+    device: str = ""
 
 
 def _installed() -> str:
@@ -58,8 +71,7 @@ class ReportContent:
     @property
     def clock(self) -> ReportClock:
         """Clock from the first to the last sample, or from the first to the last event if there are no samples."""
-        start, end = self.walk.sample_span or self.walk.event_span or (0.0, 0.0)
-        return ReportClock(start, end)
+        return ReportClock(*(self.walk.sample_span or self.walk.event_span or (0.0, 0.0)))
 
     @property
     def foot_tracks(self) -> dict[Foot, list[TimedPosition]]:
