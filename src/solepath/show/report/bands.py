@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Iterable, Sequence
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,10 +19,6 @@ from .measures import SPECIFICATIONS
 if TYPE_CHECKING:
     from ..outcomes.references import Person
 
-MAX_SIZE = 100_000
-"""Largest size of a file of bands, bytes; chosen by hand."""
-MAX_END = 1e6
-"""Largest size of an end of a band, in the unit of its measure: far beyond all of them; chosen by hand."""
 COLUMNS = ["measure", "low", "high", "source"]
 
 
@@ -45,14 +41,10 @@ def read_bands(path: Path) -> dict[str, Band]:
     """Return the bands of a JSON or CSV file by the names of their measures.
 
     Raises BandError when the file is not as above, OSError when it cannot be read."""
-    with path.open("rb") as file:
-        content = file.read(MAX_SIZE + 1)
     try:
-        if len(content) > MAX_SIZE:
-            raise ValueError(f"it has more than {MAX_SIZE} bytes")
-        text = content.decode("utf-8-sig")
+        text = path.read_text(encoding="utf-8-sig")
         rows = _rows_of_csv(text) if path.suffix.lower() == ".csv" else _rows_of_json(text)
-        bands = {row[0]: _band(*row) for row in rows}
+        bands = {name: _band(name, low, high, source) for name, low, high, source in rows}
         if not bands:
             raise ValueError("it has no band")
     except (ValueError, RecursionError, csv.Error) as error:
@@ -73,7 +65,7 @@ def mean_bands(person: Person | None) -> dict[str, Band]:
     return {"speed_m_per_s": Band(reference.value, reference.value, source, is_mean=True)}
 
 
-def _rows_of_csv(text: str) -> Iterable[Sequence[Any]]:
+def _rows_of_csv(text: str) -> list[Any]:
     first, *rows = [[cell.strip() for cell in row] for row in csv.reader(text.splitlines()) if row] or [[]]
     if first != COLUMNS:
         raise ValueError(f"its first line is not {','.join(COLUMNS)}")
@@ -83,29 +75,23 @@ def _rows_of_csv(text: str) -> Iterable[Sequence[Any]]:
     return rows
 
 
-def _rows_of_json(text: str) -> Iterable[Sequence[Any]]:
+def _rows_of_json(text: str) -> list[Any]:
     match json.loads(text):
         case {"bands": dict(bands), **others}:
-            return [(name, *_ends(name, ends), others.get("source")) for name, ends in bands.items()]
+            return [(name, ends, None, others.get("source")) for name, ends in bands.items()]
     raise ValueError('it has no "bands"')
 
 
-def _ends(name: str, ends: object) -> tuple[float, float]:
-    match ends:
-        case [int() | float() as low, int() | float() as high]:
-            return low, high
-    raise ValueError(f"{name} is not [low, high]")
-
-
-def _band(name: str, low: str | float, high: str | float, source: object) -> Band:
+def _band(name: str, low: Any, high: Any, source: object) -> Band:
     if name not in SPECIFICATIONS:
         raise ValueError(f"{name!r} is no measure; they are {', '.join(SPECIFICATIONS)}")
     if not isinstance(source, str) or not source.strip():
         raise ValueError(f"the band of {name} has no source")
     try:
-        band = Band(float(low), float(high), source.strip())
-    except (ValueError, OverflowError):
-        raise ValueError(f"the ends of {name} are no numbers") from None
-    if not -MAX_END <= band.low < band.high <= MAX_END:
-        raise ValueError(f"the ends of {name} are not low, then high, or beyond {MAX_END:,.0f}")
+        first, last = low if high is None else (low, high)
+        band = Band(float(first), float(last), source.strip())
+    except (ValueError, TypeError, OverflowError):
+        raise ValueError(f"the ends of {name} are no numbers, low and high") from None
+    if not -inf < band.low < band.high < inf:
+        raise ValueError(f"the ends of {name} are not low, then high")
     return band

@@ -34,7 +34,7 @@ MARGIN_SHARE, MIN_MARGIN = 0.02, 0.5
 MAX_CANDIDATE_DOTS = 4000
 """Approximate limit of the number of candidates that are drawn."""
 
-PAPER_COLOUR, INK_COLOUR, SOFT_COLOUR, FLOOR_COLOUR, WALL_COLOUR = "#ffffff", "#1f2933", "#5f6b78", "#f4f6f8", "#323f4b"
+SOFT_COLOUR, FLOOR_COLOUR, WALL_COLOUR = "#5f6b78", "#f4f6f8", "#323f4b"
 DOOR_COLOUR, CANDIDATE_COLOUR = "#d9b382", "#6b7a8c"
 START_COLOUR, END_COLOUR = "#2e7d32", "#c62828"
 TRACK_COLOURS = ("#440154", "#3b528b", "#21918c", "#5ec962", "#f0b420")
@@ -44,6 +44,28 @@ CONNECTORS = {
     ConnectorKind.LIFT: ("#b8a9c9", "M-2.6 -0.8l2.6 -3l2.6 3M-2.6 0.8l2.6 3l2.6 -3"),
 }
 """Colour and sign of stairs and lifts."""
+
+
+PICTURE = (
+    "<svg id='solepath-plan' width='{}' height='{}' viewBox='0 0 {} {}' font-family='system-ui, sans-serif' "
+    "font-size='12'><title>{}</title><rect width='100%' height='100%' fill='white'/>"
+    "<text x='{}' y='30' font-size='17' font-weight='600'>{}</text></svg>"
+)
+TEXT, AREA = "<text x='{}' y='{}'>{}</text>", "<path d='{}' fill='{}'/>"
+END = (
+    "<g><circle cx='{}' cy='{}' r='6' fill='{}' stroke='white' stroke-width='2'/><text x='{}' y='{}' font-size='11' "
+    "font-weight='600' fill='{}' stroke='white' stroke-width='3' paint-order='stroke'>{}</text></g>"
+)
+MARK = (
+    "<g transform='translate({} {})' stroke-width='1.2'><title>{}</title><circle r='7' fill='{}' stroke='white'/>"
+    "<path d='{}' stroke='#1f2933' fill='none'/></g>"
+)
+"""Mark of stairs and lifts."""
+NORTH = (
+    "<g transform='translate({} {}) rotate({})'><path d='M0 12V-12m-5 7l5 -7l5 7' fill='none' stroke='#1f2933' "
+    "stroke-width='1.6'/><text y='-16' font-size='11' font-weight='600' text-anchor='middle'>N</text></g>"
+)
+"""Arrow to true north; the plan's +y, upwards in the picture, points `bearing` clockwise of north."""
 
 
 @define
@@ -84,25 +106,13 @@ class PlanPicture:
         width = 2.0 * MARGIN + columns * view.width + (columns - 1) * PANEL_GAP
         bottom = SPACE_ABOVE - (-count // columns) * (view.height + PANEL_GAP)
         height = bottom + (2.0 if width < NARROW_WIDTH else 1.0) * SPACE_BELOW
-        svg = add(
-            Element("figure"),
-            "svg",
-            id="solepath-plan",
-            xmlns="http://www.w3.org/2000/svg",
-            width=width,
-            height=height,
-            viewBox=(0.0, 0.0, width, height),
-            font_family="system-ui, sans-serif",
-            font_size=NAME_SIZE,
-        )
-        add(svg, "title", title)
-        add(svg, "rect", width="100%", height="100%", fill=PAPER_COLOUR)
-        add(svg, "text", title, x=MARGIN, y=30.0, font_size=17.0, font_weight="600")
+        svg = add(Element("figure"), PICTURE, width, height, width, height, title, MARGIN, title)
+        svg.set("xmlns", "http://www.w3.org/2000/svg")
         for k, level in enumerate(self.plan.levels):
             left = MARGIN + (k % columns) * (view.width + PANEL_GAP)
             top = SPACE_ABOVE + (k // columns) * (view.height + PANEL_GAP)
             name = f"level {level.id}" if level.name in ("", level.id) else f"{level.name} ({level.id})"
-            self._level(add(svg, "g"), level, evolve(view, left=left, top=top), f"{name}, {level.elevation:.1f} m")
+            self._level(add(svg, "<g/>"), level, evolve(view, left=left, top=top), f"{name}, {level.elevation:.1f} m")
         self._legend(svg, view.scale, width, bottom + 14.0)
         return svg
 
@@ -115,19 +125,33 @@ class PlanPicture:
         return View.fit(points or [(0.0, 0.0)], self.width, self.height, MARGIN_SHARE, MIN_MARGIN)
 
     def _level(self, panel: Element, level: Level, view: View, title: str) -> None:
-        add(panel, "text", title, x=view.left, y=view.top - 8.0, font_size=13.0, fill=SOFT_COLOUR)
-        floor = PAPER_COLOUR if level.rooms else FLOOR_COLOUR
-        add(panel, "rect", x=view.left, y=view.top, width=view.width, height=view.height, rx=6.0, fill=floor)
+        add(
+            panel,
+            "<text x='{}' y='{}' font-size='13' fill='{}'>{}</text>",
+            view.left,
+            view.top - 8.0,
+            SOFT_COLOUR,
+            title,
+        )
+        floor = "white" if level.rooms else FLOOR_COLOUR
+        box = "<rect x='{}' y='{}' width='{}' height='{}' rx='6' fill='{}'/>"
+        add(panel, box, view.left, view.top, view.width, view.height, floor)
         for room in level.rooms:
-            add(panel, "path", d=line(map(view.at, room), "z"), fill=FLOOR_COLOUR)
+            add(panel, AREA, line(map(view.at, room), "z"), FLOOR_COLOUR)
         for connector in self.plan.connectors:
             for stop in connector.stops:
                 if stop.level == level.id:
                     _connector(panel, connector, stop, view)
         pen = min(max(0.14 * view.scale, 1.0), 4.0)
         for lines, colour, width in ((level.doors, DOOR_COLOUR, 0.8 * pen), (level.walls, WALL_COLOUR, pen)):
-            d = [line(map(view.at, (one.start, one.end)), "") for one in lines]
-            add(panel, "path", d=d, stroke=colour, stroke_width=width, stroke_linecap="round", fill="none")
+            d = [part for one in lines for part in line(map(view.at, (one.start, one.end)), "")]
+            add(
+                panel,
+                "<path d='{}' stroke='{}' stroke-width='{}' stroke-linecap='round' fill='none'/>",
+                d,
+                colour,
+                width,
+            )
         self._candidates(panel, level.id, view)
         _room_names(panel, level, view)
         self._track(panel, level.id, view)
@@ -135,16 +159,16 @@ class PlanPicture:
     def _candidates(self, panel: Element, level: str, view: View) -> None:
         undecided = [place for place in self.places if len(place.candidates) > 1]
         interval = max(1, sum([len(place.candidates) for place in undecided]) // MAX_CANDIDATE_DOTS)
-        group = add(panel, "g", fill=CANDIDATE_COLOUR)
         for place in undecided[::interval]:
             for candidate in place.candidates:
                 if candidate.level == level:
-                    x, y = view.at(candidate.position[:2])
-                    add(group, "circle", cx=x, cy=y, r=2.2, fill_opacity=f"{0.06 + 0.5 * candidate.weight:.2f}")
+                    dot = "<circle cx='{}' cy='{}' r='2.2' fill='{}' fill-opacity='{}'/>"
+                    opacity = f"{0.06 + 0.5 * candidate.weight:.2f}"
+                    add(panel, dot, *view.at(candidate.position[:2]), CANDIDATE_COLOUR, opacity)
 
     def _track(self, panel: Element, level: str, view: View) -> None:
         """Draw a line through the places with one candidate only; other places have dots."""
-        lines = add(panel, "g", fill="none", stroke_width=2.6, stroke_linecap="round", stroke_linejoin="round")
+        lines = add(panel, "<g fill='none' stroke-width='2.6' stroke-linecap='round' stroke-linejoin='round'/>")
         piece: list[Placed] = []
         decided = [place for place in self.places if len(place.candidates) == 1]
         for k, place in enumerate([*self.places, None]):
@@ -154,8 +178,8 @@ class PlanPicture:
             if piece and (not is_shown or len(piece) > POINTS_PER_COLOUR):
                 colour = blend(TRACK_COLOURS, (k - 0.5 * len(piece)) / len(self.places))
                 if len(piece) > 1:
-                    points = [f"{x:.1f},{y:.1f}" for x, y in [view.at(one.position[:2]) for one in piece]]
-                    add(lines, "polyline", points=points, stroke=colour)
+                    points = [f"{x:.1f},{y:.1f} " for x, y in [view.at(one.position[:2]) for one in piece]]
+                    add(lines, "<polyline points='{}' stroke='{}'/>", points, colour)
                 piece = piece[-1:] if is_shown else []
         first = "start" if decided[:1] == self.places[:1] else "found"
         for place, colour, word in zip(
@@ -163,21 +187,19 @@ class PlanPicture:
         ):
             if place.level == level:
                 x, y = view.at(place.position[:2])
-                add(panel, "circle", cx=x, cy=y, r=6.0, fill=colour, stroke=PAPER_COLOUR, stroke_width=2.0)
-                halo = add(panel, "text", word, x=x + 9.0, y=y + 4.0, font_size=11.0, font_weight="600", fill=colour)
-                halo.attrib |= {"stroke": PAPER_COLOUR, "stroke-width": "3", "paint-order": "stroke"}
+                add(panel, END, x, y, colour, x + 9.0, y + 4.0, colour, word)
 
     def _legend(self, svg: Element, scale: float, width: float, top: float) -> None:
         """Draw the scale, the times, the meaning of the marks, and an arrow to north if the plan has an anchor."""
         metres = max([step for step, _ in STEPS if step * scale <= 120.0])
-        bar = ("M", MARGIN, top + 4.0, "v", 6.0, "h", metres * scale, "v", -6.0)
-        add(svg, "path", d=bar, fill="none", stroke=INK_COLOUR, stroke_width=1.5)
-        add(svg, "text", f"{metres:g} m", x=MARGIN, y=top + 28.0)
+        bar = "<path d='M{} {}v6h{}v-6' fill='none' stroke='#1f2933' stroke-width='1.5'/>"
+        add(svg, bar, MARGIN, top + 4.0, metres * scale)
+        add(svg, TEXT, MARGIN, top + 28.0, f"{metres:g} m")
         left = MARGIN + max(metres * scale, 60.0) + 40.0
         if self.places:
             colour_bar(svg, TRACK_COLOURS, left, top + 2.0, 120.0)
-            add(svg, "text", f"{self.places[0].t:.0f} s", x=left, y=top + 28.0)
-            add(svg, "text", f"{self.places[-1].t:.0f} s", x=left + 120.0, y=top + 28.0, text_anchor="end")
+            add(svg, TEXT, left, top + 28.0, f"{self.places[0].t:.0f} s")
+            add(svg, TEXT, left + 120.0, top + 28.0, f"{self.places[-1].t:.0f} s").set("text-anchor", "end")
             left += 160.0
         if width < NARROW_WIDTH:
             left, top = MARGIN + 5.0, top + 0.8 * SPACE_BELOW
@@ -185,11 +207,12 @@ class PlanPicture:
         marks = {"candidate": (CANDIDATE_COLOUR, "0.4")}
         marks |= {kind.value: (colour, "1") for kind, (colour, _) in CONNECTORS.items() if kind in kinds}
         for word, (colour, opacity) in marks.items():
-            add(svg, "circle", cx=left, cy=top + 6.0, r=5.0, fill=colour, fill_opacity=opacity)
-            add(svg, "text", word, x=left + 10.0, y=top + 10.0)
+            add(svg, "<circle cx='{}' cy='{}' r='5' fill='{}' fill-opacity='{}'/>", left, top + 6.0, colour, opacity)
+            add(svg, TEXT, left + 10.0, top + 10.0, word)
             left += 30.0 + 8.0 * len(word)
         if self.plan.anchor is not None:
-            _north(svg, width - MARGIN - 16.0, top + 12.0, self.plan.anchor.bearing)
+            bearing = f"{-degrees(self.plan.anchor.bearing):.1f}"
+            add(svg, NORTH, width - MARGIN - 16.0, top + 12.0, bearing)
 
 
 def _room_names(panel: Element, level: Level, view: View) -> None:
@@ -198,21 +221,10 @@ def _room_names(panel: Element, level: Level, view: View) -> None:
         xs, ys = zip(*map(view.at, ring), strict=True)
         if name and max(xs) - min(xs) > LETTER_WIDTH * (len(name) + 1) and max(ys) - min(ys) > 2.0 * NAME_SIZE:
             x, y = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys)) + 0.35 * NAME_SIZE
-            add(panel, "text", name, x=x, y=y, fill=SOFT_COLOUR, text_anchor="middle")
+            add(panel, TEXT, x, y, name).attrib |= {"text-anchor": "middle", "fill": SOFT_COLOUR}
 
 
 def _connector(panel: Element, connector: Connector, stop: ConnectorStop, view: View) -> None:
     colour, sign = CONNECTORS[connector.kind]
-    add(panel, "path", d=line(map(view.at, stop.outline), "z"), fill=colour, fill_opacity="0.55")
-    x, y = view.at(stop.place)
-    mark = add(panel, "g", transform=f"translate({x:.1f} {y:.1f})", stroke_width=1.2)
-    add(mark, "title", connector.name)
-    add(mark, "circle", r=7.0, fill=colour, stroke=PAPER_COLOUR)
-    add(mark, "path", d=sign, stroke=INK_COLOUR, fill="none")
-
-
-def _north(svg: Element, x: float, y: float, bearing: float) -> None:
-    """Draw an arrow to true north; the plan's +y, upwards in the picture, points `bearing` rad clockwise of north."""
-    arrow = add(svg, "g", transform=f"translate({x:.1f} {y:.1f}) rotate({-degrees(bearing):.1f})")
-    add(arrow, "path", d="M0 12V-12m-5 7l5 -7l5 7", fill="none", stroke=INK_COLOUR, stroke_width=1.6)
-    add(arrow, "text", "N", y=-16.0, font_size=11.0, font_weight="600", text_anchor="middle")
+    add(panel, AREA, line(map(view.at, stop.outline), "z"), colour).set("fill-opacity", "0.55")
+    add(panel, MARK, *view.at(stop.place), connector.name, colour, sign)

@@ -1,13 +1,14 @@
-"""Makes the elements of pictures and pages; text never becomes markup, since a tree is escaped when it is written.
+"""Makes the elements of pictures and pages; text never becomes markup.
 
 Places on a picture are px, x to the right and y downwards."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from html import escape
 from itertools import groupby
 from math import ceil, floor
-from xml.etree.ElementTree import Element, SubElement
+from xml.etree.ElementTree import Element, fromstring
 
 from attrs import frozen
 
@@ -19,24 +20,23 @@ STEPS = [(multiple * 10.0**power, max(-power, 0)) for power in range(-9, 18) for
 """Round numbers, 1, 2 or 5 times a power of ten, from the least on, each with its digits after the point."""
 
 Point = tuple[float, float]
-Attribute = str | float | Sequence[str | float]
-"""Value of an attribute: text, a number of px, or several of both with spaces between them, such as a path."""
+Value = str | float | Sequence[str]
+"""Value in a template: text, a number of px, or the parts of a path."""
 
 
-def add(parent: Element, tag: str, text: str = "", **attributes: Attribute) -> Element:
-    """Add a new last child to `parent` and return it.
+def add(parent: Element, template: str, *values: Value) -> Element:
+    """Add a new last child to `parent` and return it: an element of XML in which each "{}" stands for a value.
 
-    In names of attributes a trailing underscore is dropped, and other underscores become hyphens."""
-    values = {name.removesuffix("_").replace("_", "-"): _attribute(value) for name, value in attributes.items()}
-    element = SubElement(parent, tag, values)
-    element.text = printable(text, MAX_LENGTH)
+    Text is escaped and cut to MAX_LENGTH; numbers are written as px."""
+    element = fromstring(template.format(*map(_written, values)))
+    parent.append(element)
     return element
 
 
-def _attribute(value: Attribute) -> str:
+def _written(value: Value) -> str:
     if isinstance(value, str):
-        return printable(value, 10**6)
-    return px(value) if isinstance(value, int | float) else " ".join([_attribute(part) for part in value])
+        return escape(printable(value, MAX_LENGTH))
+    return px(value) if isinstance(value, int | float) else "".join(value)
 
 
 def px(value: float) -> str:
@@ -45,12 +45,17 @@ def px(value: float) -> str:
     return "0" if short == "-0" else short
 
 
-def line(points: Iterable[Point], end: str = "h0") -> str:
+def line(points: Iterable[Point], end: str = "h0") -> list[str]:
     """Return an SVG path through the points, px; a point that is drawn where the last one is is left out.
 
     The path of a single point is a dot, and that of none is empty. With the end "z" the path is closed."""
     places = [place for place, _ in groupby([f"{px(x)} {px(y)}" for x, y in points])]
-    return f"M{'L'.join(places)}{end}" if places else ""
+    return [f"M{'L'.join(places)}{end}"] if places else []
+
+
+def marks(points: Iterable[Point], shape: str) -> list[str]:
+    """Return an SVG path with the same shape at every point, px."""
+    return [f"M{px(x)} {px(y)}{shape}" for x, y in points]
 
 
 def ticks(low: float, high: float, most: int = 6, least: float = 0.0) -> dict[float, str]:
@@ -132,4 +137,5 @@ def colour_bar(parent: Element, colours: Sequence[str], left: float, top: float,
     """Draw a scale of colours, from left to right."""
     step = width / 30.0
     for k in range(30):
-        add(parent, "rect", x=left + step * k, y=top, width=step + 0.3, height=8.0, fill=blend(colours, k / 29.0))
+        bar = "<rect x='{}' y='{}' width='{}' height='8' fill='{}'/>"
+        add(parent, bar, left + step * k, top, step + 0.3, blend(colours, k / 29.0))

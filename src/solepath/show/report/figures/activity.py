@@ -30,10 +30,10 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
     grid(svg, x, AxisScale(0.0, 1.0, bottom, TOP), ticks(*clock.span), {})
     for k, (activity, found) in enumerate(rows.items()):
         top = TOP + ROW_HEIGHT * k
-        add(svg, "path", d=("M", LEFT, top + ROW_HEIGHT, "H", RIGHT), class_="grid")
+        add(svg, "<path d='M{} {}H{}' class='grid'/>", LEFT, top + ROW_HEIGHT, RIGHT)
         write(svg, LEFT - 6.0, top + 14.0, activity_words(activity), "tick", "end")
         for times in found:
             start, end = [x(clock.axis_value(t)) for t in times]
-            width, height = max(end - start, 0.6), ROW_HEIGHT - 8.0
-            add(svg, "rect", x=start, y=top + 4.0, width=width, height=height, class_="bar")
+            bar = "<rect x='{}' y='{}' width='{}' height='12' class='bar'/>"
+            add(svg, bar, start, top + 4.0, max(end - start, 0.6))
     write(svg, 0.5 * (LEFT + RIGHT), bottom + 35.0, clock.label, "label")

@@ -17,11 +17,10 @@ def minutes_figure(parent: Element, minutes: Sequence[float]) -> None:
     if not minutes:
         return
     what = f"Distances of the minutes in order: {', '.join([f'{distance:.1f} m' for distance in minutes])}."
-    ranges = (0.5, len(minutes) + 0.5), (0.0, (1.0 + MARGIN_SHARE) * max(*minutes, 1.0))
-    chart = Chart.of(parent, "minutes", "Distance of each minute", what, ranges, ("minute", "distance, m"))
+    x, y = (0.5, len(minutes) + 0.5), (0.0, (1.0 + MARGIN_SHARE) * max(*minutes, 1.0))
+    chart = Chart.of(parent, "minutes", "Distance of each minute", what, x, y, ("minute", "distance, m"))
     for minute, distance in enumerate(minutes, start=1):
         left, right, top = chart.x(minute - 0.5 * BAR_SHARE), chart.x(minute + 0.5 * BAR_SHARE), chart.y(distance)
-        add(
-            chart.svg, "path", d=("M", left, chart.y.start, "V", top, "H", right, "V", chart.y.start, "z"), class_="bar"
-        )
+        bar = "<rect x='{}' y='{}' width='{}' height='{}' class='bar'/>"
+        add(chart.svg, bar, left, top, right - left, chart.y.start - top)
         write(chart.svg, chart.x(minute), top + 12.0, f"{distance:.0f}", "onbar")

@@ -4,7 +4,7 @@ A contact is the time from heel-strike to toe-off."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from math import dist, fsum
 from statistics import median_high
 from xml.etree.ElementTree import Element
@@ -14,8 +14,8 @@ from attrs import evolve
 from ....types import Foot, Layout
 from ....walk.soles import STATIONS, SoleLoads
 from ...tables.svg import View, add, blend, colour_bar, line
-from ..markup import figure, table, whole_sentences
-from .axes import MARGIN_SHARE, Chart, write
+from ..markup import figure, paragraph, table, whole_sentences
+from .axes import MARGIN_SHARE, PATH, Chart, write
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
 """Colours from no load to the highest; a higher load is darker, also on a black-and-white printer."""
@@ -25,45 +25,42 @@ THIRDS = ("heel", "midfoot", "forefoot")
 PATHS = "Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single strides."
 STOOD = "No whole stride was walked: the loads are means over the whole recording."
 
-Loads = dict[Foot, list[float]]
+Loads = Mapping[Foot, Sequence[float]]
 """Load of each cell by foot."""
+Drawn = Mapping[Foot, tuple[SoleLoads, Layout]]
+"""Soles of which the places of the cells are known."""
 
 
 def pressure_figures(parent: Element, soles: Mapping[Foot, SoleLoads]) -> None:
     """Draw the maps and curves for which there is data."""
     pressed = {foot: soles[foot] for foot in Foot if foot in soles and soles[foot].samples}
     walked = {foot: sole for foot, sole in pressed.items() if sole.contacts}
-    drawn = {foot: sole for foot, sole in (walked or pressed).items() if sole.drawable_layout}
+    shown = walked or pressed
+    drawn = {foot: (sole, layout) for foot, sole in shown.items() if (layout := sole.drawable_layout) is not None}
 
-    def means(sums: str, counts: str = "contacts") -> Loads:
-        return {foot: [v / getattr(sole, counts) for v in getattr(sole, sums)] for foot, sole in drawn.items()}
+    def means(sums: str, count: str) -> Loads:
+        found = {foot: (getattr(sole, sums), getattr(sole, count)) for foot, (sole, _) in drawn.items()}
+        return {foot: [load / n for load in loads] for foot, (loads, n) in found.items()}
 
     if walked:
-        loads = means("mean_sums")
+        loads = means("mean_sums", "contacts")
         _map(parent, "mean", "Mean load of a contact", drawn, loads, paths=True)
-        _map(parent, "peak", "Peak load of a contact", drawn, means("peak_sums"))
+        _map(parent, "peak", "Peak load of a contact", drawn, means("peak_sums", "contacts"))
         _forces(parent, walked)
     else:
         loads = means("cell_sums", "samples")
         _map(parent, "standing", "Mean load of the whole recording", drawn, loads)
-        add(parent, "p", STOOD)
+        paragraph(parent, STOOD)
     _thirds(parent, drawn, loads)
-    unknown = [foot.value for foot in walked or pressed if foot not in drawn]
-    if unknown:
-        words = f"{' and '.join(unknown)} sole{'s' * (len(unknown) > 1)}"
-        add(parent, "p", f"Where the cells of the {words} lie is not known, so that no map can be drawn.")
     for foot in pressed:
-        if walked and foot not in walked:
-            add(parent, "p", f"No whole stride of the {foot} foot was measured with its pressure.")
+        if foot not in shown:
+            paragraph(parent, f"No whole stride of the {foot} foot was measured with its pressure.")
+        elif foot not in drawn:
+            paragraph(parent, f"Where the cells of the {foot} sole lie is not known, so that no map can be drawn.")
 
 
-def _unit(soles: Mapping[Foot, SoleLoads]) -> str:
-    return " and ".join(sorted({sole.unit for sole in soles.values()}))
-
-
-def _layout(sole: SoleLoads) -> Layout:
-    assert sole.layout is not None, "only soles with a layout are drawn"
-    return sole.layout
+def _unit(soles: Iterable[SoleLoads]) -> str:
+    return " and ".join(sorted({sole.unit for sole in soles}))
 
 
 def radius(layout: Layout) -> float:
@@ -73,73 +70,68 @@ def radius(layout: Layout) -> float:
     return min(max(0.55 * median_high(nearest), 0.002), 0.02)
 
 
-def _map(
-    parent: Element, name: str, title: str, soles: Mapping[Foot, SoleLoads], loads: Loads, *, paths: bool = False
-) -> None:
-    if not soles:
-        return
+def _map(parent: Element, name: str, title: str, drawn: Drawn, loads: Loads, *, paths: bool = False) -> None:
     texts = []
-    for foot, values in loads.items():
-        most, layout = max(values), _layout(soles[foot])
-        share = layout.cells[values.index(most)].x / max(layout.length, 1e-6)
-        load = f"{most:.3g} {soles[foot].unit} a cell"
-        texts.append(f"{foot}: highest {load}, at {100.0 * share:.0f} % of the length from the heel")
+    for foot, (sole, layout) in drawn.items():
+        most = max(loads[foot])
+        share = layout.cells[loads[foot].index(most)].x / max(layout.length, 1e-6)
+        place = f"at {100.0 * share:.0f} % of the length from the heel"
+        texts.append(f"{foot}: highest {most:.3g} {sole.unit} a cell, {place}")
+    if not texts:
+        return
     notes = [*whole_sentences(texts), *([PATHS] if paths else [])]
     svg = figure(parent, f"pressure-{name}", title, f"{'; '.join(texts)}.", 316.0, *notes)
     highest = max([max(values) for values in loads.values()])
-    for foot, sole in soles.items():
-        _sole(svg, foot, sole, [load / highest if highest > 0.0 else 0.0 for load in loads[foot]], paths=paths)
+    for foot, (sole, layout) in drawn.items():
+        r = radius(layout)
+        view = View.fit([(-cell.y, cell.x) for cell in layout.cells], SOLE_WIDTH, SOLE_HEIGHT, margin=r)
+        middle = 110.0 if foot is Foot.LEFT else 290.0
+        top = SOLE_TOP + 0.5 * (SOLE_HEIGHT - view.height)
+        view = evolve(view, left=middle - 0.5 * view.width, top=top)
+        write(svg, middle, 14.0, foot.value, "label")
+        for cell, load in zip(layout.cells, loads[foot], strict=True):
+            disc = "<circle cx='{}' cy='{}' r='{}' fill='{}' class='cells'/>"
+            add(svg, disc, *view.at((-cell.y, cell.x)), r * view.scale, blend(SHADES, load / (highest or 1.0)))
+        if paths:
+            _draw_paths(svg, sole, view)
     colour_bar(svg, SHADES, 50.0, 290.0, 180.0)
     write(svg, 44.0, 300.0, "0", "tick", "end")
-    write(svg, 238.0, 300.0, f"{highest:.3g} {_unit(soles)} a cell", "tick", "start")
+    unit = _unit([sole for sole, _ in drawn.values()])
+    write(svg, 238.0, 300.0, f"{highest:.3g} {unit} a cell", "tick", "start")
 
 
-def _sole(svg: Element, foot: Foot, sole: SoleLoads, shares: list[float], *, paths: bool) -> None:
-    """Draw a sole seen from above, with the toe up, and paths of the centre of pressure.
-
-    `shares` are the loads relative to the highest load."""
-    cells, r = _layout(sole).cells, radius(_layout(sole))
-    view = View.fit([(-cell.y, cell.x) for cell in cells], SOLE_WIDTH, SOLE_HEIGHT, margin=r)
-    middle = 110.0 if foot is Foot.LEFT else 290.0
-    top = SOLE_TOP + 0.5 * (SOLE_HEIGHT - view.height)
-    view = evolve(view, left=middle - 0.5 * view.width, top=top)
-    write(svg, middle, 14.0, foot.value, "label")
-    group = add(svg, "g", class_="cells")
-    for cell, share in zip(cells, shares, strict=True):
-        x, y = view.at((-cell.y, cell.x))
-        add(group, "circle", cx=x, cy=y, r=r * view.scale, fill=blend(SHADES, share))
-    if paths:
-        single, mean = [[line([view.at((-y, x)) for x, y in path], "") for path in found if len(path) > 1]
-                        for found in (sole.paths, [sole.mean_path])]  # fmt: skip
-        for d, kind in ((single, "single"), (mean, "under"), (mean, "centre")):
-            add(svg, "path", d=d, class_=kind)
-        for x, y in sole.mean_path[:1]:
-            a, b = view.at((-y, x))
-            add(svg, "circle", cx=a, cy=b, r=4.0, class_="path-start")
+def _draw_paths(svg: Element, sole: SoleLoads, view: View) -> None:
+    """Draw the paths of the centre of pressure."""
+    mean = [sole.mean_path]
+    for kind, found in (("single", sole.paths), ("under", mean), ("centre", mean)):
+        for path in found:
+            if len(path) > 1:
+                add(svg, PATH, line([view.at((-y, x)) for x, y in path], ""), kind)
+    for x, y in sole.mean_path[:1]:
+        add(svg, "<circle cx='{}' cy='{}' r='4' class='path-start'/>", *view.at((-y, x)))
 
 
 def _forces(parent: Element, soles: Mapping[Foot, SoleLoads]) -> None:
-    curves = {
-        foot: [(100.0 * k / (STATIONS - 1), force / sole.contacts) for k, force in enumerate(sole.force_sums)]
-        for foot, sole in soles.items()
-    }
-    highest = {foot: max([force for _, force in curve]) for foot, curve in curves.items()}
-    what = "; ".join([f"{foot}: at most {most:.0f} {soles[foot].unit}" for foot, most in highest.items()])
-    counts = ", ".join([f"{foot} {sole.contacts}" for foot, sole in soles.items()])
-    ranges = (0.0, 100.0), (0.0, (1.0 + MARGIN_SHARE) * max(*highest.values(), 1.0))
-    labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {_unit(soles)}")
-    notes = f"Contacts: {counts}."
-    Chart.of(parent, "force", "Mean force over a contact", f"{what}.", ranges, labels, notes).curves(curves)
+    curves, texts = {}, []
+    for foot, sole in soles.items():
+        forces = [force / sole.contacts for force in sole.force_sums]
+        curves[foot] = [(100.0 * k / (STATIONS - 1), force) for k, force in enumerate(forces)]
+        texts.append(f"{foot}: at most {max(forces):.0f} {sole.unit}")
+    highest = max([force for curve in curves.values() for _, force in curve])
+    y = 0.0, (1.0 + MARGIN_SHARE) * max(highest, 1.0)
+    labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {_unit(soles.values())}")
+    note = f"Contacts: {', '.join([f'{foot} {sole.contacts}' for foot, sole in soles.items()])}."
+    what = f"{'; '.join(texts)}."
+    Chart.of(parent, "force", "Mean force over a contact", what, (0.0, 100.0), y, labels, note).curves(curves)
 
 
-def _thirds(parent: Element, soles: Mapping[Foot, SoleLoads], loads: Loads) -> None:
+def _thirds(parent: Element, drawn: Drawn, loads: Loads) -> None:
     """Add a table of the shares of the load, %, on the three thirds of the insole's length."""
     rows = []
-    for foot, sole in soles.items():
-        layout, sums = _layout(sole), [0.0] * len(THIRDS)
+    for foot, (_, layout) in drawn.items():
+        sums = [0.0] * len(THIRDS)
         for cell, load in zip(layout.cells, loads[foot], strict=True):
             sums[min(max(int(3.0 * cell.x / layout.length), 0), 2)] += load
-        if (total := fsum(sums)) > 0.0:
-            rows.append([foot.value, *[f"{100.0 * part / total:.0f} %" for part in sums]])
+        rows.append([foot.value, *[f"{100.0 * part / (fsum(sums) or 1.0):.0f} %" for part in sums]])
     if rows:
         table(parent, "Mean load by thirds of the length", ("foot", *THIRDS), rows, "numbers thirds")

@@ -6,15 +6,15 @@ limits were chosen by hand and not swept."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, floor, radians, sin
+from math import cos, radians, sin
 from xml.etree.ElementTree import Element
 
 from attrs import evolve
 
-from ...tables.svg import STEPS, Point, View, add, line, ticks
+from ...tables.svg import Point, View, add, line, ticks
 from ..content import TimedPosition
 from ..markup import WIDTH, figure
-from .axes import write
+from .axes import PATH, square_ticks, write
 from .track import mark_end
 
 LEAST_RISE = 1.0
@@ -27,8 +27,8 @@ LEAST_HEIGHT_SHARE = 0.25
 """Height of the track on paper, as a share of the width of its floor, that the factor is to reach."""
 MAX_HEIGHT, MARGIN = 420.0, 26.0
 """Largest height of the drawing and its margin, px."""
-SQUARES, LEAST_EXTENT = 8.0, 2.0
-"""Number of squares that the longer side of the floor has not, and the least length of that side, m."""
+BORDER = 1.0
+"""Width of the floor around the track, m."""
 
 Space = tuple[float, float, float]
 
@@ -44,26 +44,22 @@ def space_figure(parent: Element, track: Sequence[TimedPosition]) -> None:
 
     `track` is the wearer's or, if that is not known, the track of a foot."""
     places = [event.position for event in track]
-    if len(places) < 2:
-        return
-    (x0, y0, low), (x1, y1, high) = [[end(values) for values in zip(*places, strict=True)] for end in (min, max)]
+    xs, ys, zs = zip(*places, strict=True) if places else ([0.0],) * 3
+    low, high = min(zs), max(zs)
     if high - low < LEAST_RISE:
         return
-    step = next(step for step, _ in STEPS if SQUARES * step > max(x1 - x0, y1 - y0, LEAST_EXTENT))
-    xs, ys = [
-        [k * step for k in range(floor(start / step), floor(end / step) + 2)] for start, end in ((x0, x1), (y0, y1))
-    ]
-    width = (xs[-1] - xs[0] + ys[-1] - ys[0]) * cos(SLANT)
+    (x0, x1), (y0, y1) = [(min(values) - BORDER, max(values) + BORDER) for values in (xs, ys)]
+    width = (x1 - x0 + y1 - y0) * cos(SLANT)
     larger = [k for k in EXAGGERATIONS if k * (high - low) >= LEAST_HEIGHT_SHARE * width]
-    exaggeration = larger[0] if larger else EXAGGERATIONS[-1]
+    exaggeration = [*larger, EXAGGERATIONS[-1]][0]
 
     def on_paper(place: Space) -> Point:
         across, down = project(place, exaggeration)
         return across, -down
 
-    rules = [((x, ys[0], low), (x, ys[-1], low)) for x in xs] + [((xs[0], y, low), (xs[-1], y, low)) for y in ys]
-    corner = xs[0], ys[0]
-    shown = [*places, *[end for rule in rules for end in rule], (*corner, high)]
+    across, up, step = square_ticks((x0, x1), (y0, y1))
+    rules = [((x, y0, low), (x, y1, low)) for x in across] + [((x0, y, low), (x1, y, low)) for y in up]
+    shown = [*places, *[end for rule in rules for end in rule], (x0, y0, high)]
     view = View.fit([on_paper(place) for place in shown], WIDTH - 2.0 * MARGIN, MAX_HEIGHT - 2.0 * MARGIN)
     view = evolve(view, left=0.5 * (WIDTH - view.width), top=MARGIN)
     notes = [f"A square of the floor is {step:g} m wide; the dashed line is the track on the floor."]
@@ -73,7 +69,7 @@ def space_figure(parent: Element, track: Sequence[TimedPosition]) -> None:
     svg = figure(parent, "space", "Track in space", what, view.height + 2.0 * MARGIN, *notes)
 
     def draw(path: Sequence[Space], kind: str) -> None:
-        add(svg, "path", d=line([view.at(on_paper(place)) for place in path]), class_=kind)
+        add(svg, PATH, line([view.at(on_paper(place)) for place in path]), kind)
 
     for rule in rules:
         draw(rule, "grid")
@@ -82,8 +78,8 @@ def space_figure(parent: Element, track: Sequence[TimedPosition]) -> None:
     for (x, y, z), word, offset in ((places[0], "start", -6.0), (places[-1], "end", 13.0)):
         draw([(x, y, z), (x, y, low)], "axis")
         mark_end(svg, view.at(on_paper((x, y, z))), word, offset, WIDTH)
-    draw([(*corner, low), (*corner, high)], "axis")
+    draw([(x0, y0, low), (x0, y0, high)], "axis")
     for z, words in ticks(low, high, 5).items():
-        a, b = view.at(on_paper((*corner, z)))
+        a, b = view.at(on_paper((x0, y0, z)))
         write(svg, a - 4.0, b + 4.0, words, "tick", "end")
     write(svg, 2.0, 12.0, "height, m", "label", "start")

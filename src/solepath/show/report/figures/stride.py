@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from operator import attrgetter
 from xml.etree.ElementTree import Element
 
 from ....events import GaitCycleMeasured
 from ....types import Foot
-from ...tables.svg import Point
+from ...tables.svg import Point, add, marks
 from ..clock import ReportClock
 from ..markup import notes
-from .axes import Chart, marks, padded_range
+from .axes import PATH, Chart, padded_range
 
 MAX_SINGLE_MARKS = 240
 """Number of strides of a foot above which the marks would hide one another."""
@@ -66,8 +67,7 @@ def _panel(parent: Element, title: str, unit: str, pairs: Mapping[Foot, Values],
     what = f"{title} of every stride over time: {len(values)} strides, {min(values):.2f} to {max(values):.2f} {unit}."
     labels = clock.label, f"{title.lower()}, {unit}"
     name = f"stride-{title.split()[-1].lower()}"
-    ranges = clock.span, padded_range(values, MIN_RANGE)
-    chart = Chart.of(parent, name, f"{title} over time", what, ranges, labels)
+    chart = Chart.of(parent, name, f"{title} over time", what, clock.span, padded_range(values, MIN_RANGE), labels)
     if any(map(is_dense, pairs.values())):
         chart.svg.set("class", "dense")
     for foot, foot_pairs in pairs.items():
@@ -77,11 +77,10 @@ def _panel(parent: Element, title: str, unit: str, pairs: Mapping[Foot, Values],
         chart.marks(points[True], foot)
         if is_dense(foot_pairs):
             chart.curve(group_means(points[True]), foot)
-    strides = [stride for foot_pairs in pairs.values() for stride, _ in foot_pairs]
-    ticked = {
-        "turn": ("v-7", chart.y.start, [one for one in strides if is_in_turn(one)]),
-        "missing": ("v5", chart.y.end, [one for one in strides if one.degraded]),
-    }
-    for kind, (shape, y, found) in ticked.items():
-        marks(chart.svg, [(chart.x(clock.axis_value(one.t)), y) for one in found], shape, kind)
+    for kind, shape, y, is_marked in (
+        ("turn", "v-7", chart.y.start, is_in_turn),
+        ("missing", "v5", chart.y.end, attrgetter("degraded")),
+    ):
+        found = [one.t for foot_pairs in pairs.values() for one, _ in foot_pairs if is_marked(one)]
+        add(chart.svg, PATH, marks([(chart.x(clock.axis_value(t)), y) for t in found], shape), kind)
     chart.legend(list(pairs))

@@ -7,7 +7,7 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from math import dist, fsum
+from math import dist, fsum, inf
 from xml.etree.ElementTree import Element
 
 from attrs import evolve
@@ -16,11 +16,11 @@ from ....events import Placed, PlaceLost
 from ....floorplan.plan import FloorPlan
 from ....types import Foot
 from ...tables.plan import PANEL_GAP, PlanPicture
-from ...tables.svg import Point, View, add, line, ticks
+from ...tables.svg import Point, View, add, line, marks, ticks
 from ..clock import ReportClock
 from ..content import TimedPosition
 from ..markup import WIDTH, caption, drawing
-from .axes import FOOT_MARKS, Chart, grid, marks, padded_range, write
+from .axes import FOOT_MARKS, PATH, Chart, grid, padded_range, square_ticks, write
 
 MAX_FOOTPRINTS = 160
 """Largest number of footprints, the positions of foot-flats, that are drawn; more would hide the track."""
@@ -61,19 +61,18 @@ def track_figure(
     if len(track) < 2:
         return False
     notes = ["x along the first heading; the numbers along the way are times."]
-    offset = _largest_offset(track, footprints)
+    prints = [event for events in footprints.values() for event in events]
+    offset = _largest_offset(track, prints) if len(prints) <= MAX_FOOTPRINTS else inf
     if offset > MAX_OFFSET:
-        notes.append(f"The tracks of the single feet come to lie up to {offset:.1f} m off it and are not shown.")
-    if offset > MAX_OFFSET or sum(map(len, footprints.values())) > MAX_FOOTPRINTS:
         footprints = {}
-    if footprints:
+    elif prints:
         notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
-    element = add(parent, "figure")
-    if wide:
-        _draw(element, f"{name}-wide", title, track, footprints, clock, WIDE_WIDTH, WIDE_HEIGHT).set("class", "wide")
-    narrow = _draw(element, name, title, track, footprints, clock, WIDTH, MAX_HEIGHT)
-    if wide:
-        narrow.set("class", "narrow")
+    if MAX_OFFSET < offset < inf:
+        notes.append(f"The tracks of the single feet come to lie up to {offset:.1f} m off it and are not shown.")
+    element = add(parent, "<figure/>")
+    for kind, width, height in [("wide", WIDE_WIDTH, WIDE_HEIGHT)] * wide + [("narrow", WIDTH, MAX_HEIGHT)]:
+        svg = _draw(element, f"{name}-{kind}", title, track, footprints, clock, width, height)
+        svg.set("class", kind if wide else "")
     caption(element, title, *notes)
     return True
 
@@ -99,13 +98,13 @@ def _draw(
     view = evolve(view, width=inner_width, height=max(view.height, MIN_HEIGHT), left=LEFT, top=TOP)
     svg = drawing(parent, name, title, what, view.height + TOP + BOTTOM, width)
     x, y = view.axes
-    across = ticks(x.low, x.high, 8)
-    step = (max(across) - min(across)) / max(len(across) - 1, 1)
-    grid(svg, x, y, across, ticks(y.low, y.high, 8, step))
+    across, up, _ = square_ticks((x.low, x.high), (y.low, y.high))
+    grid(svg, x, y, across, up)
     write(svg, 0.5 * (x.start + x.end), y.start + 33.0, "x and y, m", "label")
-    add(svg, "path", d=line(map(view.at, way)), class_="way")
+    add(svg, PATH, line(map(view.at, way)), "way")
     for foot, prints in footprints.items():
-        marks(svg, [view.at(event.position[:2]) for event in prints], FOOT_MARKS[foot], f"mark {foot}")
+        places = [view.at(event.position[:2]) for event in prints]
+        add(svg, PATH, marks(places, FOOT_MARKS[foot]), f"mark {foot}")
     _times(svg, track, view, clock)
     for point, word, offset in ((way[0], "start", -8.0), (way[-1], "end", 17.0)):
         mark_end(svg, view.at(point), word, offset, width)
@@ -115,18 +114,18 @@ def _draw(
 def mark_end(svg: Element, point: Point, word: str, offset: float, width: float) -> None:
     """Draw the start or the end of a track with its name."""
     x, y = point
-    add(svg, "circle", cx=x, cy=y, r=4.5, class_=word)
+    add(svg, "<circle cx='{}' cy='{}' r='4.5' class='{}'/>", x, y, word)
     at_edge = x > 0.85 * width
     write(svg, x + (-8.0 if at_edge else 8.0), y + offset, word, "halo strong", "end" if at_edge else "start")
 
 
-def _largest_offset(track: Sequence[TimedPosition], footprints: FootPositions) -> float:
+def _largest_offset(track: Sequence[TimedPosition], prints: Sequence[TimedPosition]) -> float:
     """Return the largest horizontal distance of a footprint from the wearer's position at that time, m."""
     times, offsets = [event.t for event in track], [0.0]
-    for footprint in [event for prints in footprints.values() for event in prints]:
-        k = bisect_left(times, footprint.t)
+    for one in prints:
+        k = bisect_left(times, one.t)
         near = track[max(k - 1, 0) : k + 1]
-        offsets.append(min([dist(footprint.position[:2], event.position[:2]) for event in near]))
+        offsets.append(min([dist(one.position[:2], event.position[:2]) for event in near]))
     return max(offsets)
 
 
@@ -138,7 +137,7 @@ def _times(svg: Element, track: Sequence[TimedPosition], view: View, clock: Repo
         x, y = view.at(nearest.position[:2])
         if all([abs(x - a) > 44.0 or abs(y - b) > 18.0 for a, b in labelled]):
             labelled.append((x, y))
-            add(svg, "circle", cx=x, cy=y, r=2.4, class_="time")
+            add(svg, "<circle cx='{}' cy='{}' r='2.4' class='time'/>", x, y)
             write(svg, x, y - 6.0, f"{words} {clock.unit}", "halo tick")
 
 
@@ -154,8 +153,8 @@ def height_figure(parent: Element, heights: FootPositions, clock: ReportClock) -
         return
     what = f"Height of the standing feet over time, {min(values):.2f} to {max(values):.2f} m from where they began."
     title, note = "Height of the feet over time", "Of the foot on the ground, against where it began."
-    ranges = clock.span, padded_range(values, 1.0)
-    Chart.of(parent, "height", title, what, ranges, (clock.label, "height, m"), note).curves(curves)
+    y, labels = padded_range(values, 1.0), (clock.label, "height, m")
+    Chart.of(parent, "height", title, what, clock.span, y, labels, note).curves(curves)
 
 
 def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | PlaceLost]) -> bool:
@@ -167,7 +166,7 @@ def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | Plac
         return False
     visited = {place.level for place in places}
     levels = tuple([level for level in plan.levels if level.id in visited]) or plan.levels
-    element = add(parent, "figure")
+    element = add(parent, "<figure/>")
     for kind, width, height, most in (("wide", WIDE_WIDTH, 440.0, 2), ("narrow", 380.0, 420.0, 1)):
         columns = min(most, max(len(levels), 1))
         level_width = (width - (columns - 1) * PANEL_GAP) / columns

@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 from ...outcomes.clinic import ClinicalResults
 from ...tables.svg import add
 from ..figures.minutes import minutes_figure
-from ..markup import notes, section, table
+from ..markup import notes, paragraph, section, table
 
 
 def clinical_sections(main: Element, results: ClinicalResults) -> None:
@@ -15,11 +15,11 @@ def clinical_sections(main: Element, results: ClinicalResults) -> None:
     for one in results.sections:
         parent = section(main, one.title.lower().replace(" ", "-"), one.title)
         for sentence in one.sentences:
-            add(parent, "p", sentence)
+            paragraph(parent, sentence)
         for shown in one.tables:
             if shown.rows:
                 # the figure has the distances of the minutes
                 rows = [row for row in shown.rows if "in minute" not in row[0]]
                 table(parent, shown.caption, shown.header, rows)
-        minutes_figure(add(parent, "div", class_="figures"), one.minutes)
+        minutes_figure(add(parent, "<div class='figures'/>"), one.minutes)
         notes(parent, one.notes)

@@ -11,7 +11,7 @@ from xml.etree.ElementTree import Element
 from ...tables.svg import add
 from ..content import ReportContent
 from ..figures.track import track_figure
-from ..markup import notes, section, table
+from ..markup import notes, paragraph, section, table
 from ..measures import SWING_DIFFERENCE, Measure
 from .facts import Facts, facts_of
 from .heading import moment_words
@@ -30,14 +30,14 @@ def comparison(parent: Element, before: ReportContent, after: ReportContent, fac
     earlier = facts_of(before)
     parent = section(parent, "comparison", "Compared with the walk before")
     moment = ", ".join([words for words in (before.source, *moment_words(before.when)) if words])
-    add(parent, "p", f"Before{f' ({moment})' if moment else ''}: {headline(earlier)}")
+    paragraph(parent, f"Before{f' ({moment})' if moment else ''}: {headline(earlier)}")
     rows = [_row(one, other) for one in earlier.all_measures for other in facts.all_measures if one.name == other.name]
     if rows:
         table(parent, "Before and after", HEADER, rows, "numbers comparison")
         notes(parent, [NOTE])
     else:
-        add(parent, "p", NO_COMMON)
-    figures = add(parent, "div", class_="figures")
+        paragraph(parent, NO_COMMON)
+    figures = add(parent, "<div class='figures'/>")
     for name, one in (("before", before), ("after", after)):
         names = {"name": f"track-{name}", "title": f"Track {name}"}
         track_figure(figures, one.track, one.foot_tracks, one.clock, wide=False, **names)

@@ -45,8 +45,7 @@ def title_of(details: ReportDetails, when: str, kind: str) -> str:
 
 def add_heading(main: Element, title: str, report: ReportContent) -> None:
     """Add the title, and a line of what is known of subject, date and device."""
-    header, details = add(main, "header"), report.details
-    add(header, "h1", title)
+    header, details = add(main, "<header><h1>{}</h1></header>", title), report.details
     moment = ", ".join([words for words in moment_words(report.when) if words])
     day = date_words(details.date) or moment or report.when
     shown_day = "" if title.endswith(day) else day
@@ -58,4 +57,4 @@ def add_heading(main: Element, title: str, report: ReportContent) -> None:
 def add_making(parent: Element, facts: list[tuple[str, str]]) -> None:
     """Add how the report was made, and what it is not."""
     terms(parent, facts, "facts")
-    add(parent, "p", CAUTION, class_="caution")
+    add(parent, "<p class='caution'>{}</p>", CAUTION)

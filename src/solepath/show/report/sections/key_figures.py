@@ -21,25 +21,22 @@ MARGIN_SHARE = 0.5
 MEAN_MARGIN = 0.3
 """Part of the scale on each side of a mean, as a share of the mean."""
 
+CARD = "<div class='card'><h3>{}</h3><p class='value'><span>{}</span><small>{}</small></p></div>"
+
 
 def key_figures(parent: Element, facts: Facts, bands: Mapping[str, Band]) -> None:
     """Add a card for each measure, and the sources of the bands."""
-    cards = add(parent, "div", class_="cards")
+    cards = add(parent, "<div class='cards'/>")
     sources: dict[str, list[str]] = {}
     for measure in facts.measures:
-        kind = measure.kind
-        card = add(cards, "div", class_="card")
-        add(card, "h3", kind.label)
-        value = add(card, "p", class_="value")
-        text, details = measure.text, [kind.detail]
+        kind, text = measure.kind, measure.text
+        details = [kind.detail]
         if measure.name == SWING_DIFFERENCE:
             text, details = text.lstrip("-"), [facts.difference_words]
         elif measure.spread is not None:
             details.append(f"\N{PLUS-MINUS SIGN} {measure.spread:.{kind.digits}f} stride to stride")
-        add(value, "span", text)
-        add(value, "small", kind.unit)
-        if any(details):
-            notes(card, ["; ".join(filter(None, details))])
+        card = add(cards, CARD, kind.label, text, kind.unit)
+        notes(card, filter(None, ["; ".join(filter(None, details))]))
         if (band := bands.get(measure.name)) is not None:
             _draw(card, measure, band)
             sources.setdefault(band.source, []).append(kind.label.lower())
@@ -64,9 +61,10 @@ def _draw(card: Element, measure: Measure, band: Band) -> None:
     title = f"{kind.label} against its reference"
     svg = drawing(card, f"band-{measure.name}", title, what, HEIGHT, WIDTH)
     start, end = x(band.low), x(band.high)
-    add(svg, "path", d=("M", x.start, "14H", x.end), class_="scale")
-    add(svg, "path", d=("M", start, "7v14") if band.is_mean else ("M", start, "14H", end), class_="band")
-    add(svg, "path", d=("M", x(size), "14m-6-12h12l-6 9z"), class_="pointer")
+    add(svg, "<path d='M{} 14H{}' class='scale'/>", x.start, x.end)
+    shape = "<path d='M{} 7v14' class='band'/>" if band.is_mean else "<path d='M{} 14H{}' class='band'/>"
+    add(svg, shape, start, end)
+    add(svg, "<path d='M{} 14m-6-12h12l-6 9z' class='pointer'/>", x(size))
     for value in ends:
         write(svg, x(value), 36.0, f"{value:g}", "tick")
     notes(card, [words])

@@ -12,7 +12,7 @@ from ..figures.pressure import pressure_figures
 from ..figures.space import space_figure
 from ..figures.stride import stride_figures
 from ..figures.track import height_figure, plan_figure, track_figure
-from ..markup import section, sentences, skeleton, table, whole_sentences
+from ..markup import paragraph, section, sentences, skeleton, table, whole_sentences
 from ..words import LINK_HEADER, faults, link_rows, overview, sensors
 from .comparison import comparison
 from .facts import Facts, facts_of
@@ -32,11 +32,11 @@ def page_of(report: ReportContent) -> Element:
     title = title_of(report.details, report.when, facts.kind)
     html, main = skeleton(title)
     add_heading(main, title, report)
-    add(main, "p", headline(facts), class_="headline")
+    add(main, "<p class='headline'>{}</p>", headline(facts))
     judged = judgements(facts)
     if words := warning(judged):
         stops = any([one.verdict is STOP for one in judged])
-        add(main, "p", words, class_="warning" if stops else "warning look")
+        add(main, "<p class='{}'>{}</p>", "warning" if stops else "warning look", words)
     if facts.measures:
         key_figures(section(main, "figures", "Figures"), facts, report.bands)
     if judged:
@@ -46,7 +46,7 @@ def page_of(report: ReportContent) -> Element:
     if walk.event_span is not None:
         _course(section(main, "course", "Course of the recording"), report)
     has_strides = any([cycles.count for cycles in walk.cycles.values()])
-    details = add(main, "div", class_="second-page" if has_strides and report.before is None else "")
+    details = add(main, "<div class='{}'/>", "second-page" if has_strides and report.before is None else "")
     if report.before is not None:
         comparison(details, report.before, report, facts)
     if report.outcomes is not None:
@@ -56,7 +56,7 @@ def page_of(report: ReportContent) -> Element:
     if has_strides:
         _gait(section(details, "gait", "Gait"), report, facts)
     if any([sole.samples for sole in walk.soles.values()]):
-        figures = add(section(details, "pressure", "Pressure"), "div", class_="figures thirds")
+        figures = add(section(details, "pressure", "Pressure"), "<div class='figures thirds'/>")
         pressure_figures(figures, walk.soles)
     if walk.links:
         _health(section(details, "health", "Sensors and links"), report)
@@ -69,21 +69,21 @@ def page_of(report: ReportContent) -> Element:
 
 def _ways(parent: Element, report: ReportContent) -> None:
     """Add plan or track over the whole width."""
-    figures = add(parent, "div", class_="ways")
+    figures = add(parent, "<div class='ways'/>")
     if report.plan is not None:
         if plan_figure(figures, report.plan, list(report.walk.placed)):
             return
-        add(figures, "p", NO_PLACE)
+        paragraph(figures, NO_PLACE)
     if not track_figure(figures, report.track, report.foot_tracks, report.clock):
-        add(figures, "p", NO_TRACK)
+        paragraph(figures, NO_TRACK)
 
 
 def _gait(parent: Element, report: ReportContent, facts: Facts) -> None:
     for means in facts.means:
         gait_table(parent, means)
     if not facts.means:
-        add(parent, "p", NO_STEADY)
-    figures = add(parent, "div", class_="figures")
+        paragraph(parent, NO_STEADY)
+    figures = add(parent, "<div class='figures'/>")
     for means in facts.means:
         cycle_figure(figures, means)
     stride_figures(figures, {foot: list(cycles) for foot, cycles in report.walk.cycles.items()}, report.clock)
@@ -92,7 +92,7 @@ def _gait(parent: Element, report: ReportContent, facts: Facts) -> None:
 def _course(parent: Element, report: ReportContent) -> None:
     """Add the course of the recording: its sentences, and the activities."""
     walk, clock = report.walk, report.clock
-    figures = add(parent, "div", class_="figures")
+    figures = add(parent, "<div class='figures'/>")
     sentences(figures, overview(walk, clock))
     activity_figure(figures, walk.timeline.spans(clock.end), clock)
     if walk.placed.count:
@@ -106,10 +106,10 @@ def _health(parent: Element, report: ReportContent) -> None:
     table(parent, "From each sensor", LINK_HEADER, link_rows(walk), "numbers links")
     found = {"Cannot be right": whole_sentences(walk.defects), "Missing or wrong": faults(walk)}
     if not any(found.values()):
-        add(parent, "p", "Nothing was wrong with the sensors and their links.")
+        paragraph(parent, "Nothing was wrong with the sensors and their links.")
     for title, texts in {**found, "Done without": whole_sentences(walk.limitations)}.items():
         if texts:
-            add(parent, "h3", title)
+            add(parent, "<h3>{}</h3>", title)
             sentences(parent, texts)
 
 

@@ -82,13 +82,10 @@ def warning(parts: Sequence[Judgement]) -> str:
 
 def quality_box(parent: Element, parts: Sequence[Judgement]) -> None:
     """Add a list of the parts, each with its verdict in a word of its own colour."""
-    box = add(parent, "dl", class_="quality")
+    box = add(parent, "<dl class='quality'/>")
+    row = "<div><dt><span>{}</span><strong class='verdict {}'>{}</strong></dt><dd>{}</dd></div>"
     for part in parts:
-        row = add(box, "div")
-        name = add(row, "dt")
-        add(name, "span", part.part)
-        add(name, "strong", part.verdict.value, class_=f"verdict {part.verdict.name.lower()}")
-        add(row, "dd", part.words)
+        add(box, row, part.part, part.verdict.name.lower(), part.verdict.value, part.words)
 
 
 def _strides(facts: Facts) -> Found:
