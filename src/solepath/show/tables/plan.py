@@ -6,11 +6,13 @@ are drawn as dots; the smaller the weight, the fainter the dot. Sizes were chose
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import pairwise
 from math import degrees
 from pathlib import Path
+from typing import TypeGuard
 from xml.etree.ElementTree import Element, ElementTree, indent
 
-from attrs import define, evolve, field
+from attrs import define, evolve
 
 from ...events import Placed, PlaceLost
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level
@@ -25,8 +27,6 @@ MARGIN, PANEL_GAP, SPACE_ABOVE, SPACE_BELOW = 24.0, 36.0, 64.0, 64.0
 """Margin of the picture, gap between panels, space above the panels and below them, px."""
 NARROW_WIDTH = 640.0
 """Width of the picture below which the legend has two lines, px."""
-POINTS_PER_COLOUR = 12
-"""Number of strides of the track that share a colour."""
 NAME_SIZE, LETTER_WIDTH = 12.0, 7.5
 """Size of the letters of a room's name, and the largest mean width of a letter that is expected, px."""
 MARGIN_SHARE, MIN_MARGIN = 0.02, 0.5
@@ -80,16 +80,11 @@ class PlanPicture:
     width: float = MAX_LEVEL_WIDTH
     height: float = MAX_LEVEL_HEIGHT
     columns: int | None = None
-    places: list[Placed] = field(factory=list, init=False)
-    breaks: set[int] = field(factory=set, init=False)
-    """Indices of the places that follow a loss of the place (PlaceLost)."""
 
-    def __attrs_post_init__(self) -> None:
-        for event in self.events:
-            if isinstance(event, Placed):
-                self.places.append(event)
-            else:
-                self.breaks.add(len(self.places))
+    @property
+    def places(self) -> list[Placed]:
+        """Places of the session in their order."""
+        return [event for event in self.events if isinstance(event, Placed)]
 
     def write(self, path: Path, title: str) -> None:
         """Write the picture to a file, UTF-8; raise OSError, naming the file, when it cannot be written."""
@@ -102,7 +97,7 @@ class PlanPicture:
         """Return the picture as an <svg> element."""
         view = self._view()
         count = max(len(self.plan.levels), 1)
-        columns = self.columns or (count if count <= 3 else 3 if count > 4 else 2)
+        columns = self.columns or min(count, 3)
         width = 2.0 * MARGIN + columns * view.width + (columns - 1) * PANEL_GAP
         bottom = SPACE_ABOVE - (-count // columns) * (view.height + PANEL_GAP)
         height = bottom + (2.0 if width < NARROW_WIDTH else 1.0) * SPACE_BELOW
@@ -168,23 +163,16 @@ class PlanPicture:
 
     def _track(self, panel: Element, level: str, view: View) -> None:
         """Draw a line through the places with one candidate only; other places have dots."""
-        lines = add(panel, "<g fill='none' stroke-width='2.6' stroke-linecap='round' stroke-linejoin='round'/>")
-        piece: list[Placed] = []
-        decided = [place for place in self.places if len(place.candidates) == 1]
-        for k, place in enumerate([*self.places, None]):
-            is_shown = place in decided and place.level == level and k not in self.breaks
-            if place is not None and is_shown:
-                piece.append(place)
-            if piece and (not is_shown or len(piece) > POINTS_PER_COLOUR):
-                colour = blend(TRACK_COLOURS, (k - 0.5 * len(piece)) / len(self.places))
-                if len(piece) > 1:
-                    points = [f"{x:.1f},{y:.1f} " for x, y in [view.at(one.position[:2]) for one in piece]]
-                    add(lines, "<polyline points='{}' stroke='{}'/>", points, colour)
-                piece = piece[-1:] if is_shown else []
+        lines = add(panel, "<g stroke-width='2.6' stroke-linecap='round'/>")
+        for k, (before, after) in enumerate(pairwise(self.events)):
+            if _is_decided(before) and _is_decided(after) and before.level == after.level == level:
+                ends = *view.at(before.position[:2]), *view.at(after.position[:2])
+                colour = blend(TRACK_COLOURS, k / len(self.places))
+                add(lines, "<polyline points='{},{} {},{}' stroke='{}'/>", *ends, colour)
+        decided = [place for place in self.places if _is_decided(place)]
         first = "start" if decided[:1] == self.places[:1] else "found"
-        for place, colour, word in zip(
-            decided[:1] + decided[-1:], (START_COLOUR, END_COLOUR), (first, "end"), strict=False
-        ):
+        marked = [(decided[0], START_COLOUR, first), (decided[-1], END_COLOUR, "end")] if decided else []
+        for place, colour, word in marked:
             if place.level == level:
                 x, y = view.at(place.position[:2])
                 add(panel, END, x, y, colour, x + 9.0, y + 4.0, colour, word)
@@ -213,6 +201,10 @@ class PlanPicture:
         if self.plan.anchor is not None:
             bearing = f"{-degrees(self.plan.anchor.bearing):.1f}"
             add(svg, NORTH, width - MARGIN - 16.0, top + 12.0, bearing)
+
+
+def _is_decided(event: Placed | PlaceLost) -> TypeGuard[Placed]:
+    return isinstance(event, Placed) and len(event.candidates) == 1
 
 
 def _room_names(panel: Element, level: Level, view: View) -> None:

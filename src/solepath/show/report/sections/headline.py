@@ -6,12 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ....types import Activity
 from ...tables.summary import NO_DATA
 from ...tables.table import counted, duration_text, number, times
 from ...tables.words import directions
 from ..markup import whole_sentences
 from ..walk_summary import STEP_TIME, STRIDE_LENGTH, SWING_TIME, FootDifference
-from .facts import Bout, Facts
+from .facts import Facts
 
 MIN_BOUT_SHARE = 0.1
 """Least duration of a run or a walk that is mentioned, as a share of that of the other; chosen by hand."""
@@ -21,30 +22,32 @@ CLOCK_DIFFERENCE = "check the sensors' clocks, for the swings do not differ"
 
 def headline(facts: Facts) -> str:
     """Return one sentence that says how the walk was."""
-    walk = facts.recording
+    walk, bouts = facts.report.walk, facts.bouts
     if walk.event_span is None:
         return whole_sentences([NO_DATA])[0]
-    ways = [(bout, verb) for bout, verb in ((facts.walk, "walked"), (facts.run, "ran")) if bout is not None]
-    longest = max([bout.duration for bout, _ in ways], default=0.0)
-    clauses = [_way(bout, verb) for bout, verb in ways if bout.duration >= MIN_BOUT_SHARE * longest]
+    longest = max([bout.duration for bout in bouts.values()], default=0.0)
+    clauses = [_way(facts, is_run) for is_run in bouts if bouts[is_run].duration >= MIN_BOUT_SHARE * longest]
     if flights := [f"{way} {count}" for way, count in directions(walk.flights)]:
         several = "s" * (walk.flights.total() > 1)
         clauses.append(f"went {' and '.join(flights)} flight{several} of stairs")
     if rides := [f"{way} {times(count)}" for way, count in directions(walk.elevator_rides)]:
         clauses.append(f"rode a lift {' and '.join(rides)}")
     if not clauses:
-        return f"{'Stood' if facts.stood else 'Recorded'} for {duration_text(facts.duration)}; no stride was taken."
-    if ways and len(walk.known_feet) == 1:
+        stood = Activity.STANDING in walk.timeline.durations(facts.report.clock.end)
+        return f"{'Stood' if stood else 'Recorded'} for {duration_text(facts.duration)}; no stride was taken."
+    if bouts and len(walk.known_feet) == 1:
         clauses[-1] += f", measured at the {walk.known_feet[0]} foot alone"
     return whole_sentences(["; ".join([*clauses, *difference_clauses(facts.differences)])])[0]
 
 
-def _way(bout: Bout, verb: str) -> str:
+def _way(facts: Facts, is_run: bool) -> str:
     """Return a walk or a run as a clause, such as "walked 36 m in 31 s, in steady strides at 1.13 m/s"."""
-    text = f"{verb} for {duration_text(bout.duration)}"
+    bout, text = facts.bouts[is_run], "ran" if is_run else "walked"
     if bout.distance is not None:
-        text = f"{verb} {number(bout.distance, 0 if bout.distance >= 9.95 else 1)} m in {duration_text(bout.duration)}"
-    pace = [one for one in bout.measures if one.kind.label in ("Speed", "Cadence")]
+        text += f" {number(bout.distance, 0 if bout.distance >= 9.95 else 1)} m"
+    text += f" {'for' if bout.distance is None else 'in'} {duration_text(bout.duration)}"
+    known = [one for one in facts.all_measures if one.is_of_run is is_run]
+    pace = [one for one in known if one.kind.label in ("Speed", "Cadence")]
     if pace:
         words = [f"{one.text} {one.kind.unit.replace('steps/min', 'steps a minute')}" for one in pace]
         return f"{text}, in steady strides {'with' if len(pace) == 1 else 'at'} {' and '.join(words)}"

@@ -86,7 +86,7 @@ def _gait(parent: Element, report: ReportContent, facts: Facts) -> None:
     figures = add(parent, "<div class='figures'/>")
     for means in facts.means:
         cycle_figure(figures, means)
-    stride_figures(figures, {foot: list(cycles) for foot, cycles in report.walk.cycles.items()}, report.clock)
+    stride_figures(figures, [one for cycles in report.walk.cycles.values() for one in cycles], report.clock)
 
 
 def _course(parent: Element, report: ReportContent) -> None:

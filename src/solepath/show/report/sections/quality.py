@@ -49,7 +49,7 @@ class Judgement:
 
 def judgements(facts: Facts) -> list[Judgement]:
     """Return the judgement of each part that there is anything to say about."""
-    if not facts.recording.known_feet:
+    if not facts.report.walk.known_feet:
         return []
     found = {
         "strides": _strides(facts),
@@ -89,7 +89,7 @@ def quality_box(parent: Element, parts: Sequence[Judgement]) -> None:
 
 
 def _strides(facts: Facts) -> Found:
-    found = sum([cycles.count for cycles in facts.recording.cycles.values()])  # whole numbers
+    found = sum([cycles.count for cycles in facts.report.walk.cycles.values()])  # whole numbers
     used = sum([strides_of(means, foot) or 0 for means in facts.means for foot in Foot])  # whole numbers
     words = f"{used} of {counted(found, 'stride')} are steady and count."
     if not found:
@@ -101,14 +101,14 @@ def _strides(facts: Facts) -> Found:
 
 def _samples(facts: Facts) -> Found:
     missing, worst = [], 0.0
-    for foot in facts.recording.known_feet:
-        link = facts.recording.links.get(SITE_OF_FOOT[foot])
+    for foot in facts.report.walk.known_feet:
+        link = facts.report.walk.links.get(SITE_OF_FOOT[foot])
         if link is not None and link.gaps:
             share = link.gap_time / facts.duration if facts.duration > 0.0 else 0.0
             worst = max(worst, share)
             shown = f"{100.0 * share:.1f} %" if share >= 0.0005 else "less than 0.1 %"
             missing.append(f"{foot} {number(link.gap_time)} s ({shown}) in {counted(link.gaps, 'gap')}")
-    silences = facts.recording.silences.total()
+    silences = facts.report.walk.silences.total()
     if silences:
         missing.append(f"a foot was silent {times(silences)} while the other walked on")
     verdict = STOP if worst > MAX_GAP_SHARE else LOOK if silences or worst > GOOD_GAP_SHARE else GOOD
@@ -117,7 +117,7 @@ def _samples(facts: Facts) -> Found:
 
 
 def _clocks(facts: Facts) -> Found | None:
-    walk, concern = facts.recording, "the clocks of the feet"
+    walk, concern = facts.report.walk, "the clocks of the feet"
     for (_, defect), event in walk.found_defects.items():
         if defect is Defect.CLOCKS:
             return LOOK, whole_sentences([f"{event.site.words}: {event.what}"])[0], concern
@@ -131,7 +131,7 @@ def _clocks(facts: Facts) -> Found | None:
 
 
 def _plausibility(facts: Facts) -> Found:
-    found = [one for (_, defect), one in facts.recording.found_defects.items() if defect is not Defect.CLOCKS]
+    found = [one for (_, defect), one in facts.report.walk.found_defects.items() if defect is not Defect.CLOCKS]
     if not found:
         return GOOD, "Nothing contradicts itself or physics.", ""
     sentences = whole_sentences([f"{one.site.words}: {one.defect.value}" for one in found])
@@ -142,11 +142,11 @@ def _plausibility(facts: Facts) -> Found:
 
 
 def _wear(facts: Facts) -> Found | None:
-    lines = facts.recording.wear_problems
+    lines = facts.report.walk.wear_problems
     return (LOOK, " ".join(whole_sentences(lines)), "how the sensors are worn") if lines else None
 
 
 def _calibration(facts: Facts) -> Found:
-    if facts.calibrated:
+    if facts.report.calibrated:
         return GOOD, "One of this wearer, these shoes or sensors was used.", ""
     return NOTE, "No calibration was given: the sensors' own scale is used.", ""
