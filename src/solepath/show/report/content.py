@@ -10,7 +10,7 @@ from attrs import define, field, frozen
 
 from ...events import Event, FootMoved, StrideTaken, WearerMoved
 from ...floorplan.plan import FloorPlan
-from ...types import Foot, Packet, Sample
+from ...types import Packet, Sample
 from ...walk.walk import Walk
 from .bands import Band
 from .clock import ReportClock
@@ -74,11 +74,11 @@ class ReportContent:
         return ReportClock(*(self.walk.sample_span or self.walk.event_span or (0.0, 0.0)))
 
     @property
-    def foot_tracks(self) -> dict[Foot, list[TimedPosition]]:
-        """Ends of the strides of each foot that took any."""
-        return {foot: list(strides) for foot, strides in self.walk.strides.items() if len(strides)}
+    def footprints(self) -> Sequence[StrideTaken]:
+        """Strides of both feet, whose positions are those of the foot-flats at their ends."""
+        return [stride for strides in self.walk.strides.values() for stride in strides]
 
     @property
     def track(self) -> Sequence[TimedPosition]:
         """Track of the wearer or, if it is not known, that of the foot with the most strides."""
-        return list(self.walk.wearer_track) or max(self.foot_tracks.values(), key=len, default=[])
+        return list(self.walk.wearer_track) or max(map(list, self.walk.strides.values()), key=len)

@@ -20,6 +20,8 @@ STEPS = [(multiple * 10.0**power, max(-power, 0)) for power in range(-9, 18) for
 """Round numbers, 1, 2 or 5 times a power of ten, from the least on, each with its digits after the point."""
 
 Point = tuple[float, float]
+Ticks = dict[float, str]
+"""Values on an axis with their labels."""
 Value = str | float | Sequence[str]
 """Value in a template: text, a number of px, or the parts of a path."""
 
@@ -58,7 +60,7 @@ def marks(points: Iterable[Point], shape: str) -> list[str]:
     return [f"M{px(x)} {px(y)}{shape}" for x, y in points]
 
 
-def ticks(low: float, high: float, most: int = 6, least: float = 0.0) -> dict[float, str]:
+def ticks(low: float, high: float, most: int = 6, least: float = 0.0) -> Ticks:
     """Return evenly spaced round values within [low, high], at most `most`, with their labels; none may be round.
 
     They are at least `least` apart."""

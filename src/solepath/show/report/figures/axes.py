@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 from attrs import define
 
 from ....types import Foot
-from ...tables.svg import AxisScale, Point, add, line, marks, ticks
+from ...tables.svg import AxisScale, Point, Ticks, add, line, marks, ticks
 from ..markup import WIDTH, figure
 
 LEFT, RIGHT, TOP, BOTTOM = 46.0, 12.0, 26.0, 40.0
@@ -29,7 +29,7 @@ def padded_range(values: Sequence[float], least: float) -> Point:
     return 0.5 * (low + high) - half, 0.5 * (low + high) + half
 
 
-def square_ticks(x: Point, y: Point) -> tuple[dict[float, str], dict[float, str], float]:
+def square_ticks(x: Point, y: Point) -> tuple[Ticks, Ticks, float]:
     """Return ticks with the same spacing within the ranges of two axes of one scale, and that spacing."""
     across = ticks(*x, 8)
     step = (max(across) - min(across)) / (len(across) - 1)
@@ -41,7 +41,7 @@ def write(parent: Element, x: float, y: float, words: str, kind: str, anchor: st
     add(parent, "<text x='{}' y='{}' class='{}' text-anchor='{}'>{}</text>", x, y, kind, anchor, words)
 
 
-def grid(svg: Element, x: AxisScale, y: AxisScale, across: Mapping[float, str], up: Mapping[float, str]) -> None:
+def grid(svg: Element, x: AxisScale, y: AxisScale, across: Ticks, up: Ticks) -> None:
     """Draw a grid at the values `across` of x and `up` of y, with their labels beside the axes."""
     for value, words in across.items():
         add(svg, "<path d='M{} {}V{}' class='grid'/>", x(value), y.end, y.start)

@@ -44,42 +44,36 @@ def space_figure(parent: Element, track: Sequence[TimedPosition]) -> None:
 
     `track` is the wearer's or, if that is not known, the track of a foot."""
     places = [event.position for event in track]
-    xs, ys, zs = zip(*places, strict=True) if places else ([0.0],) * 3
-    low, high = min(zs), max(zs)
+    if not places:
+        return
+    (x0, y0, low), (x1, y1, high) = [[end(values) for values in zip(*places, strict=True)] for end in (min, max)]
     if high - low < LEAST_RISE:
         return
-    (x0, x1), (y0, y1) = [(min(values) - BORDER, max(values) + BORDER) for values in (xs, ys)]
-    width = (x1 - x0 + y1 - y0) * cos(SLANT)
-    larger = [k for k in EXAGGERATIONS if k * (high - low) >= LEAST_HEIGHT_SHARE * width]
-    exaggeration = [*larger, EXAGGERATIONS[-1]][0]
+    x0, y0, x1, y1 = x0 - BORDER, y0 - BORDER, x1 + BORDER, y1 + BORDER
+    least = LEAST_HEIGHT_SHARE * (x1 - x0 + y1 - y0) * cos(SLANT) / (high - low)
+    exaggeration = min([k for k in EXAGGERATIONS if k >= least], default=EXAGGERATIONS[-1])
+    across, up, step = square_ticks((x0, x1), (y0, y1))
+    lines = [("grid", [(x, y0, low), (x, y1, low)]) for x in across]
+    lines += [("grid", [(x0, y, low), (x1, y, low)]) for y in up]
+    lines += [("flight", [(x, y, low) for x, y, _ in places]), ("way", places)]
+    lines += [("axis", [(x, y, z), (x, y, low)]) for x, y, z in (places[0], places[-1], (x0, y0, high))]
 
     def on_paper(place: Space) -> Point:
-        across, down = project(place, exaggeration)
-        return across, -down
+        right, down = project(place, exaggeration)
+        return right, -down
 
-    across, up, step = square_ticks((x0, x1), (y0, y1))
-    rules = [((x, y0, low), (x, y1, low)) for x in across] + [((x0, y, low), (x1, y, low)) for y in up]
-    shown = [*places, *[end for rule in rules for end in rule], (x0, y0, high)]
-    view = View.fit([on_paper(place) for place in shown], WIDTH - 2.0 * MARGIN, MAX_HEIGHT - 2.0 * MARGIN)
+    shown = [on_paper(place) for _, path in lines for place in path]
+    view = View.fit(shown, WIDTH - 2.0 * MARGIN, MAX_HEIGHT - 2.0 * MARGIN)
     view = evolve(view, left=0.5 * (WIDTH - view.width), top=MARGIN)
     notes = [f"A square of the floor is {step:g} m wide; the dashed line is the track on the floor."]
-    if exaggeration > 1.0:
-        notes.append(f"Heights are drawn {exaggeration:g} times as large.")
+    notes += [f"Heights are drawn {exaggeration:g} times as large."] if exaggeration > 1.0 else []
     what = f"The track in space, with heights from {low:.1f} to {high:.1f} m."
     svg = figure(parent, "space", "Track in space", what, view.height + 2.0 * MARGIN, *notes)
-
-    def draw(path: Sequence[Space], kind: str) -> None:
+    for kind, path in lines:
         add(svg, PATH, line([view.at(on_paper(place)) for place in path]), kind)
-
-    for rule in rules:
-        draw(rule, "grid")
-    draw([(x, y, low) for x, y, _ in places], "flight")
-    draw(places, "way")
-    for (x, y, z), word, offset in ((places[0], "start", -6.0), (places[-1], "end", 13.0)):
-        draw([(x, y, z), (x, y, low)], "axis")
-        mark_end(svg, view.at(on_paper((x, y, z))), word, offset, WIDTH)
-    draw([(x0, y0, low), (x0, y0, high)], "axis")
+    mark_end(svg, view.at(on_paper(places[0])), "start", -6.0)
+    mark_end(svg, view.at(on_paper(places[-1])), "end", 13.0)
     for z, words in ticks(low, high, 5).items():
-        a, b = view.at(on_paper((x0, y0, z)))
-        write(svg, a - 4.0, b + 4.0, words, "tick", "end")
+        x, y = view.at(on_paper((x0, y0, z)))
+        write(svg, x - 4.0, y + 4.0, words, "tick", "end")
     write(svg, 2.0, 12.0, "height, m", "label", "start")

@@ -5,20 +5,17 @@ Sizes and limits were chosen by hand and not swept."""
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from math import dist, fsum, inf
 from xml.etree.ElementTree import Element
 
 from attrs import evolve
 
-from ....events import Placed, PlaceLost
-from ....floorplan.plan import FloorPlan
-from ....types import Foot
+from ....events import Placed, StrideTaken
 from ...tables.plan import PANEL_GAP, PlanPicture
 from ...tables.svg import Point, View, add, line, marks, ticks
-from ..clock import ReportClock
-from ..content import TimedPosition
+from ..content import ReportContent, TimedPosition
 from ..markup import WIDTH, caption, drawing
 from .axes import FOOT_MARKS, PATH, Chart, grid, padded_range, square_ticks, write
 
@@ -41,37 +38,27 @@ MIN_HEIGHT = 118.0
 TOP, LEFT, RIGHT, BOTTOM = 16.0, 40.0, 8.0, 38.0
 """Margins of the drawing of a track, px."""
 
-FootPositions = Mapping[Foot, Sequence[TimedPosition]]
-
 
 def track_figure(
-    parent: Element,
-    track: Sequence[TimedPosition],
-    footprints: FootPositions,
-    clock: ReportClock,
-    *,
-    wide: bool = True,
-    name: str = "track",
-    title: str = "Track from above",
+    parent: Element, report: ReportContent, *, wide: bool = True, name: str = "track", title: str = "Track from above"
 ) -> bool:
     """Draw the track from above, x to the right and y up; return False when there is none.
 
-    `track` is the wearer's or, if that is not known, the track of a foot. A `wide` figure also holds a drawing for wide
-    screens and for paper."""
+    A `wide` figure also holds a drawing for wide screens and for paper."""
+    track, prints = report.track, report.footprints
     if len(track) < 2:
         return False
     notes = ["x along the first heading; the numbers along the way are times."]
-    prints = [event for events in footprints.values() for event in events]
     offset = _largest_offset(track, prints) if len(prints) <= MAX_FOOTPRINTS else inf
     if offset > MAX_OFFSET:
-        footprints = {}
-    elif prints:
+        prints = []
+    if prints:
         notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
     if MAX_OFFSET < offset < inf:
         notes.append(f"The tracks of the single feet come to lie up to {offset:.1f} m off it and are not shown.")
     element = add(parent, "<figure/>")
     for kind, width, height in [("wide", WIDE_WIDTH, WIDE_HEIGHT)] * wide + [("narrow", WIDTH, MAX_HEIGHT)]:
-        svg = _draw(element, f"{name}-{kind}", title, track, footprints, clock, width, height)
+        svg = _draw(element, f"{name}-{kind}", title, report, prints, width, height)
         svg.set("class", kind if wide else "")
     caption(element, title, *notes)
     return True
@@ -81,15 +68,14 @@ def _draw(
     parent: Element,
     name: str,
     title: str,
-    track: Sequence[TimedPosition],
-    footprints: FootPositions,
-    clock: ReportClock,
+    report: ReportContent,
+    prints: Sequence[StrideTaken],
     width: float,
     max_height: float,
 ) -> Element:
-    """Add a drawing of a track, `width` px wide."""
-    way = [event.position[:2] for event in track]
-    points = way + [event.position[:2] for prints in footprints.values() for event in prints]
+    """Add a drawing of the track, `width` px wide."""
+    way = [event.position[:2] for event in report.track]
+    points = way + [event.position[:2] for event in prints]
     across, up = [max(values) - min(values) for values in zip(*points, strict=True)]
     length = fsum([dist(a, b) for a, b in pairwise(way)])
     what = f"The track from above, {across:.1f} m by {up:.1f} m, {length:.0f} m long as drawn."
@@ -98,20 +84,18 @@ def _draw(
     view = evolve(view, width=inner_width, height=max(view.height, MIN_HEIGHT), left=LEFT, top=TOP)
     svg = drawing(parent, name, title, what, view.height + TOP + BOTTOM, width)
     x, y = view.axes
-    across, up, _ = square_ticks((x.low, x.high), (y.low, y.high))
-    grid(svg, x, y, across, up)
+    grid(svg, x, y, *square_ticks((x.low, x.high), (y.low, y.high))[:2])
     write(svg, 0.5 * (x.start + x.end), y.start + 33.0, "x and y, m", "label")
     add(svg, PATH, line(map(view.at, way)), "way")
-    for foot, prints in footprints.items():
-        places = [view.at(event.position[:2]) for event in prints]
-        add(svg, PATH, marks(places, FOOT_MARKS[foot]), f"mark {foot}")
-    _times(svg, track, view, clock)
-    for point, word, offset in ((way[0], "start", -8.0), (way[-1], "end", 17.0)):
-        mark_end(svg, view.at(point), word, offset, width)
+    for one in prints:
+        add(svg, PATH, marks([view.at(one.position[:2])], FOOT_MARKS[one.foot]), f"mark {one.foot}")
+    _times(svg, report, view)
+    mark_end(svg, view.at(way[0]), "start", -8.0, width)
+    mark_end(svg, view.at(way[-1]), "end", 17.0, width)
     return svg
 
 
-def mark_end(svg: Element, point: Point, word: str, offset: float, width: float) -> None:
+def mark_end(svg: Element, point: Point, word: str, offset: float, width: float = WIDTH) -> None:
     """Draw the start or the end of a track with its name."""
     x, y = point
     add(svg, "<circle cx='{}' cy='{}' r='4.5' class='{}'/>", x, y, word)
@@ -119,7 +103,7 @@ def mark_end(svg: Element, point: Point, word: str, offset: float, width: float)
     write(svg, x + (-8.0 if at_edge else 8.0), y + offset, word, "halo strong", "end" if at_edge else "start")
 
 
-def _largest_offset(track: Sequence[TimedPosition], prints: Sequence[TimedPosition]) -> float:
+def _largest_offset(track: Sequence[TimedPosition], prints: Sequence[StrideTaken]) -> float:
     """Return the largest horizontal distance of a footprint from the wearer's position at that time, m."""
     times, offsets = [event.t for event in track], [0.0]
     for one in prints:
@@ -129,25 +113,25 @@ def _largest_offset(track: Sequence[TimedPosition], prints: Sequence[TimedPositi
     return max(offsets)
 
 
-def _times(svg: Element, track: Sequence[TimedPosition], view: View, clock: ReportClock) -> None:
+def _times(svg: Element, report: ReportContent, view: View) -> None:
     """Write up to seven times along the track, without those that would overlap."""
     labelled: list[Point] = []
-    for value, words in ticks(clock.axis_value(track[0].t), clock.axis_value(track[-1].t), 7).items():
-        nearest = min(track, key=lambda event: abs(clock.axis_value(event.t) - value))
-        x, y = view.at(nearest.position[:2])
+    times = [(report.clock.axis_value(event.t), event.position[:2]) for event in report.track]
+    for value, words in ticks(times[0][0], times[-1][0], 7).items():
+        _, nearest = min(times, key=lambda one: abs(one[0] - value))
+        x, y = view.at(nearest)
         if all([abs(x - a) > 44.0 or abs(y - b) > 18.0 for a, b in labelled]):
             labelled.append((x, y))
             add(svg, "<circle cx='{}' cy='{}' r='2.4' class='time'/>", x, y)
-            write(svg, x, y - 6.0, f"{words} {clock.unit}", "halo tick")
+            write(svg, x, y - 6.0, f"{words} {report.clock.unit}", "halo tick")
 
 
-def height_figure(parent: Element, heights: FootPositions, clock: ReportClock) -> None:
+def height_figure(parent: Element, report: ReportContent) -> None:
     """Draw the height of each stationary foot over time, m; nothing when it is level."""
-    curves = {
-        foot: [(clock.axis_value(event.t), event.position[2]) for event in events]
-        for foot, events in heights.items()
-        if len(events) > 1
-    }
+    clock, curves = report.clock, {}
+    for foot, events in report.walk.standing.items():
+        if len(events):
+            curves[foot] = [(clock.axis_value(event.t), event.position[2]) for event in events]
     values = [z for curve in curves.values() for _, z in curve]
     if not values or max(values) - min(values) < MIN_RISE:
         return
@@ -157,20 +141,20 @@ def height_figure(parent: Element, heights: FootPositions, clock: ReportClock) -
     Chart.of(parent, "height", title, what, clock.span, y, labels, note).curves(curves)
 
 
-def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | PlaceLost]) -> bool:
-    """Draw the track on the floor plan, as `solepath track` does; return False when there is no place.
+def plan_figure(parent: Element, report: ReportContent) -> bool:
+    """Draw the track on the floor plan, as `solepath track` does; return False when there is no plan or no place.
 
     Only the levels where the wearer was are shown."""
-    places = [event for event in events if isinstance(event, Placed)]
-    if not places:
+    places, plan = [event for event in report.walk.placed if isinstance(event, Placed)], report.plan
+    if plan is None or not places:
         return False
     visited = {place.level for place in places}
     levels = tuple([level for level in plan.levels if level.id in visited]) or plan.levels
     element = add(parent, "<figure/>")
-    for kind, width, height, most in (("wide", WIDE_WIDTH, 440.0, 2), ("narrow", 380.0, 420.0, 1)):
+    for kind, width, most in (("wide", WIDE_WIDTH, 2), ("narrow", 380.0, 1)):
         columns = min(most, max(len(levels), 1))
         level_width = (width - (columns - 1) * PANEL_GAP) / columns
-        picture = PlanPicture(evolve(plan, levels=levels), events, level_width, height, columns)
+        picture = PlanPicture(evolve(plan, levels=levels), report.walk.placed, level_width, 440.0, columns)
         svg = picture.drawn(plan.name or "Floor plan")
         del svg.attrib["xmlns"]
         svg.attrib |= {"class": f"plan {kind}", "role": "img", "id": f"solepath-plan-{kind}"}

@@ -39,8 +39,7 @@ def comparison(parent: Element, before: ReportContent, after: ReportContent, fac
         paragraph(parent, NO_COMMON)
     figures = add(parent, "<div class='figures'/>")
     for name, one in (("before", before), ("after", after)):
-        names = {"name": f"track-{name}", "title": f"Track {name}"}
-        track_figure(figures, one.track, one.foot_tracks, one.clock, wide=False, **names)
+        track_figure(figures, one, wide=False, name=f"track-{name}", title=f"Track {name}")
 
 
 def _row(before: Measure, after: Measure) -> list[str]:

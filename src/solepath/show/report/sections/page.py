@@ -70,11 +70,11 @@ def page_of(report: ReportContent) -> Element:
 def _ways(parent: Element, report: ReportContent) -> None:
     """Add plan or track over the whole width."""
     figures = add(parent, "<div class='ways'/>")
+    if plan_figure(figures, report):
+        return
     if report.plan is not None:
-        if plan_figure(figures, report.plan, list(report.walk.placed)):
-            return
         paragraph(figures, NO_PLACE)
-    if not track_figure(figures, report.track, report.foot_tracks, report.clock):
+    if not track_figure(figures, report):
         paragraph(figures, NO_TRACK)
 
 
@@ -96,9 +96,9 @@ def _course(parent: Element, report: ReportContent) -> None:
     sentences(figures, overview(walk, clock))
     activity_figure(figures, walk.timeline.spans(clock.end), clock)
     if walk.placed.count:
-        track_figure(figures, report.track, report.foot_tracks, clock, wide=False)
+        track_figure(figures, report, wide=False)
     space_figure(figures, report.track)
-    height_figure(figures, {foot: list(positions) for foot, positions in walk.standing.items()}, clock)
+    height_figure(figures, report)
 
 
 def _health(parent: Element, report: ReportContent) -> None:
