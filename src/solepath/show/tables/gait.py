@@ -108,6 +108,19 @@ def strides_of(parameters: GaitParameters, foot: Foot) -> int | None:
     return None if time is None else time.strides
 
 
+def gait_cells(parameters: GaitParameters, separator: str) -> list[list[str]]:
+    """Return the rows of the table of both feet, with a separator before the standard deviation."""
+    columns = [parameters.feet.get(foot, StrideFigures()) for foot in Foot]
+    columns.append(parameters.both if len(parameters.feet) == len(Foot) else StrideFigures())
+    times = [column.stride_time for column in columns]
+    cadences = [None if time is None else 120.0 / time.mean for time in times]
+    return [
+        ["strides", *[number(strides_of(parameters, foot), 0) for foot in Foot], "-", "-", "-"],
+        ["cadence, steps/min", *[number(cadence, 1) for cadence in cadences], "-", "-"],
+        *[[f"{row.label}, {row.unit}", *row.cells(separator)] for row in gait_rows(parameters)],
+    ]
+
+
 def gait_lines(means: GaitMeans) -> list[str]:
     """Return the lines of a table for walking and one for running, each with a blank line after it.
 
@@ -115,13 +128,8 @@ def gait_lines(means: GaitMeans) -> list[str]:
     lines: list[str] = []
     for parameters in filter(None, [means.of(False), means.of(True)]):
         what = "running" if parameters.running else "walking"
-        header = [f"{what}, steady strides", "left", "right", "both +- SD", "CV %", "asymmetry"]
-        rows = [
-            ["strides", *[number(strides_of(parameters, foot), 0) for foot in Foot], "-", "-", "-"],
-            ["cadence steps/min", "-", "-", number(parameters.cadence, 1), "-", "-"],
-        ]
-        rows += [[f"{row.label} {row.unit}", *row.cells(" +-")] for row in gait_rows(parameters)]
-        lines.append(table(header, rows))
+        rows = [[name.replace(",", ""), *cells] for name, *cells in gait_cells(parameters, " +-")]
+        lines.append(table([f"{what}, steady strides", "left", "right", "both +- SD", "CV %", "asymmetry"], rows))
         if parameters.coordination is not None:
             lines.append(f"phase coordination index {percent(parameters.coordination)} %")
         lines.append("")

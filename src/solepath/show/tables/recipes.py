@@ -8,12 +8,11 @@ from statistics import fmean
 
 from attrs import define
 
-from ...body.gait.means import StrideFigures
 from ...recording import printable
 from ...types import Foot
 from ...walk.walk import FootCounts, Walk
-from .gait import PARAMETERS
-from .table import number, percent, table
+from .gait import gait_rows
+from .table import number, table
 
 
 @define
@@ -40,13 +39,11 @@ class RecipeRun:
         cells["from start to end m"] = number(None if x is None or y is None else hypot(x, y))
         cells["end above start m"] = "-" if z is None else f"{z:z.2f}"
         # means of walking, or of running where nobody walked
-        gait = walk.gait.of(False) or walk.gait.of(True)
-        both = StrideFigures() if gait is None else gait.both
-        cells["cadence steps/min"] = number(None if gait is None else gait.cadence, 1)
-        for name, label, unit, digits, scale in PARAMETERS:
-            figure = getattr(both, name)
-            cells[f"{label} {unit}"] = number(figure and scale * figure.mean, digits)
-        cells["stance %"] = percent(both.share("stance_time"))
+        if (gait := walk.gait.of(False) or walk.gait.of(True)) is not None:
+            cells["cadence steps/min"] = number(gait.cadence, 1)
+            for row in gait_rows(gait):
+                means = [one for one in (row.both, row.left, row.right) if one is not None]
+                cells[f"{row.label} {row.unit}"] = number(means[0], row.digits)
         for foot, counts in feet.items():
             cells[f"degraded strides, {foot} foot"] = str(counts.degraded) if foot in walk.known_feet else "-"
         cells["defects of the data"] = str(len(walk.defects))
@@ -61,7 +58,8 @@ def recipe_lines(title: str, runs: Sequence[RecipeRun]) -> list[str]:
     duration = max([run.walk.covered_time.total for run in runs])
     header = [f"{title}: {duration:.1f} s", *[run.recipe for run in runs]]
     columns = [run.cells() for run in runs]
-    rows = [[name, *[column[name] for column in columns]] for name in columns[0]]
+    names = dict.fromkeys([name for column in columns for name in column])
+    rows = [[name, *[column.get(name, "-") for column in columns]] for name in names]
     lines = table(header, [row for row in rows if set(row[1:]) != {"-"}]).splitlines()
     for run in runs:
         lines += [f"{run.recipe}: DEFECT, {printable(what)}" for what in run.walk.defects]

@@ -55,11 +55,6 @@ def line(points: Iterable[Point], end: str = "h0") -> list[str]:
     return [f"M{'L'.join(places)}{end}"] if places else []
 
 
-def marks(points: Iterable[Point], shape: str) -> list[str]:
-    """Return an SVG path with the same shape at every point, px."""
-    return [f"M{px(x)} {px(y)}{shape}" for x, y in points]
-
-
 def ticks(low: float, high: float, most: int = 6, least: float = 0.0) -> Ticks:
     """Return evenly spaced round values within [low, high], at most `most`, with their labels; none may be round.
 

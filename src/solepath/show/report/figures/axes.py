@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from xml.etree.ElementTree import Element
 
 from attrs import define
 
 from ....types import Foot
-from ...tables.svg import AxisScale, Point, Ticks, add, line, marks, ticks
+from ...tables.svg import AxisScale, Point, Ticks, add, line, ticks
 from ..markup import WIDTH, figure
 
 LEFT, RIGHT, TOP, BOTTOM = 46.0, 12.0, 26.0, 40.0
@@ -19,7 +19,7 @@ MARGIN_SHARE = 0.06
 """Margin at each end of an axis, as a share of its range."""
 FOOT_MARKS = {Foot.LEFT: "h0", Foot.RIGHT: "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"}
 """SVG shapes of the marks of the left foot, a disc, and of the right one, a cross."""
-PATH = "<path d='{}' class='{}'/>"
+PATH, MARK = "<path d='{}' class='{}'/>", "<path d='M{} {}{}' class='{} {}'/>"
 
 
 def padded_range(values: Sequence[float], least: float) -> Point:
@@ -74,21 +74,12 @@ class Chart:
     def curves(self, curves: Mapping[Foot, Sequence[Point]]) -> None:
         """Draw a line through the points of each foot, in values of the axes, and the legend."""
         for foot, points in curves.items():
-            self.curve(points, foot)
+            add(self.svg, PATH, line([(self.x(x), self.y(y)) for x, y in points]), f"line {foot}")
         self.legend(list(curves), "m-20 0h20", "line")
-
-    def curve(self, points: Iterable[Point], foot: Foot) -> None:
-        """Draw a line through points, in values of the axes, in the colour of a foot."""
-        add(self.svg, PATH, line([(self.x(x), self.y(y)) for x, y in points]), f"line {foot}")
-
-    def marks(self, points: Iterable[Point], foot: Foot, kind: str = "mark") -> None:
-        """Draw the mark of a foot at every point, in values of the axes."""
-        places = [(self.x(x), self.y(y)) for x, y in points]
-        add(self.svg, PATH, marks(places, FOOT_MARKS[foot]), f"{kind} {foot}")
 
     def legend(self, feet: Sequence[Foot], shape: str = "", kind: str = "mark") -> None:
         """Draw the mark of each foot, or another shape, above the chart, at its right end."""
         for k, foot in enumerate(reversed(feet)):
             x = 390.0 - 66.0 * k
             write(self.svg, x, 12.0, foot.value, "tick", "end")
-            add(self.svg, PATH, marks([(x - 36.0, 8.0)], shape or FOOT_MARKS[foot]), f"{kind} {foot}")
+            add(self.svg, MARK, x - 36.0, 8.0, shape or FOOT_MARKS[foot], kind, foot.value)

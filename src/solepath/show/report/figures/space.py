@@ -51,7 +51,7 @@ def space_figure(parent: Element, track: Sequence[TimedPosition]) -> None:
         return
     x0, y0, x1, y1 = x0 - BORDER, y0 - BORDER, x1 + BORDER, y1 + BORDER
     least = LEAST_HEIGHT_SHARE * (x1 - x0 + y1 - y0) * cos(SLANT) / (high - low)
-    exaggeration = min([k for k in EXAGGERATIONS if k >= least], default=EXAGGERATIONS[-1])
+    exaggeration = next((k for k in EXAGGERATIONS if k >= least), 10.0)
     across, up, step = square_ticks((x0, x1), (y0, y1))
     lines = [("grid", [(x, y0, low), (x, y1, low)]) for x in across]
     lines += [("grid", [(x0, y, low), (x1, y, low)]) for y in up]

@@ -10,7 +10,7 @@ from ....types import Foot
 from ...tables.svg import add
 from ..clock import ReportClock
 from ..markup import notes
-from .axes import Chart, padded_range
+from .axes import FOOT_MARKS, MARK, Chart, padded_range
 
 MAX_SINGLE_MARKS = 480
 """Number of strides above which the marks would hide one another, so that they are thin."""
@@ -50,7 +50,8 @@ def _panel(
     chart.svg.set("class", "dense" if len(pairs) > MAX_SINGLE_MARKS else "")
     for stride, value in pairs:
         t = clock.axis_value(stride.t)
-        chart.marks([(t, value)], stride.foot, "mark" if stride.steady else "faint mark")
+        kind = "mark" if stride.steady else "faint mark"
+        add(chart.svg, MARK, chart.x(t), chart.y(value), FOOT_MARKS[stride.foot], kind, stride.foot.value)
         if is_in_turn(stride):
             add(chart.svg, "<path d='M{} {}v-7' class='turn'/>", chart.x(t), chart.y.start)
         if stride.degraded:

@@ -14,10 +14,10 @@ from attrs import evolve
 
 from ....events import Placed, StrideTaken
 from ...tables.plan import PANEL_GAP, PlanPicture
-from ...tables.svg import Point, View, add, line, marks, ticks
+from ...tables.svg import Point, View, add, line, ticks
 from ..content import ReportContent, TimedPosition
 from ..markup import WIDTH, caption, drawing
-from .axes import FOOT_MARKS, PATH, Chart, grid, padded_range, square_ticks, write
+from .axes import FOOT_MARKS, MARK, PATH, Chart, grid, padded_range, square_ticks, write
 
 MAX_FOOTPRINTS = 160
 """Largest number of footprints, the positions of foot-flats, that are drawn; more would hide the track."""
@@ -88,7 +88,7 @@ def _draw(
     write(svg, 0.5 * (x.start + x.end), y.start + 33.0, "x and y, m", "label")
     add(svg, PATH, line(map(view.at, way)), "way")
     for one in prints:
-        add(svg, PATH, marks([view.at(one.position[:2])], FOOT_MARKS[one.foot]), f"mark {one.foot}")
+        add(svg, MARK, *view.at(one.position[:2]), FOOT_MARKS[one.foot], "mark", one.foot.value)
     _times(svg, report, view)
     mark_end(svg, view.at(way[0]), "start", -8.0, width)
     mark_end(svg, view.at(way[-1]), "end", 17.0, width)

@@ -7,8 +7,8 @@ from xml.etree.ElementTree import Element
 
 from ....body.gait.means import GaitParameters, StrideFigures
 from ....types import Foot
-from ...tables.gait import MIN_STRIDES, gait_rows, strides_of
-from ...tables.table import milliseconds, number, percent
+from ...tables.gait import MIN_STRIDES, gait_cells, gait_rows, strides_of
+from ...tables.table import milliseconds, percent
 from ..markup import notes, table, terms
 from ..running import running_means
 
@@ -53,23 +53,13 @@ RUNNING = [
 
 def gait_table(parent: Element, parameters: GaitParameters) -> None:
     """Add the table of walking or of running."""
-    columns = [parameters.feet.get(foot, StrideFigures()) for foot in Foot]
-    columns.append(parameters.both if len(parameters.feet) == len(Foot) else StrideFigures())
-    strides = [strides_of(parameters, foot) for foot in Foot]
-    times = [column.stride_time for column in columns]
-    cadences = ["-" if time is None else number(120.0 / time.mean, 1) for time in times]
-    rows = [
-        ["steady strides", *[number(count, 0) for count in strides], "-", "-", "-"],
-        ["cadence, steps/min", *cadences, "-", "-"],
-        # the standard deviation is on a line of its own
-        *[[f"{row.label}, {row.unit}", *row.cells("\n\N{PLUS-MINUS SIGN}")] for row in gait_rows(parameters)],
-    ]
+    # the standard deviation is on a line of its own
+    rows = gait_cells(parameters, "\n\N{PLUS-MINUS SIGN}")
     if (run := running_means(parameters)) is not None:
-        contacts = [
-            "-" if one is None else milliseconds(one.mean) for one in [column.stance_time for column in columns[:2]]
-        ]
+        contacts = [parameters.feet.get(foot, StrideFigures()).stance_time for foot in Foot]
+        feet = ["-" if one is None else milliseconds(one.mean) for one in contacts]
         rows += [
-            ["contact time, ms", *contacts, milliseconds(run.contact_time), "-", "-"],
+            ["contact time, ms", *feet, milliseconds(run.contact_time), "-", "-"],
             ["flight time, ms", "-", "-", milliseconds(run.flight_time), "-", "-"],
             ["vertical oscillation, mm", "-", "-", milliseconds(run.vertical_oscillation), "-", "-"],
         ]
@@ -78,7 +68,7 @@ def gait_table(parent: Element, parameters: GaitParameters) -> None:
     table(parent, caption, HEADER, rows, "numbers gait")
     if parameters.coordination is not None:
         notes(parent, [f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007)."])
-    count = sum([one or 0 for one in strides])  # whole numbers
+    count = sum([strides_of(parameters, foot) or 0 for foot in Foot])  # whole numbers
     if count < MIN_STRIDES:
         notes(parent, [f"Of {count} strides: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."])
 
