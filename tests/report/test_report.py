@@ -78,7 +78,7 @@ def test_the_summary_holds_duration_distance_and_activities() -> None:
         distance = sum(event.length for event in taken)
         assert f"The {foot.value} foot took {len(taken)} strides over {distance:.1f} m." in sentences
     assert any(one.startswith("Activities: standing ") and " walking " in one for one in sentences)
-    assert "The wearer made 1 turn to the left." in sentences
+    assert "Turns: 1 to the left." in sentences
     samples = [event.t for event in of(FootMoved, walk_events())]
     assert "on Monday" in page.named("facts").text
     facts = page.all("dl")[-1].text

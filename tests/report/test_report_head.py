@@ -37,8 +37,8 @@ def cards(page: Node) -> dict[str, str]:
 
 def test_the_first_sentence_has_distance_time_speed_and_cadence() -> None:
     facts = facts_of(report_of(events_of("walk")))
-    walk = facts.walk.walk
-    assert walk is not None and walk.distance == pytest.approx(40.0, abs=1.0)
+    walk = facts.bouts[False]
+    assert walk.distance == pytest.approx(40.0, abs=1.0)
     assert walk.duration == pytest.approx(40.0 / 1.3, abs=2.0)
     sentence = sentence_of(events_of("walk"))
     speed, cadence = [measure.text for measure in facts.measures[:2]]

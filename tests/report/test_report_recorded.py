@@ -42,7 +42,7 @@ def test_each_difference_of_swing_times_that_is_named_is_of_the_labelled_foot(da
     for path in paths:
         report = Report()
         report.take(None, run_session(load_samples(path)))
-        difference = facts_of(report).walk.differences.get(SWING_TIME)
+        difference = facts_of(report).differences.get(SWING_TIME)
         if difference is not None and difference.is_certain:
             named[path.name] = (difference.value, true_difference(path))
     print(f"{len(named)} of {len(paths)}: {named}")

@@ -20,16 +20,19 @@ is interpolated over a gap: its rows are left out."""
 from __future__ import annotations
 
 from array import array
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from enum import Enum
+from itertools import pairwise
 from math import acos, floor, sin, sqrt
 from pathlib import Path
+from statistics import median_high
 
 from attrs import define, field
 
 from ..recording.errors import RecordingError
 from ..recording.posed import PosedSample
-from ..types import Foot, Quat, Vec3
+from ..types import Foot, Quat
 from ..types.vector import multiply
 
 WORLD_TO_GROUND: Quat = (sqrt(0.5), -sqrt(0.5), 0.0, 0.0)
@@ -55,28 +58,25 @@ class _Poses:
 
     t: array[float] = field(factory=lambda: array("d"))
     numbers: array[float] = field(factory=lambda: array("d"))
-    row: int = 0
-    """Row at or before the instant that was requested last; instants are requested in order."""
 
-    def at(self, t: float, quantity: Quantity) -> tuple[float, ...] | None:
+    def at(self, t: float) -> Sequence[float] | None:
         """Return the pose at `t`, s; None outside the samples, and within a gap."""
-        times, last = self.t, len(self.t) - 1
-        while self.row < last and times[self.row + 1] <= t:
-            self.row += 1
-        row = self.row
-        if t < times[row] or (row == last and t > times[row]):
+        times, row = self.t, bisect_right(self.t, t) - 1
+        if row < 0 or t > times[-1]:
             return None
-        if row == last or t == times[row]:
-            return self._numbers(row, quantity)
+        before = self._pose(row)
+        if t == times[row]:
+            return before
         interval = times[row + 1] - times[row]
-        if interval > LONGEST_INTERVAL:
-            return None
-        share = (t - times[row]) / interval
-        return interpolate(self._numbers(row, quantity), self._numbers(row + 1, quantity), share, quantity)
+        return (
+            None
+            if interval > LONGEST_INTERVAL
+            else interpolate(before, self._pose(row + 1), (t - times[row]) / interval)
+        )
 
-    def _numbers(self, row: int, quantity: Quantity) -> tuple[float, ...]:
-        width = 4 if quantity is Quantity.ATTITUDES else 3
-        return tuple(self.numbers[width * row : width * (row + 1)])
+    def _pose(self, row: int) -> Sequence[float]:
+        width = len(self.numbers) // len(self.t)
+        return self.numbers[width * row : width * (row + 1)]
 
 
 @define
@@ -92,64 +92,49 @@ class OpensimWriter:
         if foot is None or state is None:
             return
         poses = self._feet.setdefault(foot, _Poses())
-        if poses.t and posed.sample.t <= poses.t[-1]:
-            return
-        poses.t.append(posed.sample.t)
-        attitudes = self.quantity is Quantity.ATTITUDES
-        poses.numbers.extend(multiply(WORLD_TO_GROUND, state.attitude) if attitudes else to_ground(state.position))
+        if not poses.t or posed.sample.t > poses.t[-1]:
+            poses.t.append(posed.sample.t)
+            x, y, z = state.position
+            attitudes = self.quantity is Quantity.ATTITUDES
+            poses.numbers.extend(multiply(WORLD_TO_GROUND, state.attitude) if attitudes else (x, z, -y))
 
     def write(self, path: Path | str) -> int:
         """Write the file and return the number of its rows; RecordingError when no instant has a pose of every foot."""
         feet = [foot for foot in Foot if foot in self._feet]
-        rate = self._rate(feet)
-        names = [BODIES[foot] + ("_imu" if self.quantity is Quantity.ATTITUDES else "") for foot in feet]
+        intervals = [b - a for foot in feet[:1] for a, b in pairwise(self._feet[foot].t)]
+        rate = 1.0 / median_high(intervals) if intervals else 0.0
+        suffix = "_imu" if self.quantity is Quantity.ATTITUDES else ""
         rows = 0
         with Path(path).open("w", encoding="ascii", newline="\n") as file:
-            file.write(f"DataRate={rate:.6f}\nDataType={self.quantity.value}\nversion=3\nOpenSimVersion=4.1\n")
-            file.write("endheader\n" + "\t".join(["time", *names]) + "\n")
-            for t, values in self._rows(feet, rate):
-                texts = [",".join([repr(number) for number in value]) for value in values]
-                file.write("\t".join([repr(t), *texts]) + "\n")
-                rows += 1
+            file.write(
+                f"DataRate={rate:.6f}\nDataType={self.quantity.value}\nversion=3\nOpenSimVersion=4.1\nendheader\n"
+            )
+            file.write("\t".join(["time", *[BODIES[foot] + suffix for foot in feet]]) + "\n")
+            for t in self._instants(rate):
+                values = [poses.at(t) for poses in (self._feet[foot] for foot in feet)]
+                if values and None not in values:
+                    file.write("\t".join([repr(t), *[",".join(map(repr, value or ())) for value in values]]) + "\n")
+                    rows += 1
         if not rows:
             raise RecordingError(path, "no instant has a pose of every foot, so that there is nothing to write")
         return rows
 
-    def _rate(self, feet: Sequence[Foot]) -> float:
-        """Return the usual rate of the first foot, 1/s; 0 when no foot has two poses."""
-        for foot in feet:
-            times = self._feet[foot].t
-            intervals = sorted([later - earlier for earlier, later in zip(times, times[1:], strict=False)])
-            if intervals:
-                return 1.0 / intervals[len(intervals) // 2]
-        return 0.0
-
-    def _rows(self, feet: Sequence[Foot], rate: float) -> Iterator[tuple[float, list[tuple[float, ...]]]]:
-        if not rate:
-            return
-        start = max([self._feet[foot].t[0] for foot in feet])
-        end = min([self._feet[foot].t[-1] for foot in feet])
-        for number in range(floor((end - start) * rate) + 1):
-            t = start + number / rate
-            values = [value for foot in feet if (value := self._feet[foot].at(t, self.quantity)) is not None]
-            if len(values) == len(feet):
-                yield t, values
+    def _instants(self, rate: float) -> Iterator[float]:
+        """Yield evenly spaced times, s, at which every foot may have a pose."""
+        times = [poses.t for poses in self._feet.values()]
+        start = max([one[0] for one in times], default=0.0)
+        for number in range(floor((min([one[-1] for one in times], default=0.0) - start) * rate) + 1):
+            yield start + number / (rate or 1.0)
 
 
-def to_ground(vector: Vec3) -> Vec3:
-    """Return a vector of the world frame in OpenSim's ground frame: x ahead, y up, z to the right."""
-    x, y, z = vector
-    return x, z, -y
-
-
-def interpolate(a: Sequence[float], b: Sequence[float], share: float, quantity: Quantity) -> tuple[float, ...]:
+def interpolate(a: Sequence[float], b: Sequence[float], share: float) -> Sequence[float]:
     """Return the value at `share` of the way from `a` to `b`; of attitudes, along the shortest turn (Shoemake 1985)."""
     first, second = 1.0 - share, share
-    if quantity is Quantity.ATTITUDES:
-        cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
+    if len(a) == 4:
+        cosine = sum([x * y for x, y in zip(a, b, strict=True)])
         sign = -1.0 if cosine < 0.0 else 1.0  # q and -q are one attitude
         angle = acos(min(1.0, abs(cosine)))
         if angle > SMALL_ANGLE:
             first, second = sin(first * angle) / sin(angle), sin(share * angle) / sin(angle)
         second *= sign
-    return tuple([first * x + second * y for x, y in zip(a, b, strict=True)])
+    return [first * x + second * y for x, y in zip(a, b, strict=True)]

@@ -26,99 +26,78 @@ STRIDE_COLUMNS = (
     "foot", "t_start_s", "t_end_s", "x_m", "y_m", "z_m", "stride_length_m", "heading_change_deg", "height_change_m",
     "degraded", "missing", "longest_gap_s", "length_sigma_m", "flaws",
 )  # fmt: skip
-CYCLE_TIME_FIELDS = ("t_start", "t_toe_off", "t")
-CYCLE_MEASURE_FIELDS = (
-    ("stride_time", "s"),
-    ("stance_time", "s"),
-    ("swing_time", "s"),
-    ("step_time", "s"),
-    ("initial_double_support", "s"),
-    ("terminal_double_support", "s"),
-    ("single_support", "s"),
-    ("stance_share", ""),
-    ("double_support_share", ""),
-    ("cadence", "steps_per_min"),
-    ("stride_length", "m"),
-    ("speed", "m_per_s"),
-    ("clearance", "m"),
-    ("toe_off_angle", "deg"),
-    ("heel_strike_angle", "deg"),
-    ("turning_angle", "deg"),
-    ("rise", "m"),
-    ("phase", ""),
-)
-"""Fields of GaitCycleMeasured with the unit in which each is written; a share has no unit."""
-CYCLE_COLUMNS = (
-    "foot",
-    "number",
-    *[f"{name}_s" for name in CYCLE_TIME_FIELDS],
-    *[f"{name}_{unit}" if unit else name for name, unit in CYCLE_MEASURE_FIELDS],
-    "degraded",
-    "steady",
-)
+CYCLE_FIELDS = {
+    "foot": "foot",
+    "number": "number",
+    "t_start_s": "t_start",
+    "t_toe_off_s": "t_toe_off",
+    "t_s": "t",
+    "stride_time_s": "stride_time",
+    "stance_time_s": "stance_time",
+    "swing_time_s": "swing_time",
+    "step_time_s": "step_time",
+    "initial_double_support_s": "initial_double_support",
+    "terminal_double_support_s": "terminal_double_support",
+    "single_support_s": "single_support",
+    "stance_share": "stance_share",
+    "double_support_share": "double_support_share",
+    "cadence_steps_per_min": "cadence",
+    "stride_length_m": "stride_length",
+    "speed_m_per_s": "speed",
+    "clearance_m": "clearance",
+    "toe_off_angle_deg": "toe_off_angle",
+    "heel_strike_angle_deg": "heel_strike_angle",
+    "turning_angle_deg": "turning_angle",
+    "rise_m": "rise",
+    "phase": "phase",
+    "degraded": "degraded",
+    "steady": "steady",
+}
+"""Columns of gait_cycles.csv with the fields of GaitCycleMeasured; an angle is written in degrees."""
+CYCLE_COLUMNS = tuple(CYCLE_FIELDS)
 PLACE_COLUMNS = (
-    "t_s",
-    "level",
-    "room",
-    "door",
-    "x_m",
-    "y_m",
-    "z_m",
-    "spread_m",
-    "walking_direction_deg",
-    "frame_heading_deg",
-    "candidates",
-    "weight",
-)
+    "t_s", "level", "room", "door", "x_m", "y_m", "z_m", "spread_m", "walking_direction_deg", "frame_heading_deg",
+    "candidates", "weight",
+)  # fmt: skip
 MIN_DIRECTED_STRIDE = 0.3
 """Shortest stride that shows in which direction the wearer walks, m; chosen by hand."""
 
 
-def _stride_row(event: StrideTaken) -> list[str]:
-    x, y, z = event.position
-    lengths = (x, y, z, event.length, degrees(event.heading_change), event.height_change)
-    numbers = [f"{value:.6f}" for value in lengths]
-    sureness = [f"{value:.6f}" for value in (event.missing, event.longest_gap, event.length_sigma)]
+def _stride_row(event: StrideTaken) -> list[object]:
+    lengths = (*event.position, event.length, degrees(event.heading_change), event.height_change)
+    sureness = (event.missing, event.longest_gap, event.length_sigma)
+    before, after = [[f"{value:.6f}" for value in values] for values in (lengths, sureness)]
     flaws = " ".join([flaw.name.lower() for flaw in event.flaws])
-    row = [event.foot.value, repr(event.t_start), repr(event.t_end), *numbers]
-    return [*row, str(int(event.degraded)), *sureness, flaws]
+    return [event.foot, repr(event.t_start), repr(event.t_end), *before, int(event.degraded), *after, flaws]
 
 
-def _cycle_row(event: GaitCycleMeasured) -> list[str]:
+def _cycle_row(event: GaitCycleMeasured) -> list[object]:
     """Return the row of a gait cycle; a value that is not known is left empty."""
-    times = [repr(getattr(event, name)) for name in CYCLE_TIME_FIELDS]
-    measures = [_measure(getattr(event, name), unit) for name, unit in CYCLE_MEASURE_FIELDS]
-    return [event.foot.value, str(event.number), *times, *measures, str(int(event.degraded)), str(int(event.steady))]
+    row = []
+    for column, name in CYCLE_FIELDS.items():
+        value = getattr(event, name)
+        if isinstance(value, float):
+            value = degrees(value) if column.endswith("_deg") else value
+            value = repr(value) if column.startswith("t_") else f"{value:.6f}"
+        row.append(int(value) if isinstance(value, bool) else value)
+    return row
 
 
-def _measure(value: float | None, unit: str) -> str:
-    if value is None:
-        return ""
-    return f"{degrees(value) if unit == 'deg' else value:.6f}"
-
-
-def _place_row(event: Placed, stride: StrideTaken | None) -> list[str]:
+def _place_row(event: Placed, stride: StrideTaken | None) -> list[object]:
     """Return the row of a place; the direction of the newest `stride` on the plan is that in which the wearer walks.
 
     The track's frame lies on the plan as the heaviest candidate says, so that the direction is the heading of the frame
     plus that of the stride in it."""
     heaviest = event.candidates[0]
-    numbers = [f"{value:.3f}" for value in (*event.position, event.spread)]
     heading = direction = ""
     if heaviest.heading is not None:
         heading = f"{degrees(heaviest.heading):.2f}"
         if stride is not None and stride.length >= MIN_DIRECTED_STRIDE:
             x, y, _ = stride.displacement
             direction = f"{degrees(remainder(heaviest.heading + atan2(y, x), tau)):.2f}"
-    shares = [direction, heading, str(len(event.candidates)), f"{heaviest.weight:.4f}"]
-    return [
-        repr(event.t),
-        event.level,
-        printable(event.room or "", 80),
-        printable(event.door or "", 80),
-        *numbers,
-        *shares,
-    ]
+    names = [event.level, *[printable(name or "", 80) for name in (event.room, event.door)]]
+    numbers = [f"{value:.3f}" for value in (*event.position, event.spread)]
+    return [repr(event.t), *names, *numbers, direction, heading, len(event.candidates), f"{heaviest.weight:.4f}"]
 
 
 @contextmanager
@@ -147,9 +126,8 @@ class TrackFiles:
     _stack: ExitStack = field(factory=ExitStack, init=False)
     _events: TextIO = field(init=False)
     _track: TextIO = field(init=False)
-    _strides: Any = field(init=False)
-    _cycles: Any = field(init=False)
-    _places: Any = field(default=None, init=False)
+    _tables: dict[str, Any] = field(factory=dict, init=False)
+    """Writers of the tables by the names of their files."""
     _stride: StrideTaken | None = field(default=None, init=False)
     """Newest final stride."""
 
@@ -157,21 +135,14 @@ class TrackFiles:
         self.directory.mkdir(parents=True, exist_ok=True)
         self._events, self._track = self._open(EVENTS_FILE), self._open(TRACK_FILE)
         self._track.write(",".join(TRACK_COLUMNS) + "\n")
-        self._strides = self._table(STRIDES_FILE, STRIDE_COLUMNS)
-        self._cycles = self._table(GAIT_CYCLES_FILE, CYCLE_COLUMNS)
-        if self.places:
-            self._places = self._table(PLACES_FILE, PLACE_COLUMNS)
+        places = [(PLACES_FILE, PLACE_COLUMNS)] if self.places else []
+        for name, columns in [(STRIDES_FILE, STRIDE_COLUMNS), (GAIT_CYCLES_FILE, CYCLE_COLUMNS), *places]:
+            self._tables[name] = csv.writer(self._open(name), lineterminator="\n")
+            self._tables[name].writerow(columns)
 
     def _open(self, name: str) -> TextIO:
-        path = self.directory / name
-        if self.path_to_write is not None:
-            path = self.path_to_write(path)
+        path = (self.path_to_write or Path)(self.directory / name)
         return self._stack.enter_context(path.open("w", encoding="utf-8", newline=""))
-
-    def _table(self, name: str, columns: tuple[str, ...]) -> Any:
-        table = csv.writer(self._open(name), lineterminator="\n")
-        table.writerow(columns)
-        return table
 
     def write(self, event: Event) -> None:
         """Write one event; an OSError names the directory."""
@@ -189,11 +160,11 @@ class TrackFiles:
         self._events.write(json.dumps(event.to_dict(), allow_nan=False) + "\n")
         if isinstance(event, StrideTaken) and event.final:
             self._stride = event
-            self._strides.writerow(_stride_row(event))
+            self._tables[STRIDES_FILE].writerow(_stride_row(event))
         elif isinstance(event, GaitCycleMeasured):
-            self._cycles.writerow(_cycle_row(event))
-        elif isinstance(event, Placed) and self._places is not None:
-            self._places.writerow(_place_row(event, self._stride))
+            self._tables[GAIT_CYCLES_FILE].writerow(_cycle_row(event))
+        elif isinstance(event, Placed) and self.places:
+            self._tables[PLACES_FILE].writerow(_place_row(event, self._stride))
 
     def close(self) -> None:
         """Close all files; an OSError names the directory."""

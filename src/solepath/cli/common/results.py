@@ -98,8 +98,8 @@ class Results:
         if self.plan is not None:
             lines += place_lines(self.walk.places)
         found = None if self.outcomes is None else self.outcomes.results(self.walk)
-        if self.outcomes is not None and found is not None:
-            lines += self.outcomes.lines(found)
+        if found is not None:
+            lines += found.lines()
         if self._files is not None and self.out is not None:
             self._files.close()
             with os_errors_naming(self.out):

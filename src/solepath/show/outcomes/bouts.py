@@ -9,12 +9,12 @@ initial contact of a foot. Only the rules are the same."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import fsum, inf, radians
+from math import inf, radians
+from statistics import fmean
 
 from attrs import frozen
 
 from ...events import Event, GaitCycleMeasured, TurnMade
-from ...types import Foot
 
 MIN_STRIDE_TIME, MAX_STRIDE_TIME = 0.2, 3.0
 """Durations between which a stride counts, s; the lower one is excluded, the upper one included (mobgap)."""
@@ -82,34 +82,25 @@ def walking_bouts(events: Iterable[Event]) -> list[WalkingBout]:
 
     Events of other kinds are left out. The feet's times must be on one clock. Strides are put in order of their starts;
     a bout ends where the next stride starts more than 3 s after the end of the last one."""
-    cycles: list[GaitCycleMeasured] = []
-    turns: list[TurnMade] = []
-    for event in events:
-        if isinstance(event, GaitCycleMeasured) and is_selected(event):
-            cycles.append(event)
-        elif isinstance(event, TurnMade) and event.final and abs(event.angle) >= MIN_TURN:
-            turns.append(event)
+    events = list(events)
+    cycles = [event for event in events if isinstance(event, GaitCycleMeasured) and is_selected(event)]
     cycles.sort(key=lambda cycle: (cycle.t_start, cycle.t))
+    turns = [event for event in events if isinstance(event, TurnMade) and event.final and abs(event.angle) >= MIN_TURN]
     groups: list[list[GaitCycleMeasured]] = []
-    last = -inf
     for cycle in cycles:
-        if cycle.t_start - last > MAX_BREAK + ROUNDING:
+        if not groups or cycle.t_start - groups[-1][-1].t > MAX_BREAK + ROUNDING:
             groups.append([])
         groups[-1].append(cycle)
-        last = cycle.t
     kept = [group for group in groups if len(group) >= MIN_STRIDES]
     return [_bout(number, group, turns) for number, group in enumerate(kept, start=1)]
 
 
-def count_contacts(cycles: Iterable[GaitCycleMeasured], after: float = -inf, until: float = inf) -> int:
+def count_contacts(cycles: Sequence[GaitCycleMeasured], after: float = -inf, until: float = inf) -> int:
     """Return the number of initial contacts of gait cycles, later than `after` and not later than `until`, s.
 
     With cycles of one foot only, at any time, it is twice the number, because a stride has two steps."""
-    found: dict[Foot, set[float]] = {}
-    for cycle in cycles:
-        found.setdefault(cycle.foot, set()).update([t for t in (cycle.t_start, cycle.t) if after < t <= until])
-    count = sum([len(times) for times in found.values()])  # whole numbers
-    return 2 * count if len(found) == 1 else count
+    found = {(cycle.foot, t) for cycle in cycles for t in (cycle.t_start, cycle.t) if after < t <= until}
+    return len(found) * (2 if len({cycle.foot for cycle in cycles}) == 1 else 1)
 
 
 def _bout(number: int, cycles: Sequence[GaitCycleMeasured], turns: Sequence[TurnMade]) -> WalkingBout:
@@ -121,8 +112,8 @@ def _bout(number: int, cycles: Sequence[GaitCycleMeasured], turns: Sequence[Turn
         strides=len(cycles),
         steps=count_contacts(cycles),
         turns=len([turn for turn in turns if start <= 0.5 * (turn.t_start + turn.t) <= end]),
-        stride_duration=fsum([cycle.stride_time for cycle in cycles]) / len(cycles),
-        cadence=fsum([cycle.cadence for cycle in cycles]) / len(cycles),
+        stride_duration=fmean([cycle.stride_time for cycle in cycles]),
+        cadence=fmean([cycle.cadence for cycle in cycles]),
         stride_length=mean_of([cycle.stride_length for cycle in cycles]),
         walking_speed=mean_of([cycle.speed for cycle in cycles]),
         degraded=len([cycle for cycle in cycles if cycle.degraded]),
@@ -132,4 +123,4 @@ def _bout(number: int, cycles: Sequence[GaitCycleMeasured], turns: Sequence[Turn
 def mean_of(values: Iterable[float | None]) -> float | None:
     """Return the mean of the values that are known; None when none is."""
     known = [value for value in values if value is not None]
-    return fsum(known) / len(known) if known else None
+    return fmean(known) if known else None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from .bouts import WalkingBout
@@ -21,41 +22,43 @@ OUTCOME_COLUMNS = (
     "reference_high", "source",
 )  # fmt: skip
 """Columns of outcomes.csv; `low` and `high` are the ends of a 95 % confidence interval, shares have no unit."""
+Cell = str | int | float | None
 
 
 def write_bouts(results: ClinicalResults, path: Path) -> None:
     """Write bouts.csv; raise OSError when it cannot be written."""
-    _write(path, BOUT_COLUMNS, [_bout_cells(bout) for bout in results.bouts])
+    _write(path, BOUT_COLUMNS, map(_bout_cells, results.bouts))
 
 
 def write_outcomes(results: ClinicalResults, path: Path) -> None:
     """Write outcomes.csv; raise OSError when it cannot be written."""
-    _write(path, OUTCOME_COLUMNS, [_outcome_cells(row) for row in results.rows])
+    _write(path, OUTCOME_COLUMNS, map(_outcome_cells, results.rows))
 
 
-def _write(path: Path, columns: tuple[str, ...], rows: list[list[str]]) -> None:
+def _write(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> None:
     with path.open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(columns)
-        table.writerows(rows)
+        table.writerows([[f"{cell:.6f}" if isinstance(cell, float) else cell for cell in row] for row in rows])
 
 
-def _bout_cells(bout: WalkingBout) -> list[str]:
-    counts = [str(count) for count in (bout.strides, bout.steps, bout.turns)]
+def _bout_cells(bout: WalkingBout) -> list[Cell]:
+    times: list[Cell] = [repr(bout.t_start), repr(bout.t_end), bout.duration]
     means = [bout.stride_duration, bout.cadence, bout.stride_length, bout.walking_speed]
-    times = [repr(bout.t_start), repr(bout.t_end), _digits(bout.duration)]
-    cells = [str(bout.number), *times, *counts, *map(_digits, means), str(bout.degraded)]
-    return [*cells, " ".join(implausible(bout))]
+    return [
+        bout.number,
+        *times,
+        bout.strides,
+        bout.steps,
+        bout.turns,
+        *means,
+        bout.degraded,
+        " ".join(implausible(bout)),
+    ]
 
 
-def _outcome_cells(row: OutcomeRow) -> list[str]:
-    one, band = row.interval, row.reference
-    ends = (None, None) if one is None else (one.low, one.high)
-    counts = ("", "") if one is None else (str(one.strides), str(one.needed))
-    reference = (None, None, None) if band is None else (band.value, band.low, band.high)
-    cells = [row.part, row.name, _digits(row.value), row.unit, *map(_digits, ends), *counts, *map(_digits, reference)]
-    return [*cells, "" if band is None else band.source]
-
-
-def _digits(value: float | int | None) -> str:
-    return "" if value is None else str(value) if isinstance(value, int) else f"{value:.6f}"
+def _outcome_cells(row: OutcomeRow) -> list[Cell]:
+    one, band, empty = row.interval, row.reference, ("",) * 4
+    ends: Sequence[Cell] = empty if one is None else (one.low, one.high, one.strides, one.needed)
+    reference: Sequence[Cell] = empty if band is None else (band.value, band.low, band.high, band.source)
+    return [row.part, row.name, row.value, row.unit, *ends, *reference]

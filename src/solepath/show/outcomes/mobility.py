@@ -7,12 +7,13 @@ script; limits are its `official_mobilised_dmo_thresholds.csv`. The numbers here
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import floor, fsum, inf, sqrt
-from statistics import median
+from math import fsum, inf
+from statistics import fmean, median, quantiles, stdev
+from typing import Any
 
-from attrs import frozen
+from attrs import fields, frozen
 
-from .bouts import WalkingBout, mean_of
+from .bouts import WalkingBout
 
 LIMITS: Mapping[str, tuple[float, float]] = {
     "cadence": (40.0, 172.9),
@@ -24,10 +25,6 @@ LIMITS: Mapping[str, tuple[float, float]] = {
 steps a minute, m/s, m and s. Mobilise-D widens them for some groups of patients, and by the wearer's height."""
 DEPENDENT = {"stride_length": ("walking_speed",), "cadence": ("walking_speed",)}
 """Outcomes that are left out with an implausible one (mobgap)."""
-SHORT, MIDDLE, LONG = 10.0, 30.0, 60.0
-"""Durations that divide the classes of bouts, s; a bout of exactly that duration is in the class below."""
-HIGH_QUANTILE = 0.9
-"""Quantile of the outcomes `p90`."""
 
 
 @frozen(kw_only=True)
@@ -93,14 +90,26 @@ class MobilityOutcomes:
     """Mean stride duration of bouts of more than 30 s, s."""
 
 
-UNITS = {"walkdur": "s", "wbdur": "s", "strdur": "s", "strlen": "m", "ws": "m/s", "cadence": "1/min"}
-"""Unit of the outcomes whose names start so; counts and variations have none."""
+KINDS = {
+    "walkdur": ("duration", "s"),
+    "wbsteps": ("steps", ""),
+    "turns": ("turns", ""),
+    "wb": ("number", ""),
+    "wbdur": ("duration", "s"),
+    "cadence": ("cadence", "1/min"),
+    "strdur": ("stride_duration", "s"),
+    "ws": ("walking_speed", "m/s"),
+    "strlen": ("stride_length", "m"),
+}
+"""Field of WalkingBout and unit of the outcomes whose names start so; counts have no unit."""
+CLASSES = {"all": (0.0, inf), "1030": (10.0, 30.0), "10": (10.0, inf), "30": (30.0, inf), "60": (60.0, inf)}
+"""Durations, s, above which and up to which a bout is in the class with this part of a name."""
 
 
 def unit_of(name: str) -> str:
     """Return the unit of a field of MobilityOutcomes; "" of a count and of a variation, which is a share."""
-    kind, _, how = name.rpartition("_")
-    return "" if how == "var" else UNITS.get(kind.partition("_")[0], "")
+    kind, _, how = name.split("_")
+    return "" if how == "var" else KINDS[kind][1]
 
 
 def implausible(bout: WalkingBout, limits: Mapping[str, tuple[float, float]] = LIMITS) -> tuple[str, ...]:
@@ -115,64 +124,28 @@ def mobility_outcomes(
     """Return the digital mobility outcomes of walking bouts; means that are out of `limits` do not count.
 
     For outcomes of each day, give it the bouts of each day."""
-    excluded = {bout.number: _excluded(bout, limits) for bout in bouts}
+    pairs = [(bout, _excluded(bout, limits)) for bout in bouts]
 
-    def values(name: str, above: float = 0.0, up_to: float = inf) -> list[float]:
-        used = [b for b in bouts if above < b.duration <= up_to and name not in excluded[b.number]]
-        return [value for value in [getattr(bout, name) for bout in used] if value is not None]
+    def outcome(kind: str, of_bouts: str, how: str) -> Any:
+        name, (above, up_to) = KINDS[kind][0], CLASSES[of_bouts]
+        found = [
+            getattr(bout, name) for bout, excluded in pairs if above < bout.duration <= up_to and name not in excluded
+        ]
+        values = [value for value in found if value is not None]
+        if how == "sum":
+            return len(values) if kind == "wb" else sum(values) if name in ("steps", "turns") else fsum(values)
+        if how == "var":
+            return stdev(values) / fmean(values) if len(values) > 1 else None
+        if not values:
+            return None
+        if how == "p90":
+            return quantiles(values, n=10, method="inclusive")[-1] if len(values) > 1 else values[0]
+        return median(values) if kind == "wbdur" else fmean(values)
 
-    durations = values("duration")
-    return MobilityOutcomes(
-        walkdur_all_sum=fsum(durations),
-        wbsteps_all_sum=sum([bout.steps for bout in bouts]),  # whole numbers
-        turns_all_sum=sum([bout.turns for bout in bouts]),  # whole numbers
-        wb_all_sum=len(durations),
-        wb_10_sum=len(values("duration", SHORT)),
-        wb_30_sum=len(values("duration", MIDDLE)),
-        wb_60_sum=len(values("duration", LONG)),
-        wb_1030_sum=len(values("duration", SHORT, MIDDLE)),
-        wbdur_all_avg=median(durations) if durations else None,
-        wbdur_all_p90=high_quantile(durations),
-        wbdur_all_var=variation(durations),
-        cadence_all_avg=mean_of(values("cadence")),
-        cadence_all_var=variation(values("cadence")),
-        strdur_all_avg=mean_of(values("stride_duration")),
-        strdur_all_var=variation(values("stride_duration")),
-        ws_1030_avg=mean_of(values("walking_speed", SHORT, MIDDLE)),
-        strlen_1030_avg=mean_of(values("stride_length", SHORT, MIDDLE)),
-        ws_10_p90=high_quantile(values("walking_speed", SHORT)),
-        ws_30_avg=mean_of(values("walking_speed", MIDDLE)),
-        ws_30_p90=high_quantile(values("walking_speed", MIDDLE)),
-        ws_30_var=variation(values("walking_speed", MIDDLE)),
-        strlen_30_avg=mean_of(values("stride_length", MIDDLE)),
-        strlen_30_var=variation(values("stride_length", MIDDLE)),
-        cadence_30_avg=mean_of(values("cadence", MIDDLE)),
-        cadence_30_p90=high_quantile(values("cadence", MIDDLE)),
-        strdur_30_avg=mean_of(values("stride_duration", MIDDLE)),
-    )
+    return MobilityOutcomes(**{one.name: outcome(*one.name.split("_")) for one in fields(MobilityOutcomes)})
 
 
 def _excluded(bout: WalkingBout, limits: Mapping[str, tuple[float, float]]) -> set[str]:
     """Return the names of the means of a bout that do not count: the implausible ones, and those that follow them."""
     wrong = implausible(bout, limits)
     return {*wrong, *[other for name in wrong for other in DEPENDENT.get(name, ())]}
-
-
-def high_quantile(values: Sequence[float]) -> float | None:
-    """Return the 90th percentile of values, with linear interpolation; None of no value."""
-    if not values:
-        return None
-    ordered = sorted(values)
-    place = HIGH_QUANTILE * (len(ordered) - 1)
-    below = floor(place)
-    above = min(below + 1, len(ordered) - 1)
-    return ordered[below] + (place - below) * (ordered[above] - ordered[below])
-
-
-def variation(values: Sequence[float]) -> float | None:
-    """Return the coefficient of variation of values, as a share; None of fewer than two, and of a mean of zero."""
-    if len(values) < 2:
-        return None
-    mean = fsum(values) / len(values)
-    sd = sqrt(fsum([(value - mean) ** 2 for value in values]) / (len(values) - 1))
-    return None if mean == 0.0 else sd / mean

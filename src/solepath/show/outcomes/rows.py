@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from attrs import asdict, evolve, frozen
 
 from ...events import Event
-from ..tables.table import number
 from .bouts import mean_of
 from .mobility import MobilityOutcomes, unit_of
 from .references import Person, Reference, six_minute_reference, up_and_go_reference, walking_speed_reference
@@ -17,17 +16,14 @@ from .walk_tests import SixMinuteWalk, TimedUpAndGo
 SIX_MINUTE_WALK, UP_AND_GO, MOBILITY = "six-minute walk", "timed up and go", "mobility"
 OF_STRIDES = VARIABILITY, ASYMMETRY = "variability", "asymmetry"
 """Parts with an interval, of steady strides."""
-PARTS = (SIX_MINUTE_WALK, UP_AND_GO, MOBILITY, *OF_STRIDES)
-"""All parts, in the order of outcomes.csv."""
-KINDS = {
+LABELS = {
     "walkdur": "walking time", "wbsteps": "initial contacts", "turns": "turns", "wb": "walking bouts",
     "wbdur": "bout duration", "cadence": "cadence", "strdur": "stride duration", "ws": "walking speed",
-    "strlen": "stride length",
+    "strlen": "stride length", "all": "", "10": ", bouts > 10 s", "1030": ", bouts of 10 to 30 s",
+    "30": ", bouts > 30 s", "60": ", bouts > 60 s", "sum": "", "avg": ", mean", "p90": ", 90th percentile",
+    "var": ", CV",
 }  # fmt: skip
-CLASSES = {
-    "all": "", "10": ", bouts > 10 s", "1030": ", bouts of 10 to 30 s", "30": ", bouts > 30 s", "60": ", bouts > 60 s",
-}  # fmt: skip
-AGGREGATES = {"sum": "", "avg": ", mean", "p90": ", 90th percentile", "var": ", CV"}
+"""Words for the parts of the names of mobility outcomes."""
 DIGITS = {"s": 2, "m": 2, "m/s": 2, "1/min": 1}
 """Digits after the point in tables by unit; a share is shown in percent with one digit."""
 LARGE = 100.0
@@ -37,50 +33,53 @@ NamedValue = tuple[str, str, str, float | int | None]
 """Name, label, unit and value of an outcome."""
 
 
-@frozen(kw_only=True)
+@frozen
 class OutcomeRow:
     """One outcome with its interval and reference, where it has them; a share (no unit, a float) is 0.02 for 2 %."""
 
     part: str
-    """Part of the outcomes that it belongs to, one of PARTS."""
+    """Part of the outcomes that it belongs to."""
     name: str
     """Name of the outcome in outcomes.csv."""
     label: str
     """Name of the outcome in tables."""
-    unit: str = ""
+    unit: str
     value: float | int | None
     interval: IntervalEstimate | None = None
     reference: Reference | None = None
 
     def shown(self, value: float | int | None) -> str:
         """Return a value of this outcome as a table shows it, without the unit."""
-        if value is None:
-            return "-"
-        if not self.unit and isinstance(value, int):
-            return str(value)
+        if value is None or (not self.unit and isinstance(value, int)):
+            return "-" if value is None else str(value)
         digits = DIGITS[self.unit] if self.unit and abs(value) < LARGE else 1
-        text = number(value if self.unit else 100.0 * value, digits)
-        return text.removeprefix("-") if float(text) == 0.0 else text
+        return f"{value if self.unit else 100.0 * value:z.{digits}f}"
 
     @property
-    def shown_unit(self) -> str:
-        """Unit in tables: % for a share."""
-        return self.unit or ("" if isinstance(self.value, int) else "%")
+    def cells(self) -> list[str]:
+        """Cells of a table: label, value, unit, which is % for a share, and reference."""
+        unit = self.unit or ("" if isinstance(self.value, int) else "%")
+        return [self.label, self.shown(self.value), unit, self.reference_text]
 
     @property
-    def interval_text(self) -> str:
-        """Ends of the interval as a table shows them; "" without one."""
+    def interval_cells(self) -> list[str]:
+        """Cells of a table: label, value, ends of the interval, strides, and strides that are needed."""
         one = self.interval
-        return "" if one is None else f"{self.shown(one.low)} to {self.shown(one.high)}"
+        known = (
+            []
+            if one is None
+            else [f"{self.shown(one.low)} to {self.shown(one.high)}", str(one.strides), str(one.needed)]
+        )
+        return [self.label, self.shown(self.value), *known]
 
     @property
     def reference_text(self) -> str:
         """Reference value and its band as a table shows them; "" without one."""
         if (one := self.reference) is None:
             return ""
-        if one.high is not None:
-            return f"{self.shown(one.value)} ({self.shown(one.low)} to {self.shown(one.high)})"
-        return self.shown(one.value) if one.low is None else f"{self.shown(one.value)} (from {self.shown(one.low)})"
+        band = "" if one.low is None else f" (from {self.shown(one.low)})"
+        band = band if one.high is None else f" ({self.shown(one.low)} to {self.shown(one.high)})"
+        return self.shown(one.value) + band
 
 
 def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeRow]:
@@ -105,19 +104,18 @@ def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeR
 
 def up_and_go_rows(test: TimedUpAndGo, person: Person | None) -> list[OutcomeRow]:
     """Return the rows of a timed up and go."""
-    reference = None if person is None else up_and_go_reference(person)
     values: list[NamedValue] = [
         ("duration", "total time", "s", test.duration),
         ("walking_time", "from the first toe-off to the last contact", "s", test.walking_time),
         ("steps", "steps", "", test.steps),
         ("distance", "distance", "m", test.distance),
     ]
-    return _rows(UP_AND_GO, values, reference)
+    return _rows(UP_AND_GO, values, None if person is None else up_and_go_reference(person))
 
 
 def _rows(part: str, values: Sequence[NamedValue], reference: Reference | None) -> list[OutcomeRow]:
     """Return the rows of a walk test; the reference is that of the first one, the result of the test."""
-    first, *others = [OutcomeRow(part=part, name=n, label=label, unit=u, value=v) for n, label, u, v in values]
+    first, *others = [OutcomeRow(part, *value) for value in values]
     return [evolve(first, reference=reference), *others]
 
 
@@ -125,10 +123,9 @@ def mobility_rows(outcomes: MobilityOutcomes) -> list[OutcomeRow]:
     """Return the rows of mobility outcomes, by their names in Mobilise-D."""
     rows = []
     for name, value in asdict(outcomes).items():
-        kind, of_bouts, how = name.split("_")
-        aggregate = ", median" if (kind, how) == ("wbdur", "avg") else AGGREGATES[how]
-        label = f"{KINDS[kind]}{CLASSES[of_bouts]}{aggregate}".replace("bouts, bouts", "bouts")
-        rows.append(OutcomeRow(part=MOBILITY, name=name, label=label, unit=unit_of(name), value=value))
+        label = "".join([LABELS[part] for part in name.split("_")]).replace("bouts, bouts", "bouts")
+        label = label.replace("bout duration, mean", "bout duration, median")
+        rows.append(OutcomeRow(MOBILITY, name, label, unit_of(name), value))
     return rows
 
 
@@ -136,17 +133,10 @@ def stride_rows(events: Sequence[Event], person: Person | None) -> list[OutcomeR
     """Return the mean speed of steady strides, and variability and asymmetry of the fields in VARIABLE."""
     speed = mean_of([stride.speed for stride in steady_strides(events)])
     reference = None if person is None else walking_speed_reference(person)
-    rows = [
-        OutcomeRow(
-            part=MOBILITY, name="steady_speed", label="speed of steady strides, mean", unit="m/s", value=speed,
-            reference=reference,
-        )
-    ]  # fmt: skip
-    for part, estimates in (
-        (VARIABILITY, {name: variability(events, name) for name in VARIABLE}),
-        (ASYMMETRY, {name: asymmetry(events, name) for name in VARIABLE}),
-    ):
-        for name, one in estimates.items():
-            value = None if one is None else one.value
-            rows.append(OutcomeRow(part=part, name=name, label=name.replace("_", " "), value=value, interval=one))
+    label = "speed of steady strides, mean"
+    rows = [OutcomeRow(MOBILITY, "steady_speed", label, "m/s", speed, reference=reference)]
+    for part, estimate in ((VARIABILITY, variability), (ASYMMETRY, asymmetry)):
+        for name in VARIABLE:
+            one = estimate(events, name)
+            rows.append(OutcomeRow(part, name, name.replace("_", " "), "", None if one is None else one.value, one))
     return rows

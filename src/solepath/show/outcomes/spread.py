@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from math import ceil, fsum, sqrt
+from statistics import fmean
 
 from attrs import frozen
 
@@ -93,25 +94,31 @@ def variability(events: Iterable[Event], name: str, foot: Foot | None = None) ->
     and the coefficient is below 1/3. The number of strides needed is 1 + z^2 / (2 h^2) independent ones of each foot
     together, with half width h (Greenwood and Sandomire 1950, J. Am. Stat. Assoc. 45). None if a foot has fewer than
     four strides or the mean is not above zero."""
-    samples = [s for one, s in _samples(events, name).items() if foot is None or one is foot]
-    if not samples or min([sample.count for sample in samples]) < MIN_FOOT_STRIDES:
-        return None
-    mean = fsum([sample.mean for sample in samples]) / len(samples)
+    samples = [sample for one, sample in _samples(events, name).items() if foot in (None, one)]
     variances = [sample.variance for sample in samples]
-    total = fsum(variances)
-    if mean <= 0.0 or total <= 0.0:
+    total, counts = fsum(variances), [sample.count for sample in samples]
+    if min(counts, default=0) < MIN_FOOT_STRIDES or total <= 0.0:
         return None
-    cv = sqrt(total / len(samples)) / mean
+    mean = fmean([sample.mean for sample in samples])
+    if mean <= 0.0:
+        return None
+    cv = sqrt(fmean(variances)) / mean
     # degrees of freedom of a mean of variances (Satterthwaite 1946, Biometrics Bull. 2)
-    freedoms = [max(sample.variance_count - 1.0, 1.0) for sample in samples]
-    freedom = total * total / fsum([v * v / f for v, f in zip(variances, freedoms, strict=True)])
-    ends = []
-    for share in (0.975, 0.025):
+    freedom = _freedom(variances, [sample.variance_count for sample in samples])
+
+    def end(share: float) -> float:
         u = chi_squared_quantile(share, freedom)
-        ends.append(cv / sqrt(max(((u + 2.0) / (freedom + 1.0) - 1.0) * cv * cv + u / freedom, LEAST_SQUARE)))
-    count = sum([sample.count for sample in samples])  # whole numbers
-    needed = len(samples) + (Z / VARIABILITY_PRECISION) ** 2 / 2.0 * count / (freedom + len(samples))
-    return IntervalEstimate(value=cv, low=ends[0], high=ends[1], strides=count, needed=ceil(needed))
+        return cv / sqrt(max(((u + 2.0) / (freedom + 1.0) - 1.0) * cv * cv + u / freedom, LEAST_SQUARE))
+
+    feet, count = len(samples), sum(counts)
+    needed = ceil(feet + (Z / VARIABILITY_PRECISION) ** 2 / 2.0 * count / (freedom + feet))
+    return IntervalEstimate(value=cv, low=end(0.975), high=end(0.025), strides=count, needed=needed)
+
+
+def _freedom(parts: Sequence[float], counts: Sequence[float]) -> float:
+    """Return the degrees of freedom of a sum of variances, each from a number of independent values."""
+    terms = [part * part / max(count - 1.0, 1.0) for part, count in zip(parts, counts, strict=True)]
+    return fsum(parts) ** 2 / fsum(terms)
 
 
 def asymmetry(events: Iterable[Event], name: str) -> IntervalEstimate | None:
@@ -121,19 +128,18 @@ def asymmetry(events: Iterable[Event], name: str) -> IntervalEstimate | None:
     10). The variance of the index is that of first order (delta method) of these means, which are taken as independent:
     what both feet have in common makes the true interval narrower. Its quantile is Student's t, with degrees of freedom
     by Welch (1947, Biometrika 34). None without four strides of each foot, or if a mean is not above zero."""
-    samples = _samples(events, name)
-    if len(samples) < len(Foot) or min([sample.count for sample in samples.values()]) < MIN_FOOT_STRIDES:
+    samples = list(_samples(events, name).values())
+    if len(samples) < len(Foot) or min([sample.count for sample in samples]) < MIN_FOOT_STRIDES:
         return None
-    left, right = samples[Foot.LEFT], samples[Foot.RIGHT]
+    left, right = samples
     if min(left.mean, right.mean) <= 0.0:
         return None
     index = 2.0 * (right.mean - left.mean) / (right.mean + left.mean)
     slope = 4.0 / (right.mean + left.mean) ** 2
     parts = [(slope * other.mean) ** 2 * one.variance / one.mean_count for one, other in ((left, right), (right, left))]
-    variance = fsum(parts)
-    freedoms = [max(sample.mean_count - 1.0, 1.0) for sample in (left, right)]
-    spread = fsum([part * part / f for part, f in zip(parts, freedoms, strict=True)])
-    half = 0.0 if spread <= 0.0 else student_quantile(variance * variance / spread) * sqrt(variance)
+    half = 0.0
+    if any(parts):
+        half = student_quantile(_freedom(parts, [left.mean_count, right.mean_count])) * sqrt(fsum(parts))
     count = left.count + right.count
     needed = max(2 * MIN_FOOT_STRIDES, ceil(count * (half / ASYMMETRY_PRECISION) ** 2))
     return IntervalEstimate(value=index, low=index - half, high=index + half, strides=count, needed=needed)
@@ -155,30 +161,35 @@ def steady_strides(events: Iterable[Event]) -> list[GaitCycleMeasured]:
 
 def _samples(events: Iterable[Event], name: str) -> dict[Foot, FootSample]:
     """Return the moments of a parameter over the steady strides of each foot that has any."""
-    runs: dict[Foot, list[list[float]]] = {}
-    ends: dict[Foot, float] = {}
+    pairs: dict[Foot, list[tuple[GaitCycleMeasured, float]]] = {foot: [] for foot in Foot}
     for stride in steady_strides(events):
-        value = getattr(stride, name)
-        if value is None:
-            continue
-        foot_runs = runs.setdefault(stride.foot, [])
-        if ends.get(stride.foot) != stride.t_start:
-            foot_runs.append([])
-        foot_runs[-1].append(value)
-        ends[stride.foot] = stride.t
-    return {foot: moments(runs[foot]) for foot in Foot if foot in runs}
+        if (value := getattr(stride, name)) is not None:
+            pairs[stride.foot].append((stride, value))
+    return {foot: moments(runs_of(found)) for foot, found in pairs.items() if found}
+
+
+def runs_of(pairs: Iterable[tuple[GaitCycleMeasured, float]]) -> list[list[float]]:
+    """Return the values of the strides of a foot in runs, within which the strides follow each other."""
+    runs: list[list[float]] = []
+    end: float | None = None
+    for stride, value in pairs:
+        if stride.t_start != end:
+            runs.append([])
+        runs[-1].append(value)
+        end = stride.t
+    return runs
 
 
 def moments(runs: Sequence[Sequence[float]]) -> FootSample:
     """Return the moments of values in runs of strides that follow each other."""
     values = [value for run in runs for value in run]
     count = len(values)
-    mean = fsum(values) / count
+    mean = fmean(values)
     squares = fsum([(value - mean) ** 2 for value in values])
     pairs = [(a - mean) * (b - mean) for run in runs for a, b in zip(run, run[1:], strict=False)]
     correlation = 0.0
     if pairs and squares > 0.0:
-        found = fsum(pairs) / len(pairs) / (squares / count)
+        found = fmean(pairs) / (squares / count)
         # the bias of the estimate (Marriott and Pope 1954, Biometrika 41)
         correlation = min(max(found + (1.0 + 4.0 * found) / count, 0.0), MAX_CORRELATION)
     return FootSample(count, mean, squares / (count - 1) if count > 1 else 0.0, correlation)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from math import fsum
+from typing import NamedTuple
 
 from attrs import frozen
 
@@ -70,7 +71,7 @@ class SixMinuteWalk:
         return self.minutes[5] / self.minutes[0] - 1.0
 
 
-@frozen(kw_only=True)
+@frozen
 class TimedUpAndGo:
     """A timed up and go (Podsiadlo and Richardson 1991, J. Am. Geriatr. Soc. 39), timed by an observer's two marks.
 
@@ -102,37 +103,36 @@ def six_minute_walk(
     `start` is the time at which an observer said go, s; without it the walk starts with the first toe-off of the first
     walking bout. `end` is the time at which the recording ends, s; without it that of the last event. None if there is
     no walking bout to start from, or nothing was recorded after the start."""
-    bouts = walking_bouts(events)
+    bouts, swings = walking_bouts(events), _swings(events)
     if start is None:
         if not bouts:
             return None
         contact = bouts[0].t_start
         start = min(
-            [t for t, _ in map(_swing, _strides(events)) if contact - MAX_BREAK <= t < contact], default=contact
+            [swing.lifted for swing in swings if contact - MAX_BREAK <= swing.lifted < contact], default=contact
         )
     last = max([event.t for event in events], default=start) if end is None else end
     duration = min(last - start, SIX_MINUTES)
     if duration <= 0.0:
         return None
     stop = start + duration
-    whole = int(duration // MINUTE)
-    spans = [(start + k * MINUTE, start + (k + 1) * MINUTE) for k in range(whole)]
     edges = [start, *[t for bout in bouts for t in (bout.t_start, bout.t_end)], stop]
     breaks = [min(b, stop) - max(a, start) for a, b in zip(edges[::2], edges[1::2], strict=True)]
     stops = [length for length in breaks if length > MAX_BREAK]
-    distances = _foot_distances(events, start, stop)
-    within = [event for event in events if isinstance(event, TurnMade) and start <= event.t <= stop]
+    distances = _foot_distances(swings, start, stop)
+    starts = [start + k * MINUTE for k in range(int(duration // MINUTE))]
+    turns = [event for event in events if isinstance(event, TurnMade) and event.turn is Turn.ABOUT]
     return SixMinuteWalk(
         t_start=start,
         duration=duration,
         distance=mean_of(distances.values()),
         foot_distances=distances,
-        minutes=tuple([mean_of(_foot_distances(events, *span).values()) or 0.0 for span in spans]),
-        steps=count_contacts(_cycles(events), start, stop),
+        minutes=tuple([mean_of(_foot_distances(swings, t, t + MINUTE).values()) or 0.0 for t in starts]),
+        steps=_count_steps(events, start, stop),
         stops=len(stops),
         stopped_time=fsum(stops),
-        about_turns=len([turn for turn in within if turn.turn is Turn.ABOUT]),
-        degraded=len([stride for stride in _strides(events) if stride.degraded and start < stride.t_end <= stop]),
+        about_turns=len([turn for turn in turns if start <= turn.t <= stop]),
+        degraded=len([one for one in swings if one.stride.degraded and start < one.stride.t_end <= stop]),
     )
 
 
@@ -140,38 +140,41 @@ def timed_up_and_go(events: Sequence[Event], start: float, stop: float) -> Timed
     """Return the timed up and go between two marks of an observer, s; raise ValueError when they are not in order."""
     if not start < stop:
         raise ValueError(f"timed_up_and_go: start must be before stop, got {start} and {stop}")
-    swings = [swing for swing in map(_swing, _strides(events)) if start <= swing[0] and swing[1] <= stop]
-    distances = _foot_distances(events, start, stop)
-    return TimedUpAndGo(
-        t_start=start,
-        t_stop=stop,
-        steps=count_contacts(_cycles(events), start, stop),
-        walking_time=max([landed for _, landed in swings]) - min([lifted for lifted, _ in swings]) if swings else None,
-        distance=mean_of(distances.values()),
-    )
+    swings = _swings(events)
+    within = [swing for swing in swings if start <= swing.lifted and swing.landed <= stop]
+    walked = max([swing.landed for swing in within]) - min([swing.lifted for swing in within]) if within else None
+    steps, distances = _count_steps(events, start, stop), _foot_distances(swings, start, stop)
+    return TimedUpAndGo(start, stop, steps, walked, mean_of(distances.values()))
 
 
-def _cycles(events: Iterable[Event]) -> list[GaitCycleMeasured]:
-    return [event for event in events if isinstance(event, GaitCycleMeasured)]
+def _count_steps(events: Iterable[Event], start: float, stop: float) -> int:
+    return count_contacts([event for event in events if isinstance(event, GaitCycleMeasured)], start, stop)
 
 
-def _strides(events: Iterable[Event]) -> list[StrideTaken]:
-    return [event for event in events if isinstance(event, StrideTaken) and event.final]
+class _Swing(NamedTuple):
+    """A stride with the times at which the foot left the ground and came down, s."""
+
+    stride: StrideTaken
+    lifted: float
+    landed: float
 
 
-def _swing(stride: StrideTaken) -> tuple[float, float]:
-    """Return when the foot left the ground and came down, s; between its foot-flats when that was not detected."""
-    toe_off, heel_strike = stride.t_toe_off, stride.t_heel_strike
-    if toe_off is None or heel_strike is None or not toe_off < heel_strike:
-        return stride.t_start, stride.t_end
-    return toe_off, heel_strike
+def _swings(events: Iterable[Event]) -> list[_Swing]:
+    """Return the final strides; those without toe-off or heel-strike swing from foot-flat to foot-flat."""
+    swings = []
+    for stride in events:
+        if isinstance(stride, StrideTaken) and stride.final:
+            lifted, landed = stride.t_toe_off, stride.t_heel_strike
+            if lifted is None or landed is None or not lifted < landed:
+                lifted, landed = stride.t_start, stride.t_end
+            swings.append(_Swing(stride, lifted, landed))
+    return swings
 
 
-def _foot_distances(events: Iterable[Event], start: float, stop: float) -> dict[Foot, float]:
+def _foot_distances(swings: Sequence[_Swing], start: float, stop: float) -> dict[Foot, float]:
     """Return how far each foot went between two times, m; only feet that took a stride in the events."""
     parts: dict[Foot, list[float]] = {}
-    for stride in _strides(events):
-        lifted, landed = _swing(stride)
+    for stride, lifted, landed in swings:
         covered = min(stop, landed) - max(start, lifted)
         share = max(0.0, covered / (landed - lifted)) if landed > lifted else float(start < landed <= stop)
         parts.setdefault(stride.foot, []).append(share * stride.length)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
+from .content import ReportDetails
 from .report import Report
-from .sections.heading import ReportDetails
 
 __all__ = ["Report", "ReportDetails"]

@@ -25,15 +25,14 @@ class ReportClock:
         return self.start if abs(self.start) >= FAR_START else 0.0
 
     @property
-    def per_unit(self) -> float:
-        """Duration of the unit of time axes, s: 60 for minutes, else 1."""
-        return 60.0 if self.end - self.start > MINUTES_FROM else 1.0
+    def unit(self) -> str:
+        """Unit of time axes."""
+        return "min" if self.end - self.start > MINUTES_FROM else "s"
 
     @property
     def label(self) -> str:
         """Label of a time axis."""
-        unit = "min" if self.per_unit > 1.0 else "s"
-        return f"time from the beginning, {unit}" if self.origin else f"time, {unit}"
+        return f"time{' from the beginning' if self.origin else ''}, {self.unit}"
 
     @property
     def span(self) -> tuple[float, float]:
@@ -43,4 +42,4 @@ class ReportClock:
 
     def axis_value(self, t: float) -> float:
         """Return `t`, s on the recording's clock, as a value on a time axis, in its unit."""
-        return (t - self.origin) / self.per_unit
+        return (t - self.origin) / (60.0 if self.unit == "min" else 1.0)

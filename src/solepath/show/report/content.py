@@ -6,19 +6,32 @@ from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
-from attrs import define, field
+from attrs import define, field, frozen
 
-from ...events import Event
+from ...events import Event, FootMoved, StrideTaken, WearerMoved
 from ...floorplan.plan import FloorPlan
-from ...types import Foot, Packet, Sample
+from ...types import Packet, Sample
 from ...walk.walk import Walk
 from .bands import Band
 from .clock import ReportClock
-from .figures.track import TimedPosition
-from .sections.heading import ReportDetails
 
 if TYPE_CHECKING:
     from ..outcomes.clinic import OutcomeRequest
+
+TimedPosition = FootMoved | StrideTaken | WearerMoved
+"""Event with the position of a foot or the wearer, world frame, m."""
+
+
+@frozen
+class ReportDetails:
+    """Texts that a person gives for the head of a report; all may be empty."""
+
+    title: str = ""
+    subject: str = ""
+    """Person, code or test."""
+    date: str = ""
+    """Date of the walk; one such as 2026-11-26 is shown in words."""
+    device: str = ""
 
 
 def _installed() -> str:
@@ -58,15 +71,14 @@ class ReportContent:
     @property
     def clock(self) -> ReportClock:
         """Clock from the first to the last sample, or from the first to the last event if there are no samples."""
-        start, end = self.walk.sample_span or self.walk.event_span or (0.0, 0.0)
-        return ReportClock(start, end)
+        return ReportClock(*(self.walk.sample_span or self.walk.event_span or (0.0, 0.0)))
 
     @property
-    def foot_tracks(self) -> dict[Foot, list[TimedPosition]]:
-        """Ends of the strides of each foot that took any."""
-        return {foot: list(strides) for foot, strides in self.walk.strides.items() if len(strides)}
+    def footprints(self) -> Sequence[StrideTaken]:
+        """Strides of both feet, whose positions are those of the foot-flats at their ends."""
+        return [stride for strides in self.walk.strides.values() for stride in strides]
 
     @property
     def track(self) -> Sequence[TimedPosition]:
         """Track of the wearer or, if it is not known, that of the foot with the most strides."""
-        return list(self.walk.wearer_track) or max(self.foot_tracks.values(), key=len, default=[])
+        return list(self.walk.wearer_track) or max(map(list, self.walk.strides.values()), key=len)

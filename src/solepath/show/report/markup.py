@@ -1,115 +1,113 @@
-"""Makes HTML elements; text never becomes markup, since the tree is escaped when it is written."""
+"""Makes the parts of the page that many sections have: tables, lists and figures."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from xml.etree.ElementTree import Element, SubElement
+from xml.etree.ElementTree import Element, fromstring
 
-from ...recording import printable
+from ..tables.svg import add
 from .style import STYLE
 
-MAX_LENGTH = 300
-"""Largest number of characters of a text that are shown; chosen by hand."""
 NOTHING = ("", "-")
 """Cells of a table that hold nothing."""
 MAX_LISTED = 40
 """Largest number of sentences of a list that are shown; chosen by hand."""
-
-
-def add(parent: Element, tag: str, text: str = "", **attributes: str) -> Element:
-    """Add a new last child to `parent` and return it.
-
-    In names of attributes a trailing underscore is dropped, and other underscores become hyphens."""
-    html_attributes = {
-        name.removesuffix("_").replace("_", "-"): printable(value, 10**6) for name, value in attributes.items()
-    }
-    element = SubElement(parent, tag, html_attributes)
-    if text:
-        element.text = printable(text, MAX_LENGTH)
-    return element
+WIDTH = 400.0
+"""Width of a drawing, px. It scales with the page: two are side by side on a desktop screen, one on a phone."""
+HEAD = """<head><meta charset='utf-8'/><meta name='generator' content='solepath'/>
+<meta name='viewport' content='width=device-width, initial-scale=1'/><meta name='color-scheme' content='light dark'/>
+<title>{}</title><style/></head>"""
 
 
 def skeleton(title: str) -> tuple[Element, Element]:
     """Return the document and the element for its contents."""
-    html = Element("html", {"lang": "en"})
-    head = add(html, "head")
-    add(head, "meta", charset="utf-8")
-    add(head, "meta", name="generator", content="solepath")
-    add(head, "meta", name="viewport", content="width=device-width, initial-scale=1")
-    add(head, "meta", name="color-scheme", content="light dark")
-    add(head, "title", title)
-    add(head, "style").text = STYLE
-    return html, add(add(html, "body"), "main")
+    html = fromstring("<html lang='en'/>")
+    add(html, HEAD, title)[-1].text = STYLE
+    return html, add(html, "<body><main/></body>")[0]
 
 
 def section(parent: Element, name: str, title: str) -> Element:
     """Add a section, with a heading that has the id `name`, and return the section."""
-    element = add(parent, "section", aria_labelledby=name)
-    add(element, "h2", title, id=name)
-    return element
+    return add(parent, "<section aria-labelledby='{}'><h2 id='{}'>{}</h2></section>", name, name, title)
+
+
+def paragraph(parent: Element, text: str) -> None:
+    """Add a paragraph."""
+    add(parent, "<p>{}</p>", text)
+
+
+def notes(parent: Element, texts: Iterable[str]) -> None:
+    """Add paragraphs in smaller letters."""
+    for text in texts:
+        add(parent, "<p class='note'>{}</p>", text)
 
 
 def sentences(parent: Element, texts: Sequence[str]) -> None:
     """Add a list of the first MAX_LISTED sentences, and the number of those left out."""
-    if texts:
-        items = add(parent, "ul")
-        for text in texts[:MAX_LISTED]:
-            add(items, "li", text)
-        if len(texts) > MAX_LISTED:
-            add(items, "li", f"and {len(texts) - MAX_LISTED} more")
+    items = add(parent, "<ul/>")
+    left_out = [f"and {len(texts) - MAX_LISTED} more"] if len(texts) > MAX_LISTED else []
+    for text in [*texts[:MAX_LISTED], *left_out]:
+        add(items, "<li>{}</li>", text)
 
 
-def whole_sentences(texts: Sequence[str]) -> list[str]:
+def whole_sentences(texts: Iterable[str]) -> list[str]:
     """Return texts as sentences, each with a capital letter and a full stop."""
     return [f"{text[0].upper()}{text[1:].removesuffix('.')}." for text in texts if text]
 
 
-def terms(parent: Element, entries: Iterable[tuple[str, str]], **attributes: str) -> None:
-    """Add a list of words with their meanings."""
-    definitions = add(parent, "dl", **attributes)
-    for word, meaning in entries:
-        pair = add(definitions, "div")
-        add(pair, "dt", word)
-        add(pair, "dd", meaning)
+def terms(parent: Element, entries: Iterable[tuple[str, str]], kind: str) -> None:
+    """Add a list of words with their meanings; words without a meaning are left out."""
+    known = [(word, meaning) for word, meaning in entries if meaning]
+    definitions = add(parent, "<dl class='{}'/>", kind) if known else parent
+    for word, meaning in known:
+        add(definitions, "<div><dt>{}</dt><dd>{}</dd></div>", word, meaning)
 
 
-def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:
-    """Add a drawing with a caption, and notes in smaller letters below."""
-    element = add(parent, "figure")
-    element.append(svg)
-    figcaption = add(element, "figcaption")
-    add(figcaption, "strong", caption)
+def drawing(parent: Element, name: str, title: str, what: str, height: float, width: float = WIDTH) -> Element:
+    """Add an empty <svg> of this size, px, and return it.
+
+    `name` is unique on the page. A screen reader reads `title` and the description `what` aloud."""
+    template = (
+        "<svg viewBox='0 0 {2} {3}' role='img' aria-labelledby='{0}-title {0}-what'>"
+        "<title id='{0}-title'>{1}</title><desc id='{0}-what'>{4}</desc></svg>"
+    )
+    return add(parent, template, name, title, width, height, what)
+
+
+def caption(figure: Element, title: str, *notes: str) -> None:
+    """Add the caption of a figure, with notes in smaller letters below."""
+    figcaption = add(figure, "<figcaption><strong>{}</strong></figcaption>", title)
     for note in notes:
-        add(figcaption, "span", note, **{"class": "note"})
-    return element
+        add(figcaption, "<span class='note'>{}</span>", note)
 
 
-def without_nothing(header: Sequence[str], rows: Sequence[Sequence[str]]) -> tuple[list[str], list[list[str]]]:
-    """Return a table without the columns and rows whose cells are all empty or a dash; the first column names rows."""
-    filled = [list(row) for row in rows if not all(cell in NOTHING for cell in row[1:])]
-    kept = [c for c in range(len(header)) if c == 0 or not all(row[c] in NOTHING for row in filled)]
-    return [header[c] for c in kept], [[row[c] for c in kept] for row in filled]
+def figure(parent: Element, name: str, title: str, what: str, height: float, *notes: str) -> Element:
+    """Add a figure with its caption, and return its drawing, which is still empty."""
+    element = add(parent, "<figure class='{}'/>", name)
+    svg = drawing(element, name, title, what, height)
+    caption(element, title, *notes)
+    return svg
 
 
 def table(
     parent: Element, caption: str, header: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "numbers"
-) -> Element:
+) -> None:
     """Add a table whose first column names its rows; rows and columns that hold nothing are left out.
 
     Every tag has its role as an attribute: on a phone the style sheet lays the rows out as grids, in which a screen
     reader would not recognize a table by its tags."""
-    header, rows = without_nothing(header, rows)
-    element = add(parent, "table", role="table", class_=kind)
-    add(element, "caption", caption)
-    header_row = add(add(element, "thead", role="rowgroup"), "tr", role="row")
-    for name in header:
-        add(header_row, "th", name, scope="col", role="columnheader")
-    body = add(element, "tbody", role="rowgroup")
-    for first, *others in rows:
-        row = add(body, "tr", role="row")
-        add(row, "th", first, scope="row", role="rowheader")
-        for cell in others:
-            cell_element = add(row, "td", role="cell")
-            for line in cell.split("\n"):
-                add(cell_element, "span", line)
-    return element
+    filled = [row for row in rows if not all([cell in NOTHING for cell in row[1:]])]
+    kept = [c for c in range(len(header)) if c == 0 or not all([row[c] in NOTHING for row in filled])]
+    template = (
+        "<table role='table' class='{}'><caption>{}</caption>"
+        "<thead role='rowgroup'><tr role='row'/></thead><tbody role='rowgroup'/></table>"
+    )
+    _, head, body = add(parent, template, kind, caption)
+    for c in kept:
+        add(head[0], "<th scope='col' role='columnheader'>{}</th>", header[c])
+    for row in filled:
+        row_element = add(body, "<tr role='row'><th scope='row' role='rowheader'>{}</th></tr>", row[0])
+        for c in kept[1:]:
+            cell = add(row_element, "<td role='cell'/>")
+            for text in row[c].split("\n"):
+                add(cell, "<span>{}</span>", text)

@@ -9,6 +9,7 @@ from attrs import define
 
 from ..output import os_errors_naming
 from .content import ReportContent
+from .sections.page import page_of
 
 
 @define
@@ -22,6 +23,4 @@ class Report(ReportContent):
 
     def text(self) -> str:
         """Return the page as HTML."""
-        from .sections.page import page_of
-
         return "<!DOCTYPE html>\n" + tostring(page_of(self), encoding="unicode", method="html") + "\n"

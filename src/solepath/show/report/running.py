@@ -68,9 +68,8 @@ def vertical_oscillation(contact_time: float, flight_time: float) -> float:
     maximum is F = m g (pi / 2) (flight / contact + 1), and the centre of mass sinks by F contact^2 / (m pi^2) -
     g contact^2 / 8 in the first half of the contact. In half of the flight it rises by g flight^2 / 8, which is added
     here. Stiffness by this model is 0.7 to 6.9 % lower than from a force plate (the same paper)."""
-    force = 0.5 * pi * GRAVITY * (flight_time / contact_time + 1.0)
-    sinking = force * contact_time * contact_time / (pi * pi) - 0.125 * GRAVITY * contact_time * contact_time
-    return sinking + 0.125 * GRAVITY * flight_time * flight_time
+    sinking = contact_time * (flight_time + contact_time) / (2.0 * pi) - 0.125 * contact_time**2
+    return GRAVITY * (sinking + 0.125 * flight_time**2)
 
 
 def _running(contact_time: float, double_support: float | None, strike_angle: float | None, level: bool) -> Running:

@@ -91,7 +91,7 @@ svg:where(:not(.plan)) path { fill: none; }
 .double { fill: var(--double); } .flight { fill: none; stroke: var(--soft); stroke-dasharray: 3 3; }
 .swing { fill: var(--paper); stroke: var(--rule); fill-opacity: .55; }
 .stance.left { fill: var(--left); } .stance.right { fill: var(--right); }
-svg path.bar { fill: var(--accent); }
+svg .bar { fill: var(--accent); }
 .cells { stroke: var(--soft); stroke-width: .5; }
 .centre { stroke: #10202e; stroke-width: 2.2; stroke-linecap: round; stroke-linejoin: round; }
 .under { stroke: #fff; stroke-width: 4.6; stroke-linecap: round; stroke-linejoin: round; }

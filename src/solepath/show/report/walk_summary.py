@@ -20,21 +20,21 @@ sheet of the LSM6DSOX, a common part (emulate/sensors/parts.py)."""
 EVENT_ERROR = 0.010
 """Scatter of a foot's heel-strikes within a recording, s: larger than that of toe-offs, on the recorded walks of
 `tripod_treadmill` (docs/accuracy.md, by foot). On recorded walks whose swings are labelled, every difference that is
-named beyond it is of the labelled foot (docs/report.md)."""
-CLOCK_ERROR = 0.005
-"""Largest difference of two settled clocks, s (docs/gait.md); an asymmetry of step times errs by twice as much."""
+named beyond it is of the labelled foot (docs/report.md). Two settled clocks differ by 5 ms at most (docs/gait.md), by
+twice as much an asymmetry of step times errs."""
 
 MIN_PAIRS = 4
 """Least number of strides of the right foot between two of the left one; chosen by hand, as in show/outcomes."""
 
 STRIDE_LENGTH, SWING_TIME, STEP_TIME = "stride_length", "swing_time", "step_time"
+Span = tuple[float, float]
+"""Start and end of a time, s."""
 
 
-@frozen(kw_only=True)
+@frozen
 class FootDifference:
     """A difference between the feet in steady strides of walking: (right - left) / mean of both, as a share."""
 
-    name: str
     value: float
     half_width: float
     """Half the width of the 95 % interval of `value`, as a share (paired_difference)."""
@@ -54,19 +54,16 @@ def foot_differences(
 
     `strides` are gait cycles in order of time. A difference that `parameters` lack, as step times on separate clocks
     are, is left out, and so are those of runs."""
-    if parameters is None or parameters.running:
-        return {}
-    known = {}
+    known: dict[str, FootDifference] = {}
+    if parameters is None:
+        return known
     for name in (STRIDE_LENGTH, SWING_TIME, STEP_TIME):
         figure: Figure | None = getattr(parameters.both, name)
         estimate = paired_difference(strides, name)
-        if figure is None or estimate is None or figure.mean <= 0.0:
-            continue
-        errors = {SWING_TIME: EVENT_ERROR / figure.mean, STEP_TIME: 2.0 * CLOCK_ERROR / figure.mean}
-        value, half_width = estimate
-        known[name] = FootDifference(
-            name=name, value=value, half_width=half_width, error=errors.get(name, LENGTH_ERROR)
-        )
+        if figure is not None and estimate is not None and figure.mean > 0.0:
+            known[name] = FootDifference(
+                *estimate, LENGTH_ERROR if name == STRIDE_LENGTH else EVENT_ERROR / figure.mean
+            )
     return known
 
 
@@ -77,40 +74,36 @@ def paired_difference(strides: Sequence[GaitCycleMeasured], name: str) -> tuple[
     both feet have in common, such as a change of speed, does not count. The interval is Student's t, with fewer strides
     for differences that resemble the one before (show/outcomes/spread.py). None with fewer than MIN_PAIRS."""
     from ..outcomes.quantiles import student_quantile
-    from ..outcomes.spread import moments, steady_strides
+    from ..outcomes.spread import moments, runs_of, steady_strides
 
-    ordered = sorted(
-        [stride for stride in steady_strides(strides) if getattr(stride, name) is not None],
-        key=lambda stride: stride.t_start,
-    )
-    runs: list[list[float]] = []
-    last_end: float | None = None
-    for before, stride, after in zip(ordered, ordered[1:], ordered[2:], strict=False):
-        if stride.foot is not Foot.RIGHT or before.foot is stride.foot or before.t != after.t_start:
-            continue
+    known = [stride for stride in steady_strides(strides) if getattr(stride, name) is not None]
+    known.sort(key=lambda stride: stride.t_start)
+    pairs = []
+    for before, stride, after in zip(known, known[1:], known[2:], strict=False):
         left, right = 0.5 * (getattr(before, name) + getattr(after, name)), getattr(stride, name)
-        if left + right <= 0.0:
-            continue
-        if last_end != stride.t_start:
-            runs.append([])
-        runs[-1].append(2.0 * (right - left) / (right + left))
-        last_end = stride.t
-    count = sum([len(run) for run in runs])  # whole numbers
-    if count < MIN_PAIRS:
+        is_between = before.foot is Foot.LEFT and stride.foot is Foot.RIGHT and before.t == after.t_start
+        if is_between and left + right > 0.0:
+            pairs.append((stride, 2.0 * (right - left) / (right + left)))
+    if len(pairs) < MIN_PAIRS:
         return None
-    sample = moments(runs)
+    sample = moments(runs_of(pairs))
     independent = max(sample.mean_count, 2.0)
     return sample.mean, student_quantile(independent - 1.0) * sqrt(sample.variance / independent)
 
 
 def gait_spans(
     spans: Sequence[tuple[float, float, Activity]], strides: Sequence[GaitCycleMeasured]
-) -> dict[bool, list[tuple[float, float]]]:
-    """Return the spans of time in which the wearer walked (False) and ran (True), as (start, end), s.
+) -> dict[bool, list[Span]]:
+    """Return the spans of time in which the wearer walked (False) and ran (True).
 
     Whether it was a run is known best from the strides: a runner's foot is on the ground for less than half of the gait
-    cycle. In spans of walking and running the majority of the strides counts, and without strides the activity."""
-    found: dict[bool, list[tuple[float, float]]] = {False: [], True: []}
+    cycle. In spans of walking and running the majority of the strides counts, and without strides the activity. Without
+    activities, as with some recipes, it is from the first to the last gait cycle of the kind."""
+    found: dict[bool, list[Span]] = {False: [], True: []}
+    if all([activity is Activity.UNKNOWN for _, _, activity in spans]):
+        for kind in found:
+            times = [t for stride in strides if stride.running is kind for t in (stride.t_start, stride.t)]
+            found[kind] = [(min(times), max(times))] if times else []
     for start, end, activity in spans:
         if activity in (Activity.WALKING, Activity.RUNNING):
             runs = [stride.running for stride in strides if start <= stride.t < end]
@@ -118,20 +111,15 @@ def gait_spans(
     return found
 
 
-def distance_in(
-    spans: Sequence[tuple[float, float]], distances: Mapping[Foot, Sequence[tuple[float, float]]]
-) -> float | None:
+def distance_in(spans: Sequence[Span], distances: Mapping[Foot, Sequence[tuple[float, float]]]) -> float | None:
     """Return how far the wearer went in some spans of time, m: the mean of the feet; None without any.
 
     `distances` has pairs of a time, s, and the distance that the foot has gone until then, m."""
-    lengths = [
-        fsum([_until(pairs, end) - _until(pairs, start) for start, end in spans])
-        for pairs in distances.values()
-        if pairs
-    ]
-    return fsum(lengths) / len(lengths) if lengths else None
 
+    def until(pairs: Sequence[tuple[float, float]], t: float) -> float:
+        k = bisect_right(pairs, t, key=lambda pair: pair[0])
+        return pairs[k - 1][1] if k else 0.0
 
-def _until(pairs: Sequence[tuple[float, float]], t: float) -> float:
-    k = bisect_right(pairs, t, key=lambda pair: pair[0])
-    return pairs[k - 1][1] if k else 0.0
+    known = [pairs for pairs in distances.values() if pairs]
+    lengths = [until(pairs, end) - until(pairs, start) for pairs in known for start, end in spans]
+    return fsum(lengths) / len(known) if known else None

@@ -8,7 +8,7 @@ from math import degrees
 
 from attrs import frozen
 
-from ...body.gait.means import Figure, GaitMeans, GaitParameters
+from ...body.gait.means import Figure, GaitMeans, GaitParameters, StrideFigures
 from ...types import Foot
 from .table import number, percent, table
 
@@ -53,18 +53,16 @@ class GaitRow:
     left: float | None
     right: float | None
     both: float | None
-    sd: float | None
-    cv: float | None
-    asymmetry: float | None
-    difference: float | None
+    sd: float | None = None
+    cv: float | None = None
+    asymmetry: float | None = None
+    difference: float | None = None
 
     def cells(self, separator: str) -> list[str]:
         """Return the cells of a table: left, right, mean `separator` SD of both, CV in %, asymmetry."""
-        both = number(self.both, self.digits) + (
-            "" if self.sd is None else f"{separator} {number(self.sd, self.digits)}"
-        )
-        feet = [number(value, self.digits) for value in (self.left, self.right)]
-        return [*feet, both, percent(self.cv), self.asymmetry_text]
+        left, right, both, sd = [number(one, self.digits) for one in (self.left, self.right, self.both, self.sd)]
+        spread = "" if self.sd is None else f"{separator} {sd}"
+        return [left, right, both + spread, percent(self.cv), self.asymmetry_text]
 
     @property
     def asymmetry_text(self) -> str:
@@ -76,38 +74,51 @@ class GaitRow:
 
 def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
     """Return a row for each parameter that was measured, in the order of the table."""
-    feet = [parameters.feet.get(foot) for foot in Foot]
+    columns = [*[parameters.feet.get(foot, StrideFigures()) for foot in Foot], parameters.both]
     rows = []
     for name, label, unit, digits, scale in PARAMETERS:
-        figure: Figure | None = getattr(parameters.both, name)
-        if figure is None:
+        figures: list[Figure | None] = [getattr(column, name) for column in columns]
+        if (figure := figures[-1]) is None:
             continue
-        figures: list[Figure | None] = [None if one is None else getattr(one, name) for one in feet]
-        left, right = [None if one is None else scale * one.mean for one in figures]
-        both = sd = difference = None
-        if left is not None and right is not None:
-            both = scale * figure.mean
-            sd = None if figure.sd is None else scale * figure.sd
-            difference = right - left if unit == DEGREE_UNIT else None
-        cv, asymmetry = (None, None) if unit == DEGREE_UNIT else (figure.cv, parameters.asymmetry(name))
+        left, right, both = [None if one is None else scale * one.mean for one in figures]
+        sd, cv, asymmetry, difference = figure.sd and scale * figure.sd, figure.cv, parameters.asymmetry(name), None
+        if left is None or right is None:
+            both = sd = None
+        elif unit == DEGREE_UNIT:
+            difference = right - left
+        if unit == DEGREE_UNIT:
+            cv = asymmetry = None
         rows.append(GaitRow(name, label, unit, digits, left, right, both, sd, cv, asymmetry, difference))
     for name, label in SHARES:
-        share = parameters.both.share(name)
-        if share is not None:
-            shares = [None if one is None else one.share(name) for one in feet]
-            left, right = [None if one is None else 100.0 * one for one in shares]
-            both = None if left is None or right is None else 100.0 * share
-            # a double support below zero is a flight phase; relative to a mean below zero the sign would be wrong
-            has_no_asymmetry = left is None or right is None or min(left, right) <= 0.0
-            asymmetry = None if has_no_asymmetry else parameters.asymmetry(name)
-            rows.append(GaitRow(name, label, "%", 1, left, right, both, None, None, asymmetry, None))
+        left, right, both = [share and 100.0 * share for share in [column.share(name) for column in columns]]
+        if both is None:
+            continue
+        asymmetry = None
+        if left is None or right is None:
+            both = None
+        elif min(left, right) > 0.0:  # relative to a flight, a double support below zero, the sign would be wrong
+            asymmetry = parameters.asymmetry(name)
+        rows.append(GaitRow(name, label, "%", 1, left, right, both, asymmetry=asymmetry))
     return rows
 
 
 def strides_of(parameters: GaitParameters, foot: Foot) -> int | None:
     """Return the number of a foot's strides in the means; None when it took none."""
-    figures = parameters.feet.get(foot)
-    return None if figures is None or figures.stride_time is None else figures.stride_time.strides
+    time = parameters.feet.get(foot, StrideFigures()).stride_time
+    return None if time is None else time.strides
+
+
+def gait_cells(parameters: GaitParameters, separator: str) -> list[list[str]]:
+    """Return the rows of the table of both feet, with a separator before the standard deviation."""
+    columns = [parameters.feet.get(foot, StrideFigures()) for foot in Foot]
+    columns.append(parameters.both if len(parameters.feet) == len(Foot) else StrideFigures())
+    times = [column.stride_time for column in columns]
+    cadences = [None if time is None else 120.0 / time.mean for time in times]
+    return [
+        ["strides", *[number(strides_of(parameters, foot), 0) for foot in Foot], "-", "-", "-"],
+        ["cadence, steps/min", *[number(cadence, 1) for cadence in cadences], "-", "-"],
+        *[[f"{row.label}, {row.unit}", *row.cells(separator)] for row in gait_rows(parameters)],
+    ]
 
 
 def gait_lines(means: GaitMeans) -> list[str]:
@@ -115,22 +126,11 @@ def gait_lines(means: GaitMeans) -> list[str]:
 
     A table without steady strides is left out."""
     lines: list[str] = []
-    for running in (False, True):
-        parameters = means.of(running)
-        if parameters is not None:
-            lines += [*_table(parameters), ""]
-    return lines
-
-
-def _table(parameters: GaitParameters) -> list[str]:
-    what = "running" if parameters.running else "walking"
-    header = [f"{what}, steady strides", "left", "right", "both +- SD", "CV %", "asymmetry"]
-    strides = [number(strides_of(parameters, foot), 0) for foot in Foot]
-    rows = [["strides", *strides, "-", "-", "-"]]
-    rows.append(["cadence steps/min", "-", "-", number(parameters.cadence, 1), "-", "-"])
-    for row in gait_rows(parameters):
-        rows.append([f"{row.label} {row.unit}", *row.cells(" +-")])
-    lines = table(header, rows).splitlines()
-    if parameters.coordination is not None:
-        lines.append(f"phase coordination index {percent(parameters.coordination)} %")
+    for parameters in filter(None, [means.of(False), means.of(True)]):
+        what = "running" if parameters.running else "walking"
+        rows = [[name.replace(",", ""), *cells] for name, *cells in gait_cells(parameters, " +-")]
+        lines.append(table([f"{what}, steady strides", "left", "right", "both +- SD", "CV %", "asymmetry"], rows))
+        if parameters.coordination is not None:
+            lines.append(f"phase coordination index {percent(parameters.coordination)} %")
+        lines.append("")
     return lines

@@ -7,9 +7,8 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from io import TextIOBase
 from time import monotonic
-from typing import TextIO
+from typing import Any, TextIO, cast
 
 UPDATE_INTERVAL = 0.2
 """Time between two updates of the line, s; chosen by hand."""
@@ -25,10 +24,10 @@ class _ProgressLine:
     """The line of progress at the bottom of a terminal, which a thread of its own redraws."""
 
     def __init__(self, terminal: TextIO, what: str, total: int) -> None:
-        self.done = 0
-        self._terminal, self._what, self._total = terminal, what, total
+        self.done, self._what, self._total = 0, what, total
+        self._terminal, self._start = terminal, monotonic()
+        self._is_drawn, self._is_at_margin = False, True
         self._lock, self._stopped = threading.Lock(), threading.Event()
-        self._start, self._is_drawn, self._is_at_margin = monotonic(), False, True
         self._thread = threading.Thread(target=self._redraw, daemon=True)
         self._thread.start()
 
@@ -38,12 +37,9 @@ class _ProgressLine:
             wait = UPDATE_INTERVAL
             with self._lock:
                 if self._is_at_margin and not self._stopped.is_set():
-                    width = shutil.get_terminal_size().columns - 1
-                    self._write(ERASE + progress_text(self._what, self.done, self._total, self._elapsed())[:width])
+                    text = progress_text(self._what, self.done, self._total, monotonic() - self._start)
+                    self._write(ERASE + text[: shutil.get_terminal_size().columns - 1])
                     self._is_drawn = True
-
-    def _elapsed(self) -> float:
-        return monotonic() - self._start
 
     def _write(self, text: str) -> None:
         with suppress(OSError, ValueError):  # the terminal was closed
@@ -56,14 +52,13 @@ class _ProgressLine:
             self._erase()
             count = stream.write(text)
             stream.flush()
-            if text:
-                self._is_at_margin = text.endswith("\n")
+            self._is_at_margin = text.endswith("\n") if text else self._is_at_margin
         return count
 
     def _erase(self) -> None:
         if self._is_drawn:
             self._write(ERASE)
-            self._is_drawn = False
+        self._is_drawn = False
 
     def stop(self) -> None:
         """Remove the line."""
@@ -72,7 +67,7 @@ class _ProgressLine:
         self._erase()
 
 
-class _Above(TextIOBase):
+class _Above:
     """A stream of text whose output appears above the line of progress."""
 
     def __init__(self, line: _ProgressLine, stream: TextIO) -> None:
@@ -81,24 +76,17 @@ class _Above(TextIOBase):
     def write(self, text: str) -> int:
         return self._line.print_above(self._stream, text)
 
-    def flush(self) -> None:
-        self._stream.flush()
-
-    def isatty(self) -> bool:
-        return self._stream.isatty()
-
-    def fileno(self) -> int:
-        return self._stream.fileno()
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
 
 
 def progress_text(what: str, done: int, total: int, elapsed: float) -> str:
     """Return the line of progress after `elapsed` seconds: name, percent and remaining time, or the time so far."""
-    share = min(1.0, done / total) if total > 0 else 0.0
+    share = min(1.0, done / max(total, 1))
     if share == 0.0:
         return f"{what}: {elapsed:.0f} s"
-    if share < MIN_SHARE:
-        return f"{what}: {100.0 * share:.0f} %"
-    return f"{what}: {100.0 * share:.0f} %, about {elapsed * (1.0 - share) / share:.0f} s left"
+    left = f", about {elapsed * (1.0 - share) / share:.0f} s left" if share >= MIN_SHARE else ""
+    return f"{what}: {100.0 * share:.0f} %{left}"
 
 
 @contextmanager
@@ -106,25 +94,17 @@ def progress_bar(what: str, total: int = 0) -> Iterator[Callable[[int], None]]:
     """Yield a function that takes how many of `total` units are done; `total` 0 shows the time so far.
 
     After FIRST_UPDATE a line with the name `what` appears on stderr if that is a terminal; it is removed at the end."""
-    if not sys.stderr.isatty() or isinstance(sys.stderr, _Above):
-        yield _ignore
-        return
     stdout, stderr = sys.stdout, sys.stderr
+    if not stderr.isatty() or isinstance(stderr, _Above):
+        yield lambda done: None
+        return
     line = _ProgressLine(stderr, what, total)
-
-    def show(done: int) -> None:
-        line.done = done
-
     try:
         # text for a file stays as it is; text for a terminal appears above the line
         if stdout.isatty():
-            sys.stdout = _Above(line, stdout)
-        sys.stderr = _Above(line, stderr)
-        yield show
+            sys.stdout = cast(TextIO, _Above(line, stdout))
+        sys.stderr = cast(TextIO, _Above(line, stderr))
+        yield lambda done: setattr(line, "done", done)
     finally:
         sys.stdout, sys.stderr = stdout, stderr
         line.stop()
-
-
-def _ignore(done: int) -> None:
-    """Do nothing, since no progress is shown."""

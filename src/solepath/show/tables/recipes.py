@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import hypot
+from statistics import fmean
 
 from attrs import define
 
-from ...body.gait.means import GaitParameters
 from ...recording import printable
-from ...types import Foot, Vec3
+from ...types import Foot
 from ...walk.walk import FootCounts, Walk
-from .gait import PARAMETERS
-from .table import number, percent, table
-
-NO_GAIT = "-"
-"""Cell of a figure that is not known."""
+from .gait import gait_rows
+from .table import number, table
 
 
 @define
@@ -27,83 +24,44 @@ class RecipeRun:
     seconds: float = 0.0
     """Wall time that computing took, s."""
 
-    @property
-    def gait(self) -> GaitParameters | None:
-        """Means of walking, or of running where nobody walked."""
-        return self.walk.gait.of(False) or self.walk.gait.of(True)
-
-    @property
-    def displacement(self) -> Vec3 | None:
-        """Way from the start to the end, the mean of the feet, world frame, m; None without a position."""
-        ways = [
-            (end[0] - start[0], end[1] - start[1], end[2] - start[2])
-            for start, end in [(counts.start, counts.position) for counts in self.walk.feet.values()]
-            if start is not None and end is not None
-        ]
-        if not ways:
-            return None
-        x, y, z = (sum([way[axis] for way in ways]) / len(ways) for axis in range(3))
-        return x, y, z
+    def cells(self) -> dict[str, str]:
+        """Return the figures of the run as texts by their names; "-" is a figure that is not known."""
+        walk, cells = self.walk, {}
+        feet = {foot: walk.feet.get(foot, FootCounts()) for foot in Foot}
+        for foot, counts in feet.items():
+            cells[f"strides, {foot} foot"] = str(counts.strides) if foot in walk.known_feet else "-"
+        for foot, counts in feet.items():
+            cells[f"distance m, {foot} foot"] = number(counts.distance) if foot in walk.feet else "-"
+        cells["distance m, both feet fused"] = number(None if walk.fused is None else walk.fused.distance)
+        ends = [(counts.start, counts.position) for counts in feet.values()]
+        ways = [[b - a for a, b in zip(start, end, strict=True)] for start, end in ends if start and end]
+        x, y, z = [fmean(axis) for axis in zip(*ways, strict=True)] if ways else (None, None, None)
+        cells["from start to end m"] = number(None if x is None or y is None else hypot(x, y))
+        cells["end above start m"] = "-" if z is None else f"{z:z.2f}"
+        # means of walking, or of running where nobody walked
+        if (gait := walk.gait.of(False) or walk.gait.of(True)) is not None:
+            cells["cadence steps/min"] = number(gait.cadence, 1)
+            for row in gait_rows(gait):
+                means = [one for one in (row.both, row.left, row.right) if one is not None]
+                cells[f"{row.label} {row.unit}"] = number(means[0], row.digits)
+        for foot, counts in feet.items():
+            cells[f"degraded strides, {foot} foot"] = str(counts.degraded) if foot in walk.known_feet else "-"
+        cells["defects of the data"] = str(len(walk.defects))
+        cells["limitations"] = str(len(walk.limitations))
+        samples = sum([walk.samples(foot) for foot in Foot])  # whole numbers
+        cells["us a sample"] = number(1e6 * self.seconds / samples if samples else None, 0)
+        return cells
 
 
 def recipe_lines(title: str, runs: Sequence[RecipeRun]) -> list[str]:
     """Return the table of the recipes, a column each, and below it what each of them reports about the data."""
-    duration = max(run.walk.covered_time.total for run in runs)
-    header = [f"{title}: {duration:.1f} s", *(run.recipe for run in runs)]
-    rows: list[list[str]] = []
-
-    def add(label: str, cell: Callable[[RecipeRun], str]) -> None:
-        cells = [cell(run) for run in runs]
-        if any(one != NO_GAIT for one in cells):
-            rows.append([label, *cells])
-
-    for foot in Foot:
-        add(f"strides, {foot} foot", lambda run, foot=foot: _count(run, foot, "strides"))  # type: ignore[misc]
-    for foot in Foot:
-        add(f"distance m, {foot} foot", lambda run, foot=foot: _distance(run, foot))  # type: ignore[misc]
-    add("distance m, both feet fused", _fused)
-    add("from start to end m", lambda run: _way(run, lambda way: hypot(way[0], way[1])))
-    add("end above start m", lambda run: _way(run, lambda way: way[2]))
-    add("cadence steps/min", lambda run: number(None if run.gait is None else run.gait.cadence, 1))
-    for name, label, unit, digits, scale in PARAMETERS:
-        add(f"{label} {unit}", lambda run, row=(name, digits, scale): _mean(run, *row))  # type: ignore[misc]
-    add("stance %", lambda run: percent(None if run.gait is None else run.gait.both.share("stance_time")))
-    for foot in Foot:
-        add(f"degraded strides, {foot} foot", lambda run, foot=foot: _count(run, foot, "degraded"))  # type: ignore[misc]
-    add("defects of the data", lambda run: str(len(run.walk.defects)))
-    add("limitations", lambda run: str(len(run.walk.limitations)))
-    add("us a sample", _pace)
-    lines = table(header, rows).splitlines()
+    duration = max([run.walk.covered_time.total for run in runs])
+    header = [f"{title}: {duration:.1f} s", *[run.recipe for run in runs]]
+    columns = [run.cells() for run in runs]
+    names = dict.fromkeys([name for column in columns for name in column])
+    rows = [[name, *[column.get(name, "-") for column in columns]] for name in names]
+    lines = table(header, [row for row in rows if set(row[1:]) != {"-"}]).splitlines()
     for run in runs:
         lines += [f"{run.recipe}: DEFECT, {printable(what)}" for what in run.walk.defects]
         lines += [f"{run.recipe}: limitation, {printable(what)}" for what in run.walk.limitations]
     return lines
-
-
-def _count(run: RecipeRun, foot: Foot, name: str) -> str:
-    if foot not in run.walk.known_feet:
-        return NO_GAIT
-    return str(getattr(run.walk.feet.get(foot, FootCounts()), name))
-
-
-def _distance(run: RecipeRun, foot: Foot) -> str:
-    return number(run.walk.feet[foot].distance) if foot in run.walk.feet else NO_GAIT
-
-
-def _fused(run: RecipeRun) -> str:
-    return number(None if run.walk.fused is None else run.walk.fused.distance)
-
-
-def _way(run: RecipeRun, length: Callable[[Vec3], float]) -> str:
-    way = run.displacement
-    return number(None if way is None else round(length(way), 2) + 0.0)  # no -0.00
-
-
-def _mean(run: RecipeRun, name: str, digits: int, scale: float) -> str:
-    figure = None if run.gait is None else getattr(run.gait.both, name)
-    return number(None if figure is None else scale * figure.mean, digits)
-
-
-def _pace(run: RecipeRun) -> str:
-    samples = sum([run.walk.samples(foot) for foot in Foot])  # whole numbers
-    return number(1e6 * run.seconds / samples if samples else None, 0)

@@ -1,8 +1,9 @@
-"""Puts the counts of an walk into words: a summary of a recording, and the present state of links and place."""
+"""Puts the counts of a walk into words: a summary of a recording, and the present state of links and place."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 from statistics import median
 
 from ...events import Placed
@@ -13,7 +14,7 @@ from ...walk.places import MAX_LISTED, PlaceCounts
 from ...walk.walk import GAIT_EVENTS, FootCounts, Walk
 from .gait import gait_lines
 from .table import counted, duration_text, milliseconds, number, table, times
-from .words import activity_words, turn_words
+from .words import activity_words, directions, turn_words
 
 NO_DATA = "no data from either foot"
 SHORTEST_ABSENCE = 0.05
@@ -23,42 +24,45 @@ SHORTEST_ABSENCE = 0.05
 def summary(walk: Walk, *, title: str, seconds: float) -> str:
     """Return the summary of one recording; `seconds` is the wall time that computing it took."""
     duration = walk.covered_time.total
-    lines = [f"{title}: {duration:.1f} s"]
-    lines += [f"DEFECT, {printable(what)}" for what in walk.defects]
-    lines += _foot_table(walk)
-    lines += _fused_feet(walk)
-    lines += activity_lines(walk)
+    lines = [f"{title}: {duration:.1f} s", *[f"DEFECT, {printable(what)}" for what in walk.defects]]
+    lines += ["", _foot_table(walk), "", *degraded_lines(walk)] if walk.known_feet else [NO_DATA]
+    if (fused := walk.fused) is not None:
+        lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen} foot's path")
+    if walk.modes:
+        modes = ", ".join([f"{mode} {walk.modes[mode]}" for mode in WalkingMode if walk.modes[mode]])
+        lines.append(f"{counted(walk.modes.total(), 'touchdown')}: {modes}")
+    lines += activity_lines(walk, walk.now)
     if gait := gait_lines(walk.gait):
         lines += ["", *gait]
-    lines += wear_lines(walk)
-    lines += link_health(walk)
-    lines += latency(walk)
+    lines += wear_lines(walk) + link_health(walk) + latency(walk)
     lines += [f"limitation, {printable(what)}" for what in walk.limitations]
-    samples = sum([walk.samples(foot) for foot in Foot])
+    samples = sum([walk.samples(foot) for foot in Foot])  # whole numbers
     if seconds > 0.0 and samples:
-        pace = f", {1e6 * seconds / samples:.0f} us a sample"
-        lines.append(f"computed in {seconds:.2f} s: {duration / seconds:.0f} times as fast as walked{pace}")
+        pace = f"{duration / seconds:.0f} times as fast as walked, {1e6 * seconds / samples:.0f} us a sample"
+        lines.append(f"computed in {seconds:.2f} s: {pace}")
     return "\n".join(lines)
 
 
-def _foot_table(walk: Walk) -> list[str]:
-    """Return a table of the feet, and lines about missing samples."""
-    if not walk.known_feet:
-        return [NO_DATA]
-    header = ["foot", "samples", "Hz", "strides", "distance m", *[f"{name}s" for name in GAIT_EVENTS.values()]]
-    rows = []
+def _feet(walk: Walk) -> Iterator[tuple[Foot, FootCounts, LinkLedger]]:
     for foot in walk.known_feet:
-        counts = walk.feet.get(foot, FootCounts())
-        link = walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
-        row = [f"{foot}", str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
-        rows.append([*row, *[str(counts.events[name]) for name in GAIT_EVENTS.values()]])
-    return ["", table(header, rows), "", *degraded_lines(walk)]
+        yield foot, walk.feet.get(foot, FootCounts()), walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
+
+
+def _foot_table(walk: Walk) -> str:
+    """Return a table of the feet."""
+    names = GAIT_EVENTS.values()
+    rows = [
+        [foot.value, str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
+        + [str(counts.events[name]) for name in names]
+        for foot, counts, link in _feet(walk)
+    ]
+    return table(["foot", "samples", "Hz", "strides", "distance m", *[f"{name}s" for name in names]], rows)
 
 
 def degraded_lines(walk: Walk) -> list[str]:
     """Return a line for each foot with degraded strides."""
-    feet = [(foot, walk.feet.get(foot, FootCounts())) for foot in walk.known_feet]
-    return [f"{foot}: {one.degraded} of {one.strides} strides degraded" for foot, one in feet if one.degraded]
+    feet = [(foot, counts) for foot, counts, _ in _feet(walk) if counts.degraded]
+    return [f"{foot}: {counts.degraded} of {counts.strides} strides degraded" for foot, counts in feet]
 
 
 def missing_words(link: LinkLedger) -> str:
@@ -87,40 +91,21 @@ def fused_stride(walk: Walk) -> list[str]:
     ]
 
 
-def _fused_feet(walk: Walk) -> list[str]:
-    """Return the lines about the fused track and the walking modes; none if the recipe treats each foot by itself."""
-    lines = []
-    if (fused := walk.fused) is not None:
-        lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen} foot's path")
-    if walk.modes:
-        modes = ", ".join(f"{mode} {walk.modes[mode]}" for mode in WalkingMode if walk.modes[mode])
-        lines.append(f"{counted(walk.modes.total(), 'touchdown')}: {modes}")
-    return lines
-
-
-def activity_lines(walk: Walk) -> list[str]:
-    """Return a line for activities, flights of stairs, elevator rides and turns each, if there were any."""
-    lines = []
-    if durations := walk.timeline.durations(walk.now):
-        activities = [f"{activity_words(activity)} {duration_text(t)}" for activity, t in durations.items()]
-        lines.append(f"activities: {', '.join(activities)}")
-    for counts, name in ((walk.flights, "flight"), (walk.elevator_rides, "lift ride")):
-        directions = [f"{counts[up]} {'up' if up else 'down'}" for up in (True, False) if counts[up]]
-        if directions:
-            lines.append(f"{name}s: {', '.join(directions)}")
-    if walk.turns:
-        turns = [f"{walk.turns[turn]} {turn_words(turn)}" for turn in Turn if walk.turns[turn]]
-        lines.append(f"turns: {', '.join(turns)}")
-    return lines
+def activity_lines(walk: Walk, now: float) -> list[str]:
+    """Return a line for activities until `now`, s, flights of stairs, lift rides and turns each, if there were any."""
+    found = {
+        "activities": [f"{activity_words(one)} {duration_text(t)}" for one, t in walk.timeline.durations(now).items()],
+        "flights of stairs": [f"{count} {way}" for way, count in directions(walk.flights)],
+        "lift rides": [f"{count} {way}" for way, count in directions(walk.elevator_rides)],
+        "turns": [f"{walk.turns[turn]} {turn_words(turn)}" for turn in Turn if walk.turns[turn]],
+    }
+    return [f"{name}: {', '.join(texts)}" for name, texts in found.items() if texts]
 
 
 def wear_lines(walk: Walk) -> list[str]:
     """Return a line for each fault in how sensors are worn; none without faults."""
-    silent = {foot: walk.silences[foot] for foot in Foot if walk.silences[foot]}
-    return [
-        *walk.wear_problems,
-        *(f"{foot}: silent {times(n)} while the other walked on" for foot, n in silent.items()),
-    ]
+    silences = [(foot, walk.silences[foot]) for foot in Foot if walk.silences[foot]]
+    return walk.wear_problems + [f"{foot}: silent {times(n)} while the other walked on" for foot, n in silences]
 
 
 def site_links(walk: Walk) -> list[tuple[Site, LinkLedger]]:
@@ -130,27 +115,30 @@ def site_links(walk: Walk) -> list[tuple[Site, LinkLedger]]:
 
 def link_health(walk: Walk) -> list[str]:
     """Return a line for each kind of fault of the links; none without faults."""
-    lines, links = [], list(walk.links.values())
-    lines += [f"{site.words}: {words}" for site, link in site_links(walk) if (words := missing_words(link))]
+    links = list(walk.links.values())
+
+    def total(name: str) -> int:
+        return sum([getattr(link, name) for link in links])  # whole numbers
+
+    lines = [f"{site.words}: {words}" for site, link in site_links(walk) if (words := missing_words(link))]
     rejected = sum([link.rejected for link in links], Counter[tuple[str, str]]())
     for kind in ("packet", "sample"):
         reasons = {reason: count for (what, reason), count in rejected.items() if what == f"{kind}s"}
         if reasons:
-            detail = ", ".join(f"{reason} {count}" for reason, count in sorted(reasons.items()))
+            detail = ", ".join([f"{reason} {count}" for reason, count in sorted(reasons.items())])
             lines.append(f"{counted(sum(reasons.values()), kind)} rejected ({detail})")
-    if resets := sum([link.clock_resets for link in links]):
+    if resets := total("clock_resets"):
         lines.append(counted(resets, "clock reset"))
-    if silences := sum([link.silences for link in links]):
+    if silences := total("silences"):
         lines.append(f"a stream fell silent {times(silences)}")
-    if restarts := sum([link.restarts for link in links]):
+    if restarts := total("restarts"):
         lines.append(f"a stream froze and was set up again {times(restarts)}")
-    if dropped := sum([link.dropped for link in links]):
+    if dropped := total("dropped"):
         lines.append(f"{counted(dropped, 'packet')} dropped: too many came to be used in time")
     for site, link in site_links(walk):
         if link.connections > 1:
             lines.append(f"{site.words}: connected {times(link.connections)}")
-    lines += [f"trouble, {printable(what)}" for what in walk.troubles]
-    return lines
+    return lines + [f"trouble, {printable(what)}" for what in walk.troubles]
 
 
 def latency(walk: Walk) -> list[str]:
@@ -163,40 +151,31 @@ def latency(walk: Walk) -> list[str]:
 def status(walk: Walk) -> list[str]:
     """Return a line on the link of each site, in the order of Site, and one on the place if it is known."""
     lines = [_link(site, link, walk.now) for site, link in site_links(walk)]
-    place = walk.places.last
-    return lines if place is None else [*lines, place_line(place)]
+    return lines + ([place_line(walk.places.last)] if walk.places.last is not None else [])
 
 
 def _link(site: Site, link: LinkLedger, now: float) -> str:
-    parts = [f"{site.words}: {link.recent_rate(now) or 0.0:.0f} Hz"]
-    if link.missing:
-        parts.append(f"{100.0 * link.missing_share:.1f} % missing")
-    if link.battery is not None:
-        parts.append(f"battery {100.0 * link.battery:.0f} %")
-    if link.signal is not None:
-        parts.append(f"{link.signal} dBm")
-    if link.state(now) == "lost":
-        parts.append("disconnected")
-    if link.trouble:
-        parts.append(printable(link.trouble))
-    return ", ".join(parts)
+    parts = [
+        f"{link.recent_rate(now) or 0.0:.0f} Hz",
+        f"{100.0 * link.missing_share:.1f} % missing" if link.missing else "",
+        "" if link.battery is None else f"battery {100.0 * link.battery:.0f} %",
+        "" if link.signal is None else f"{link.signal} dBm",
+        "disconnected" if link.state(now) == "lost" else "",
+        printable(link.trouble or ""),
+    ]
+    return f"{site.words}: {', '.join(filter(None, parts))}"
 
 
 def place_lines(counts: PlaceCounts) -> list[str]:
     """Return the lines about the place over a whole recording."""
-    lines = []
+    lines = [f"place: not found; {counted(counts.places, 'stride')} with several candidates"]
     if counts.first_decided is not None:
         strides, t = counts.first_decided
-        share = f"; one place for {counts.decided_count} of {counts.places} strides"
-        lines.append(f"place: found after {counted(strides, 'stride')}, at {number(t, 1)} s{share}")
-    else:
-        lines.append(f"place: not found; {counted(counts.places, 'stride')} with several candidates")
+        share = f"one place for {counts.decided_count} of {counts.places} strides"
+        lines = [f"place: found after {counted(strides, 'stride')}, at {number(t, 1)} s; {share}"]
     if counts.last is not None:
-        x, y, _ = counts.last.position
-        position = f"({number(x, 1)}, {number(y, 1)}) m"
         count = len(counts.last.candidates)
-        uncertainty = f", one of {count} candidates" if count > 1 else f", within {number(counts.last.spread, 1)} m"
-        lines.append(f"at the end: {_level_and_room(counts.last)}, {position}{uncertainty}")
+        lines.append(f"at the end: {_where(counts.last)}{f', one of {count} candidates' if count > 1 else ''}")
     if counts.level_starts:
         levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.level_starts])
         unlisted = counts.level_changes - MAX_LISTED
@@ -209,18 +188,17 @@ def place_lines(counts: PlaceCounts) -> list[str]:
 
 def place_line(place: Placed) -> str:
     """Return a line with the wearer's present level, room and door if they have names, and position, m, plan frame."""
-    x, y, _ = place.position
     count = len(place.candidates)
-    text = f"place: {_level_and_room(place)}, ({number(x, 1)}, {number(y, 1)}) m"
-    if count == 1:
-        return f"{text}, within {number(place.spread, 1)} m"
-    return f"{text}, {100.0 * place.candidates[0].weight:.0f} % sure, one of {count} candidates"
+    sureness = f", {100.0 * place.candidates[0].weight:.0f} % sure, one of {count} candidates" if count > 1 else ""
+    return f"place: {_where(place)}{sureness}"
 
 
-def _level_and_room(place: Placed) -> str:
+def _where(place: Placed) -> str:
+    """Return level, room and door, the position, m, and for a decided place how far that may be off."""
     names = [f"level {printable(place.level)}"]
-    if place.room is not None:
-        names.append(printable(place.room))
-    if place.door is not None:
-        names.append(f"at door {printable(place.door)}")
+    names += [] if place.room is None else [printable(place.room)]
+    names += [] if place.door is None else [f"at door {printable(place.door)}"]
+    x, y, _ = place.position
+    names.append(f"({number(x, 1)}, {number(y, 1)}) m")
+    names += [f"within {number(place.spread, 1)} m"] if len(place.candidates) == 1 else []
     return ", ".join(names)

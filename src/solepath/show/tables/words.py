@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ...types import Activity, Turn
 
 
@@ -13,3 +15,8 @@ def activity_words(activity: Activity) -> str:
 def turn_words(turn: Turn) -> str:
     """Return the direction of a turn in a sentence: "to the left", "to the right", "about"."""
     return "about" if turn is Turn.ABOUT else f"to the {turn.value.lower()}"
+
+
+def directions(counts: Mapping[bool, int]) -> list[tuple[str, int]]:
+    """Return how often it went "up" (True) and "down" (False), without the direction in which it did not go."""
+    return [(way, counts[up]) for up, way in ((True, "up"), (False, "down")) if counts.get(up)]

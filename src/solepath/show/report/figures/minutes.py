@@ -5,30 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
-from ...tables.svg import px
-from ..markup import add, figure
-from .axes import Chart, drawing, padded_range, write
+from ...tables.svg import add
+from .axes import MARGIN_SHARE, Chart, write
 
-HEIGHT = 190.0
 BAR_SHARE = 0.7
 """Width of a bar as a share of a minute."""
 
 
-def minutes_figure(parent: Element, minutes: Sequence[float]) -> bool:
-    """Draw a bar for the distance, m, of each whole minute; return False without any."""
+def minutes_figure(parent: Element, minutes: Sequence[float]) -> None:
+    """Draw a bar for the distance, m, of each whole minute; nothing without any."""
     if not minutes:
-        return False
-    texts = ", ".join([f"{distance:.1f} m" for distance in minutes])
-    svg = drawing("minutes", "Distance of each minute", f"Distances of the minutes in order: {texts}.", HEIGHT)
-    spans = (0.5, len(minutes) + 0.5), padded_range(minutes, least=1.0, zero=True)
-    chart = Chart.of(svg, *spans, ("minute", "distance, m"), HEIGHT)
-    bars = add(svg, "path", class_="bar")
-    paths = []
+        return
+    what = f"Distances of the minutes in order: {', '.join([f'{distance:.1f} m' for distance in minutes])}."
+    x, y = (0.5, len(minutes) + 0.5), (0.0, (1.0 + MARGIN_SHARE) * max(*minutes, 1.0))
+    chart = Chart.of(parent, "minutes", "Distance of each minute", what, x, y, ("minute", "distance, m"))
     for minute, distance in enumerate(minutes, start=1):
-        left, top = chart.at(minute - 0.5 * BAR_SHARE, distance)
-        right = chart.x.at(minute + 0.5 * BAR_SHARE)
-        paths.append(f"M{px(left)} {px(chart.y.start)}V{px(top)}H{px(right)}V{px(chart.y.start)}z")
-        write(svg, 0.5 * (left + right), top + 12.0, f"{distance:.0f}", "onbar", "middle")
-    bars.set("d", "".join(paths))
-    figure(parent, svg, "Distance of each minute")
-    return True
+        left, right, top = chart.x(minute - 0.5 * BAR_SHARE), chart.x(minute + 0.5 * BAR_SHARE), chart.y(distance)
+        bar = "<rect x='{}' y='{}' width='{}' height='{}' class='bar'/>"
+        add(chart.svg, bar, left, top, right - left, chart.y.start - top)
+        write(chart.svg, chart.x(minute), top + 12.0, f"{distance:.0f}", "onbar")

@@ -4,162 +4,134 @@ A contact is the time from heel-strike to toe-off."""
 
 from __future__ import annotations
 
-from math import fsum, hypot
+from collections.abc import Iterable, Mapping, Sequence
+from math import dist, fsum
+from statistics import median_high
 from xml.etree.ElementTree import Element
+
+from attrs import evolve
 
 from ....types import Foot, Layout
 from ....walk.soles import STATIONS, SoleLoads
-from ...tables.plan import blend
-from ...tables.svg import px
-from ..markup import add, figure, table
-from .axes import Chart, drawing, line, padded_range, write
-from .stride import legend
+from ...tables.svg import View, add, blend, colour_bar, line
+from ..markup import figure, paragraph, table, whole_sentences
+from .axes import MARGIN_SHARE, PATH, Chart, write
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
 """Colours from no load to the highest; a higher load is darker, also on a black-and-white printer."""
-SOLE_HEIGHT = 250.0
-"""Height of the drawing of a sole, px."""
+SOLE_WIDTH, SOLE_HEIGHT, SOLE_TOP = 150.0, 240.0, 31.0
+"""Largest size of the drawing of a sole, and its place on the map, px."""
 THIRDS = ("heel", "midfoot", "forefoot")
+PATHS = "Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single strides."
+STOOD = "No whole stride was walked: the loads are means over the whole recording."
+
+Loads = Mapping[Foot, Sequence[float]]
+"""Load of each cell by foot."""
+Drawn = Mapping[Foot, tuple[SoleLoads, Layout]]
+"""Soles of which the places of the cells are known."""
 
 
-def pressure_figures(parent: Element, soles: dict[Foot, SoleLoads]) -> bool:
-    """Draw the maps and curves for which there is data; return False when there is no pressure."""
+def pressure_figures(parent: Element, soles: Mapping[Foot, SoleLoads]) -> None:
+    """Draw the maps and curves for which there is data."""
     pressed = {foot: soles[foot] for foot in Foot if foot in soles and soles[foot].samples}
-    if not pressed:
-        return False
     walked = {foot: sole for foot, sole in pressed.items() if sole.contacts}
+    shown = walked or pressed
+    drawn = {foot: (sole, layout) for foot, sole in shown.items() if (layout := sole.drawable_layout) is not None}
+
+    def means(sums: str, count: str) -> Loads:
+        found = {foot: (getattr(sole, sums), getattr(sole, count)) for foot, (sole, _) in drawn.items()}
+        return {foot: [load / n for load in loads] for foot, (loads, n) in found.items()}
+
     if walked:
-        maps = {foot: layout for foot, sole in walked.items() if (layout := sole.drawable_layout)}
-        means = {foot: [v / walked[foot].contacts for v in walked[foot].mean_sums] for foot in maps}
-        peaks = {foot: [v / walked[foot].contacts for v in walked[foot].peak_sums] for foot in maps}
-        _map(parent, "mean", "Mean load of a contact", walked, maps, means, paths=True)
-        _map(parent, "peak", "Peak load of a contact", walked, maps, peaks, paths=False)
+        loads = means("mean_sums", "contacts")
+        _map(parent, "mean", "Mean load of a contact", drawn, loads, paths=True)
+        _map(parent, "peak", "Peak load of a contact", drawn, means("peak_sums", "contacts"))
         _forces(parent, walked)
     else:
-        maps = {foot: layout for foot, sole in pressed.items() if (layout := sole.drawable_layout)}
-        means = {foot: [v / pressed[foot].samples for v in pressed[foot].cell_sums] for foot in maps}
-        _map(parent, "standing", "Mean load of the whole recording", pressed, maps, means, paths=False)
-        add(parent, "p", "No whole stride was walked: the loads are means over the whole recording.")
-    if maps:
-        _thirds(parent, maps, means)
-    unknown = [foot.value for foot in pressed if foot not in maps and (not walked or foot in walked)]
-    if unknown:
-        words = f"{' and '.join(unknown)} sole{'s' * (len(unknown) > 1)}"
-        add(parent, "p", f"Where the cells of the {words} lie is not known, so that no map can be drawn.")
+        loads = means("cell_sums", "samples")
+        _map(parent, "standing", "Mean load of the whole recording", drawn, loads)
+        paragraph(parent, STOOD)
+    _thirds(parent, drawn, loads)
     for foot in pressed:
-        if walked and foot not in walked:
-            add(parent, "p", f"No whole stride of the {foot} foot was measured with its pressure.")
-    return True
+        if foot not in shown:
+            paragraph(parent, f"No whole stride of the {foot} foot was measured with its pressure.")
+        elif foot not in drawn:
+            paragraph(parent, f"Where the cells of the {foot} sole lie is not known, so that no map can be drawn.")
 
 
-def _unit(soles: dict[Foot, SoleLoads]) -> str:
-    return " and ".join(sorted({sole.unit for sole in soles.values()}))
+def _unit(soles: Iterable[SoleLoads]) -> str:
+    return " and ".join(sorted({sole.unit for sole in soles}))
 
 
 def radius(layout: Layout) -> float:
     """Return the radius of a drawn cell, m: most cells just touch; it is 2 to 20 mm."""
     places = [(cell.x, cell.y) for cell in layout.cells]
-    if len(places) < 2:
-        return 0.01
-    nearest = sorted([
-        min([hypot(x - a, y - b) for k, (a, b) in enumerate(places) if k != i]) for i, (x, y) in enumerate(places)
-    ])  # fmt: skip
-    return min(max(0.55 * nearest[len(nearest) // 2], 0.002), 0.02)
+    nearest = [min([dist(a, b) for b in places if b is not a], default=0.02) for a in places]
+    return min(max(0.55 * median_high(nearest), 0.002), 0.02)
 
 
-def _map(
-    parent: Element,
-    name: str,
-    title: str,
-    soles: dict[Foot, SoleLoads],
-    maps: dict[Foot, Layout],
-    loads: dict[Foot, list[float]],
-    *,
-    paths: bool,
-) -> None:
-    if not maps:
-        return
-    highest = max([max(values) for values in loads.values()])
-    unit = _unit({foot: soles[foot] for foot in maps})
+def _map(parent: Element, name: str, title: str, drawn: Drawn, loads: Loads, *, paths: bool = False) -> None:
     texts = []
-    for foot, values in loads.items():
-        k = max(range(len(values)), key=values.__getitem__)
-        x = maps[foot].cells[k].x / max(maps[foot].length, 1e-6)
-        load = f"{values[k]:.3g} {soles[foot].unit} a cell"
-        texts.append(f"{foot}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
-    svg = drawing(f"pressure-{name}", title, f"{'; '.join(texts)}.", SOLE_HEIGHT + 66.0)
-    for foot, layout in maps.items():
-        shares = [load / highest if highest > 0.0 else 0.0 for load in loads[foot]]
-        _sole(svg, foot, layout, shares, soles[foot] if paths else None)
-    y = SOLE_HEIGHT + 40.0
-    for k in range(30):
-        add(svg, "rect", x=px(50.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=blend(SHADES, k / 29.0))
-    write(svg, 44.0, y + 10.0, "0", "tick", "end")
-    write(svg, 238.0, y + 10.0, f"{highest:.3g} {unit} a cell", "tick")
-    notes = [f"{text[0].upper()}{text[1:]}." for text in texts]
-    if paths:
-        notes.append("Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single strides.")
-    figure(parent, svg, title, *notes)
+    for foot, (sole, layout) in drawn.items():
+        most = max(loads[foot])
+        share = layout.cells[loads[foot].index(most)].x / max(layout.length, 1e-6)
+        place = f"at {100.0 * share:.0f} % of the length from the heel"
+        texts.append(f"{foot}: highest {most:.3g} {sole.unit} a cell, {place}")
+    if not texts:
+        return
+    notes = [*whole_sentences(texts), *([PATHS] if paths else [])]
+    svg = figure(parent, f"pressure-{name}", title, f"{'; '.join(texts)}.", 316.0, *notes)
+    highest = max([max(values) for values in loads.values()])
+    for foot, (sole, layout) in drawn.items():
+        r = radius(layout)
+        view = View.fit([(-cell.y, cell.x) for cell in layout.cells], SOLE_WIDTH, SOLE_HEIGHT, margin=r)
+        middle = 110.0 if foot is Foot.LEFT else 290.0
+        top = SOLE_TOP + 0.5 * (SOLE_HEIGHT - view.height)
+        view = evolve(view, left=middle - 0.5 * view.width, top=top)
+        write(svg, middle, 14.0, foot.value, "label")
+        for cell, load in zip(layout.cells, loads[foot], strict=True):
+            disc = "<circle cx='{}' cy='{}' r='{}' fill='{}' class='cells'/>"
+            add(svg, disc, *view.at((-cell.y, cell.x)), r * view.scale, blend(SHADES, load / (highest or 1.0)))
+        if paths:
+            _draw_paths(svg, sole, view)
+    colour_bar(svg, SHADES, 50.0, 290.0, 180.0)
+    write(svg, 44.0, 300.0, "0", "tick", "end")
+    unit = _unit([sole for sole, _ in drawn.values()])
+    write(svg, 238.0, 300.0, f"{highest:.3g} {unit} a cell", "tick", "start")
 
 
-def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked: SoleLoads | None) -> None:
-    """Draw a sole seen from above, with the toe up.
-
-    `shares` are the loads relative to the highest load. `walked` is the sole whose paths are drawn; None for none."""
-    middle = 110.0 if foot is Foot.LEFT else 290.0
-    xs, ys = [cell.x for cell in layout.cells], [cell.y for cell in layout.cells]
-    r = radius(layout)
-    scale = min(
-        (SOLE_HEIGHT - 10.0) / max(max(xs) - min(xs) + 2.0 * r, 1e-3), 150.0 / max(max(ys) - min(ys) + 2.0 * r, 1e-3)
-    )
-    centre_x, centre_y = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))
-
-    def at(x: float, y: float) -> tuple[float, float]:
-        return middle - (y - centre_y) * scale, 26.0 + 0.5 * SOLE_HEIGHT - (x - centre_x) * scale
-
-    write(svg, middle, 14.0, foot.value, "label", "middle")
-    cells = add(svg, "g", class_="cells")
-    for cell, share in zip(layout.cells, shares, strict=True):
-        x, y = at(cell.x, cell.y)
-        add(cells, "circle", cx=px(x), cy=px(y), r=px(r * scale), fill=blend(SHADES, share))
-    if walked is not None:
-        single = "".join([line([at(*one) for one in path]) for path in walked.paths if len(path) > 1])
-        if single:
-            add(svg, "path", d=single, class_="single")
-        mean = [at(*one) for one in walked.mean_path]
-        if len(mean) > 1:
-            add(svg, "path", d=line(mean), class_="under")
-            add(svg, "path", d=line(mean), class_="centre")
-            add(svg, "circle", cx=px(mean[0][0]), cy=px(mean[0][1]), r="4", class_="path-start")
+def _draw_paths(svg: Element, sole: SoleLoads, view: View) -> None:
+    """Draw the paths of the centre of pressure."""
+    mean = [sole.mean_path]
+    for kind, found in (("single", sole.paths), ("under", mean), ("centre", mean)):
+        for path in found:
+            if len(path) > 1:
+                add(svg, PATH, line([view.at((-y, x)) for x, y in path], ""), kind)
+    for x, y in sole.mean_path[:1]:
+        add(svg, "<circle cx='{}' cy='{}' r='4' class='path-start'/>", *view.at((-y, x)))
 
 
-def _forces(parent: Element, soles: dict[Foot, SoleLoads]) -> None:
-    curves = {foot: [force / sole.contacts for force in sole.force_sums] for foot, sole in soles.items()}
-    unit = _unit(soles)
-    texts = [f"{foot}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
-    svg = drawing("force", "Mean force over a contact", f"{'; '.join(texts)}.", 190.0)
-    values = [value for curve in curves.values() for value in curve]
-    labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {unit}")
-    chart = Chart.of(svg, (0.0, 100.0), padded_range(values, least=1.0, zero=True), labels, 190.0)
-    for foot, curve in curves.items():
-        chart.path([(100.0 * k / (STATIONS - 1), value) for k, value in enumerate(curve)], f"line {foot}")
-    legend(svg, list(curves), lines=True)
-    counted = ", ".join([f"{foot} {sole.contacts}" for foot, sole in soles.items()])
-    figure(parent, svg, "Mean force over a contact", f"Contacts: {counted}.")
+def _forces(parent: Element, soles: Mapping[Foot, SoleLoads]) -> None:
+    curves, texts = {}, []
+    for foot, sole in soles.items():
+        forces = [force / sole.contacts for force in sole.force_sums]
+        curves[foot] = [(100.0 * k / (STATIONS - 1), force) for k, force in enumerate(forces)]
+        texts.append(f"{foot}: at most {max(forces):.0f} {sole.unit}")
+    highest = max([force for curve in curves.values() for _, force in curve])
+    y = 0.0, (1.0 + MARGIN_SHARE) * max(highest, 1.0)
+    labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {_unit(soles.values())}")
+    note = f"Contacts: {', '.join([f'{foot} {sole.contacts}' for foot, sole in soles.items()])}."
+    what = f"{'; '.join(texts)}."
+    Chart.of(parent, "force", "Mean force over a contact", what, (0.0, 100.0), y, labels, note).curves(curves)
 
 
-def _thirds(parent: Element, maps: dict[Foot, Layout], loads: dict[Foot, list[float]]) -> None:
+def _thirds(parent: Element, drawn: Drawn, loads: Loads) -> None:
     """Add a table of the shares of the load, %, on the three thirds of the insole's length."""
     rows = []
-    for foot, layout in maps.items():
-        total = fsum(loads[foot])
-        if total <= 0.0:
-            continue
-        shares = []
-        for k in range(len(THIRDS)):
-            pairs = zip(layout.cells, loads[foot], strict=True)
-            inside = [load for cell, load in pairs if min(max(int(3.0 * cell.x / layout.length), 0), 2) == k]
-            shares.append(f"{100.0 * fsum(inside) / total:.0f} %")
-        rows.append([foot.value, *shares])
+    for foot, (_, layout) in drawn.items():
+        sums = [0.0] * len(THIRDS)
+        for cell, load in zip(layout.cells, loads[foot], strict=True):
+            sums[min(max(int(3.0 * cell.x / layout.length), 0), 2)] += load
+        rows.append([foot.value, *[f"{100.0 * part / (fsum(sums) or 1.0):.0f} %" for part in sums]])
     if rows:
         table(parent, "Mean load by thirds of the length", ("foot", *THIRDS), rows, "numbers thirds")

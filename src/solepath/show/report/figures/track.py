@@ -5,199 +5,160 @@ Sizes and limits were chosen by hand and not swept."""
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable, Mapping, Sequence
-from math import fsum
+from collections.abc import Sequence
+from itertools import pairwise
+from math import dist, fsum, inf
 from xml.etree.ElementTree import Element
 
 from attrs import evolve
 
-from ....events import FootMoved, Placed, PlaceLost, StrideTaken, WearerMoved
-from ....floorplan.plan import FloorPlan
-from ....types import Foot
+from ....events import Placed, StrideTaken
 from ...tables.plan import PANEL_GAP, PlanPicture
-from ...tables.svg import px
-from ..clock import ReportClock
-from ..markup import add, figure
-from .axes import WIDTH, AxisScale, Chart, Point, drawing, grid, line, marks, padded_range, tick_labels, ticks, write
-from .stride import FOOT_MARKS, legend
+from ...tables.svg import Point, View, add, line, ticks
+from ..content import ReportContent, TimedPosition
+from ..markup import WIDTH, caption, drawing
+from .axes import FOOT_MARKS, MARK, PATH, Chart, grid, padded_range, square_ticks, write
 
 MAX_FOOTPRINTS = 160
 """Largest number of footprints, the positions of foot-flats, that are drawn; more would hide the track."""
-MAX_HEIGHT = 420.0
-"""Largest height of the drawing of a track, px."""
-WIDE_WIDTH, MAX_WIDE_HEIGHT = 840.0, 440.0
-"""Width and largest height of the drawing for wide screens and paper, px."""
+MAX_HEIGHT = 366.0
+"""Largest height of a track on its drawing, px."""
+WIDE_WIDTH, WIDE_HEIGHT = 840.0, 386.0
+"""Width of the drawing for wide screens and paper, and largest height of the track on it, px."""
 MAX_ROOMS = 12
 """Largest number of rooms that are named below the plan."""
 MIN_RISE = 0.5
 """Least range of heights that is drawn over time, m; below it the way is level."""
 MAX_OFFSET = 1.2
 """Distance of a footprint from the wearer's track above which no footprints are drawn, m: the tracks drift apart."""
-MIN_EXTENT = 4.0
-"""Least width that the drawing shows, m, so that standing still is not magnified."""
 MARGIN_SHARE, MIN_MARGIN = 0.06, 0.4
 """Margin around the track: as a share of its larger extent, and the least, m."""
-MIN_ASPECT = 0.34
-"""Least height of what the drawing shows, as a share of its width."""
-
-TimedPosition = FootMoved | StrideTaken | WearerMoved
-"""Event with the position of a foot or the wearer, world frame, m."""
-FootPositions = Mapping[Foot, Sequence[TimedPosition]]
+MIN_HEIGHT = 118.0
+"""Least height of the track on its drawing, px."""
+TOP, LEFT, RIGHT, BOTTOM = 16.0, 40.0, 8.0, 38.0
+"""Margins of the drawing of a track, px."""
 
 
 def track_figure(
-    parent: Element,
-    track: Sequence[TimedPosition],
-    footprints: FootPositions,
-    clock: ReportClock,
-    *,
-    wide: bool = True,
-    name: str = "track",
-    title: str = "Track from above",
+    parent: Element, report: ReportContent, *, wide: bool = True, name: str = "track", title: str = "Track from above"
 ) -> bool:
     """Draw the track from above, x to the right and y up; return False when there is none.
 
-    `track` is the wearer's or, if that is not known, the track of a foot. A `wide` figure also holds a drawing for wide
-    screens and for paper."""
+    A `wide` figure also holds a drawing for wide screens and for paper."""
+    track, prints = report.track, report.footprints
     if len(track) < 2:
         return False
-    is_few = sum([len(prints) for prints in footprints.values()]) <= MAX_FOOTPRINTS  # whole numbers
-    offset = _largest_offset(track, footprints)
-    shown_prints = footprints if is_few and offset <= MAX_OFFSET else {}
     notes = ["x along the first heading; the numbers along the way are times."]
-    if any(shown_prints.values()):
-        notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
+    offset = _largest_offset(track, prints) if len(prints) <= MAX_FOOTPRINTS else inf
     if offset > MAX_OFFSET:
+        prints = []
+    if prints:
+        notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
+    if MAX_OFFSET < offset < inf:
         notes.append(f"The tracks of the single feet come to lie up to {offset:.1f} m off it and are not shown.")
-    narrow = _drawn(name, title, track, shown_prints, clock, WIDTH, MAX_HEIGHT)
-    element = figure(parent, narrow, title, *notes)
-    if wide:
-        narrow.set("class", "narrow")
-        drawn = _drawn(f"{name}-wide", title, track, shown_prints, clock, WIDE_WIDTH, MAX_WIDE_HEIGHT)
-        drawn.set("class", "wide")
-        element.insert(0, drawn)
+    element = add(parent, "<figure/>")
+    for kind, width, height in [("wide", WIDE_WIDTH, WIDE_HEIGHT)] * wide + [("narrow", WIDTH, MAX_HEIGHT)]:
+        svg = _draw(element, f"{name}-{kind}", title, report, prints, width, height)
+        svg.set("class", kind if wide else "")
+    caption(element, title, *notes)
     return True
 
 
-def _drawn(
+def _draw(
+    parent: Element,
     name: str,
     title: str,
-    track: Sequence[TimedPosition],
-    footprints: FootPositions,
-    clock: ReportClock,
+    report: ReportContent,
+    prints: Sequence[StrideTaken],
     width: float,
     max_height: float,
 ) -> Element:
-    """Return a drawing of a track, `width` px wide and at most `max_height` px high."""
-    shown = [*track, *(event for prints in footprints.values() for event in prints)]
-    xs, ys = [event.position[0] for event in shown], [event.position[1] for event in shown]
-    across, up = max(xs) - min(xs), max(ys) - min(ys)
-    margin = max(MARGIN_SHARE * max(across, up), MIN_MARGIN)
-    middle = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))
-    width_m = max(across + 2.0 * margin, MIN_EXTENT)
-    top, left, right, bottom = 16.0, 40.0, 8.0, 38.0
-    inner_width = width - left - right
-    height_m = max(up + 2.0 * margin, MIN_ASPECT * width_m * WIDTH / width)
-    scale = min(inner_width / width_m, (max_height - top - bottom) / height_m)
-    width_m, height = inner_width / scale, height_m * scale + top + bottom
-    x = AxisScale(middle[0] - 0.5 * width_m, middle[0] + 0.5 * width_m, left, width - right)
-    y = AxisScale(middle[1] - 0.5 * height_m, middle[1] + 0.5 * height_m, height - bottom, top)
-    length = fsum([_distance(a, b) for a, b in zip(track, track[1:], strict=False)])
+    """Add a drawing of the track, `width` px wide."""
+    way = [event.position[:2] for event in report.track]
+    points = way + [event.position[:2] for event in prints]
+    across, up = [max(values) - min(values) for values in zip(*points, strict=True)]
+    length = fsum([dist(a, b) for a, b in pairwise(way)])
     what = f"The track from above, {across:.1f} m by {up:.1f} m, {length:.0f} m long as drawn."
-    svg = drawing(name, title, what, height, width)
-    _grid(svg, x, y)
-
-    def point_of(event: TimedPosition) -> Point:
-        return x.at(event.position[0]), y.at(event.position[1])
-
-    add(svg, "path", d=line([point_of(event) for event in track]), class_="way")
-    for foot, prints in footprints.items():
-        if d := marks([point_of(event) for event in prints], FOOT_MARKS[foot]):
-            add(svg, "path", d=d, class_=f"mark {foot}")
-    _times(svg, track, point_of, clock)
-    for event, word, offset_y in ((track[0], "start", -8.0), (track[-1], "end", 17.0)):
-        a, b = point_of(event)
-        add(svg, "circle", cx=px(a), cy=px(b), r="4.5", class_=word)
-        offset_x, anchor = (-8.0, "end") if a > 0.85 * width else (8.0, "start")
-        write(svg, a + offset_x, b + offset_y, word, "halo strong", anchor)
+    inner_width = width - LEFT - RIGHT
+    view = View.fit(points, inner_width, max_height, MARGIN_SHARE, MIN_MARGIN)
+    view = evolve(view, width=inner_width, height=max(view.height, MIN_HEIGHT), left=LEFT, top=TOP)
+    svg = drawing(parent, name, title, what, view.height + TOP + BOTTOM, width)
+    x, y = view.axes
+    grid(svg, x, y, *square_ticks((x.low, x.high), (y.low, y.high))[:2])
+    write(svg, 0.5 * (x.start + x.end), y.start + 33.0, "x and y, m", "label")
+    add(svg, PATH, line(map(view.at, way)), "way")
+    for one in prints:
+        add(svg, MARK, *view.at(one.position[:2]), FOOT_MARKS[one.foot], "mark", one.foot.value)
+    _times(svg, report, view)
+    mark_end(svg, view.at(way[0]), "start", -8.0, width)
+    mark_end(svg, view.at(way[-1]), "end", 17.0, width)
     return svg
 
 
-def _largest_offset(track: Sequence[TimedPosition], footprints: FootPositions) -> float:
+def mark_end(svg: Element, point: Point, word: str, offset: float, width: float = WIDTH) -> None:
+    """Draw the start or the end of a track with its name."""
+    x, y = point
+    add(svg, "<circle cx='{}' cy='{}' r='4.5' class='{}'/>", x, y, word)
+    at_edge = x > 0.85 * width
+    write(svg, x + (-8.0 if at_edge else 8.0), y + offset, word, "halo strong", "end" if at_edge else "start")
+
+
+def _largest_offset(track: Sequence[TimedPosition], prints: Sequence[StrideTaken]) -> float:
     """Return the largest horizontal distance of a footprint from the wearer's position at that time, m."""
-    times, largest = [event.t for event in track], 0.0
-    for footprint in [event for prints in footprints.values() for event in prints] if track else []:
-        k = bisect_left(times, footprint.t)
-        largest = max(
-            largest, min([_distance(footprint, event) for event in track[max(k - 1, 0) : k + 1]], default=0.0)
-        )
-    return largest
+    times, offsets = [event.t for event in track], [0.0]
+    for one in prints:
+        k = bisect_left(times, one.t)
+        near = track[max(k - 1, 0) : k + 1]
+        offsets.append(min([dist(one.position[:2], event.position[:2]) for event in near]))
+    return max(offsets)
 
 
-def _distance(a: TimedPosition, b: TimedPosition) -> float:
-    (x, y, _), (x1, y1, _) = a.position, b.position
-    dx, dy = x1 - x, y1 - y
-    return float((dx * dx + dy * dy) ** 0.5)
-
-
-def _grid(svg: Element, x: AxisScale, y: AxisScale) -> None:
-    """Draw a grid with the same spacing on both axes."""
-    marked = ticks(x.low, x.high, 8)
-    step = marked[1] - marked[0] if len(marked) > 1 else 1.0
-    up = [k * step for k in range(int(y.low // step) + 1, int(y.high // step) + 1)]
-    grid(svg, x, y, marked, up)
-    write(svg, 0.5 * (x.start + x.end), y.start + 33.0, "x and y, m", "label", "middle")
-
-
-def _times(
-    svg: Element, track: Sequence[TimedPosition], point_of: Callable[[TimedPosition], Point], clock: ReportClock
-) -> None:
+def _times(svg: Element, report: ReportContent, view: View) -> None:
     """Write up to seven times along the track, without those that would overlap."""
-    if len(track) < 3:
-        return
-    tick_times = ticks(clock.axis_value(track[0].t), clock.axis_value(track[-1].t), 7)
-    unit = "min" if clock.per_unit > 1.0 else "s"
     labelled: list[Point] = []
-    for value, words in zip(tick_times, tick_labels(tick_times), strict=True):
-        nearest = min(track, key=lambda event: abs(clock.axis_value(event.t) - value))
-        a, b = point_of(nearest)
-        if all(abs(a - c) > 44.0 or abs(b - d) > 18.0 for c, d in labelled):
-            labelled.append((a, b))
-            add(svg, "circle", cx=px(a), cy=px(b), r="2.4", class_="time")
-            write(svg, a, b - 6.0, f"{words} {unit}", "halo tick", "middle")
+    times = [(report.clock.axis_value(event.t), event.position[:2]) for event in report.track]
+    for value, words in ticks(times[0][0], times[-1][0], 7).items():
+        _, nearest = min(times, key=lambda one: abs(one[0] - value))
+        x, y = view.at(nearest)
+        if all([abs(x - a) > 44.0 or abs(y - b) > 18.0 for a, b in labelled]):
+            labelled.append((x, y))
+            add(svg, "<circle cx='{}' cy='{}' r='2.4' class='time'/>", x, y)
+            write(svg, x, y - 6.0, f"{words} {report.clock.unit}", "halo tick")
 
 
-def height_figure(parent: Element, heights: FootPositions, clock: ReportClock) -> bool:
-    """Draw the height of each stationary foot over time, m; return False when it is level."""
-    curves = {foot: events for foot, events in heights.items() if len(events) > 1}
-    if not curves:
-        return False
-    values = [event.position[2] for events in curves.values() for event in events]
-    if max(values) - min(values) < MIN_RISE:
-        return False
+def height_figure(parent: Element, report: ReportContent) -> None:
+    """Draw the height of each stationary foot over time, m; nothing when it is level."""
+    clock, curves = report.clock, {}
+    for foot, events in report.walk.standing.items():
+        if len(events):
+            curves[foot] = [(clock.axis_value(event.t), event.position[2]) for event in events]
+    values = [z for curve in curves.values() for _, z in curve]
+    if not values or max(values) - min(values) < MIN_RISE:
+        return
     what = f"Height of the standing feet over time, {min(values):.2f} to {max(values):.2f} m from where they began."
-    svg = drawing("height", "Height over time", what, 180.0)
-    chart = Chart.of(svg, clock.span, padded_range(values, least=1.0), (clock.label, "height, m"), 180.0)
-    for foot, events in curves.items():
-        chart.path([(clock.axis_value(event.t), event.position[2]) for event in events], f"line {foot}")
-    legend(svg, list(curves), lines=True)
-    figure(parent, svg, "Height of the feet over time", "Of the foot on the ground, against where it began.")
-    return True
+    title, note = "Height of the feet over time", "Of the foot on the ground, against where it began."
+    y, labels = padded_range(values, 1.0), (clock.label, "height, m")
+    Chart.of(parent, "height", title, what, clock.span, y, labels, note).curves(curves)
 
 
-def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | PlaceLost]) -> bool:
-    """Draw the track on the floor plan, as `solepath track` does; return False when there is no place.
+def plan_figure(parent: Element, report: ReportContent) -> bool:
+    """Draw the track on the floor plan, as `solepath track` does; return False when there is no plan or no place.
 
     Only the levels where the wearer was are shown."""
-    places = [event for event in events if isinstance(event, Placed)]
-    if not places:
+    places, plan = [event for event in report.walk.placed if isinstance(event, Placed)], report.plan
+    if plan is None or not places:
         return False
     visited = {place.level for place in places}
-    levels = tuple([level for level in plan.levels if level.id in visited])
-    shown = evolve(plan, levels=levels) if levels else plan
-    wide, narrow = [_plan_picture(shown, events, *size) for size in ((WIDE_WIDTH, 440.0, 2), (380.0, 420.0, 1))]
-    wide.set("class", "plan wide")
-    narrow.set("class", "plan narrow")
+    levels = tuple([level for level in plan.levels if level.id in visited]) or plan.levels
+    element = add(parent, "<figure/>")
+    for kind, width, most in (("wide", WIDE_WIDTH, 2), ("narrow", 380.0, 1)):
+        columns = min(most, max(len(levels), 1))
+        level_width = (width - (columns - 1) * PANEL_GAP) / columns
+        picture = PlanPicture(evolve(plan, levels=levels), report.walk.placed, level_width, 440.0, columns)
+        svg = picture.drawn(plan.name or "Floor plan")
+        del svg.attrib["xmlns"]
+        svg.attrib |= {"class": f"plan {kind}", "role": "img", "id": f"solepath-plan-{kind}"}
+        element.append(svg)
     notes = ["Colours go from the start to the end; dots are candidates, the fainter the less likely."]
     rooms = list(dict.fromkeys([place.room for place in places if place.room and len(place.candidates) == 1]))
     if rooms:
@@ -205,20 +166,5 @@ def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | Plac
         notes.append(f"On the way: {', '.join(rooms[:MAX_ROOMS])}{more}.")
     if len(levels) < len(plan.levels):
         notes.append("Levels where the wearer was not are left out.")
-    figure(parent, narrow, "Track on the floor plan", *notes).insert(0, wide)
+    caption(element, "Track on the floor plan", *notes)
     return True
-
-
-def _plan_picture(
-    plan: FloorPlan, events: Sequence[Placed | PlaceLost], width: float, height: float, columns: int
-) -> Element:
-    """Return the drawing of the places on the plan, with at most so many levels side by side."""
-    columns = min(columns, max(len(plan.levels), 1))
-    level_width = (width - (columns - 1) * PANEL_GAP) / columns
-    picture = PlanPicture(plan, events, width=level_width, height=height, columns=columns)
-    svg = picture.drawn(plan.name or "Floor plan")
-    svg.set("role", "img")
-    for name in ("xmlns", "width", "height", "font-family"):
-        del svg.attrib[name]
-    svg.set("id", f"solepath-plan-{columns}-{width:.0f}")
-    return svg

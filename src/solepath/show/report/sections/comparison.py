@@ -8,12 +8,13 @@ from __future__ import annotations
 from math import hypot, sqrt
 from xml.etree.ElementTree import Element
 
+from ...tables.svg import add
 from ..content import ReportContent
 from ..figures.track import track_figure
-from ..markup import add, section, table
+from ..markup import notes, paragraph, section, table
 from ..measures import SWING_DIFFERENCE, Measure
 from .facts import Facts, facts_of
-from .heading import date_words, moment_words
+from .heading import moment_words
 from .headline import headline
 
 HEADER = ("measure", "before", "after", "change", "strides vary by", "beyond that")
@@ -28,45 +29,28 @@ def comparison(parent: Element, before: ReportContent, after: ReportContent, fac
     """Add the section that compares two walks."""
     earlier = facts_of(before)
     parent = section(parent, "comparison", "Compared with the walk before")
-    day, time = moment_words(before.when)
-    moment = ", ".join([words for words in (before.source, day and date_words(day), time) if words])
-    add(parent, "p", f"Before{f' ({moment})' if moment else ''}: {headline(earlier.walk)}")
-    pairs = [(one, other) for one in earlier.all_measures for other in facts.all_measures if one.name == other.name]
-    if pairs:
-        table(parent, "Before and after", HEADER, [_row(*pair) for pair in pairs], "numbers comparison")
-        add(parent, "p", NOTE, class_="note")
+    moment = ", ".join([words for words in (before.source, *moment_words(before.when)) if words])
+    paragraph(parent, f"Before{f' ({moment})' if moment else ''}: {headline(earlier)}")
+    rows = [_row(one, other) for one in earlier.all_measures for other in facts.all_measures if one.name == other.name]
+    if rows:
+        table(parent, "Before and after", HEADER, rows, "numbers comparison")
+        notes(parent, [NOTE])
     else:
-        add(parent, "p", NO_COMMON)
-    figures = add(parent, "div", class_="figures")
-    for name, report in (("before", before), ("after", after)):
-        track_figure(
-            figures,
-            report.track,
-            report.foot_tracks,
-            report.clock,
-            wide=False,
-            name=f"track-{name}",
-            title=f"Track {name}",
-        )
-    if not len(figures):
-        parent.remove(figures)
+        paragraph(parent, NO_COMMON)
+    figures = add(parent, "<div class='figures'/>")
+    for name, one in (("before", before), ("after", after)):
+        track_figure(figures, one, wide=False, name=f"track-{name}", title=f"Track {name}")
 
 
 def _row(before: Measure, after: Measure) -> list[str]:
-    digits = after.digits
-    change = after.value - before.value
-    share = f" ({100.0 * change / abs(before.value):+.0f} %)" if before.value and after.unit not in ("%", "deg") else ""
-    label = f"{'running: ' if is_of_run(after) else ''}{after.label.lower()}, {after.unit}"
+    kind, change = after.kind, after.value - before.value
+    share = f" ({100.0 * change / abs(before.value):+.0f} %)" if before.value and kind.unit not in ("%", "deg") else ""
+    label = f"{'running: ' if after.is_of_run else ''}{kind.label.lower()}, {kind.unit}"
     spread = words = "-"
-    if after.name == SWING_DIFFERENCE and before.spread is not None and after.spread is not None:
-        words = "yes" if abs(change) > hypot(before.spread, after.spread) else "no"
-    elif before.spread is not None and after.spread is not None:
-        pooled = sqrt(0.5 * (before.spread**2 + after.spread**2))
-        spread = f"{pooled:.{max(digits, 1)}f}"
-        words = "yes" if abs(change) > pooled else "no"
-    return [label, before.text, after.text, f"{change:+.{digits}f}{share}", spread, words]
-
-
-def is_of_run(measure: Measure) -> bool:
-    """Return whether a measure is one of running."""
-    return measure.name.startswith(("run_", "contact", "flight", "strike", "vertical"))
+    if before.spread is not None and after.spread is not None:
+        least = hypot(before.spread, after.spread)
+        if after.name != SWING_DIFFERENCE:
+            least *= sqrt(0.5)
+            spread = f"{least:.{max(kind.digits, 1)}f}"
+        words = "yes" if abs(change) > least else "no"
+    return [label, before.text, after.text, f"{change:+.{kind.digits}f}{share}", spread, words]

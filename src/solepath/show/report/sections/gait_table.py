@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
-from ....body.gait.means import GaitMeans, GaitParameters, StrideFigures
+from ....body.gait.means import GaitParameters, StrideFigures
 from ....types import Foot
-from ...tables.gait import MIN_STRIDES, gait_rows, strides_of
-from ...tables.table import milliseconds, number, percent
-from ..markup import add, table, terms
+from ...tables.gait import MIN_STRIDES, gait_cells, gait_rows, strides_of
+from ...tables.table import milliseconds, percent
+from ..markup import notes, table, terms
 from ..running import running_means
 
 HEADER = ("parameter", "left", "right", "both", "CV %", "asymmetry")
@@ -31,18 +32,16 @@ DEFINITIONS = {
     "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
 }
 """Short definition of each parameter; GaitCycleMeasured has the full definitions."""
-COLUMN_DEFINITIONS = [
-    ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing"),
-    ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)"),
-    ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)"),
-    ("asymmetry", "(right - left) / their mean; 0 of equal feet, none of a flight (Robinson et al. 1987)"),
-    ("asymmetry of angles", "right - left, in degrees, and no CV: their zero is the flat sole, not nothing"),
-]
-DIFFERENCE_DEFINITION = (
+STEADY = ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing")
+VARIATION = ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)")
+BOTH_FEET = ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)")
+ASYMMETRY = ("asymmetry", "(right - left) / their mean; 0 of equal feet, none of a flight (Robinson et al. 1987)")
+ANGLES = ("asymmetry of angles", "right - left, in degrees, and no CV: their zero is the flat sole, not nothing")
+DIFFERENCE = (
     "asymmetry of swing time",
     "of each right swing against the left ones around it, with a 95 % interval; named if all of it is above 10 ms",
 )
-RUNNING_DEFINITIONS = [
+RUNNING = [
     ("contact time", "from contact to toe-off of a foot (Novacheck 1998)"),
     ("flight time", "from toe-off to the other foot's contact (Novacheck 1998)"),
     (
@@ -52,71 +51,38 @@ RUNNING_DEFINITIONS = [
 ]
 
 
-def gait_tables(parent: Element, means: GaitMeans) -> bool:
-    """Add a table for walking and one for running; return False if there are no steady strides."""
-    tables = _all(means)
-    for parameters in tables:
-        _table(parent, parameters)
-    return bool(tables)
-
-
-def _all(means: GaitMeans) -> list[GaitParameters]:
-    return [parameters for parameters in (means.of(False), means.of(True)) if parameters is not None]
-
-
-def _table(parent: Element, parameters: GaitParameters) -> None:
-    columns = [parameters.feet.get(foot) for foot in Foot]
-    what = "Running" if parameters.running else "Walking"
-    strides = [strides_of(parameters, foot) for foot in Foot]
-    rows = [["steady strides", *[number(count, 0) for count in strides], "-", "-", "-"]]
-    both = parameters.both if None not in columns else None
-    rows.append(["cadence, steps/min", *[_cadence(figures) for figures in (*columns, both)], "-", "-"])
+def gait_table(parent: Element, parameters: GaitParameters) -> None:
+    """Add the table of walking or of running."""
     # the standard deviation is on a line of its own
-    rows += [[f"{row.label}, {row.unit}", *row.cells("\n\N{PLUS-MINUS SIGN}")] for row in gait_rows(parameters)]
-    rows += _running_rows(parameters)
+    rows = gait_cells(parameters, "\n\N{PLUS-MINUS SIGN}")
+    if (run := running_means(parameters)) is not None:
+        contacts = [parameters.feet.get(foot, StrideFigures()).stance_time for foot in Foot]
+        feet = ["-" if one is None else milliseconds(one.mean) for one in contacts]
+        rows += [
+            ["contact time, ms", *feet, milliseconds(run.contact_time), "-", "-"],
+            ["flight time, ms", "-", "-", milliseconds(run.flight_time), "-", "-"],
+            ["vertical oscillation, mm", "-", "-", milliseconds(run.vertical_oscillation), "-", "-"],
+        ]
+    what = "Running" if parameters.running else "Walking"
     caption = f"{what}: means of steady strides, of both feet \N{PLUS-MINUS SIGN} standard deviation"
     table(parent, caption, HEADER, rows, "numbers gait")
     if parameters.coordination is not None:
-        index = percent(parameters.coordination)
-        add(parent, "p", f"Phase coordination index: {index} % (Plotnik et al. 2007).", class_="note")
-    count = sum([foot_count for foot_count in strides if foot_count is not None])  # whole numbers
+        notes(parent, [f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007)."])
+    count = sum([strides_of(parameters, foot) or 0 for foot in Foot])  # whole numbers
     if count < MIN_STRIDES:
-        text = f"Of {count} strides: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."
-        add(parent, "p", text, class_="note")
+        notes(parent, [f"Of {count} strides: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."])
 
 
-def _running_rows(parameters: GaitParameters) -> list[list[str]]:
-    """Return the rows of the running measures (docs/gait.md); none for a walk."""
-    run = running_means(parameters)
-    if run is None:
-        return []
-    contacts = [None if one is None else one.stance_time for one in map(parameters.feet.get, Foot)]
-    feet = [milliseconds(None if contact is None else contact.mean) for contact in contacts]
-    rows = [["contact time, ms", *feet, milliseconds(run.contact_time), "-", "-"]]
-    rows.append(["flight time, ms", "-", "-", milliseconds(run.flight_time), "-", "-"])
-    rows.append(["vertical oscillation, mm", "-", "-", milliseconds(run.vertical_oscillation), "-", "-"])
-    return rows
-
-
-def _cadence(figures: StrideFigures | None) -> str:
-    """Return the cadence of a foot, steps/min, as text: two steps in each stride."""
-    return "-" if figures is None or figures.stride_time is None else number(120.0 / figures.stride_time.mean, 1)
-
-
-def definitions(parent: Element, means: GaitMeans, *, difference: bool) -> bool:
-    """Add the definitions of the parameters that are shown, with their sources; return False if there are none.
+def definitions(parent: Element, tables: Sequence[GaitParameters], *, difference: bool) -> None:
+    """Add the definitions of the parameters that are shown, with their sources.
 
     `difference` says that the left/right difference is shown."""
-    tables = _all(means)
     labels = {row.name: row.label for parameters in tables for row in gait_rows(parameters)}
     meanings = [(labels[name], meaning) for name, meaning in DEFINITIONS.items() if name in labels]
-    meanings += RUNNING_DEFINITIONS if any(parameters.running for parameters in tables) else []
-    if not meanings:
-        return False
-    has_feet = any(len(parameters.feet) == len(Foot) for parameters in tables)
-    words = [] if has_feet else ["both", "asymmetry", "asymmetry of angles"]
-    has_angles = bool({"toe_off_angle", "heel_strike_angle"} & labels.keys())
-    words += [] if has_angles else ["asymmetry of angles"]
-    meanings += [(word, meaning) for word, meaning in COLUMN_DEFINITIONS if word not in words]
-    terms(parent, [*meanings, *([DIFFERENCE_DEFINITION] if difference else [])], class_="definitions")
-    return True
+    meanings += [*(RUNNING if any([one.running for one in tables]) else []), STEADY]
+    if any([len(parameters.feet) == len(Foot) for parameters in tables]):
+        meanings += [BOTH_FEET, VARIATION, ASYMMETRY]
+        meanings += [ANGLES] if labels.keys() & {"toe_off_angle", "heel_strike_angle"} else []
+    else:
+        meanings.append(VARIATION)
+    terms(parent, [*meanings, *([DIFFERENCE] if difference else [])], "definitions")

@@ -6,93 +6,53 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from attrs import field, frozen
-
+from ....types import Activity
 from ...tables.summary import NO_DATA
 from ...tables.table import counted, duration_text, number, times
+from ...tables.words import directions
 from ..markup import whole_sentences
-from ..measures import Measure
 from ..walk_summary import STEP_TIME, STRIDE_LENGTH, SWING_TIME, FootDifference
-from .quality import Judgement, QualityVerdict
+from .facts import Facts
 
-SENSOR_DIFFERENCE = "check the sensors, for both feet of a walker go equally far"
 MIN_BOUT_SHARE = 0.1
 """Least duration of a run or a walk that is mentioned, as a share of that of the other; chosen by hand."""
+SENSOR_DIFFERENCE = "check the sensors, for both feet of a walker go equally far"
 CLOCK_DIFFERENCE = "check the sensors' clocks, for the swings do not differ"
 
 
-@frozen(kw_only=True)
-class Bout:
-    """A walk or a run of a recording: its duration and distance, with its measures by their names."""
-
-    duration: float
-    """Duration, s; 0 if it is not known."""
-    distance: float | None
-    """Distance, m; None if it is not known."""
-    strides: int
-    """Number of gait cycles of both feet."""
-    measures: Mapping[str, Measure]
-    prefix: str = ""
-    """Prefix of the names of `measures`."""
-
-    def clause(self, verb: str) -> str:
-        """Return the way as a clause, such as "walked 36 m in 31 s, in steady strides at 1.13 m/s"."""
-        text = verb
-        if self.distance is not None:
-            text += f" {number(self.distance, 0 if self.distance >= 9.95 else 1)} m"
-        if self.duration > 0.0:
-            text += f"{' in' if self.distance is not None else ' for'} {duration_text(self.duration)}"
-        speed = self.measures.get(f"{self.prefix}speed_m_per_s")
-        cadence = self.measures.get(f"{self.prefix}cadence_steps_per_min")
-        steady = [f"at {speed.text} m/s"] if speed is not None else []
-        steady += [f"{'' if steady else 'with '}{cadence.text} steps a minute"] if cadence is not None else []
-        if steady:
-            return f"{text}, in steady strides {' and '.join(steady)}"
-        taken = f" ({counted(self.strides, 'stride')})" if self.strides else ""
-        return f"{text}{taken}, too short for steady strides"
-
-
-@frozen(kw_only=True)
-class WalkFacts:
-    """All that the first sentence of a report may mention."""
-
-    has_data: bool
-    duration: float
-    """Duration of the recording, s."""
-    stood: bool
-    """True if the wearer stood, by the activities."""
-    walk: Bout | None
-    run: Bout | None
-    flights: Mapping[bool, int] = field(factory=dict)
-    """Numbers of flights of stairs, up (True) and down."""
-    rides: Mapping[bool, int] = field(factory=dict)
-    """Numbers of lift rides, up (True) and down."""
-    only_foot: str = ""
-    """Name of the foot that alone was measured; "" with both."""
-    differences: Mapping[str, FootDifference] = field(factory=dict)
-
-
-def headline(facts: WalkFacts) -> str:
+def headline(facts: Facts) -> str:
     """Return one sentence that says how the walk was."""
-    if not facts.has_data:
+    walk, bouts = facts.report.walk, facts.bouts
+    if walk.event_span is None:
         return whole_sentences([NO_DATA])[0]
-    ways = [(bout, verb) for bout, verb in ((facts.walk, "walked"), (facts.run, "ran")) if bout is not None]
-    longest = max([bout.duration for bout, _ in ways], default=0.0)
-    clauses = [bout.clause(verb) for bout, verb in ways if bout.duration >= MIN_BOUT_SHARE * longest]
-    if flights := _directions(facts.flights):
-        several = sum(facts.flights.values()) > 1  # whole numbers
-        clauses.append(f"went {flights} flight{'s' * several} of stairs")
-    rides = [f"{word} {times(facts.rides[up])}" for up, word in ((True, "up"), (False, "down")) if facts.rides.get(up)]
-    if rides:
+    longest = max([bout.duration for bout in bouts.values()], default=0.0)
+    clauses = [_way(facts, is_run) for is_run in bouts if bouts[is_run].duration >= MIN_BOUT_SHARE * longest]
+    if flights := [f"{way} {count}" for way, count in directions(walk.flights)]:
+        several = "s" * (walk.flights.total() > 1)
+        clauses.append(f"went {' and '.join(flights)} flight{several} of stairs")
+    if rides := [f"{way} {times(count)}" for way, count in directions(walk.elevator_rides)]:
         clauses.append(f"rode a lift {' and '.join(rides)}")
     if not clauses:
-        what = "Stood" if facts.stood else "Recorded"
-        return f"{what} for {duration_text(facts.duration)}; no stride was taken."
-    if facts.only_foot:
-        clauses[-1] += f", measured at the {facts.only_foot} foot alone"
-    clauses += difference_clauses(facts.differences)
-    sentence = "; ".join(clauses)
-    return f"{sentence[0].upper()}{sentence[1:]}."
+        stood = Activity.STANDING in walk.timeline.durations(facts.report.clock.end)
+        return f"{'Stood' if stood else 'Recorded'} for {duration_text(facts.duration)}; no stride was taken."
+    if bouts and len(walk.known_feet) == 1:
+        clauses[-1] += f", measured at the {walk.known_feet[0]} foot alone"
+    return whole_sentences(["; ".join([*clauses, *difference_clauses(facts.differences)])])[0]
+
+
+def _way(facts: Facts, is_run: bool) -> str:
+    """Return a walk or a run as a clause, such as "walked 36 m in 31 s, in steady strides at 1.13 m/s"."""
+    bout, text = facts.bouts[is_run], "ran" if is_run else "walked"
+    if bout.distance is not None:
+        text += f" {number(bout.distance, 0 if bout.distance >= 9.95 else 1)} m"
+    text += f" {'for' if bout.distance is None else 'in'} {duration_text(bout.duration)}"
+    known = [one for one in facts.all_measures if one.is_of_run is is_run]
+    pace = [one for one in known if one.kind.label in ("Speed", "Cadence")]
+    if pace:
+        words = [f"{one.text} {one.kind.unit.replace('steps/min', 'steps a minute')}" for one in pace]
+        return f"{text}, in steady strides {'with' if len(pace) == 1 else 'at'} {' and '.join(words)}"
+    taken = f" ({counted(bout.strides, 'stride')})" if bout.strides else ""
+    return f"{text}{taken}, too short for steady strides"
 
 
 def difference_clauses(differences: Mapping[str, FootDifference]) -> list[str]:
@@ -100,31 +60,14 @@ def difference_clauses(differences: Mapping[str, FootDifference]) -> list[str]:
 
     On a straight way both feet go equally far, so that another length is one of the sensors. A difference of step times
     without one of swing times may be one of the clocks."""
-    certain = {name: one for name, one in differences.items() if one.is_certain}
+    shares = {name: f"{100.0 * abs(one.value):.0f} %" for name, one in differences.items() if one.is_certain}
     clauses = []
-    if (length := certain.get(STRIDE_LENGTH)) is not None:
-        share = f"{100.0 * abs(length.value):.0f} %"
-        clauses.append(f"left and right differ by {share} in stride length: {SENSOR_DIFFERENCE}")
-    swing, step = certain.get(SWING_TIME), certain.get(STEP_TIME)
-    if swing is not None:
-        longer, shorter = ("right", "left") if swing.value > 0.0 else ("left", "right")
-        share = f"{100.0 * abs(swing.value):.0f} %"
-        clauses.append(f"the {longer} foot swings {share} longer than the {shorter} one")
-    elif step is not None:
-        share = f"{100.0 * abs(step.value):.0f} %"
+    if STRIDE_LENGTH in shares:
+        clauses.append(f"left and right differ by {shares[STRIDE_LENGTH]} in stride length: {SENSOR_DIFFERENCE}")
+    if SWING_TIME in shares:
+        longer, shorter = ("right", "left") if differences[SWING_TIME].value > 0.0 else ("left", "right")
+        clauses.append(f"the {longer} foot swings {shares[SWING_TIME]} longer than the {shorter} one")
+    elif STEP_TIME in shares:
         check = f": {CLOCK_DIFFERENCE}" if SWING_TIME in differences else ""
-        clauses.append(f"left and right differ by {share} in step time{check}")
+        clauses.append(f"left and right differ by {shares[STEP_TIME]} in step time{check}")
     return clauses
-
-
-def warning(judgements: list[Judgement]) -> str:
-    """Return a sentence on what to check before the figures are used; "" if nothing is wrong."""
-    stops = [one.concern for one in judgements if one.verdict is QualityVerdict.STOP]
-    looks = [one.concern for one in judgements if one.verdict is QualityVerdict.LOOK]
-    if stops:
-        return f"Do not use the figures before this is checked: {', '.join(stops)}."
-    return f"Check before use: {', '.join(looks)}." if looks else ""
-
-
-def _directions(counts: Mapping[bool, int]) -> str:
-    return " and ".join([f"{word} {counts[up]}" for up, word in ((True, "up"), (False, "down")) if counts.get(up)])

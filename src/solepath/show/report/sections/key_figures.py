@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from xml.etree.ElementTree import Element
 
-from ...tables.svg import px
+from ...tables.svg import AxisScale, add
 from ..bands import Band
-from ..figures.axes import AxisScale, drawing, tick_labels, write
-from ..markup import add
+from ..figures.axes import write
+from ..markup import drawing, notes
 from ..measures import SWING_DIFFERENCE, Measure
+from .facts import Facts
 
 WIDTH, HEIGHT = 220.0, 42.0
 """Size of the drawing of a band, px."""
@@ -20,60 +21,50 @@ MARGIN_SHARE = 0.5
 MEAN_MARGIN = 0.3
 """Part of the scale on each side of a mean, as a share of the mean."""
 
+CARD = "<div class='card'><h3>{}</h3><p class='value'><span>{}</span><small>{}</small></p></div>"
 
-def key_figures(parent: Element, measures: Sequence[Measure], bands: Mapping[str, Band], difference: str) -> None:
-    """Add a card for each measure; `difference` says in words what the left/right difference is."""
-    cards = add(parent, "div", class_="cards")
-    for measure in measures:
-        card = add(cards, "div", class_="card")
-        add(card, "h3", measure.label)
-        value = add(card, "p", class_="value")
-        add(value, "span", measure.text if measure.name != SWING_DIFFERENCE else measure.text.lstrip("-"))
-        add(value, "small", measure.unit)
-        is_difference = measure.name == SWING_DIFFERENCE
-        detail = difference if is_difference else measure.detail
-        if measure.spread is not None and not is_difference:
-            varies = f"\N{PLUS-MINUS SIGN} {measure.spread:.{measure.digits}f} stride to stride"
-            detail = f"{detail}; {varies}" if detail else varies
-        if detail:
-            add(card, "p", detail, class_="note")
+
+def key_figures(parent: Element, facts: Facts, bands: Mapping[str, Band]) -> None:
+    """Add a card for each measure, and the sources of the bands."""
+    cards = add(parent, "<div class='cards'/>")
+    sources: dict[str, list[str]] = {}
+    for measure in facts.measures:
+        kind, text = measure.kind, measure.text
+        details = [kind.detail]
+        if measure.name == SWING_DIFFERENCE:
+            text, details = text.lstrip("-"), [facts.difference_words]
+        elif measure.spread is not None:
+            details.append(f"\N{PLUS-MINUS SIGN} {measure.spread:.{kind.digits}f} stride to stride")
+        card = add(cards, CARD, kind.label, text, kind.unit)
+        notes(card, filter(None, ["; ".join(filter(None, details))]))
         if (band := bands.get(measure.name)) is not None:
             _draw(card, measure, band)
-    sources = {bands[measure.name].source: None for measure in measures if measure.name in bands}
-    for source in sources:
-        labels = [one.label.lower() for one in measures if one.name in bands and bands[one.name].source == source]
-        add(parent, "p", f"Reference of {', '.join(labels)}: {source}", class_="note")
+            sources.setdefault(band.source, []).append(kind.label.lower())
+    notes(parent, [f"Reference of {', '.join(labels)}: {source}" for source, labels in sources.items()])
 
 
-def position_words(measure: Measure, band: Band) -> str:
+def position_words(size: float, band: Band) -> str:
     """Return where a measure lies against its band."""
-    value = abs(measure.value) if measure.name == SWING_DIFFERENCE else measure.value
     if band.is_mean:
-        return f"{100.0 * value / band.low:.0f} % of the mean"
-    return "below the band" if value < band.low else "above the band" if value > band.high else "within the band"
+        return f"{100.0 * size / band.low:.0f} % of the mean"
+    return "below the band" if size < band.low else "above the band" if size > band.high else "within the band"
 
 
 def _draw(card: Element, measure: Measure, band: Band) -> None:
     """Draw the band as a horizontal scale with a mark at the measure's value."""
-    value = abs(measure.value) if measure.name == SWING_DIFFERENCE else measure.value
+    kind, size, words = measure.kind, measure.size, position_words(measure.size, band)
     margin = MEAN_MARGIN * abs(band.low) if band.is_mean else MARGIN_SHARE * (band.high - band.low)
-    low, high = min(band.low - margin, value), max(band.high + margin, value)
-    x = AxisScale(low, high, EDGE, WIDTH - EDGE)
-    ends = f"{band.low:g}" if band.is_mean else f"{band.low:g} to {band.high:g}"
-    words = position_words(measure, band)
-    what = f"{measure.label} {measure.text} {measure.unit}, {words}; reference {ends} {measure.unit}."
-    svg = drawing(f"band-{measure.name}", f"{measure.label} against its reference", what, HEIGHT, WIDTH)
-    add(svg, "path", d=f"M{px(x.start)} 14H{px(x.end)}", class_="scale")
-    start, end = x.at(band.low), x.at(band.high)
-    if band.is_mean:
-        add(svg, "path", d=f"M{px(start)} 7v14", class_="band")
-    else:
-        add(svg, "path", d=f"M{px(start)} 14H{px(end)}", class_="band")
-    mark = x.at(value)
-    add(svg, "path", d=f"M{px(mark)} 14m-6-12h12l-6 9z", class_="pointer")
-    shown = [(start, band.low, "middle")] if band.is_mean else [(start, band.low, "middle"), (end, band.high, "middle")]
-    labels = tick_labels([at for _, at, _ in shown]) if len(shown) < 2 else [f"{at:g}" for _, at, _ in shown]
-    for (a, _, anchor), label in zip(shown, labels, strict=True):
-        write(svg, a, 36.0, label, "tick", anchor)
-    card.append(svg)
-    add(card, "p", words, class_="note")
+    x = AxisScale(min(band.low - margin, size), max(band.high + margin, size), EDGE, WIDTH - EDGE)
+    ends = dict.fromkeys([band.low, band.high])
+    reference = " to ".join([f"{end:g}" for end in ends])
+    what = f"{kind.label} {measure.text} {kind.unit}, {words}; reference {reference} {kind.unit}."
+    title = f"{kind.label} against its reference"
+    svg = drawing(card, f"band-{measure.name}", title, what, HEIGHT, WIDTH)
+    start, end = x(band.low), x(band.high)
+    add(svg, "<path d='M{} 14H{}' class='scale'/>", x.start, x.end)
+    shape = "<path d='M{} 7v14' class='band'/>" if band.is_mean else "<path d='M{} 14H{}' class='band'/>"
+    add(svg, shape, start, end)
+    add(svg, "<path d='M{} 14m-6-12h12l-6 9z' class='pointer'/>", x(size))
+    for value in ends:
+        write(svg, x(value), 36.0, f"{value:g}", "tick")
+    notes(card, [words])

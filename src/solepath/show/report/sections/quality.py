@@ -4,19 +4,20 @@ Limits without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from enum import Enum
 from xml.etree.ElementTree import Element
 
 from attrs import frozen
 
-from ....events import Defect, DefectFound
-from ....types import SITE_OF_FOOT, Foot, Site
-from ....walk.walk import Walk
-from ...tables.gait import MIN_STRIDES
-from ...tables.summary import missing_words, wear_lines
+from ....events import Defect
+from ....types import SITE_OF_FOOT, Foot
+from ...tables.gait import MIN_STRIDES, strides_of
+from ...tables.summary import missing_words
+from ...tables.svg import add
 from ...tables.table import counted, times
-from ..markup import add, whole_sentences
+from ..markup import whole_sentences
+from .facts import Facts
 
 GOOD_GAP_SHARE, MAX_GAP_SHARE = 0.01, 0.25
 """Share of time without samples up to which a recording is complete, and above which its figures should not be used."""
@@ -31,6 +32,11 @@ class QualityVerdict(Enum):
     STOP = "do not use"
 
 
+GOOD, NOTE, LOOK, STOP = QualityVerdict
+Found = tuple[QualityVerdict, str, str]
+"""A verdict, what was found in words, and a concern to check before the figures are used; "" if the part is good."""
+
+
 @frozen
 class Judgement:
     """The verdict on one part of the measurement, and what was found."""
@@ -38,33 +44,23 @@ class Judgement:
     part: str
     verdict: QualityVerdict
     words: str
-    concern: str = ""
+    concern: str
     """Concern to check before the figures are used; "" if the part is good."""
 
 
-@frozen(kw_only=True)
-class MeasuredWalk:
-    """All that is judged."""
-
-    walk: Walk
-    found: int
-    """Number of gait cycles of both feet."""
-    used: int
-    """Number of them in the means."""
-    duration: float
-    """Duration of the recording, s."""
-    defects: Mapping[tuple[Site, Defect], DefectFound]
-    clocks_compared: bool
-    """True if the gait means have a value that compares the times of the feet."""
-    calibrated: bool
-
-
-def judgements(walked: MeasuredWalk) -> list[Judgement]:
+def judgements(facts: Facts) -> list[Judgement]:
     """Return the judgement of each part that there is anything to say about."""
-    if not walked.walk.known_feet:
+    if not facts.report.walk.known_feet:
         return []
-    parts = [judge(walked) for judge in (_strides, _samples, _clocks, _plausibility, _wear, _calibration)]
-    return [part for part in parts if part is not None]
+    found = {
+        "strides": _strides(facts),
+        "samples": _samples(facts),
+        "clocks": _clocks(facts),
+        "plausibility": _plausibility(facts),
+        "wearing": _wear(facts),
+        "calibration": _calibration(facts),
+    }
+    return [Judgement(part, *one) for part, one in found.items() if one is not None]
 
 
 def overall(parts: Sequence[Judgement]) -> str:
@@ -76,82 +72,80 @@ def overall(parts: Sequence[Judgement]) -> str:
     return f"look at {counted(looks, 'point')}" if looks else "good"
 
 
+def warning(parts: Sequence[Judgement]) -> str:
+    """Return a sentence on what to check before the figures are used; "" if nothing is wrong."""
+    for verdict, words in ((STOP, "Do not use the figures before this is checked"), (LOOK, "Check before use")):
+        concerns = [part.concern for part in parts if part.verdict is verdict]
+        if concerns:
+            return f"{words}: {', '.join(concerns)}."
+    return ""
+
+
 def quality_box(parent: Element, parts: Sequence[Judgement]) -> None:
     """Add a list of the parts, each with its verdict in a word of its own colour."""
-    box = add(parent, "dl", class_="quality")
+    box = add(parent, "<dl class='quality'/>")
+    row = "<div><dt><span>{}</span><strong class='verdict {}'>{}</strong></dt><dd>{}</dd></div>"
     for part in parts:
-        row = add(box, "div")
-        name = add(row, "dt")
-        add(name, "span", part.part)
-        add(name, "strong", part.verdict.value, class_=f"verdict {part.verdict.name.lower()}")
-        add(row, "dd", part.words)
+        add(box, row, part.part, part.verdict.name.lower(), part.verdict.value, part.words)
 
 
-def _strides(walked: MeasuredWalk) -> Judgement:
-    if not walked.found:
-        return Judgement("strides", QualityVerdict.LOOK, "No stride was found.", "no strides")
-    words = f"{walked.used} of {counted(walked.found, 'stride')} are steady and count."
-    if walked.used >= MIN_STRIDES:
-        return Judgement("strides", QualityVerdict.GOOD, words)
-    words += f" Figures settle with {MIN_STRIDES} (Galna et al. 2013)."
-    return Judgement("strides", QualityVerdict.LOOK, words, "few strides")
+def _strides(facts: Facts) -> Found:
+    found = sum([cycles.count for cycles in facts.report.walk.cycles.values()])  # whole numbers
+    used = sum([strides_of(means, foot) or 0 for means in facts.means for foot in Foot])  # whole numbers
+    words = f"{used} of {counted(found, 'stride')} are steady and count."
+    if not found:
+        return LOOK, "No stride was found.", "no strides"
+    if used >= MIN_STRIDES:
+        return GOOD, words, ""
+    return LOOK, f"{words} Figures settle with {MIN_STRIDES} (Galna et al. 2013).", "few strides"
 
 
-def _samples(walked: MeasuredWalk) -> Judgement:
+def _samples(facts: Facts) -> Found:
     missing, worst = [], 0.0
-    for foot in walked.walk.known_feet:
-        link = walked.walk.links.get(SITE_OF_FOOT[foot])
+    for foot in facts.report.walk.known_feet:
+        link = facts.report.walk.links.get(SITE_OF_FOOT[foot])
         if link is not None and (words := missing_words(link)):
-            absent = link.absent_time / walked.duration if walked.duration > 0.0 else 0.0
+            absent = link.absent_time / facts.duration if facts.duration > 0.0 else 0.0
             worst = max(worst, link.missing_share, absent)
             missing.append(f"{foot} foot {words}")
-    silences = walked.walk.silences.total()
+    silences = facts.report.walk.silences.total()
     if silences:
         missing.append(f"a foot was silent {times(silences)} while the other walked on")
-    if not missing:
-        return Judgement("samples", QualityVerdict.GOOD, "No sample is missing.")
-    verdict = QualityVerdict.GOOD if worst <= GOOD_GAP_SHARE and not silences else QualityVerdict.LOOK
-    verdict = QualityVerdict.STOP if worst > MAX_GAP_SHARE else verdict
-    return Judgement("samples", verdict, f"{'; '.join(missing)}.", "missing samples")
+    verdict = STOP if worst > MAX_GAP_SHARE else LOOK if silences or worst > GOOD_GAP_SHARE else GOOD
+    return verdict, f"{'; '.join(missing) or 'No sample is missing'}.", "missing samples"
 
 
-def _clocks(walked: MeasuredWalk) -> Judgement | None:
-    part = "clocks"
-    for (_, defect), event in walked.defects.items():
+def _clocks(facts: Facts) -> Found | None:
+    walk, concern = facts.report.walk, "the clocks of the feet"
+    for (_, defect), event in walk.found_defects.items():
         if defect is Defect.CLOCKS:
-            words = " ".join(whole_sentences([f"{event.site.words}: {event.what}"]))
-            return Judgement(part, QualityVerdict.LOOK, words, "the clocks of the feet")
-    resets = sum([link.clock_resets for link in walked.walk.links.values()])  # whole numbers
-    if resets:
-        return Judgement(part, QualityVerdict.LOOK, f"A sensor's clock restarted {times(resets)}.", "restarted clocks")
-    if len(walked.walk.known_feet) < len(Foot) or not walked.found:
+            return LOOK, whole_sentences([f"{event.site.words}: {event.what}"])[0], concern
+    if resets := sum([link.clock_resets for link in walk.links.values()]):  # whole numbers
+        return LOOK, f"A sensor's clock restarted {times(resets)}.", "restarted clocks"
+    if len(walk.known_feet) < len(Foot) or not any([cycles.count for cycles in walk.cycles.values()]):
         return None
-    if walked.clocks_compared:
-        return Judgement(part, QualityVerdict.GOOD, "The times of both feet fit together.")
-    words = "The times of the feet could not be compared."
-    return Judgement(part, QualityVerdict.LOOK, words, "the clocks of the feet")
+    if any([means.both.step_time is not None for means in facts.means]):
+        return GOOD, "The times of both feet fit together.", ""
+    return LOOK, "The times of the feet could not be compared.", concern
 
 
-def _plausibility(walked: MeasuredWalk) -> Judgement:
-    part, found = "plausibility", [one for key, one in walked.defects.items() if key[1] is not Defect.CLOCKS]
+def _plausibility(facts: Facts) -> Found:
+    found = [one for (_, defect), one in facts.report.walk.found_defects.items() if defect is not Defect.CLOCKS]
     if not found:
-        return Judgement(part, QualityVerdict.GOOD, "Nothing contradicts itself or physics.")
-    verdict = QualityVerdict.STOP if any(one.spoils for one in found) else QualityVerdict.LOOK
-    words = whole_sentences([f"{one.site.words}: {one.defect.value}" for one in found])
-    concern = "data that cannot be right" if verdict is QualityVerdict.STOP else "data that are less accurate"
-    return Judgement(part, verdict, f"{' '.join(words)} What to do is under Sensors and links.", concern)
+        return GOOD, "Nothing contradicts itself or physics.", ""
+    sentences = whole_sentences([f"{one.site.words}: {one.defect.value}" for one in found])
+    words = " ".join([*sentences, "What to do is under Sensors and links."])
+    if any([one.spoils for one in found]):
+        return STOP, words, "data that cannot be right"
+    return LOOK, words, "data that are less accurate"
 
 
-def _wear(walked: MeasuredWalk) -> Judgement | None:
-    lines = [line for line in walked.walk.wear_problems if line in wear_lines(walked.walk)]
-    return (
-        Judgement("wearing", QualityVerdict.LOOK, " ".join(whole_sentences(lines)), "how the sensors are worn")
-        if lines
-        else None
-    )
+def _wear(facts: Facts) -> Found | None:
+    lines = facts.report.walk.wear_problems
+    return (LOOK, " ".join(whole_sentences(lines)), "how the sensors are worn") if lines else None
 
 
-def _calibration(walked: MeasuredWalk) -> Judgement:
-    if walked.calibrated:
-        return Judgement("calibration", QualityVerdict.GOOD, "One of this wearer, these shoes or sensors was used.")
-    return Judgement("calibration", QualityVerdict.NOTE, "No calibration was given: the sensors' own scale is used.")
+def _calibration(facts: Facts) -> Found:
+    if facts.report.calibrated:
+        return GOOD, "One of this wearer, these shoes or sensors was used.", ""
+    return NOTE, "No calibration was given: the sensors' own scale is used.", ""
