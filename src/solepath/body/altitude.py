@@ -22,12 +22,11 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from math import log
-from typing import ClassVar
 
 from ..events import Defect, DefectFound, LiftRidden, StrideTaken
 from ..foot.view import FootView
 from ..types import Foot, Site
-from ..types.attrs import define, evolve, field
+from ..types.attrs import define, evolve, field, stateful
 from ..types.vector import to_float32
 from .part import HeightShift, Part, PartInput, PartOutput, Replacement
 
@@ -204,29 +203,29 @@ class PendingReadings:
     """Height of the newest reading, m; None before any."""
 
 
-@define
+@stateful
 class Altitude(Part):
     """Estimates the correction of the wearer's height from air pressure, strides and elevator rides.
 
     Latency: none for air pressure; a ride is known after its end."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
     idle = True
 
-    now: HeightEstimate = field(factory=HeightEstimate, init=False)
+    now: HeightEstimate = field(factory=HeightEstimate)
     """Estimate after all inputs."""
-    base: HeightEstimate = field(factory=HeightEstimate, init=False)
+    base: HeightEstimate = field(factory=HeightEstimate)
     """Estimate before the oldest input that is kept."""
-    inputs: deque[PackedInput] = field(factory=deque, init=False)
+    inputs: deque[PackedInput] = field(factory=deque)
     """Recent inputs, in the order in which they were processed: readings of both barometers and changes of the
     correction."""
-    sides: list[PendingReadings] = field(factory=lambda: [PendingReadings(), PendingReadings()], init=False)
+    sides: list[PendingReadings] = field(factory=lambda: [PendingReadings(), PendingReadings()])
     """Pending readings of the left and the right barometer."""
-    noise: float = field(default=0.04, init=False)
+    noise: float = 0.04
     """Variance of a reading, estimated from consecutive readings, m^2."""
-    ride_variance: float = field(default=0.0, init=False)
+    ride_variance: float = 0.0
     """Variance of the height of all rides together, m^2."""
-    strides: deque[tuple[float, float]] = field(factory=deque, init=False)
+    strides: deque[tuple[float, float]] = field(factory=deque)
     """Start and end of each of the newest strides, in whole hundredths of a second."""
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:

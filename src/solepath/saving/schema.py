@@ -11,14 +11,15 @@ classes.
 A class in the row "aid" of types/registry.py is imported only when there is a record of it: a module that has such a
 field imports it under `if TYPE_CHECKING`, and where it makes the first one.
 
-Fields that a constructor takes are *settings* and never change; other fields (`init=False`) are *state*. A class with
-state is a *part*. When a session is unpacked, the *holder* of a part (the record that has it in a field) makes the part
-again with the same settings. The packed form of such a part has only its state, and the state of parts in its settings.
-This applies to a part in a setting, and to a part in a field of state whose default is not None. Everything else is
-written with all fields: parts that may be absent, and records without state. Two marks declare exceptions:
+Fields that a constructor takes are *settings* and never change; other fields (`init=False`, which `stateful` of
+types/attrs.py gives each field with a default but `settings`) are *state*. A class with state is a *part*. When a
+session is unpacked, the *holder* of a part (the record that has it in a field) makes the part again with the same
+settings. The packed form of such a part has only its state, and the state of parts in its settings. This applies to a
+part in a setting, and to a part in a field of state whose default is not None. Everything else is written with all
+fields: parts that may be absent, and records without state. Two marks declare exceptions:
 
     floorplan: Plan | None = field(default=None, metadata=NOT_SAVED)      has its default after loading
-    feet: dict[Foot, Tracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)      only the state is saved
+    feet: dict[Foot, Tracker] = field(factory=dict, metadata=MADE_AGAIN)                  only the state is saved
 """
 
 from __future__ import annotations

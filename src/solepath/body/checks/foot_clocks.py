@@ -16,13 +16,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import atan2, cos, fsum, hypot, pi, sin, sqrt
-from typing import ClassVar
 
 from ...events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Phase, Site, per_foot
-from ...types.attrs import define, evolve, field, frozen
-from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
+from ...types.attrs import define, evolve, field, frozen, stateful
+from ..part import ClockUnsettled, Part, PartInput, PartOutput
 from .stances import Finding
 
 # The offset between the clocks of the feet, from comparisons of the stances of each foot with the other's swings.
@@ -170,14 +169,14 @@ class LoneFoot:
         self.strides, self.x, self.y = 0, 0.0, 0.0
 
 
-@define
+@stateful
 class LoneStrides:
     """Detects a foot that walked while the other foot stood; the sentences are those of the right foot."""
 
-    feet: PerFoot[LoneFoot] = field(factory=lambda: per_foot(LoneFoot), init=False)
-    other_t: float | None = field(default=None, init=False)
+    feet: PerFoot[LoneFoot] = field(factory=lambda: per_foot(LoneFoot))
+    other_t: float | None = None
     """Time of the newest sample of the foot that did not have the newest event, s; None before any."""
-    requested: Foot | None = field(default=None, init=False)
+    requested: Foot | None = None
     """Foot of which a sample without events is needed, to know whether it is tracked; None mostly."""
 
     def see(self, view: FootView) -> None:
@@ -280,7 +279,7 @@ class FootClock:
         return 0.5 * (contact + toe_off)
 
 
-@define
+@stateful
 class FootClocks(Part):
     """Detects that the times of the feet are not on one clock, and reports it as DefectFound.
 
@@ -289,20 +288,20 @@ class FootClocks(Part):
     foot that walks while the other one stands is reported once, without an offset, and no offset after it. A foot
     with another defect that spoils its events is not compared."""
 
-    needs_samples: ClassVar[bool] = True
-    notices: ClassVar[tuple[type[Notice], ...]] = (ClockUnsettled,)
+    needs_samples = True
+    notices = (ClockUnsettled,)
 
-    idle: bool = field(default=True, init=False)
+    idle: bool = True
     """Flag: only samples with events are needed."""
-    feet: PerFoot[FootClock] = field(factory=lambda: per_foot(FootClock), init=False)
-    comparisons: list[Comparison] = field(factory=list, init=False)
+    feet: PerFoot[FootClock] = field(factory=lambda: per_foot(FootClock))
+    comparisons: list[Comparison] = field(factory=list)
     """Newest comparisons, oldest first."""
-    reported: float | None = field(default=None, init=False)
+    reported: float | None = None
     """Newest offset that was reported, s; None before any."""
-    lone: LoneStrides = field(factory=LoneStrides, init=False)
-    lone_reported: bool = field(default=False, init=False)
+    lone: LoneStrides = field(factory=LoneStrides)
+    lone_reported: bool = False
     """Flag: it was reported that one foot walked while the other one stood."""
-    lone_sentences: str | None = field(default=None, init=False)
+    lone_sentences: str | None = None
     """Sentences on this for the next sample, because a defect of the same sample may be the reason; None mostly."""
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:

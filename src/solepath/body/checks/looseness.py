@@ -7,12 +7,11 @@ ground or a turn change the errors of both feet, a loose sensor those of one."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import ClassVar
 
 from ...events import Defect, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, PerFoot, Site, per_foot
-from ...types.attrs import define, field
+from ...types.attrs import define, field, stateful
 from ..part import Part, PartInput, PartOutput
 from .stances import Finding
 
@@ -61,17 +60,17 @@ class LandingErrors:
         return self.recent > ratio * ratio * self.usual
 
 
-@define
+@stateful
 class Looseness(Part):
     """Reports a sensor that came loose, once for a device; from then on its strides are degraded.
 
     It needs both feet, and a sensor that was fixed for `FIRST_STRIDES` strides. Latency: 4 to 30 strides, the fewer the
     more it swings."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
     idle = True
 
-    feet: PerFoot[LandingErrors] = field(factory=lambda: per_foot(LandingErrors), init=False)
+    feet: PerFoot[LandingErrors] = field(factory=lambda: per_foot(LandingErrors))
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a stride of the foot; return the event if its sensor came loose."""

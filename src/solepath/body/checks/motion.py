@@ -11,7 +11,7 @@ from math import degrees, radians, sqrt
 from ...events import Defect, DefectFound, Flaw, SampleGap, StrideTaken
 from ...foot.view import FASTEST_RUN, FootView
 from ...types import PerFoot, Site, per_foot
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, evolve, field, stateful
 from ...types.vector import GRAVITY
 from ..activity.flights import HIGHEST_RISE, integrated_rise
 from ..part import Part, PartInput, PartOutput, Replacement
@@ -71,13 +71,13 @@ class FootRecord:
     """Flag: it was reported that most strides are impossible."""
 
 
-@define
+@stateful
 class PossibleMotion(Part):
     """Marks impossible strides as degraded, and reports them once, and once more when most strides are impossible.
 
     Latency: none; a stride is replaced before the parts after this one receive it."""
 
-    feet: PerFoot[FootRecord] = field(factory=lambda: per_foot(FootRecord), init=False)
+    feet: PerFoot[FootRecord] = field(factory=lambda: per_foot(FootRecord))
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         outputs: list[PartOutput] = []

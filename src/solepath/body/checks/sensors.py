@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import ClassVar, Final
+from typing import Final
 
 from ...events import Defect, DefectFound, HeelStrike, SampleRejected, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Site, Vec3, per_foot
-from ...types.attrs import define, field
+from ...types.attrs import define, field, stateful
 from ..part import Part, PartInput, PartOutput
 from .axes import AxesCheck, BandwidthCheck
 from .readings import (
@@ -70,7 +70,7 @@ class SensorCheck:
     """Correction of the axes that was reported."""
 
 
-@define
+@stateful
 class SensorChecks(Part):
     """Reports what cannot be right in the samples of a foot, as DefectFound; a defect is reported once for a device.
 
@@ -86,9 +86,9 @@ class SensorChecks(Part):
     Cost: sums over blocks of 32 samples. Strides are examined until some of them have shown that the axes, gravity and
     bandwidth are right, and again after 300 s."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
 
-    feet: PerFoot[SensorCheck] = field(factory=lambda: per_foot(SensorCheck), init=False)
+    feet: PerFoot[SensorCheck] = field(factory=lambda: per_foot(SensorCheck))
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
         """Add a sample and events; return the defects that they show."""

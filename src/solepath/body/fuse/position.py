@@ -13,7 +13,6 @@ from __future__ import annotations
 from cmath import phase, rect
 from collections.abc import Mapping, Sequence
 from math import cos, fsum, hypot, sin
-from typing import ClassVar
 
 from ...foot.view import FootPose, FootView
 from ...foot.world import Covariance3
@@ -128,7 +127,7 @@ class MeanOfFeet(TrackPart):
 
     After an alignment both feet have the same error, so the covariance is that of the foot that was not absent."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
 
     tracks: PerFoot[PlacedTrack] = field(factory=lambda: per_foot(PlacedTrack), init=False)
     placed_last: Foot | None = field(default=None, init=False)

@@ -5,7 +5,6 @@ Latency: see GaitCycleMeasured. Samples without events cost almost no computing 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import ClassVar
 
 from ...events import (
     Defect,
@@ -22,8 +21,8 @@ from ...events import (
 from ...events.foot import LONGEST_HARMLESS_GAP
 from ...foot.view import FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, per_foot
-from ...types.attrs import define, field
-from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
+from ...types.attrs import define, field, stateful
+from ..part import ClockUnsettled, Part, PartInput, PartOutput
 from .means import GaitMeans, GaitParameters
 
 # Gait cycles of one foot, from its phase events.
@@ -275,18 +274,18 @@ MAX_WAIT = 0.5
 """Longest time for which a cycle waits for the other foot's samples, s."""
 
 
-@define
+@stateful
 class GaitCycles(Part):
     """Measures gait cycles from the events of both feet and returns GaitCycleMeasured; `means` has running means."""
 
-    needs_samples: ClassVar[bool] = True
-    notices: ClassVar[tuple[type[Notice], ...]] = (ClockUnsettled,)
+    needs_samples = True
+    notices = (ClockUnsettled,)
 
-    feet: PerFoot[Footfalls] = field(factory=lambda: per_foot(Footfalls), init=False)
-    means: GaitMeans = field(factory=GaitMeans, init=False)
-    idle: bool = field(default=True, init=False)
+    feet: PerFoot[Footfalls] = field(factory=lambda: per_foot(Footfalls))
+    means: GaitMeans = field(factory=GaitMeans)
+    idle: bool = True
     """Flag: no cycle waits for samples of the other foot."""
-    clocks_apart: bool = field(default=False, init=False)
+    clocks_apart: bool = False
     """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 
     @property

@@ -11,12 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import fsum, pi
-from typing import ClassVar
 
 from ...events import FootFlat, StrideTaken, TurnMade
 from ...foot.view import AfterEvents, FootView
 from ...types import OTHER, Foot, PerFoot, Quat, Site, Turn, per_foot
-from ...types.attrs import define, field, frozen
+from ...types.attrs import define, field, frozen, stateful
 from ...types.vector import heading_turned
 from ..part import Part, PartInput, PartOutput
 
@@ -45,14 +44,14 @@ MAX_STRAIGHT_TURN = 0.3
 """Largest size of the estimated usual turn, rad."""
 
 
-@define
+@stateful
 class TurningStrideFilter:
     """The low-pass filter of one foot's turns; time and memory are O(1), and there is no latency."""
 
-    straight_turn: float = field(default=0.0, init=False)
+    straight_turn: float = 0.0
     """Usual turn of a straight stride, rad, counter-clockwise positive."""
 
-    straight_deviation: float | None = field(default=0.0, init=False)
+    straight_deviation: float | None = 0.0
     """Deviation of the last stride from the usual turn, rad, or 0; None when the path has turned with it."""
 
     def turn(self, angle: float) -> float:
@@ -145,21 +144,21 @@ class FootTurn:
     """Number of straight strides since the foot's last turning stride."""
 
 
-@define
+@stateful
 class TurnDetector:
     """Detects turns, each from its first to its last turning stride.
 
     Latency: a turn is known after `STRAIGHT_STRIDES` straight strides of the feet (two strides when only one foot has
     samples), or after the feet have stood for `MIN_PAUSE`."""
 
-    feet: PerFoot[FootTurn] = field(factory=lambda: per_foot(FootTurn), init=False)
-    t_start: float | None = field(default=None, init=False)
+    feet: PerFoot[FootTurn] = field(factory=lambda: per_foot(FootTurn))
+    t_start: float | None = None
     """Start of the first turning stride of the process, s; None outside a turn."""
-    t_end: float = field(default=0.0, init=False)
+    t_end: float = 0.0
     """End of the last turning stride, s."""
-    pause: float = field(default=MIN_PAUSE, init=False)
+    pause: float = MIN_PAUSE
     """Pause that ends the turn under way, s."""
-    previous_end: float | None = field(default=None, init=False)
+    previous_end: float | None = None
     """End of the previous turn, s; None before any."""
 
     def add_stride(self, event: StrideTaken) -> TurnProcess | None:
@@ -284,16 +283,16 @@ class FlatFoot:
     attitude: Quat
 
 
-@define
+@stateful
 class Turns(Part):
     """Detects and classifies turns from strides and pivots; see `TurnDetector` for the latency."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
 
-    detector: TurnDetector = field(factory=TurnDetector, init=False)
-    last_flat: dict[Foot, FlatFoot] = field(factory=dict, init=False)
+    detector: TurnDetector = field(factory=TurnDetector)
+    last_flat: dict[Foot, FlatFoot] = field(factory=dict)
     """Newest foot-flat of each foot."""
-    idle: bool = field(default=True, init=False)
+    idle: bool = True
     """Flag: no turn is under way."""
 
     def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:

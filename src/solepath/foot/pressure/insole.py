@@ -19,7 +19,7 @@ from operator import add
 from ...calibration import Newtons
 from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Cell, Foot, Layout, Phase, Sample
-from ...types.attrs import define, field
+from ...types.attrs import define, field, stateful
 from ...types.vector import TIME_EPSILON
 from ..limitations import Limitations
 from ..settings import FootSettings, InsoleSettings
@@ -71,7 +71,7 @@ class Extremes:
             self.high = max(self.high, value)
 
 
-@define
+@stateful
 class InsoleLoads:
     """Converts the cell values of one insole to a `Load`.
 
@@ -80,30 +80,30 @@ class InsoleLoads:
     deleting p_noise", equation (1))."""
 
     settings: InsoleSettings = InsoleSettings()
-    layout: Layout | None = field(default=None, init=False)
-    in_newtons: bool = field(default=False, init=False)
+    layout: Layout | None = None
+    in_newtons: bool = False
     """The device sends newtons, so `settings.newtons` is not used."""
-    cells: tuple[float, ...] = field(default=(), init=False)
+    cells: tuple[float, ...] = ()
     """Values of the cells of the current sample without noise, N or unit of the samples; () after their use."""
-    sum: float = field(default=0.0, init=False)
+    sum: float = 0.0
     """Sum of `cells`."""
-    heel_cells: tuple[int, ...] = field(default=(), init=False)
+    heel_cells: tuple[int, ...] = ()
     """Indices of the cells of the heel area."""
-    forefoot_cells: tuple[int, ...] = field(default=(), init=False)
+    forefoot_cells: tuple[int, ...] = ()
     """Indices of the cells of the forefoot area."""
-    total: Extremes = field(factory=Extremes, init=False)
+    total: Extremes = field(factory=Extremes)
     """Extremes of the total load."""
-    heel: Extremes = field(factory=Extremes, init=False)
+    heel: Extremes = field(factory=Extremes)
     """Extremes of the load of the heel area."""
-    forefoot: Extremes = field(factory=Extremes, init=False)
+    forefoot: Extremes = field(factory=Extremes)
     """Extremes of the load of the forefoot area."""
-    tare: list[float] = field(factory=list, init=False)
+    tare: list[float] = field(factory=list)
     """Value of each cell in the air, unit of the samples."""
-    tare_total: float = field(default=0.0, init=False)
+    tare_total: float = 0.0
     """Sum of the cells at the sample that gave the tare, unit of the samples."""
-    was_airborne: bool = field(default=False, init=False)
+    was_airborne: bool = False
     """The foot was in the air in the last sample."""
-    load_risen: bool = field(default=False, init=False)
+    load_risen: bool = False
     """The load has risen again after it had fallen, so that it is known."""
 
     def set_layout(self, layout: Layout) -> None:
@@ -318,7 +318,7 @@ class LayoutGuess:
         return Layout(ESTIMATED_LAYOUT_ID, self.foot, tuple([Cell(x, 0.0) for x in xs]), ASSUMED_LENGTH)
 
 
-@define
+@stateful
 class Sole:
     """The pressure cells of one foot.
 
@@ -327,19 +327,19 @@ class Sole:
     foot: Foot
     settings: FootSettings = FootSettings()
     insole: InsoleLoads = field(init=False)
-    had_cells: bool = field(default=False, init=False)
+    had_cells: bool = False
     """At least one sample with usable cells was added."""
     health: CellHealth = field(init=False)
     guess: LayoutGuess = field(init=False)
-    layout_estimated: bool = field(default=False, init=False)
+    layout_estimated: bool = False
     """The layout is an estimate."""
-    calibrated_layout: Layout | None = field(default=None, init=False)
+    calibrated_layout: Layout | None = None
     """Layout of the calibration that waits for a sample with the same number of cells; None when none waits."""
-    count_checked: bool = field(default=False, init=False)
+    count_checked: bool = False
     """It is decided whether the calibration is used: it matches the number of cells, or was rejected."""
-    highest: float = field(default=0.0, init=False)
+    highest: float = 0.0
     """Highest recent value of any cell of a pressure event, unit of the cells; it decays slowly."""
-    layout_changed: bool = field(default=False, init=False)
+    layout_changed: bool = False
     """The layout has changed, and detector and cues have not received it yet."""
 
     def __attrs_post_init__(self) -> None:

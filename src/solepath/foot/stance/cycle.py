@@ -18,7 +18,7 @@ from __future__ import annotations
 from math import exp, inf, log, sqrt
 
 from ...types import Quat, Vec3
-from ...types.attrs import NOT_SAVED, define, field
+from ...types.attrs import NOT_SAVED, define, field, stateful
 from ...types.vector import IDENTITY, TIME_EPSILON, ZERO
 from ..phase import STATIONARY, SWING
 from ..settings import CycleSettings
@@ -139,7 +139,7 @@ class SensorHeight:
         self.height = min(max(self.product / self.square, LOWEST_HEIGHT), HIGHEST_HEIGHT)
 
 
-@define
+@stateful
 class Cycle(Detector):
     """Compares the SHOE statistic with a threshold from the last gait cycle; the noise follows from the motion.
 
@@ -147,23 +147,23 @@ class Cycle(Detector):
     Time is divided into spans of equal duration. The extremes are those of the last three spans and the current one."""
 
     settings: CycleSettings = CycleSettings()
-    sensor_height: SensorHeight = field(factory=SensorHeight, init=False)
-    shoe: ShoeDetector = field(factory=ShoeDetector, init=False)
-    span_end: float | None = field(default=None, init=False)
+    sensor_height: SensorHeight = field(factory=SensorHeight)
+    shoe: ShoeDetector = field(factory=ShoeDetector)
+    span_end: float | None = None
     """End of the current span, s; None before any."""
-    lows: tuple[float, float, float] = field(default=(NO_STATISTIC, NO_STATISTIC, NO_STATISTIC), init=False)
+    lows: tuple[float, float, float] = (NO_STATISTIC, NO_STATISTIC, NO_STATISTIC)
     """Lowest statistic of each of the last three spans."""
-    highs: tuple[float, float, float] = field(default=(0.0, 0.0, 0.0), init=False)
+    highs: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Highest statistic of each of the last three spans."""
-    lowest: float = field(default=NO_STATISTIC, init=False)
+    lowest: float = NO_STATISTIC
     """Lowest statistic of the current span."""
-    highest: float = field(default=0.0, init=False)
+    highest: float = 0.0
     """Highest statistic of the current span."""
-    past_low: float = field(default=NO_STATISTIC, init=False)
+    past_low: float = NO_STATISTIC
     """Lowest statistic of the last three spans together."""
-    past_high: float = field(default=0.0, init=False)
+    past_high: float = 0.0
     """Highest statistic of the last three spans together."""
-    threshold: float | None = field(default=None, init=False, metadata=NOT_SAVED)
+    threshold: float | None = field(default=None, metadata=NOT_SAVED)
     """Threshold by the extremes of all four spans; None until it is asked for after one of them has changed."""
 
     def update(
