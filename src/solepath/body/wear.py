@@ -9,10 +9,10 @@ from struct import Struct
 
 from ..events import FeetSwapped, FootResumed, FootSilent, StrideTaken, ToeOff
 from ..foot.view import FootView
-from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec3, per_foot
+from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec2, Vec3, per_foot
 from ..types.attrs import ROW_SIZE, define, field, frozen, stateful
 from ..types.vector import ZERO, add, cross, dot, rotate_back, sub
-from .part import LayoutReported, Part, PartInput, PartOutput
+from .part import Inputs, LayoutReported, Outputs, Part, PartOutput
 
 # Integral of a foot's angular rate over the last second or two, which `Sides` uses.
 
@@ -263,7 +263,7 @@ def _add_landing(side: SwapEvidence, stride: StrideTaken, attitude: Quat) -> Non
     side.roll.add(-leftward if stride.foot is Foot.LEFT else leftward)
 
 
-def _add_centre(side: SwapEvidence, t: float, centre: tuple[float, float] | None) -> None:
+def _add_centre(side: SwapEvidence, t: float, centre: Vec2 | None) -> None:
     """Add the centre of pressure of an insole without an inertial sensor, at most every `CENTRE_INTERVAL`."""
     if side.centre_at is not None and 0.0 <= t - side.centre_at < CENTRE_INTERVAL:
         return
@@ -327,7 +327,7 @@ class Wear(Part):
     swapped: bool = False
     """Flag: exchanged feet were reported."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add one sample of a foot; return events of a silent foot, a resumed foot or exchanged feet."""
         for event in events:
             if isinstance(event, LayoutReported) and event.site.foot is not None:

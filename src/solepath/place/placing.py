@@ -14,7 +14,7 @@ from itertools import pairwise, repeat
 from math import atan2, cos, dist, exp, fsum, hypot, isfinite, pi, sin, sqrt
 
 from ..body.fuse.common_error import LEAST_WAY, POSITION_GATE
-from ..body.part import MOVEMENTS, Part, PartInput, PartOutput, StartGiven
+from ..body.part import MOVEMENTS, Inputs, Outputs, Part, PartInput, StartGiven
 from ..events import (
     Event,
     Placed,
@@ -290,11 +290,11 @@ class Particles(Part):
 
     # Events.
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Hold events back until the wearer's position after them is known, and return the place then."""
         return [output for event in events for output in self._receive(event)]
 
-    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
+    def _receive(self, event: PartInput) -> Outputs:
         if isinstance(event, MOVEMENTS):
             self.pending_events.append(event)
         elif isinstance(event, WearerMoved) and self.plan is not None:

@@ -181,7 +181,7 @@ def _node(hint: Any, made: bool) -> Node:
     if isinstance(hint, EnumMeta):
         return EnumNode(hint, tuple(hint))
     if is_late(hint):
-        return LateNode(hint.__name__, made, _record_of_late)
+        return LateNode(hint.__name__, made, lambda name, made: _record_of_value(load("aid", name), made))
     if is_open(hint) or origin in (typing.Union, types.UnionType):
         return _union(hint, made)
     if is_record(hint):
@@ -211,10 +211,6 @@ def _union(hint: Any, made: bool) -> Node:
     else:
         raise TypeError(f"it could not tell apart {hint!r}")
     return MaybeNode(node, made and not isinstance(node, LateNode)) if types.NoneType in typing.get_args(hint) else node
-
-
-def _record_of_late(name: str, made: bool) -> RecordNode:
-    return _record_of_value(load("aid", name), made)
 
 
 def _record_of_value(cls: type, made: bool) -> RecordNode:

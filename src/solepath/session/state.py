@@ -16,8 +16,8 @@ from ..body.part import (
     LayoutReported,
     LimbSampled,
     Notice,
+    Outputs,
     Part,
-    PartOutput,
     Position,
     Replacement,
     Shift,
@@ -39,7 +39,7 @@ from ..foot.settings import FootSettings
 from ..foot.view import FootView
 from ..link.kinds import DeviceKinds
 from ..recipes import Recipe, part_class
-from ..types import OTHER, Foot, Packet, Sample, Site
+from ..types import OTHER, Foot, Packet, Quat, Sample, Site
 from ..types.attrs import MADE_AGAIN, NOT_SAVED, evolve, field, frozen, stateful
 from ..types.plain import has_floats, number, text, with_floats
 from ..types.records import MAX_TIME
@@ -271,7 +271,7 @@ class SessionState:
     def _use_sample(self, sample: Sample) -> list[Event]:
         """Add a sample of any site and return the events."""
         if sample.quat is not None:
-            sample = _with_sound_attitude(sample)
+            sample = _with_sound_attitude(sample, sample.quat)
         foot = sample.site.foot
         if foot is None:
             return self._feed_limb(sample)
@@ -360,7 +360,7 @@ class SessionState:
             moved = self._make_moved(known_at)
         return moved
 
-    def _apply(self, output: Sequence[PartOutput], events: list[Any]) -> None:
+    def _apply(self, output: Outputs, events: list[Any]) -> None:
         """Add the emitted events, also those that an app defines, to `events`, and apply the corrections."""
         for item in output:
             if isinstance(item, Shift):
@@ -422,14 +422,11 @@ def sort_by_key(values: dict[_Key, _Value], keys: Iterable[_Key]) -> dict[_Key, 
     return {key: values[key] for key in keys if key in values}
 
 
-def _with_sound_attitude(sample: Sample) -> Sample:
+def _with_sound_attitude(sample: Sample, quat: Quat) -> Sample:
     """Return the sample with a unit quaternion, or without attitude if its quaternion has no valid norm."""
-    if sample.quat is None:
-        return sample
-    w, x, y, z = sample.quat
+    w, x, y, z = quat
     square = w * w + x * x + y * y + z * z
     if 1.0 - 1e-9 < square < 1.0 + 1e-9:
         return sample
-    if not SHORTEST_QUAT < square < 1.0 / SHORTEST_QUAT:  # also true for nan
-        return evolve(sample, quat=None)
-    return evolve(sample, quat=normalise(sample.quat))
+    is_sound = SHORTEST_QUAT < square < 1.0 / SHORTEST_QUAT  # not if it is nan
+    return evolve(sample, quat=normalise(quat) if is_sound else None)

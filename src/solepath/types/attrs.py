@@ -37,6 +37,11 @@ def limits(least: float, most: float, unit: str = "") -> dict[str, Any]:
     return {LIMITS: (least, most, unit)}
 
 
+def limited(default: Any, least: float, most: float, unit: str = "") -> Any:
+    """Return a field with this default, whose numbers can be from `least` to `most`."""
+    return field(default=default, metadata=limits(least, most, unit))
+
+
 if TYPE_CHECKING:
     from attrs import define, frozen
     from attrs import define as stateful
@@ -99,6 +104,7 @@ __all__ = [
     "field",
     "fields",
     "frozen",
+    "limited",
     "limits",
     "stateful",
 ]

@@ -14,7 +14,6 @@ ride becomes final after 12 s."""
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Sequence
 from math import floor
 from typing import TYPE_CHECKING
 
@@ -23,7 +22,7 @@ from ...foot.view import FootView
 from ...types import Activity, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import evolve, field, frozen, stateful
 from ...types.vector import TIME_EPSILON, ZERO
-from ..part import ActivityPart, PartInput, PartOutput
+from ..part import ActivityPart, Inputs, Outputs, PartOutput
 from .early import ActivityCue, ActivityReport, BlockSigns, Early, cue_of_stride, follow, follow_block
 from .elevator_evidence import BlockForce, ElevatorEvidence
 from .flights import Flights, integrated_rise
@@ -111,7 +110,7 @@ class Activities(ActivityPart):
         if all([side.index is None for side in self.feet.values()]):
             self._restart()
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its air pressure and events; return activities, flights and rides."""
         outputs: list[PartOutput] = []
         if view is not None and (self.origin is not None or view.sample.acc is not None):
@@ -146,7 +145,7 @@ class Activities(ActivityPart):
         air = self.pressure_height = PressureHeight()
         return air
 
-    def finish(self, now: float) -> Sequence[PartOutput]:
+    def finish(self, now: float) -> Outputs:
         """Return the final activities, including the last second, because no more samples come."""
         for side in self.feet.values():
             side.close()
@@ -169,7 +168,7 @@ class Activities(ActivityPart):
             empty_blocks = 0 if self._judge_block(self.next_block) else empty_blocks + 1
             self.next_block += 1
             if empty_blocks > MAX_EMPTY_BLOCKS:
-                self.next_block = max(self.next_block, complete - 2 * WINDOW_REACH)
+                self.next_block = complete
         return self._report(followed, known_at) + self._count_flights(t, known_at)
 
     def _judge_block(self, index: int) -> bool:

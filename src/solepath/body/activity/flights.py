@@ -129,7 +129,9 @@ class Flights:
             if self.direction != 0:
                 self.level_stride_count += 1
                 foot.unjudged += direction is None
-                if self.level_stride_count >= self._count_active_feet(foot, stride.t):
+                others = [one.stride_at for one in self.feet.values() if one is not foot and one.stride_at is not None]
+                active = 1 + len([at for at in others if abs(stride.t - at) < ACTIVE_TIME])  # with a stride just now
+                if self.level_stride_count >= active:
                     events = self._arrive(stride.known_at)
         foot.stride_at = stride.t
         return events
@@ -169,11 +171,6 @@ class Flights:
         self.trusted_rise = 0.0
         for foot in self.feet.values():
             foot.rise, foot.untrusted, foot.unjudged = None, 0, 0
-
-    def _count_active_feet(self, foot: FootClimb, t: float) -> int:
-        """Return the number of feet with a stride shortly before `t`, s, including `foot`."""
-        others = [one.stride_at for one in self.feet.values() if one is not foot and one.stride_at is not None]
-        return 1 + sum([abs(t - at) < ACTIVE_TIME for at in others])
 
     def _arrive(self, known_at: float) -> list[FlightClimbed]:
         """Return the flight under way, after which both feet stand on one level."""

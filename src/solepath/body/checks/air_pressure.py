@@ -7,7 +7,6 @@ height of an elevator."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import exp
 
 from ...events import Defect, StrideTaken
@@ -15,7 +14,7 @@ from ...foot.view import FootView
 from ...types import PerFoot, Site, per_foot
 from ...types.attrs import define, field, stateful
 from ..altitude import DEGRADED_FACTOR, SCALE_HEIGHT, STANDARD_PRESSURE, height_above_track
-from ..part import Part, PartInput, PartOutput
+from ..part import Inputs, Outputs, Part
 from .stances import Finding
 
 STRIDE_PAUSE = 2.5
@@ -80,7 +79,7 @@ class AirPressure(Part):
     degraded: bool = False
     """Flag: that stride is degraded."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add the reading of a foot's barometer, if the sample has one, and strides, which show that people walk."""
         outputs = () if view is None or view.sample.air_pressure is None else self._add_reading(view)
         for event in events:
@@ -88,7 +87,7 @@ class AirPressure(Part):
                 self.stride_at, self.degraded = event.t, bool(event.flaws)
         return outputs
 
-    def _add_reading(self, view: FootView) -> Sequence[PartOutput]:
+    def _add_reading(self, view: FootView) -> Outputs:
         t, barometer = view.t, self.feet[view.foot]
         if self.stride_at is None or abs(t - self.stride_at) > STRIDE_PAUSE:
             barometer.count = 0

@@ -21,7 +21,7 @@ from ...events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, Samp
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Phase, Site, per_foot
 from ...types.attrs import define, evolve, field, frozen, stateful
-from ..part import ClockUnsettled, Part, PartInput, PartOutput
+from ..part import ClockUnsettled, Inputs, Outputs, Part, PartOutput
 from .stances import Finding
 
 # The offset between the clocks of the feet, from comparisons of the stances of each foot with the other's swings.
@@ -304,7 +304,7 @@ class FootClocks(Part):
     lone_sentences: str | None = None
     """Sentences on this for the next sample, because a defect of the same sample may be the reason; None mostly."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add events; return DefectFound with the one that shows that the clocks are apart."""
         outputs: list[PartOutput] = []
         if view is not None:
@@ -327,16 +327,16 @@ class FootClocks(Part):
                     self.lone.add_gap(event)
                     if event.duration > MAX_GAP:
                         foot.discard()
-                elif is_spoiling(event):
+                elif event.spoils and event.defect is not Defect.CLIPPED:  # a peak that is cut off has its time
                     foot.spoiled = True
                     self._forget()
         return outputs
 
-    def finish(self, now: float) -> Sequence[PartOutput]:
+    def finish(self, now: float) -> Outputs:
         """Return DefectFound if the newest stride was the last sample."""
         return self._report_lone(now, now)
 
-    def _add_event(self, event: GaitEvent, foot: FootClock) -> Sequence[PartOutput]:
+    def _add_event(self, event: GaitEvent, foot: FootClock) -> Outputs:
         """Add an event of a foot; return DefectFound if the offset that it shows is significant and new."""
         if isinstance(event, FootFlat):
             if foot.toe_off is not None:  # the heel-strike was not detected
@@ -386,14 +386,9 @@ class FootClocks(Part):
         self.comparisons = [*self.comparisons[1 - MEMORY :], comparison]
         return True
 
-    def _report_lone(self, t: float, known_at: float) -> Sequence[PartOutput]:
+    def _report_lone(self, t: float, known_at: float) -> Outputs:
         """Return DefectFound at `t`, s, if one foot has walked while the other one stood."""
         if self.lone_sentences is None:
             return ()
         what, self.lone_sentences, self.lone_reported = self.lone_sentences, None, True
         return [Finding(Defect.CLOCKS, what, spoils=False).event(Foot.RIGHT, t, max(t, known_at))]
-
-
-def is_spoiling(defect: DefectFound) -> bool:
-    """Return whether a defect spoils the times of the gait events; a peak that is cut off (CLIPPED) has its time."""
-    return defect.spoils and defect.defect is not Defect.CLIPPED

@@ -6,13 +6,11 @@ ground or a turn change the errors of both feet, a loose sensor those of one."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from ...events import Defect, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, PerFoot, Site, per_foot
 from ...types.attrs import define, field, stateful
-from ..part import Part, PartInput, PartOutput
+from ..part import Inputs, Outputs, Part, PartOutput
 from .stances import Finding
 
 FIRST_STRIDES = 20
@@ -72,7 +70,7 @@ class Looseness(Part):
 
     feet: PerFoot[LandingErrors] = field(factory=lambda: per_foot(LandingErrors))
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a stride of the foot; return the event if its sensor came loose."""
         found: list[PartOutput] = []
         for event in events:

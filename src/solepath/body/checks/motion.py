@@ -5,7 +5,6 @@ follows from any other. The limits are those of people, not of what recordings s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import degrees, radians, sqrt
 
 from ...events import Defect, DefectFound, Flaw, SampleGap, StrideTaken
@@ -14,7 +13,7 @@ from ...types import PerFoot, Site, per_foot
 from ...types.attrs import define, evolve, field, stateful
 from ...types.vector import GRAVITY
 from ..activity.flights import HIGHEST_RISE, integrated_rise
-from ..part import Part, PartInput, PartOutput, Replacement
+from ..part import Inputs, Outputs, Part, PartOutput, Replacement
 from .stances import Finding
 
 LONGEST_LEG = 1.15
@@ -79,7 +78,7 @@ class PossibleMotion(Part):
 
     feet: PerFoot[FootRecord] = field(factory=lambda: per_foot(FootRecord))
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         outputs: list[PartOutput] = []
         for event in events:
             if isinstance(event, StrideTaken):
@@ -92,7 +91,7 @@ class PossibleMotion(Part):
                     record.one_reported = record.all_reported = True  # the cause is known
         return outputs
 
-    def _add_stride(self, event: StrideTaken, record: FootRecord) -> Sequence[PartOutput]:
+    def _add_stride(self, event: StrideTaken, record: FootRecord) -> Outputs:
         motion = impossible_motion(event)
         reason = motion or impossible_angle(event)
         record.recent = (*record.recent[1 - MOST_RECENT :], reason is not None)

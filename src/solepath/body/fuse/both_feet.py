@@ -16,7 +16,7 @@ its signal and returns is treated as in `MeanOfFeet`."""
 from __future__ import annotations
 
 from cmath import phase, rect
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import partial
 from math import hypot
 from typing import TYPE_CHECKING, Final
@@ -27,7 +27,7 @@ from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Phase, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen, stateful
 from ...types.vector import ZERO, add, sub, wrap_angle
-from ..part import PartInput, PartOutput, Position, Shift, StartGiven
+from ..part import Inputs, Outputs, PartOutput, Position, Shift, StartGiven
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import FEET, RATE, WIDTH, TrackErrorFilter, feet_apart, standing_foot
 from .moving_ground import MovingGround
@@ -159,7 +159,7 @@ class BothFeet(MeanOfFeet):
             self.straight_ways.use_calibration(calibration.headings)
         return self
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
         if view is not None:
             returning = self.return_strides
@@ -207,7 +207,7 @@ class BothFeet(MeanOfFeet):
             compass = self.compass = Compass()
         compass.feet[view.foot].add_sample(view, mag)
 
-    def _use_position(self, event: PositionReported) -> Sequence[PartOutput]:
+    def _use_position(self, event: PositionReported) -> Outputs:
         """Correct both tracks by a reported position, reject it, or note a new place without an event."""
         from .reported_position import ReportedPosition, in_world_frame
 
@@ -253,16 +253,14 @@ class BothFeet(MeanOfFeet):
     def _keep_placements(self) -> None:
         self.placements = {foot: (track.turn, track.offset) for foot, track in self.tracks.items()}
 
-    def _add_stride(self, event: StrideTaken, after: AfterEvents) -> Sequence[PartOutput]:
+    def _add_stride(self, event: StrideTaken, after: AfterEvents) -> Outputs:
         """Correct a stride by what was seen before it, compare it with the other foot, and learn from the way so far.
 
         Returns what was found, and the correction of the foot."""
         foot, common, length, turn = event.foot, self.common, event.length, event.heading_change
         this, other = self.tracks[foot], self.tracks[OTHER[foot]]
-        for number in (*event.position, *event.displacement, *event.covariance):
-            if not abs(number) < MAX_TRACK_VALUE:
-                return self._restart()
-        if self.errors.diverged:
+        numbers = (*event.position, *event.displacement, *event.covariance)
+        if self.errors.diverged or not all([abs(number) < MAX_TRACK_VALUE for number in numbers]):
             return self._restart()
         alone = not (self.started and other.is_here)
         share = common.start_stride(foot, alone)
@@ -411,7 +409,7 @@ class BothFeet(MeanOfFeet):
                 x, y, yaw = errors[FEET[foot] : FEET[foot] + RATE]
                 self.tracks[foot].correct(end, yaw, complex(x, y), complex(*self.errors.centre))
 
-    def _shift_foot(self, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
+    def _shift_foot(self, foot: Foot, takes_shifts: bool) -> Outputs:
         """Return the correction that has accumulated for the foot since its last one, and reset its placement."""
         this, stride = self.tracks[foot], self.strides[foot]
         if stride is not None and self.distance < ALIGNMENT_DISTANCE:
@@ -425,7 +423,7 @@ class BothFeet(MeanOfFeet):
             return [Shift(foot, yaw - this.turn, shift)]
         return ()
 
-    def _restart(self) -> Sequence[PartOutput]:
+    def _restart(self) -> Outputs:
         """Restart the error filter, because its estimates or a stride have impossible values."""
         self.errors.start()
         self.strides = dict.fromkeys(Foot)

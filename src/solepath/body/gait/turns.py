@@ -9,7 +9,6 @@ angle is used."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import fsum, pi
 
 from ...events import FootFlat, StrideTaken, TurnMade
@@ -17,7 +16,7 @@ from ...foot.view import AfterEvents, FootView
 from ...types import OTHER, Foot, PerFoot, Quat, Site, Turn, per_foot
 from ...types.attrs import define, field, frozen, stateful
 from ...types.vector import heading_turned
-from ..part import Part, PartInput, PartOutput
+from ..part import Inputs, Outputs, Part, PartOutput
 
 # Separation of turning strides from straight strides (Liu et al. 2015, IEEE MASS, section IV.D).
 #
@@ -295,7 +294,7 @@ class Turns(Part):
     idle: bool = True
     """Flag: no turn is under way."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its events and return the turns that have ended."""
         if view is None:
             return ()
@@ -313,7 +312,7 @@ class Turns(Part):
         self.idle = self.detector.t_start is None
         return outputs
 
-    def _add_foot_flat(self, events: Sequence[PartInput], after: AfterEvents, event: FootFlat) -> TurnProcess | None:
+    def _add_foot_flat(self, events: Inputs, after: AfterEvents, event: FootFlat) -> TurnProcess | None:
         """Add a foot-flat, before which the foot may have pivoted without a stride."""
         previous, attitude = self.last_flat.get(event.foot), after.flat_attitude
         self.last_flat[event.foot] = FlatFoot(event.t, attitude)
@@ -324,7 +323,7 @@ class Turns(Part):
                 return None
         return self.detector.add_pivot(event.foot, previous.t, event.t, heading_turned(previous.attitude, attitude))
 
-    def finish(self, now: float) -> Sequence[PartOutput]:
+    def finish(self, now: float) -> Outputs:
         """Return the turn under way, if any, because no more samples come."""
         return turn_made(self.detector.finish(), now)
 

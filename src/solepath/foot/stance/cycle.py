@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from math import exp, inf, log, sqrt
 
-from ...types import Quat, Vec3
+from ...types import Quat, Vec2, Vec3
 from ...types.attrs import NOT_SAVED, define, field, stateful
 from ...types.vector import IDENTITY, TIME_EPSILON, ZERO
 from ..phase import STATIONARY, SWING
@@ -81,7 +81,7 @@ class SensorHeight:
     sums: Sums = EMPTY
     """State of the current stance."""
 
-    def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> tuple[float, float]:
+    def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> Vec2:
         """Add one sample of a foot on the ground; return h w x up, the velocity x, y, m/s, navigation frame.
 
         `acc` is in m/s^2, `gyro` in rad/s, both in the sensor frame. `attitude` is sensor to navigation frame."""
@@ -217,8 +217,6 @@ class Cycle(Detector):
             lowest = least_statistic
         if self.past_high > highest:
             highest = self.past_high
-        if highest < least_statistic:
-            highest = least_statistic
         threshold_position = self.settings.threshold_position
         self.threshold = exp((1.0 - threshold_position) * log(lowest) + threshold_position * log(highest))
         return self.threshold
