@@ -6,7 +6,7 @@ import ast
 from dataclasses import dataclass, field
 from pathlib import Path
 
-RECORD_NAMES = {"define": False, "frozen": True}
+RECORD_NAMES = {"define": False, "stateful": False, "frozen": True}
 """Decorators of records, and whether their fields are frozen."""
 
 
@@ -29,6 +29,7 @@ class Record:
     module: str
     bases: list[str]
     is_record: bool = False
+    is_stateful: bool = False  # fields with a default are state (types/attrs.py)
     frozen: bool = False
     eq: bool = True
     kw_only: bool = False
@@ -56,7 +57,7 @@ def _read_class(node: ast.ClassDef, module: str) -> Record:
         call = decorator if isinstance(decorator, ast.Call) else None
         name = ast.unparse(call.func if call else decorator)
         if name in RECORD_NAMES:
-            record.is_record, record.frozen = True, RECORD_NAMES[name]
+            record.is_record, record.frozen, record.is_stateful = True, RECORD_NAMES[name], name == "stateful"
             options = {keyword.arg: ast.literal_eval(keyword.value) for keyword in call.keywords} if call else {}
             record.eq, record.kw_only = options.pop("eq", True), options.pop("kw_only", False)
             if options:
@@ -74,6 +75,8 @@ def _read_class(node: ast.ClassDef, module: str) -> Record:
     for one_field in record.own:
         if one_field.name in record.defaults:
             one_field.default = ast.parse(f"self.{record.defaults[one_field.name]}()", mode="eval").body
+        if record.is_stateful and one_field.default is not None and one_field.name != "settings":
+            one_field.init = False
     return record
 
 

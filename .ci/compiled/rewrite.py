@@ -183,6 +183,8 @@ class ModuleRewriter:
                     declared = f"declare(default={declared})"
                 if one.name in record.defaults:
                     declared = f"declare(default=made_by({record.defaults[one.name]!r}))"
+                if not one.init and "init=" not in declared:
+                    declared = f"{declared[:-1]}, init=False)"
                 these.append(f"{one.name!r}: {declared}")
             lines.append(f"make_record({record.name}, {{{', '.join(these)}}}, {record.frozen}, {record.kw_only})")
         return ast.parse("\n".join(lines)).body

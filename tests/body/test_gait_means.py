@@ -11,6 +11,7 @@ from solepath import FootFlat, GaitCycleMeasured, HeelStrike, StrideFeatures, St
 from solepath.body.gait.cycles import GaitCycles
 from solepath.body.gait.means import GaitMeans
 from solepath.events import Event
+from solepath.foot.cues.gait_cues import GaitCues
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
@@ -37,7 +38,7 @@ class Walked:
 
 
 def walked(*feet: Foot) -> Walked:
-    return Walked(GaitCycles(), {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in feet})
+    return Walked(GaitCycles(), {foot: FootTracker(foot, Cycle(), ErrorStateFilter(), GaitCues()) for foot in feet})
 
 
 def taken(foot: Foot, toe_off: float, struck: float, start: Vec3, end: Vec3) -> StrideTaken:

@@ -37,7 +37,7 @@ def tracked(samples: Iterable[Sample], recover: bool = True) -> tuple[FootTracke
     """Return a foot's tracker and strides by the default recipe; without `recover` clipped peaks are not restored."""
     parts = deepcopy(DEFAULT)
     corrector = ErrorStateFilter(ErrorStateSettings(recover=recover))
-    tracker = FootTracker(Foot.RIGHT, parts.detector, corrector, cues=parts.cues)
+    tracker = FootTracker(Foot.RIGHT, parts.detector, corrector, parts.cues)
     strides: list[StrideTaken] = []
     for sample in samples:
         strides += of(StrideTaken, tracker.feed(sample))

@@ -20,16 +20,14 @@ known well enough."""
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Sequence
 from math import log
-from typing import ClassVar
 
 from ..events import Defect, DefectFound, LiftRidden, StrideTaken
 from ..foot.view import FootView
 from ..types import Foot, Site
-from ..types.attrs import define, evolve, field
+from ..types.attrs import define, evolve, field, stateful
 from ..types.vector import to_float32
-from .part import HeightShift, Part, PartInput, PartOutput, Replacement
+from .part import HeightShift, Inputs, Outputs, Part, PartOutput, Replacement
 
 # Height by the pressure of the air.
 
@@ -141,12 +139,6 @@ class HeightEstimate:
         return HeightEstimate(list(self.values), list(self.covariance), list(self.read_at))
 
 
-def _pack(entry: HeightInput) -> PackedInput:
-    """Return an input as rounded for storage; the filter processes the rounded one."""
-    t, source, value, variance = entry
-    return round(t * TICKS_PER_S), source, round(value * PARTS_PER_M), to_float32(variance)
-
-
 def _unpack(row: PackedInput) -> HeightInput:
     """Return the input in s, m and m^2."""
     ticks, source, parts, variance = row
@@ -204,32 +196,32 @@ class PendingReadings:
     """Height of the newest reading, m; None before any."""
 
 
-@define
+@stateful
 class Altitude(Part):
     """Estimates the correction of the wearer's height from air pressure, strides and elevator rides.
 
     Latency: none for air pressure; a ride is known after its end."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
     idle = True
 
-    now: HeightEstimate = field(factory=HeightEstimate, init=False)
+    now: HeightEstimate = field(factory=HeightEstimate)
     """Estimate after all inputs."""
-    base: HeightEstimate = field(factory=HeightEstimate, init=False)
+    base: HeightEstimate = field(factory=HeightEstimate)
     """Estimate before the oldest input that is kept."""
-    inputs: deque[PackedInput] = field(factory=deque, init=False)
+    inputs: deque[PackedInput] = field(factory=deque)
     """Recent inputs, in the order in which they were processed: readings of both barometers and changes of the
     correction."""
-    sides: list[PendingReadings] = field(factory=lambda: [PendingReadings(), PendingReadings()], init=False)
+    sides: list[PendingReadings] = field(factory=lambda: [PendingReadings(), PendingReadings()])
     """Pending readings of the left and the right barometer."""
-    noise: float = field(default=0.04, init=False)
+    noise: float = 0.04
     """Variance of a reading, estimated from consecutive readings, m^2."""
-    ride_variance: float = field(default=0.0, init=False)
+    ride_variance: float = 0.0
     """Variance of the height of all rides together, m^2."""
-    strides: deque[tuple[float, float]] = field(factory=deque, init=False)
+    strides: deque[tuple[float, float]] = field(factory=deque)
     """Start and end of each of the newest strides, in whole hundredths of a second."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add the reading of a foot's barometer, if the sample has one, and strides and rides."""
         outputs: list[PartOutput] = []
         if view is not None and view.sample.air_pressure is not None:
@@ -248,7 +240,7 @@ class Altitude(Part):
                 outputs += self._height_shift()
         return outputs
 
-    def _add_reading(self, t: float, source: int, height: float) -> Sequence[PartOutput]:
+    def _add_reading(self, t: float, source: int, height: float) -> Outputs:
         """Add a height by a barometer above the track, m."""
         side = self.sides[source]
         if side.faulty:
@@ -293,7 +285,7 @@ class Altitude(Part):
         self.now.read_at[source] = None
         self.base = self.now.copy()
 
-    def _add_stride(self, stride: StrideTaken) -> Sequence[PartOutput]:
+    def _add_stride(self, stride: StrideTaken) -> Outputs:
         if stride.length >= MIN_STRIDE_LENGTH:
             self.strides.append((float(round(100.0 * stride.t_start)), float(round(100.0 * stride.t_end))))
             if len(self.strides) > MAX_STRIDES:
@@ -344,7 +336,7 @@ class Altitude(Part):
             and MIN_RIDE_SPEED <= abs(height) / duration <= MAX_RIDE_SPEED
         )
 
-    def _add_input(self, entry: HeightInput) -> Sequence[PartOutput]:
+    def _add_input(self, entry: HeightInput) -> Outputs:
         inputs = self.inputs
         while inputs and (entry[0] - inputs[0][0] / TICKS_PER_S > KEPT_TIME or len(inputs) >= MOST_INPUTS):
             self.base.apply(_unpack(inputs.popleft()))
@@ -352,6 +344,8 @@ class Altitude(Part):
         return self._height_shift()
 
     def _process(self, entry: HeightInput) -> None:
-        """Keep an input, and process it as it is kept."""
-        self.inputs.append(_pack(entry))
-        self.now.apply(_unpack(self.inputs[-1]))
+        """Keep an input, and process it as it is kept, which is rounded."""
+        t, source, value, variance = entry
+        kept = round(t * TICKS_PER_S), source, round(value * PARTS_PER_M), to_float32(variance)
+        self.inputs.append(kept)
+        self.now.apply(_unpack(kept))

@@ -111,6 +111,8 @@ Notice = LayoutReported | ClockUnsettled | StartGiven | LimbSampled
 """What parts are told and an app is not."""
 PartInput = Event | Notice
 """Everything that a part may receive."""
+Inputs = Sequence[PartInput]
+Outputs = Sequence[PartOutput]
 MOVEMENTS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
 """Events after which the wearer's position is given to the parts that follow (`Part.needs_position`)."""
 
@@ -155,7 +157,7 @@ class Part(Protocol):
         None if the part has no use for it."""
         return None
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Take the events that became known, in their order, and return the outputs that follow from them.
 
         The events of the parts before are among them. `view` is that of the foot after the sample that brought them;
@@ -163,7 +165,7 @@ class Part(Protocol):
         that need samples and are not idle."""
         return ()
 
-    def finish(self, now: float) -> Sequence[PartOutput]:
+    def finish(self, now: float) -> Outputs:
         """Return the outputs that were held back, because the data ends at `now`, s."""
         return ()
 

@@ -6,14 +6,13 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from math import fsum, hypot, sqrt
 from struct import Struct
-from typing import ClassVar
 
 from ..events import FeetSwapped, FootResumed, FootSilent, StrideTaken, ToeOff
 from ..foot.view import FootView
-from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec3, per_foot
-from ..types.attrs import ROW_SIZE, define, field, frozen
+from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec2, Vec3, per_foot
+from ..types.attrs import ROW_SIZE, define, field, frozen, stateful
 from ..types.vector import ZERO, add, cross, dot, rotate_back, sub
-from .part import LayoutReported, Notice, Part, PartInput, PartOutput
+from .part import Inputs, LayoutReported, Outputs, Part, PartOutput
 
 # Integral of a foot's angular rate over the last second or two, which `Sides` uses.
 
@@ -159,14 +158,14 @@ class SwapEvidence:
     """Values of the centre of pressure's y in this stance, m, foot frame."""
 
 
-@define
+@stateful
 class Sides:
     """Detects exchanged feet from the evidence of both feet, unless a device has reported a layout that fits its foot.
 
     Cost: an integral at 50 Hz, or a centre of pressure at 20 Hz for an insole without inertial sensor."""
 
-    feet: PerFoot[SwapEvidence] = field(factory=lambda: per_foot(SwapEvidence), init=False)
-    declared: list[Foot] = field(factory=list, init=False)
+    feet: PerFoot[SwapEvidence] = field(factory=lambda: per_foot(SwapEvidence))
+    declared: list[Foot] = field(factory=list)
     """Feet whose devices have reported a layout that is made for them."""
 
     def update(self, view: FootView, events: Sequence[object]) -> bool:
@@ -264,7 +263,7 @@ def _add_landing(side: SwapEvidence, stride: StrideTaken, attitude: Quat) -> Non
     side.roll.add(-leftward if stride.foot is Foot.LEFT else leftward)
 
 
-def _add_centre(side: SwapEvidence, t: float, centre: tuple[float, float] | None) -> None:
+def _add_centre(side: SwapEvidence, t: float, centre: Vec2 | None) -> None:
     """Add the centre of pressure of an insole without an inertial sensor, at most every `CENTRE_INTERVAL`."""
     if side.centre_at is not None and 0.0 <= t - side.centre_at < CENTRE_INTERVAL:
         return
@@ -309,7 +308,7 @@ class WearSettings:
     """Least time since the last sample of a foot before that foot is silent, s."""
 
 
-@define
+@stateful
 class Wear(Part):
     """Detects a silent foot and exchanged feet from the samples of both feet.
 
@@ -319,16 +318,16 @@ class Wear(Part):
     Recipes of two feet continue with the other foot. FeetSwapped is reported once, when `Sides` detects exchanged
     feet."""
 
-    needs_samples: ClassVar[bool] = True
-    notices: ClassVar[tuple[type[Notice], ...]] = (LayoutReported,)
+    needs_samples = True
+    notices = (LayoutReported,)
 
     settings: WearSettings = WearSettings()
-    sides: Sides = field(factory=Sides, init=False)
-    feet: PerFoot[FootSilence] = field(factory=lambda: per_foot(FootSilence), init=False)
-    swapped: bool = field(default=False, init=False)
+    sides: Sides = field(factory=Sides)
+    feet: PerFoot[FootSilence] = field(factory=lambda: per_foot(FootSilence))
+    swapped: bool = False
     """Flag: exchanged feet were reported."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add one sample of a foot; return events of a silent foot, a resumed foot or exchanged feet."""
         for event in events:
             if isinstance(event, LayoutReported) and event.site.foot is not None:

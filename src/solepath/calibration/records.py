@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..types import Foot, Layout, Sample, Vec3, WalkingMode
-from ..types.attrs import COUNT, evolve, field, fields, frozen, limits
+from ..types import Foot, Layout, Sample, Vec2, Vec3, WalkingMode
+from ..types.attrs import COUNT, evolve, field, fields, frozen, limited, limits
 
 MAX_CELLS = 4096
 """Largest number of cells of an insole."""
@@ -31,9 +31,9 @@ class Newtons:
 
     coefficients: tuple[float, float, float, float] = field(metadata=limits(-1e12, 1e12))
     """Coefficients a, b, c2 and c3, N per power of the raw value."""
-    threshold: float = field(default=5.0, metadata=limits(0.0, 1e5, "N"))
+    threshold: float = limited(5.0, 0.0, 1e5, "N")
     """Force below which the result is 0, N."""
-    most: float = field(default=200.0, metadata=limits(0.001, 1e5, "N"))
+    most: float = limited(200.0, 0.001, 1e5, "N")
     """Largest force, N: the result for every force above it."""
 
     def contradiction(self) -> str | None:
@@ -74,9 +74,9 @@ class ShoeGeometry:
     is the line where plane and ground meet: L_r = 0.070 + R tan(p/2) and L_p2t = 0.090 - R p + R tan(p/2), m, exactly.
     The series p/2 + p^3/24 + p^5/240 + ... of tan(p/2) makes them polynomials, to 0.2 mm up to `steepest`."""
 
-    heel_radius: float = field(default=0.125, metadata=limits(0.001, 1.0, "m"))
+    heel_radius: float = limited(0.125, 0.001, 1.0, "m")
     """Radius L_r of the heel, from its rear end to the point of the sole below the sensor, m."""
-    height: float = field(default=0.029, metadata=limits(0.0, 1.0, "m"))
+    height: float = limited(0.029, 0.0, 1.0, "m")
     """Height H_imu of the sensor above that point of the sole, m."""
     forefoot_radius: tuple[float, ...] = field(
         default=(0.070, 0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0), metadata=POLYNOMIAL
@@ -86,7 +86,7 @@ class ShoeGeometry:
         default=(0.090, -0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0), metadata=POLYNOMIAL
     )
     """Distance L_p2t of the forefoot, m, as a polynomial of the pitch (rad, heel up positive), constant first."""
-    steepest: float = field(default=1.3, metadata=limits(0.01, 1.6, "rad"))
+    steepest: float = limited(1.3, 0.01, 1.6, "rad")
     """Largest pitch for which the polynomials hold, rad; the smallest is 0."""
 
     def contradiction(self) -> str | None:
@@ -221,16 +221,14 @@ class Calibration:
     """Calibrations of the insoles by foot."""
     shoe: ShoeGeometry | None = None
     """Geometry of the shoes."""
-    drift: dict[Foot, tuple[float, float]] = field(factory=dict, metadata=limits(-1.0, 1.0, "m/s"))
+    drift: dict[Foot, Vec2] = field(factory=dict, metadata=limits(-1.0, 1.0, "m/s"))
     """Rate at which the position of each foot drifts, (x, y), m/s, world frame of a device that sends its attitude, or
     else navigation frame, so that it holds for walks that start with the heading of the calibration."""
     limbs: Limbs | None = None
     """Lengths of the wearer's lower limbs."""
-    weight: float | None = field(default=None, metadata=limits(50.0, 5000.0, "N"))
+    weight: float | None = limited(None, 50.0, 5000.0, "N")
     """Weight of the wearer, N."""
-    modes: dict[Foot, dict[WalkingMode, tuple[float, float]]] | None = field(
-        default=None, metadata=limits(-0.5, 0.5, "m")
-    )
+    modes: dict[Foot, dict[WalkingMode, Vec2]] | None = field(default=None, metadata=limits(-0.5, 0.5, "m"))
     """Compensation of a touchdown by foot and walking mode, (forward, left), m."""
     toe_out: dict[Foot, float] = field(factory=dict, metadata=limits(-1.0, 1.0, "rad"))
     """Angle from the direction of walking to each foot's long axis, outwards positive, rad (Liu et al. 2015, equation

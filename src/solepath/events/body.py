@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..types import Foot, Vec3, WalkingMode
+from ..types import Foot, Vec2, Vec3, WalkingMode
 from ..types.attrs import frozen
 from .happening import BaseEvent
 
@@ -55,7 +55,7 @@ class TrackRevised(BaseEvent):
     It is reported with the PositionReported. Earlier positions (WearerMoved, StrideTaken) were off in the way that the
     nodes show; from now on, positions and strides are corrected, but for the next StrideTaken of each foot."""
 
-    by: tuple[float, float]
+    by: Vec2
     """Correction of the position at `t`, x and y in the world frame, m."""
     turn: float
     """Correction of the heading at `t`, rad, counter-clockwise positive."""

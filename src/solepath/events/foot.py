@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from ..types import Foot, Vec3
+from ..types import Foot, Vec2, Vec3
 from ..types.attrs import frozen
 from .happening import BaseEvent
 
@@ -59,7 +59,7 @@ class StrideFeatures:
     """Range of the pitch angle over the stride, rad."""
     contact_load: float | None = None
     """Mean load from foot-flat to toe-off, in the unit of the samples (N if a calibration converts counts to N)."""
-    cop: tuple[tuple[float, float], ...] = ()
+    cop: tuple[Vec2, ...] = ()
     """Path (x, y) of the centre of pressure from foot-flat to toe-off, foot frame, m, at most 32 points at equal
     intervals of samples."""
     error_index: float | None = None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from ..types import Layout, Site
+from ..types import Layout, Site, Vec2
 from ..types.attrs import frozen
 from .defect import Defect
 from .happening import BaseEvent
@@ -162,7 +162,7 @@ class PositionReported(BaseEvent):
 
     site: Site
     """Any site of the session."""
-    position: tuple[float, float] | None
+    position: Vec2 | None
     """Position, x and y, m; None at a named place, or where the walk started."""
     place: str = ""
     """Name of the place, which has the same position whenever it is reported; "" without one."""

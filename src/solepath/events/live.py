@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..types import Foot, Phase, Vec3
+from ..types import Foot, Phase, Vec2, Vec3
 from ..types.attrs import frozen
 from .happening import BaseEvent
 
@@ -53,7 +53,7 @@ class FootPressed(BaseEvent):
     The cell's noise is subtracted, and after the first swing also its tare. A failed cell has 0."""
     force: float
     """Sum of `values`, in their unit (N or counts)."""
-    centre: tuple[float, float] | None
+    centre: Vec2 | None
     """Centre of pressure: mean position of the cells weighted by `values`, foot frame, m. None while there is hardly
     any load, and while the positions of the cells are not known from the device or a calibration (LayoutKnown)."""
     final: bool = False

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from enum import Enum
 
 from ..saving.codec import checksum, save
-from ..types.attrs import evolve, field, frozen, limits
+from ..types.attrs import evolve, field, frozen, limited, limits
 
 Point = tuple[float, float]
 """(x, y) in m, plan frame."""
@@ -133,7 +133,7 @@ class Anchor:
 
     latitude: float = field(metadata=limits(-MAX_LATITUDE, MAX_LATITUDE, "degrees"))
     longitude: float = field(metadata=limits(-180.0, 180.0, "degrees"))
-    bearing: float = field(default=0.0, metadata=limits(-10.0, 10.0, "rad"))
+    bearing: float = limited(0.0, -10.0, 10.0, "rad")
 
 
 @frozen
@@ -213,9 +213,9 @@ class Start:
     compass of a phone may give it, fewer candidates are possible after the first stairs or lift."""
 
     level: str = ""
-    place: Point | None = field(default=None, metadata=limits(-MAX_COORDINATE, MAX_COORDINATE, "m"))
-    heading: float | None = field(default=None, metadata=limits(-1000.0, 1000.0, "rad"))
-    spread: float = field(default=0.5, metadata=limits(0.0, 5000.0, "m"))
+    place: Point | None = limited(None, -MAX_COORDINATE, MAX_COORDINATE, "m")
+    heading: float | None = limited(None, -1000.0, 1000.0, "rad")
+    spread: float = limited(0.5, 0.0, 5000.0, "m")
 
     def contradiction(self) -> str | None:
         """Return what is missing: a place, or the heading alone."""

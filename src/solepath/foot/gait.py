@@ -7,7 +7,7 @@ from math import hypot
 from ..calibration import HeadingCalibration, usual_strides
 from ..events import Event
 from ..types import Foot, Phase, Vec3
-from ..types.attrs import define, field
+from ..types.attrs import field, stateful
 from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub
 from .cues.cues import Cues, TimedCue
 from .gap import Infill
@@ -21,24 +21,24 @@ FLAT_SPEED = 0.35
 """Speed after a correction above which a foot is not flat, even if the evidence was accepted, m/s; chosen by hand."""
 
 
-@define
+@stateful
 class Gait:
     """The phases and strides of one foot, each of which becomes an event as soon as its cue is seen."""
 
     foot: Foot
-    heading: HeadingCalibration | None = None
+    heading: HeadingCalibration | None
     """Drift of the heading that is removed at the end of every stride; None when it was not calibrated."""
-    phase: Phase = field(default=Phase.STATIONARY, init=False)
-    phase_start: float | None = field(default=None, init=False)
+    phase: Phase = Phase.STATIONARY
+    phase_start: float | None = None
     """Start of the current phase, s; None before the first change of phase and after times restarted."""
-    template: StrideTemplate = field(factory=StrideTemplate, init=False)
+    template: StrideTemplate = field(factory=StrideTemplate)
     stride: StrideBuilder = field(init=False)
-    path: PathCovariance = field(factory=PathCovariance, init=False)
+    path: PathCovariance = field(factory=PathCovariance)
     """Covariance of the path up to the last anchor, navigation frame; an anchor is the heel-off that ends a stretch."""
-    anchor_position: Vec3 = field(default=ZERO, init=False)
+    anchor_position: Vec3 = ZERO
     """Position at the last anchor, navigation frame, m."""
-    world: World = field(factory=World, init=False)
-    heading_settled: bool = field(default=False, init=False)
+    world: World = field(factory=World)
+    heading_settled: bool = False
     """The heading of the world frame is final."""
 
     def __attrs_post_init__(self) -> None:

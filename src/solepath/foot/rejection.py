@@ -52,15 +52,12 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
     acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
     gyro: Vec3 | None = sample.gyro
     vectors_valid = True
-    try:
-        if acc is not None:
-            x, y, z = acc
-            vectors_valid = x * x + y * y + z * z < VALID_ACC_SQUARE
-        if gyro is not None and vectors_valid:
-            x, y, z = gyro
-            vectors_valid = x * x + y * y + z * z < VALID_GYRO_SQUARE
-    except OverflowError:  # an int may be too large for a float
-        vectors_valid = False
+    if acc is not None:
+        x, y, z = acc
+        vectors_valid = x * x + y * y + z * z < VALID_ACC_SQUARE
+    if gyro is not None and vectors_valid:
+        x, y, z = gyro
+        vectors_valid = x * x + y * y + z * z < VALID_GYRO_SQUARE
     if not vectors_valid and (
         reason := _wrong_vector("acc", acc, ABSURD_ACC) or _wrong_vector("gyro", gyro, ABSURD_GYRO)
     ):
@@ -73,7 +70,7 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
         if not size < ABSURD_PRESSURE:
             size = _size_of_numbers(sample.pressure)
             if not size < ABSURD_PRESSURE:
-                amount = "hundreds of digits" if size == inf else _format_number(size)
+                amount = "hundreds of digits" if size == inf else f"{size:.4g}"
                 return RejectionReason(Rejection.ABSURD, f"pressure of {amount}")
     return None
 
@@ -91,7 +88,7 @@ def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> RejectionReas
         return None
     if invalid != invalid or abs(invalid) == inf:
         return RejectionReason(Rejection.NOT_FINITE, f"{name} is not a number")
-    size, detail = abs(invalid), f"{name} of {_format_number(invalid)}"
+    size, detail = abs(invalid), f"{name} of {invalid:.4g}"
     if name == "acc" and size <= LARGEST_COUNT:
         text = f"{detail} m/s^2 cannot be: it looks like milli-g or raw counts; give it in m/s^2"
         return RejectionReason(Rejection.ABSURD, text, Defect.ACC_UNIT)
@@ -116,7 +113,7 @@ def wrong_time(sample: Sample) -> RejectionReason | None:
         if not -MAX_TIME <= t <= MAX_TIME:
             if t != t or abs(t) == inf:
                 return RejectionReason(Rejection.NOT_FINITE, "time is not a number")
-            detail = f"time of {_format_number(t)} s"
+            detail = f"time of {t:.4g} s"
             if abs(t) > LARGEST_EPOCH:
                 return RejectionReason(Rejection.ABSURD, detail)
             text = f"{detail} cannot be: it looks like milliseconds or nanoseconds; give times in seconds"
@@ -133,11 +130,3 @@ def rejected(sample: Sample, rejection: RejectionReason, newest: float | None) -
     if not t <= known_at <= MAX_TIME:
         known_at = t
     return SampleRejected(t=t, known_at=known_at, site=sample.site, reason=reason, detail=detail, defect=defect)
-
-
-def _format_number(value: float) -> str:
-    """Return a number as text; an int may be too large even for that."""
-    try:
-        return f"{value:.4g}"
-    except OverflowError:
-        return "hundreds of digits"

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ..events import Flaw, StrideFeatures, StrideTaken
 from ..events.foot import LONGEST_HARMLESS_GAP
-from ..types import Foot, Quat, Vec3
+from ..types import Foot, Quat, Vec2, Vec3
 from ..types.attrs import define, field
 from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
@@ -130,7 +130,7 @@ class StrideBuilder:
     """Sum of the total load over the samples on the ground."""
     load_count: int = 0
     """Number of samples in `load_sum`."""
-    cop: list[tuple[float, float]] = field(factory=list)
+    cop: list[Vec2] = field(factory=list)
     """Points of the centre of pressure, foot frame, m."""
     cop_interval: int = 1
     """Number of samples for each stored point of the centre of pressure."""
@@ -249,7 +249,7 @@ class StrideBuilder:
         self.cop_skipped += 1
         return self.cop_skipped >= self.cop_interval
 
-    def add_cop(self, cop: tuple[float, float] | None) -> None:
+    def add_cop(self, cop: Vec2 | None) -> None:
         """Store the centre of pressure, foot frame, m; with None that of the next sample is expected.
 
         At most MOST_COP_POINTS points are stored, at equal intervals. When there are more, every second one is dropped.
@@ -275,8 +275,11 @@ class StrideBuilder:
         if hypot(length, dz) < SHORTEST_STRIDE and abs(turn) < LEAST_STRIDE_TURN:
             return None
         self.number += 1
-        flaws, merged = self.flaws, self._has_merged(t)
-        if merged or t - self.t_toe_off > LONGEST_SWING:
+        flaws, usual = self.flaws, self.usual_motion
+        motion = usual if self.t_heel_off is None else t - self.t_heel_off
+        if not flaws:  # also of a merged one, so that a wearer who walks ever slower is learnt
+            self.usual_motion = follow(usual, motion, MOTION_GAIN, largest=LARGEST_MOTION_RATIO)
+        if motion > MERGED_RATIO * usual or t - self.t_toe_off > LONGEST_SWING:
             flaws = (*flaws, Flaw.TWO_STRIDES)
         if length > FASTEST_RUN * (t - self.t_start):
             flaws = (*flaws, Flaw.IMPOSSIBLE)
@@ -315,14 +318,6 @@ class StrideBuilder:
                 rise=rise,
             ),
         )
-
-    def _has_merged(self, t: float) -> bool:
-        """Return whether the stride that ends at `t`, s, covers two strides, and learn the usual time of one."""
-        usual = self.usual_motion
-        motion = usual if self.t_heel_off is None else t - self.t_heel_off
-        if not self.flaws:  # also of a merged one, so that a wearer who walks ever slower is learnt
-            self.usual_motion = follow(usual, motion, MOTION_GAIN, largest=LARGEST_MOTION_RATIO)
-        return motion > MERGED_RATIO * usual
 
 
 def _length_sigma(displacement: Vec3, covariance: Covariance3, guessed_time: float) -> float:

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 from ..events import Event, Flaw, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
-from ..types.attrs import MADE_AGAIN, define, evolve, field
+from ..types.attrs import MADE_AGAIN, evolve, field, stateful
 from ..types.records import MAX_TIME
 from ..types.vector import ZERO
 from .attitude import Levelling, Rest, WalkScale
 from .cues.cues import Cues, TimedCue
-from .cues.gait_cues import GaitCues
 from .gait import FLAT_SPEED, Gait
 from .gap import SHORTEST_FILLED_GAP, NoInfill, find_infill
 from .limitations import LACKING_TIME, Limitations
@@ -32,37 +31,37 @@ if TYPE_CHECKING:
     from .pressure.insole import Sole
 
 
-@define
+@stateful
 class FootTracker:
     """Tracks one foot from its samples, which must be in order of time."""
 
     foot: Foot
     detector: Detector
     corrector: Corrector
+    cues: Cues
     settings: FootSettings = FootSettings()
-    cues: Cues = field(factory=GaitCues)
-    sole: Sole | None = field(default=None, init=False, metadata=MADE_AGAIN)
+    sole: Sole | None = field(default=None, metadata=MADE_AGAIN)
     """Pressure cells of the foot; None until there are any."""
-    t: float | None = field(default=None, init=False)
+    t: float | None = None
     """Time of the newest sample, s; None before any."""
-    moved_at: float | None = field(default=None, init=False)
+    moved_at: float | None = None
     """Time of the newest sample with both acc and gyro, s; None before any."""
-    partial_at: float | None = field(default=None, init=False)
+    partial_at: float | None = None
     """Time of the newest sample without acc or gyro, s; None before any."""
-    viewed_at: float | None = field(default=None, init=False)
+    viewed_at: float | None = None
     """Time of the newest sample whose view the parts of the body received, s; None before any."""
-    load: Load | None = field(default=None, init=False)
+    load: Load | None = None
     """Newest load that came without acc or gyro and waits for the next inertial sample; None otherwise."""
-    lost_count: int | None = field(default=None, init=False)
+    lost_count: int | None = None
     """Number of samples that the link has lost since the last gap; None where samples are fed without a link."""
-    lost_after: float = field(default=0.0, init=False)
+    lost_after: float = 0.0
     """Time of the sample after which they were lost, s."""
-    rhythm: Rhythm = field(factory=Rhythm, init=False)
-    levelling: Levelling = field(factory=Levelling, init=False)
-    levelled: bool = field(default=False, init=False)
+    rhythm: Rhythm = field(factory=Rhythm)
+    levelling: Levelling = field(factory=Levelling)
+    levelled: bool = False
     """The first attitude is known."""
-    rest: Rest = field(factory=Rest, init=False)
-    walk_scale: WalkScale = field(factory=WalkScale, init=False)
+    rest: Rest = field(factory=Rest)
+    walk_scale: WalkScale = field(factory=WalkScale)
     gait: Gait = field(init=False)
     limitations: Limitations = field(init=False)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
-from ..types import Foot, Layout, Phase, Quat, Sample, Vec3
+from ..types import Foot, Layout, Phase, Quat, Sample, Vec2, Vec3
 from ..types.attrs import define
 from .navigate.bias import Bias
 from .world import Covariance3
@@ -24,7 +24,7 @@ class PressedCells(NamedTuple):
     """Layout of the cells; None when it is unknown."""
     in_newtons: bool
     """The values are in N."""
-    centre_alone: tuple[float, float] | None
+    centre_alone: Vec2 | None
     """Centre of pressure (x, y) of an insole without inertial sensor, foot frame, m; None otherwise."""
 
 
@@ -75,7 +75,7 @@ class FootView:
     """Velocity of the sensor, navigation frame, m/s."""
     attitude: Final[Quat]
     """Attitude, sensor to navigation frame."""
-    north: Final[tuple[float, float] | None]
+    north: Final[Vec2 | None]
     """Cosine and sine of the angle from navigation to world frame; None until the first heading is known."""
     gyro_bias: Final[Vec3]
     """Gyroscope bias, sensor frame, rad/s."""

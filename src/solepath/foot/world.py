@@ -10,13 +10,15 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, sin
 
-from ..types import Quat, Vec3
+from ..types import Quat, Vec2, Vec3
 from ..types.attrs import define
 from ..types.vector import from_yaw, multiply
 
 FIRST_HEADING_DISTANCE = 0.15
 """Distance of a foot from its first position from which on its direction gives a heading, m; chosen by hand."""
 
+Covariance2 = tuple[float, float, float]
+"""Covariance of a 2D vector: xx, xy, yy."""
 Covariance3 = tuple[float, float, float, float, float, float]
 """Covariance of a 3D vector: xx, xy, xz, yy, yz, zz."""
 
@@ -25,7 +27,7 @@ Covariance3 = tuple[float, float, float, float, float, float]
 class World:
     """The rotation about z from the navigation frame to the world frame."""
 
-    north: tuple[float, float] | None = None
+    north: Vec2 | None = None
     """Cosine and sine of the angle from navigation to world frame; None until the first heading is known."""
 
     def find_heading(self, position: Vec3, least: float = FIRST_HEADING_DISTANCE) -> bool:
@@ -86,7 +88,7 @@ class PathCovariance:
     """Covariance of the position: xx, xy, xz, yy, yz, zz, m^2."""
     yaw: float = 0.0
     """Variance of the heading, rad^2."""
-    position_yaw: tuple[float, float] = (0.0, 0.0)
+    position_yaw: Vec2 = (0.0, 0.0)
     """Covariance of position x and y with yaw, m rad."""
 
     def extend(self, displacement: Vec3, stretch: tuple[float, ...]) -> PathCovariance:

@@ -23,7 +23,7 @@ from typing import Any
 
 from ..events import Rejection
 from ..types import Foot, Layout, Quat, Vec3
-from ..types.attrs import COUNT, field, frozen, limits
+from ..types.attrs import COUNT, field, frozen, limited, limits
 from ..types.checking import find_fault
 from ..wire.error import WireError
 from ..wire.fields import LONGEST_VALUE, Definition, build_whole, malformed, parse_whole
@@ -92,7 +92,7 @@ class Reading:
     """Magnetic flux density, T, measured separately; it is attached to the next sample."""
     air_pressure: float | None = field(default=None, metadata=SENSOR_VALUE)
     """Air pressure, Pa, measured separately; it is attached to the next sample."""
-    battery: float | None = field(default=None, metadata=limits(0.0, 1.0))
+    battery: float | None = limited(None, 0.0, 1.0)
     """Battery level, 0 to 1."""
     keys: tuple[str, ...] | None = field(default=None, metadata=ITEMS)
     """Names of the keys that are down."""
@@ -100,9 +100,9 @@ class Reading:
     """Foot that wears the device."""
     layout: Layout | None = field(default=None, metadata=SENSOR_VALUE)
     """Layout of the pressure cells."""
-    rate: float | None = field(default=None, metadata=limits(MIN_RATE, MAX_RATE, "Hz"))
+    rate: float | None = limited(None, MIN_RATE, MAX_RATE, "Hz")
     """Samples a second from this value on, Hz."""
-    period: float | None = field(default=None, metadata=limits(1.0 / MAX_RATE, 1.0 / MIN_RATE, "s"))
+    period: float | None = limited(None, 1.0 / MAX_RATE, 1.0 / MIN_RATE, "s")
     """Time from one notification to the next, s, for a device without counters."""
     silent: bool | None = None
     """True when the device may be silent from now on, because it is off or waits for motion."""

@@ -12,7 +12,7 @@ from math import atan2, cos, degrees, hypot, isfinite, pi, radians, sin
 
 from ..events import PlanContradicted, WearerMoved
 from ..floorplan.plan import FloorPlan
-from ..types.attrs import define, field
+from ..types.attrs import stateful
 from .particles import Particle, scaled, stored, total_weight
 
 START_HEADING_ERROR = 0.24
@@ -67,14 +67,14 @@ def heading_by_north(plan: FloorPlan, north: tuple[float, float] | None) -> Head
     return (0.5 * pi + plan.anchor.bearing - north[0], error) if error <= LARGEST_ERROR else None
 
 
-@define
+@stateful
 class KnownHeading:
     """The heading of the track on the plan, as far as it is known."""
 
-    heading: Heading | None = field(default=None, init=False)
+    heading: Heading | None = None
     """None without a first heading and a compass, or if it was wrong."""
-    source: HeadingSource = field(default=HeadingSource.NONE, init=False)
-    since: float = field(default=0.0, init=False)
+    source: HeadingSource = HeadingSource.NONE
+    since: float = 0.0
     """Time of the first position, s, at which the first heading was known."""
 
     def give(self, angle: float) -> None:

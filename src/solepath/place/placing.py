@@ -12,10 +12,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise, repeat
 from math import atan2, cos, dist, exp, fsum, hypot, isfinite, pi, sin, sqrt
-from typing import ClassVar
 
 from ..body.fuse.common_error import LEAST_WAY, POSITION_GATE
-from ..body.part import MOVEMENTS, Notice, Part, PartInput, PartOutput, StartGiven
+from ..body.part import MOVEMENTS, Inputs, Outputs, Part, PartInput, StartGiven
 from ..events import (
     Event,
     Placed,
@@ -31,7 +30,7 @@ from ..floorplan.index import IndexedPlan
 from ..floorplan.plan import ConnectorKind, FloorPlanError, Point, Start
 from ..foot.view import FootView
 from ..types import Foot, Vec3
-from ..types.attrs import NOT_SAVED, define, evolve, field
+from ..types.attrs import NOT_SAVED, evolve, field, stateful
 from .headings import ANY_HEADING_SHARE, START_HEADING_ERROR, Heading, KnownHeading
 from .levels import (
     EXIT_ERROR,
@@ -151,7 +150,7 @@ MIN_RATIO, MAX_RATIO = 0.8, 1.6
 """Least and largest ratio of stride length to distance that is used."""
 
 
-@define
+@stateful
 class StrideScale:
     """Scale of the wearer's path: the ratio of the feet's stride lengths to the moves of the mean of both tracks.
 
@@ -159,9 +158,9 @@ class StrideScale:
     quarter at an angle of 80 degrees, while the stride lengths do not change. Therefore the distance between two stride
     ends of one foot on the mean track is compared with the mean length of this stride and the other foot's last one."""
 
-    factor: float = field(default=1.0, init=False)
+    factor: float = 1.0
     """Factor of the wearer's moves."""
-    last: dict[Foot, tuple[float, float, float]] = field(factory=dict, init=False)
+    last: dict[Foot, tuple[float, float, float]] = field(factory=dict)
     """Last stride of each foot: position of the wearer after it, m, and stride length, m."""
 
     def add_stride(self, stride: StrideTaken, here: Vec3) -> None:
@@ -177,52 +176,52 @@ class StrideScale:
         self.last[stride.foot] = (here[0], here[1], stride.length)
 
 
-@define
+@stateful
 class Particles(Part):
     """The particle filter, the default method of every recipe."""
 
-    notices: ClassVar[tuple[type[Notice], ...]] = (StartGiven,)
-    needs_position: ClassVar[bool] = True
+    notices = (StartGiven,)
+    needs_position = True
 
-    particles: list[Particle] = field(factory=list, init=False)
+    particles: list[Particle] = field(factory=list)
     """The particles, at most `MAX_PARTICLES`."""
-    random: int = field(default=1, init=False)
+    random: int = 1
     """State of the random numbers."""
-    plan: IndexedPlan | None = field(default=None, init=False, eq=False, repr=False, metadata=NOT_SAVED)
+    plan: IndexedPlan | None = field(default=None, eq=False, repr=False, metadata=NOT_SAVED)
     """The floor plan; it is not saved, and is set when a session is made or restored."""
-    pending_events: list[Event] = field(factory=list, init=False)
+    pending_events: list[Event] = field(factory=list)
     """Events since the wearer's last position."""
-    place: Placed | None = field(default=None, init=False)
+    place: Placed | None = None
     """Place of the wearer on the plan; None while it is not known."""
-    start: Start | None = field(default=None, init=False)
-    last_place: Point = field(default=(0.0, 0.0), init=False)
+    start: Start | None = None
+    last_place: Point = (0.0, 0.0)
     """Newest position of the track that was used, m, world frame."""
-    references: References = field(factory=References, init=False)
-    stride_scale: StrideScale = field(factory=StrideScale, init=False)
-    known: KnownHeading = field(factory=KnownHeading, init=False)
-    stride_count: int = field(default=0, init=False)
+    references: References = field(factory=References)
+    stride_scale: StrideScale = field(factory=StrideScale)
+    known: KnownHeading = field(factory=KnownHeading)
+    stride_count: int = 0
     """Number of strides since the last check for particles outside of the plan."""
-    strides_outside: int = field(default=0, init=False)
+    strides_outside: int = 0
     """Number of strides since the place was last within the plan."""
-    wide_strides: int = field(default=0, init=False)
+    wide_strides: int = 0
     """Number of further strides in which all particles are kept."""
-    stuck_distance: float = field(default=0.0, init=False)
+    stuck_distance: float = 0.0
     """Length of track since a particle could move, m."""
-    rejected: tuple[Point, Point] | None = field(default=None, init=False)
+    rejected: tuple[Point, Point] | None = None
     """Newest rejected place of a report, plan frame, and where the track was, world frame, m; None after one fitted."""
-    arrived_at: float | None = field(default=None, init=False)
+    arrived_at: float | None = None
     """Time of the last arrival on another level, s; None before any."""
-    odds: dict[int, float] | None = field(default=None, init=False)
+    odds: dict[int, float] | None = None
     """Factors of the weight of levels if the newest stairs led in the other direction; None before any arrival."""
-    level_uncertain: bool = field(default=False, init=False)
+    level_uncertain: bool = False
     """Flag: the level depends on the reported direction of stairs, which is often wrong."""
-    first_arrival: LevelReached | None = field(default=None, init=False)
+    first_arrival: LevelReached | None = None
     """First arrival while its exits are not decided; None before, afterwards, and with a known heading."""
-    strides_since: int = field(default=0, init=False)
+    strides_since: int = 0
     """Number of strides since the first arrival."""
-    unmapped: list[Particle] = field(factory=list, init=False)
+    unmapped: list[Particle] = field(factory=list)
     """Particles that were in a lift when it went to where the plan has no landing; empty if it did not."""
-    unmapped_height: float = field(default=0.0, init=False)
+    unmapped_height: float = 0.0
     """Height of all rides since then, m, upwards."""
 
     # How particles move, are made and are thinned out: another method has its own.
@@ -291,11 +290,11 @@ class Particles(Part):
 
     # Events.
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Hold events back until the wearer's position after them is known, and return the place then."""
         return [output for event in events for output in self._receive(event)]
 
-    def _receive(self, event: PartInput) -> Sequence[PartOutput]:
+    def _receive(self, event: PartInput) -> Outputs:
         if isinstance(event, MOVEMENTS):
             self.pending_events.append(event)
         elif isinstance(event, WearerMoved) and self.plan is not None:

@@ -18,7 +18,7 @@ from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTa
 from ..floorplan.index import IndexedPlan, Landing
 from ..floorplan.plan import ConnectorKind, Point
 from ..types import Activity, Foot, Vec3
-from ..types.attrs import define, field, frozen
+from ..types.attrs import define, field, frozen, stateful
 from ..types.vector import add, sub
 
 # What the plan says about its stairs and elevators.
@@ -345,20 +345,20 @@ class DirectionRevised:
 Reference = LevelChangePossible | LevelChangeCancelled | LevelReached | DirectionRevised
 
 
-@define
+@stateful
 class References:
     """Derives references from the wearer's activities and the newest positions of the track."""
 
-    activity: Activity = field(default=Activity.UNKNOWN, init=False)
-    passage: Passage | None = field(default=None, init=False)
+    activity: Activity = Activity.UNKNOWN
+    passage: Passage | None = None
     """Passage under way, or left and not decided; None otherwise."""
-    track: deque[tuple[float, Vec3]] = field(factory=deque, init=False)
+    track: deque[tuple[float, Vec3]] = field(factory=deque)
     """Newest positions of the track: t, s, and position, m."""
-    ride_end: float | None = field(default=None, init=False)
+    ride_end: float | None = None
     """End of the last ride, s."""
-    decided: tuple[float, bool] | None = field(default=None, init=False)
+    decided: tuple[float, bool] | None = None
     """End of the newest stairs that led to another level, s, and a flag: they led up; None before any."""
-    partial: Passage | None = field(default=None, init=False)
+    partial: Passage | None = None
     """Newest passage that ended on a half-way landing; None otherwise."""
 
     def reset(self) -> None:

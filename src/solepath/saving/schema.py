@@ -11,14 +11,15 @@ classes.
 A class in the row "aid" of types/registry.py is imported only when there is a record of it: a module that has such a
 field imports it under `if TYPE_CHECKING`, and where it makes the first one.
 
-Fields that a constructor takes are *settings* and never change; other fields (`init=False`) are *state*. A class with
-state is a *part*. When a session is unpacked, the *holder* of a part (the record that has it in a field) makes the part
-again with the same settings. The packed form of such a part has only its state, and the state of parts in its settings.
-This applies to a part in a setting, and to a part in a field of state whose default is not None. Everything else is
-written with all fields: parts that may be absent, and records without state. Two marks declare exceptions:
+Fields that a constructor takes are *settings* and never change; other fields (`init=False`, which `stateful` of
+types/attrs.py gives each field with a default but `settings`) are *state*. A class with state is a *part*. When a
+session is unpacked, the *holder* of a part (the record that has it in a field) makes the part again with the same
+settings. The packed form of such a part has only its state, and the state of parts in its settings. This applies to a
+part in a setting, and to a part in a field of state whose default is not None. Everything else is written with all
+fields: parts that may be absent, and records without state. Two marks declare exceptions:
 
     floorplan: Plan | None = field(default=None, metadata=NOT_SAVED)      has its default after loading
-    feet: dict[Foot, Tracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)      only the state is saved
+    feet: dict[Foot, Tracker] = field(factory=dict, metadata=MADE_AGAIN)                  only the state is saved
 """
 
 from __future__ import annotations
@@ -180,7 +181,7 @@ def _node(hint: Any, made: bool) -> Node:
     if isinstance(hint, EnumMeta):
         return EnumNode(hint, tuple(hint))
     if is_late(hint):
-        return LateNode(hint.__name__, made, _record_of_late)
+        return LateNode(hint.__name__, made, lambda name, made: _record_of_value(load("aid", name), made))
     if is_open(hint) or origin in (typing.Union, types.UnionType):
         return _union(hint, made)
     if is_record(hint):
@@ -210,10 +211,6 @@ def _union(hint: Any, made: bool) -> Node:
     else:
         raise TypeError(f"it could not tell apart {hint!r}")
     return MaybeNode(node, made and not isinstance(node, LateNode)) if types.NoneType in typing.get_args(hint) else node
-
-
-def _record_of_late(name: str, made: bool) -> RecordNode:
-    return _record_of_value(load("aid", name), made)
 
 
 def _record_of_value(cls: type, made: bool) -> RecordNode:

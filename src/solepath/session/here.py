@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..events import PositionReported
 from ..link.receiver import reported_position
-from ..types import SITE_OF_FOOT, Foot, Site
+from ..types import SITE_OF_FOOT, Foot, Site, Vec2
 from ..types.plain import text
 from ..wire.receiver import PositionFrame, build_position, parse_position
 from .state import SessionState
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def report_position(
-    state: SessionState, plan: IndexedPlan | None, where: tuple[float, float] | str | None, sigma: float, level: str
+    state: SessionState, plan: IndexedPlan | None, where: Vec2 | str | None, sigma: float, level: str
 ) -> tuple[PositionReported, Site]:
     """Return the event of a reported position, and the site that has it; `Session.here` has the arguments.
 
@@ -36,7 +36,7 @@ def report_position(
     return reported_position(frame, state.now, site), site
 
 
-def _pair(where: Any) -> tuple[float, float]:
+def _pair(where: Any) -> Vec2:
     """Return x and y of a position as floats; raises TypeError for anything else than two numbers."""
     try:
         x, y = where

@@ -16,7 +16,7 @@ from ..events import Event, Placed
 from ..foot.phase import SUPPORT
 from ..link.kinds import DeviceKinds, is_address, make_kinds
 from ..recipes import DEFAULT, Recipe, shared_copy
-from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
+from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support, Vec2
 from ..types.plain import flag, text
 from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
 from .state import SessionSettings, SessionState
@@ -106,9 +106,7 @@ class Session:
         """Continue on a clock that restarted or was set, and is now at `now`, s; return a ClockReset of each site."""
         return [] if self._state.finished else self._state.restart_clock(check_now(now))
 
-    def here(
-        self, where: tuple[float, float] | str | None = None, sigma: float = 1.0, *, level: str = ""
-    ) -> list[Event]:
+    def here(self, where: Vec2 | str | None = None, sigma: float = 1.0, *, level: str = "") -> list[Event]:
         """Report where the wearer is, to `sigma`, m: x and y, m, a place's name, or None for the start.
 
         With a `level`, x and y are the plan's, and a name is that of stairs or a lift. Returns PositionReported and

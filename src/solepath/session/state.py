@@ -16,8 +16,8 @@ from ..body.part import (
     LayoutReported,
     LimbSampled,
     Notice,
+    Outputs,
     Part,
-    PartOutput,
     Position,
     Replacement,
     Shift,
@@ -40,8 +40,8 @@ from ..foot.settings import FootSettings
 from ..foot.view import FootView
 from ..link.kinds import DeviceKinds
 from ..recipes import Recipe, part_class
-from ..types import OTHER, SITE_OF_FOOT, Foot, Packet, Sample, Site
-from ..types.attrs import MADE_AGAIN, NOT_SAVED, define, evolve, field, frozen
+from ..types import OTHER, SITE_OF_FOOT, Foot, Packet, Quat, Sample, Site
+from ..types.attrs import MADE_AGAIN, NOT_SAVED, evolve, field, frozen, stateful
 from ..types.plain import has_floats, number, text, with_floats
 from ..types.records import MAX_TIME
 from ..types.vector import normalise
@@ -53,7 +53,6 @@ if TYPE_CHECKING:
 
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
-_Calibrated = TypeVar("_Calibrated")
 
 VERSION = 3
 """Version of the state, increased by 1 with every release that changes state or settings; no other can be restored."""
@@ -76,27 +75,27 @@ class SessionSettings:
     """Fingerprint of the floor plan; None without a plan, and then the recipe's place part is not used."""
 
 
-@define
+@stateful
 class SessionState:
     """The whole state of a session: decoders of the worn devices, trackers of the feet, and the parts of the body."""
 
     settings: SessionSettings
-    now: float | None = field(default=None, init=False)
+    now: float | None = None
     """Newest known time, s, packets' clock; None before the first."""
-    decoders: dict[Site, Decoder] = field(factory=dict, init=False)
-    finished: bool = field(default=False, init=False)
+    decoders: dict[Site, Decoder] = field(factory=dict)
+    finished: bool = False
     parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
     """Parts in the order in which they receive events."""
-    awake: tuple[tuple[int, Part], ...] = field(default=(), init=False, metadata=NOT_SAVED)
+    awake: tuple[tuple[int, Part], ...] = field(default=(), metadata=NOT_SAVED)
     """Parts that need samples without events too, each after the number of the part that follows it.
 
     A part that is idle after events, a notice or a reset is left out, because only one of these wakes it."""
-    feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
-    height: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    feet: dict[Foot, FootTracker] = field(factory=dict, metadata=MADE_AGAIN)
+    height: tuple[float, float] = (0.0, 0.0)
     """Height correction added to the tracks' z, m, positive upwards, and its variance, m^2."""
-    unsettled: dict[Site, float | None] = field(factory=dict, init=False)
+    unsettled: dict[Site, float | None] = field(factory=dict)
     """Time up to which each site's times are not comparable with another site's, s; None when they are comparable."""
-    unused: list[Site] = field(factory=list, init=False)
+    unused: list[Site] = field(factory=list)
     """Sites whose samples the recipe cannot use; reported once."""
 
     def __attrs_post_init__(self) -> None:
@@ -278,7 +277,7 @@ class SessionState:
     def _use_sample(self, sample: Sample) -> list[Event]:
         """Add a sample of any site and return the events."""
         if sample.quat is not None:
-            sample = _with_sound_attitude(sample)
+            sample = _with_sound_attitude(sample, sample.quat)
         foot = sample.site.foot
         if foot is None:
             return self._feed_limb(sample)
@@ -367,7 +366,7 @@ class SessionState:
             moved = self._make_moved(known_at)
         return moved
 
-    def _apply(self, output: Sequence[PartOutput], events: list[Any]) -> None:
+    def _apply(self, output: Outputs, events: list[Any]) -> None:
         """Add the emitted events, also those that an app defines, to `events`, and apply the corrections."""
         for item in output:
             if isinstance(item, Shift):
@@ -412,14 +411,11 @@ class SessionState:
                 recipe.insole.calibrated(known),
                 known.layout,
             )
-            detector, corrector, cues = deepcopy((recipe.detector, recipe.corrector, recipe.cues))
-            tracker = FootTracker(
-                foot,
-                _calibrated(detector, calibration, foot),
-                _calibrated(corrector, calibration, foot),
-                settings,
-                cues=_calibrated(cues, calibration, foot),
-            )
+            parts: Any = deepcopy((recipe.detector, recipe.corrector, recipe.cues))
+            detector, corrector, cues = [
+                part.calibrated(foot, calibration) if hasattr(part, "calibrated") else part for part in parts
+            ]
+            tracker = FootTracker(foot, detector, corrector, cues, settings)
             tracker.lost_count = 0 if SITE_OF_FOOT[foot] in self.decoders else None
         return tracker
 
@@ -433,20 +429,11 @@ def sort_by_key(values: dict[_Key, _Value], keys: Iterable[_Key]) -> dict[_Key, 
     return {key: values[key] for key in keys if key in values}
 
 
-def _calibrated(part: _Calibrated, calibration: Calibration, foot: Foot) -> _Calibrated:
-    """Return the part with the foot's calibration, or unchanged if it has no `calibrated`."""
-    calibrated = getattr(part, "calibrated", None)
-    return part if calibrated is None else calibrated(foot, calibration)
-
-
-def _with_sound_attitude(sample: Sample) -> Sample:
+def _with_sound_attitude(sample: Sample, quat: Quat) -> Sample:
     """Return the sample with a unit quaternion, or without attitude if its quaternion has no valid norm."""
-    if sample.quat is None:
-        return sample
-    w, x, y, z = sample.quat
+    w, x, y, z = quat
     square = w * w + x * x + y * y + z * z
     if 1.0 - 1e-9 < square < 1.0 + 1e-9:
         return sample
-    if not SHORTEST_QUAT < square < 1.0 / SHORTEST_QUAT:  # also true for nan
-        return evolve(sample, quat=None)
-    return evolve(sample, quat=normalise(sample.quat))
+    is_sound = SHORTEST_QUAT < square < 1.0 / SHORTEST_QUAT  # not if it is nan
+    return evolve(sample, quat=normalise(quat) if is_sound else None)

@@ -15,6 +15,7 @@ from ..calibration import Calibration
 from ..events import FootFlat, HeelOff, HeelStrike, LayoutKnown, ToeOff
 from ..events.happening import BaseEvent
 from ..foot.cues.cues import Cues
+from ..foot.cues.gait_cues import GaitCues
 from ..foot.navigate.corrector import Corrector
 from ..foot.navigate.error_state import ErrorStateFilter
 from ..foot.pressure.insole import InsoleLoads
@@ -223,9 +224,9 @@ def harness_for(part: Any, foot: Foot, layout: Layout | None) -> DetectorHarness
         return DetectorHarness(part, insole)
     harness: FootHarness
     if Corrector in kinds:
-        harness = CorrectorHarness(FootTracker(foot, Cycle(), part), "corrector")
+        harness = CorrectorHarness(FootTracker(foot, Cycle(), part, GaitCues()), "corrector")
     elif Cues in kinds:
-        harness = CuesHarness(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
+        harness = CuesHarness(FootTracker(foot, Cycle(), ErrorStateFilter(), part), "cues")
     elif Part in kinds:
         state = SessionState(SessionSettings(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration()))
         state.set_plan(None)

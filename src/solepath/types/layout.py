@@ -6,7 +6,7 @@ from functools import cached_property, lru_cache
 from math import dist
 from struct import pack
 
-from .attrs import field, frozen, limits
+from .attrs import field, frozen, limited, limits
 from .records import Foot
 
 
@@ -20,7 +20,7 @@ class Cell:
     """Position of the centre along the foot's x axis, to the toe, m."""
     y: float = field(metadata=limits(-1.0, 1.0, "m"))
     """Position of the centre along the foot's y axis, to the left, m."""
-    area: float = field(default=1e-4, metadata=limits(0.0, 1.0, "m^2"))
+    area: float = limited(1e-4, 0.0, 1.0, "m^2")
     """Area of the cell, m^2."""
 
 
@@ -36,10 +36,10 @@ class Layout:
     """Cells in the order in which samples have them."""
     length: float = field(metadata=limits(0.01, 1.0, "m"))
     """Distance from heel to toe, m."""
-    scale: float | None = field(default=None, metadata=limits(1e-9, 1e6, "N"))
+    scale: float | None = limited(None, 1e-9, 1e6, "N")
     """Force of one transmitted count, N: 1.0 when the device sends newtons, None when it is unknown, so that loads are
     in counts."""
-    full_scale: float = field(default=4095.0, metadata=limits(1e-6, 1e9))
+    full_scale: float = limited(4095.0, 1e-6, 1e9)
     """Largest value that a cell can report, in the unit of the samples (N or counts)."""
 
     @cached_property

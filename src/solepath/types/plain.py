@@ -23,14 +23,6 @@ PLAIN_NUMBERS = frozenset((float, int))
 """Types of the numbers of pressure cells that are not converted; counts are whole numbers."""
 
 
-def as_float(value: float) -> float:
-    """Return a float; an int that is too large for a float counts as infinite."""
-    try:
-        return float(value)
-    except OverflowError:
-        return inf
-
-
 def has_floats(sample: Sample) -> bool:
     """Return whether no number of the sample must be converted; it is called for every sample, and so is fast."""
     vector: Any
@@ -76,11 +68,15 @@ def with_floats(sample: Sample) -> Sample:
 
 
 def number(what: str, value: Any) -> float:
-    """Return a number as a float; raise TypeError, naming `what` it is, for anything else, also for text."""
+    """Return a number as a float; raise TypeError, naming `what` it is, for anything else, also for text.
+
+    An int that is too large for a float counts as infinite."""
     kind = getattr(getattr(value, "dtype", None), "kind", "f")  # of numpy: no complex numbers, and no dates
     try:
         if kind in "biufO" and not isinstance(value, str | bytes | bytearray):
-            return as_float(value)
+            return float(value)
+    except OverflowError:
+        return inf
     except (TypeError, ValueError):
         pass
     raise TypeError(f"{what} is a number, not {value!r:.80}")
@@ -104,13 +100,11 @@ def text(value: str) -> str:
 
 def flag(what: str, value: Any) -> bool:
     """Return a flag as a bool; flags of numpy are not bools themselves, but equal one."""
-    if not isinstance(value, str | bytes):
-        for one in (False, True):
-            try:
-                if value is one or bool(value == one):
-                    return one
-            except (TypeError, ValueError):  # a missing value of pandas, an array
-                break
+    try:
+        if not isinstance(value, str | bytes) and value in (False, True):
+            return bool(value)
+    except (TypeError, ValueError):  # a missing value of pandas, an array
+        pass
     raise TypeError(f"{what} is True or False, not {value!r:.80}")
 
 

@@ -26,7 +26,7 @@ def flat_struct(definition: Definition, **context: Any) -> Packing:
     """Return the struct of all numbers of `definition`, in order; a block of 12-bit values is one `bytes`.
 
     `context` has what the parts before are to have been parsed to, by their names, as in construct. Numbers are
-    little-endian. TypeError for a construct without a notation in `struct`."""
+    little-endian."""
     return Packing("<" + _notation(definition, Container(context)))
 
 
@@ -46,10 +46,8 @@ def _notation(definition: Any, context: Any) -> str:
     if isinstance(definition, IfThenElse):
         condition: Any = definition.condfunc
         return _notation(definition.thensubcon, context) if condition(context) else ""
-    if isinstance(definition, (Struct, Sequence)):
-        within = Container(context, _=context)
-        return "".join([_notation(part, within) for part in definition.subcons])
-    raise TypeError(f"{type(definition).__name__} has no notation in struct")
+    within = Container(context, _=context)  # a Struct or a Sequence
+    return "".join([_notation(part, within) for part in definition.subcons])
 
 
 MAX_CELLS = 128

@@ -98,20 +98,14 @@ def parse_info(data: bytes) -> InsoleInfo:
         raise malformed(problem)
     areas = [run.area / _COUNTS_PER_SQUARE_METRE for run in body.runs for _ in range(run.cells)]
     return InsoleInfo(
-        foot=Foot.RIGHT if header.flags & _RIGHT_FLAG else Foot.LEFT,
-        layout=header.layout,
-        serial=header.serial,
-        tick_rate=header.tick_rate,
-        interval=header.interval,
-        acc_scale=header.acc_scale,
-        gyro_scale=header.gyro_scale,
-        pressure_scale=header.pressure_scale,
-        length=header.length / _COUNTS_PER_METRE,
-        cells=tuple(
+        Foot.RIGHT if header.flags & _RIGHT_FLAG else Foot.LEFT,
+        *header[3:10],  # layout to scales, in the same order
+        header.length / _COUNTS_PER_METRE,
+        tuple(
             Cell(x / _COUNTS_PER_METRE, (y - _Y_ZERO_COUNTS) / _COUNTS_PER_METRE, area)
             for x, y, area in zip(body.coordinates[0::2], body.coordinates[1::2], areas, strict=True)
         ),
-        firmware=decode(body.firmware, "the firmware name is "),
+        decode(body.firmware, "the firmware name is "),
     )
 
 

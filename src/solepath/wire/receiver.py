@@ -7,6 +7,7 @@ from __future__ import annotations
 from construct import Int8sl, Int32ul
 
 from ..events import Rejection
+from ..types import Vec2
 from ..types.attrs import frozen
 from .error import WireError
 from .fields import Fields, build_whole, decode, malformed, parse_text, parse_whole
@@ -71,7 +72,7 @@ def build_dropped(count: int) -> bytes:
 class PositionFrame:
     """The position that a person reports: x and y, the place of a name, or where the walk started."""
 
-    position: tuple[float, float] | None
+    position: Vec2 | None
     """Coordinates x and y, m; None at a named place, or where the walk started."""
     sigma: float
     """Standard deviation of the position on each axis, m."""
@@ -85,7 +86,7 @@ def parse_position(data: bytes) -> PositionFrame:
     """Return the content of receiver/position; WireError when the bytes do not fit."""
     data = bytes(data)
     (sigma, kind), rest = parse_whole(_SIGMA_AND_KIND, data[:5]), data[5:]
-    position: tuple[float, float] | None = None
+    position: Vec2 | None = None
     place = level = ""
     if kind in (_WORLD, _PLAN):
         x, y = position = parse_whole(_POSITION, rest[:16])

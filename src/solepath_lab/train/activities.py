@@ -148,7 +148,7 @@ def _features(
 ) -> Iterator[tuple[int, list[list[float]], BlockForce | None]]:
     """Yield the number, the features with all, one and no later block, and the force of each block."""
     parts = deepcopy(recipe)
-    tracker = FootTracker(foot, parts.detector, parts.corrector, cues=parts.cues)
+    tracker = FootTracker(foot, parts.detector, parts.corrector, parts.cues)
     window, found = FootBlocks(), dict[int, list[list[float]]]()
     for sample in samples:
         events = tracker.feed(sample)

@@ -14,6 +14,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import ActivityChanged, Event
+from solepath.foot.cues.gait_cues import GaitCues
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
@@ -26,7 +27,7 @@ class WornPart:
 
     def __init__(self) -> None:
         self.part = Activities()
-        self.feet = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
+        self.feet = {foot: FootTracker(foot, Cycle(), ErrorStateFilter(), GaitCues()) for foot in Foot}
 
     def feed(self, sample: Sample) -> list[Event]:
         tracker = self.feet[Foot.LEFT if sample.site is Site.LEFT_FOOT else Foot.RIGHT]

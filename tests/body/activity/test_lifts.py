@@ -9,6 +9,7 @@ from views import fed
 
 from solepath.body.activity.activities import Activities
 from solepath.events import ActivityChanged, Event, LiftRidden
+from solepath.foot.cues.gait_cues import GaitCues
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
@@ -29,7 +30,7 @@ def standing_events(
 ) -> list[Event]:
     """Return the events of two feet that stand in a lift with this acceleration, and shuffle in these intervals, s."""
     part = Activities()
-    feet = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
+    feet = {foot: FootTracker(foot, Cycle(), ErrorStateFilter(), GaitCues()) for foot in Foot}
     events: list[Event] = []
     for k in range(int(until * RATE)):
         t = k / RATE

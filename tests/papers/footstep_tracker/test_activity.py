@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from views import fed
 
 from solepath.events import ActivityChanged, LiftRidden
+from solepath.foot.cues.gait_cues import GaitCues
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
@@ -20,7 +21,7 @@ from solepath.types.vector import GRAVITY
 from solepath.walk.timeline import Timeline
 
 SAMPLE_RATE = 20.0
-TRACKERS = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
+TRACKERS = {foot: FootTracker(foot, Cycle(), ErrorStateFilter(), GaitCues()) for foot in Foot}
 STILL, UP, DOWN = Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN
 
 

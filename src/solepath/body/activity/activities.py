@@ -14,16 +14,15 @@ ride becomes final after 12 s."""
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Sequence
 from math import floor
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, PerFoot, Site, Vec3, per_foot
-from ...types.attrs import define, evolve, field, frozen
+from ...types.attrs import evolve, field, frozen, stateful
 from ...types.vector import TIME_EPSILON, ZERO
-from ..part import ActivityPart, PartInput, PartOutput
+from ..part import ActivityPart, Inputs, Outputs, PartOutput
 from .early import ActivityCue, ActivityReport, BlockSigns, Early, cue_of_stride, follow, follow_block
 from .elevator_evidence import BlockForce, ElevatorEvidence
 from .flights import Flights, integrated_rise
@@ -56,33 +55,33 @@ class ActivitiesSettings:
     """Motion model; None: the model of this release."""
 
 
-@define
+@stateful
 class Activities(ActivityPart):
     """Reports the wearer's activity, flights of stairs and elevator rides."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
 
     settings: ActivitiesSettings = ActivitiesSettings()
-    origin: float | None = field(default=None, init=False)
+    origin: float | None = None
     """Start of block 0, s."""
-    next_block: int = field(default=0, init=False)
+    next_block: int = 0
     """Number of the block that is judged next."""
-    feet: PerFoot[FootBlocks] = field(factory=lambda: per_foot(FootBlocks), init=False)
-    pressure_height: PressureHeight | None = field(default=None, init=False)
+    feet: PerFoot[FootBlocks] = field(factory=lambda: per_foot(FootBlocks))
+    pressure_height: PressureHeight | None = None
     """Heights by the barometers; None before any reading."""
-    walked: bool = field(default=False, init=False)
+    walked: bool = False
     """Flag: the wearer has taken a stride. Before, no force can have shown that an elevator set off, and a slope of the
     air pressure alone is no ride."""
-    hypotheses: Hypotheses = field(factory=Hypotheses, init=False)
-    report: ActivityReport = field(factory=ActivityReport, init=False)
-    newest_block: int = field(default=-1, init=False)
+    hypotheses: Hypotheses = field(factory=Hypotheses)
+    report: ActivityReport = field(factory=ActivityReport)
+    newest_block: int = -1
     """Number of the newest block that is complete in all feet that give samples."""
-    early: list[Early] = field(factory=lambda: [(NO_ACTIVITY, 1.0)], init=False)
+    early: list[Early] = field(factory=lambda: [(NO_ACTIVITY, 1.0)])
     """Newest activity of the likeliest sequence and those in the blocks since, each with its probability."""
-    stride_cue: tuple[int, ActivityCue, float] | None = field(default=None, init=False)
+    stride_cue: tuple[int, ActivityCue, float] | None = None
     """Number of the block of the newest stride with a cue, its cue, and the probability of that; None before any."""
-    flights: Flights = field(factory=Flights, init=False)
-    strides: deque[StrideTaken] = field(factory=deque, init=False)
+    flights: Flights = field(factory=Flights)
+    strides: deque[StrideTaken] = field(factory=deque)
     """Strides whose activity is not known yet, without their features."""
 
     @property
@@ -111,7 +110,7 @@ class Activities(ActivityPart):
         if all([side.index is None for side in self.feet.values()]):
             self._restart()
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its air pressure and events; return activities, flights and rides."""
         outputs: list[PartOutput] = []
         if view is not None and (self.origin is not None or view.sample.acc is not None):
@@ -146,7 +145,7 @@ class Activities(ActivityPart):
         air = self.pressure_height = PressureHeight()
         return air
 
-    def finish(self, now: float) -> Sequence[PartOutput]:
+    def finish(self, now: float) -> Outputs:
         """Return the final activities, including the last second, because no more samples come."""
         for side in self.feet.values():
             side.close()
@@ -169,7 +168,7 @@ class Activities(ActivityPart):
             empty_blocks = 0 if self._judge_block(self.next_block) else empty_blocks + 1
             self.next_block += 1
             if empty_blocks > MAX_EMPTY_BLOCKS:
-                self.next_block = max(self.next_block, complete - 2 * WINDOW_REACH)
+                self.next_block = complete
         return self._report(followed, known_at) + self._count_flights(t, known_at)
 
     def _judge_block(self, index: int) -> bool:

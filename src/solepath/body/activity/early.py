@@ -11,7 +11,7 @@ from math import exp, fsum
 
 from ...events import ActivityChanged, Event, LiftRidden
 from ...types import Activity
-from ...types.attrs import define, field
+from ...types.attrs import field, stateful
 from ...types.vector import TIME_EPSILON
 from .chain import ACTIVITIES, STAND, UNKNOWN, Chain
 from .elevator_evidence import PULSE_ACCELERATION, PULSE_DEVIATION, ElevatorEvidence, RestLevels
@@ -28,15 +28,15 @@ Early = tuple[ActivitySegment, float]
 """An activity after the likeliest sequence (early.py), and its probability."""
 
 
-@define
+@stateful
 class ActivityReport:
     """The activities that were reported."""
 
-    activity: Activity = field(default=Activity.UNKNOWN, init=False)
+    activity: Activity = Activity.UNKNOWN
     """The newest activity that was reported, final or not."""
-    provisional: list[Early] = field(factory=list, init=False)
+    provisional: list[Early] = field(factory=list)
     """Segments that were reported and are not final, oldest first, each with its newest probability."""
-    withdrawn_at: float | None = field(default=None, init=False)
+    withdrawn_at: float | None = None
     """Time `t` of the newest report, s, if it is not final and withdrew an activity without a successor; else None."""
 
     def add(

@@ -24,7 +24,7 @@ from math import fsum
 
 from ...events import FlightClimbed, StrideTaken
 from ...types import PerFoot, per_foot
-from ...types.attrs import define, field
+from ...types.attrs import define, field, stateful
 
 LEAST_RISE = 0.08
 """Least height change of a stair stride, m: half of a riser."""
@@ -86,23 +86,23 @@ class FootClimb:
         self.height = (self.height or 0.0) + height
 
 
-@define
+@stateful
 class Flights:
     """Detects flights and returns a final `FlightClimbed` for each flight when it has ended."""
 
-    direction: int = field(default=0, init=False)
+    direction: int = 0
     """Direction of the flight under way: 1 up, -1 down, 0 when there is none."""
-    t_start: float = field(default=0.0, init=False)
+    t_start: float = 0.0
     """Start of the flight under way, s."""
-    t_end: float = field(default=0.0, init=False)
+    t_end: float = 0.0
     """End of the newest stair stride of the flight under way, s."""
-    stride_count: int = field(default=0, init=False)
+    stride_count: int = 0
     """Number of strides of the flight under way."""
-    level_stride_count: int = field(default=0, init=False)
+    level_stride_count: int = 0
     """Number of level strides since the last stair stride."""
-    trusted_rise: float = field(default=0.0, init=False)
+    trusted_rise: float = 0.0
     """Sum of the height changes of the trusted stair strides of the flight under way, m."""
-    feet: PerFoot[FootClimb] = field(factory=lambda: per_foot(FootClimb), init=False)
+    feet: PerFoot[FootClimb] = field(factory=lambda: per_foot(FootClimb))
 
     def reset(self) -> None:
         """Discard the flight under way, because the clock restarts or another device is worn."""
@@ -129,7 +129,9 @@ class Flights:
             if self.direction != 0:
                 self.level_stride_count += 1
                 foot.unjudged += direction is None
-                if self.level_stride_count >= self._count_active_feet(foot, stride.t):
+                others = [one.stride_at for one in self.feet.values() if one is not foot and one.stride_at is not None]
+                active = 1 + len([at for at in others if abs(stride.t - at) < ACTIVE_TIME])  # with a stride just now
+                if self.level_stride_count >= active:
                     events = self._arrive(stride.known_at)
         foot.stride_at = stride.t
         return events
@@ -169,11 +171,6 @@ class Flights:
         self.trusted_rise = 0.0
         for foot in self.feet.values():
             foot.rise, foot.untrusted, foot.unjudged = None, 0, 0
-
-    def _count_active_feet(self, foot: FootClimb, t: float) -> int:
-        """Return the number of feet with a stride shortly before `t`, s, including `foot`."""
-        others = [one.stride_at for one in self.feet.values() if one is not foot and one.stride_at is not None]
-        return 1 + sum([abs(t - at) < ACTIVE_TIME for at in others])
 
     def _arrive(self, known_at: float) -> list[FlightClimbed]:
         """Return the flight under way, after which both feet stand on one level."""

@@ -62,25 +62,19 @@ DOOR_SHARE = 0.05
 It limits what the height of a whole stretch says to a ratio of 21 to 1."""
 
 
-def stairs_evidence(before: Height | None, after: Height | None, sign: float, duration: float) -> float:
-    """Return the logarithm of the likelihood ratio of stairs to level ground, from the heights before and after.
+def stairs_evidence(gain: float, variance: float, sign: float, duration: float) -> float:
+    """Return the logarithm of the likelihood ratio of stairs to level ground, from the height that was gained, m.
 
-    `sign` is 1 for stairs up and -1 for down, `duration` that of the stairs, s."""
-    if before is None or after is None:
-        return 0.0
-    gain, variance = after[0] - before[0], after[1] + before[1]
+    `variance` is that of `gain`, m^2, `sign` is 1 for stairs up and -1 for down, `duration` that of the stairs, s."""
     residual, total = gain - sign * STAIR_SPEED * duration, variance + (STAIR_SPEED_DEVIATION * duration) ** 2
     return _log_ratio(sqrt(variance / total) * bell(residual, total), bell(gain, variance))
 
 
-def ride_evidence(before: Height | None, after: Height | None, sign: float) -> float:
-    """Return the logarithm of the likelihood ratio of a ride of any height to none, from the heights around it.
+def ride_evidence(gain: float, variance: float, sign: float) -> float:
+    """Return the logarithm of the likelihood ratio of a ride of any height to none, from the height that was gained, m.
 
-    While a ride is possible, each block asks for it as if the ride ended there. `sign` is 1 for a ride up and -1 for
-    one down."""
-    if before is None or after is None:
-        return 0.0
-    gain, variance = after[0] - before[0], after[1] + before[1]
+    While a ride is possible, each block asks for it as if the ride ended there. `variance` is that of `gain`, m^2,
+    `sign` is 1 for a ride up and -1 for one down."""
     return _log_ratio(bell(max(0.0, LEAST_RIDE_HEIGHT - sign * gain), variance), bell(gain, variance))
 
 
@@ -320,7 +314,10 @@ class Hypotheses:
         i = 0 if self.settled is None else 1
         if best is None or len(best.path) <= i:
             return settled_segments
-        old = _settled_by(best.path, now)
+        old = now - MAX_OPEN_TIME  # all segments up to there are settled because of their age
+        for ended, successor in pairwise(best.path):
+            if ended.activity in ELEVATOR_ACTIVITIES and now - successor.t >= RIDE_SETTLING_TIME:
+                old = max(old, successor.t)
         while len(best.path) > i:
             segment = best.path[i]
             if not (
@@ -346,15 +343,6 @@ class Hypotheses:
             if activity_at(token.path, segment.t, self.settled) is segment.activity:
                 agreeing += likelihood
         return agreeing / total if total > 0.0 else 1.0
-
-
-def _settled_by(path: Sequence[ActivitySegment], now: float) -> float:
-    """Return the time up to which all segments are settled because of their age, s."""
-    old = now - MAX_OPEN_TIME
-    for segment, successor in pairwise(path):
-        if segment.activity in ELEVATOR_ACTIVITIES and now - successor.t >= RIDE_SETTLING_TIME:
-            old = max(old, successor.t)
-    return old
 
 
 def _agrees(token: Token, i: int, segment: ActivitySegment) -> bool:
@@ -394,13 +382,15 @@ def _score_path(
 
 def _score_end(token: Token, block: BlockEvidence) -> float:
     """Return the log-likelihood that the ride or the stairs of `token` have ended when `block` starts."""
-    state, start = token.state, token.ride.start_height
+    state, start, after = token.state, token.ride.start_height, block.after
+    stopped = token.ride.score_stop() if state in ACCELERATED_STATES else 0.0
+    if start is None or after is None:
+        return stopped
+    gain, variance = after[0] - start[0], after[1] + start[1]
     if state in STAIR_SIGNS:
         duration = block.t - token.path[-1].t if token.path else 0.0
-        return stairs_evidence(start, block.after, STAIR_SIGNS[state], duration)
-    stopped = token.ride.score_stop() if state in ACCELERATED_STATES else 0.0
-    up = ACTIVITIES[state] is Activity.ELEVATOR_UP
-    return stopped + ride_evidence(start, block.after, 1.0 if up else -1.0)
+        return stairs_evidence(gain, variance, STAIR_SIGNS[state], duration)
+    return stopped + ride_evidence(gain, variance, 1.0 if ACTIVITIES[state] is Activity.ELEVATOR_UP else -1.0)
 
 
 def _extend_path(

@@ -7,16 +7,14 @@ height of an elevator."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import exp
-from typing import ClassVar
 
 from ...events import Defect, StrideTaken
 from ...foot.view import FootView
 from ...types import PerFoot, Site, per_foot
-from ...types.attrs import define, field
+from ...types.attrs import define, field, stateful
 from ..altitude import DEGRADED_FACTOR, SCALE_HEIGHT, STANDARD_PRESSURE, height_above_track
-from ..part import Part, PartInput, PartOutput
+from ..part import Inputs, Outputs, Part
 from .stances import Finding
 
 STRIDE_PAUSE = 2.5
@@ -66,22 +64,22 @@ class Barometer:
         return not self.reported and abs(self.change) > largest_change
 
 
-@define
+@stateful
 class AirPressure(Part):
     """Reports air pressure that contradicts the heights of strides, as DefectFound, once for the barometer of a foot.
 
     The parts after it no longer use that barometer. Latency: some seconds of walking."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
     idle = True
 
-    feet: PerFoot[Barometer] = field(factory=lambda: per_foot(Barometer), init=False)
-    stride_at: float | None = field(default=None, init=False)
+    feet: PerFoot[Barometer] = field(factory=lambda: per_foot(Barometer))
+    stride_at: float | None = None
     """End of the newest stride of either foot, s; None before any."""
-    degraded: bool = field(default=False, init=False)
+    degraded: bool = False
     """Flag: that stride is degraded."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add the reading of a foot's barometer, if the sample has one, and strides, which show that people walk."""
         outputs = () if view is None or view.sample.air_pressure is None else self._add_reading(view)
         for event in events:
@@ -89,7 +87,7 @@ class AirPressure(Part):
                 self.stride_at, self.degraded = event.t, bool(event.flaws)
         return outputs
 
-    def _add_reading(self, view: FootView) -> Sequence[PartOutput]:
+    def _add_reading(self, view: FootView) -> Outputs:
         t, barometer = view.t, self.feet[view.foot]
         if self.stride_at is None or abs(t - self.stride_at) > STRIDE_PAUSE:
             barometer.count = 0

@@ -16,13 +16,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import atan2, cos, fsum, hypot, pi, sin, sqrt
-from typing import ClassVar
 
 from ...events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Phase, Site, per_foot
-from ...types.attrs import define, evolve, field, frozen
-from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
+from ...types.attrs import define, evolve, field, frozen, stateful
+from ..part import ClockUnsettled, Inputs, Outputs, Part, PartOutput
 from .stances import Finding
 
 # The offset between the clocks of the feet, from comparisons of the stances of each foot with the other's swings.
@@ -170,14 +169,14 @@ class LoneFoot:
         self.strides, self.x, self.y = 0, 0.0, 0.0
 
 
-@define
+@stateful
 class LoneStrides:
     """Detects a foot that walked while the other foot stood; the sentences are those of the right foot."""
 
-    feet: PerFoot[LoneFoot] = field(factory=lambda: per_foot(LoneFoot), init=False)
-    other_t: float | None = field(default=None, init=False)
+    feet: PerFoot[LoneFoot] = field(factory=lambda: per_foot(LoneFoot))
+    other_t: float | None = None
     """Time of the newest sample of the foot that did not have the newest event, s; None before any."""
-    requested: Foot | None = field(default=None, init=False)
+    requested: Foot | None = None
     """Foot of which a sample without events is needed, to know whether it is tracked; None mostly."""
 
     def see(self, view: FootView) -> None:
@@ -280,7 +279,7 @@ class FootClock:
         return 0.5 * (contact + toe_off)
 
 
-@define
+@stateful
 class FootClocks(Part):
     """Detects that the times of the feet are not on one clock, and reports it as DefectFound.
 
@@ -289,23 +288,23 @@ class FootClocks(Part):
     foot that walks while the other one stands is reported once, without an offset, and no offset after it. A foot
     with another defect that spoils its events is not compared."""
 
-    needs_samples: ClassVar[bool] = True
-    notices: ClassVar[tuple[type[Notice], ...]] = (ClockUnsettled,)
+    needs_samples = True
+    notices = (ClockUnsettled,)
 
-    idle: bool = field(default=True, init=False)
+    idle: bool = True
     """Flag: only samples with events are needed."""
-    feet: PerFoot[FootClock] = field(factory=lambda: per_foot(FootClock), init=False)
-    comparisons: list[Comparison] = field(factory=list, init=False)
+    feet: PerFoot[FootClock] = field(factory=lambda: per_foot(FootClock))
+    comparisons: list[Comparison] = field(factory=list)
     """Newest comparisons, oldest first."""
-    reported: float | None = field(default=None, init=False)
+    reported: float | None = None
     """Newest offset that was reported, s; None before any."""
-    lone: LoneStrides = field(factory=LoneStrides, init=False)
-    lone_reported: bool = field(default=False, init=False)
+    lone: LoneStrides = field(factory=LoneStrides)
+    lone_reported: bool = False
     """Flag: it was reported that one foot walked while the other one stood."""
-    lone_sentences: str | None = field(default=None, init=False)
+    lone_sentences: str | None = None
     """Sentences on this for the next sample, because a defect of the same sample may be the reason; None mostly."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add events; return DefectFound with the one that shows that the clocks are apart."""
         outputs: list[PartOutput] = []
         if view is not None:
@@ -328,16 +327,16 @@ class FootClocks(Part):
                     self.lone.add_gap(event)
                     if event.duration > MAX_GAP:
                         foot.discard()
-                elif is_spoiling(event):
+                elif event.spoils and event.defect is not Defect.CLIPPED:  # a peak that is cut off has its time
                     foot.spoiled = True
                     self._forget()
         return outputs
 
-    def finish(self, now: float) -> Sequence[PartOutput]:
+    def finish(self, now: float) -> Outputs:
         """Return DefectFound if the newest stride was the last sample."""
         return self._report_lone(now, now)
 
-    def _add_event(self, event: GaitEvent, foot: FootClock) -> Sequence[PartOutput]:
+    def _add_event(self, event: GaitEvent, foot: FootClock) -> Outputs:
         """Add an event of a foot; return DefectFound if the offset that it shows is significant and new."""
         if isinstance(event, FootFlat):
             if foot.toe_off is not None:  # the heel-strike was not detected
@@ -387,14 +386,9 @@ class FootClocks(Part):
         self.comparisons = [*self.comparisons[1 - MEMORY :], comparison]
         return True
 
-    def _report_lone(self, t: float, known_at: float) -> Sequence[PartOutput]:
+    def _report_lone(self, t: float, known_at: float) -> Outputs:
         """Return DefectFound at `t`, s, if one foot has walked while the other one stood."""
         if self.lone_sentences is None:
             return ()
         what, self.lone_sentences, self.lone_reported = self.lone_sentences, None, True
         return [Finding(Defect.CLOCKS, what, spoils=False).event(Foot.RIGHT, t, max(t, known_at))]
-
-
-def is_spoiling(defect: DefectFound) -> bool:
-    """Return whether a defect spoils the times of the gait events; a peak that is cut off (CLIPPED) has its time."""
-    return defect.spoils and defect.defect is not Defect.CLIPPED

@@ -6,14 +6,11 @@ ground or a turn change the errors of both feet, a loose sensor those of one."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import ClassVar
-
 from ...events import Defect, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, PerFoot, Site, per_foot
-from ...types.attrs import define, field
-from ..part import Part, PartInput, PartOutput
+from ...types.attrs import define, field, stateful
+from ..part import Inputs, Outputs, Part, PartOutput
 from .stances import Finding
 
 FIRST_STRIDES = 20
@@ -61,19 +58,19 @@ class LandingErrors:
         return self.recent > ratio * ratio * self.usual
 
 
-@define
+@stateful
 class Looseness(Part):
     """Reports a sensor that came loose, once for a device; from then on its strides are degraded.
 
     It needs both feet, and a sensor that was fixed for `FIRST_STRIDES` strides. Latency: 4 to 30 strides, the fewer the
     more it swings."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
     idle = True
 
-    feet: PerFoot[LandingErrors] = field(factory=lambda: per_foot(LandingErrors), init=False)
+    feet: PerFoot[LandingErrors] = field(factory=lambda: per_foot(LandingErrors))
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a stride of the foot; return the event if its sensor came loose."""
         found: list[PartOutput] = []
         for event in events:

@@ -5,16 +5,15 @@ follows from any other. The limits are those of people, not of what recordings s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import degrees, radians, sqrt
 
 from ...events import Defect, DefectFound, Flaw, SampleGap, StrideTaken
 from ...foot.view import FASTEST_RUN, FootView
 from ...types import PerFoot, Site, per_foot
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, evolve, field, stateful
 from ...types.vector import GRAVITY
 from ..activity.flights import HIGHEST_RISE, integrated_rise
-from ..part import Part, PartInput, PartOutput, Replacement
+from ..part import Inputs, Outputs, Part, PartOutput, Replacement
 from .stances import Finding
 
 LONGEST_LEG = 1.15
@@ -71,15 +70,15 @@ class FootRecord:
     """Flag: it was reported that most strides are impossible."""
 
 
-@define
+@stateful
 class PossibleMotion(Part):
     """Marks impossible strides as degraded, and reports them once, and once more when most strides are impossible.
 
     Latency: none; a stride is replaced before the parts after this one receive it."""
 
-    feet: PerFoot[FootRecord] = field(factory=lambda: per_foot(FootRecord), init=False)
+    feet: PerFoot[FootRecord] = field(factory=lambda: per_foot(FootRecord))
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         outputs: list[PartOutput] = []
         for event in events:
             if isinstance(event, StrideTaken):
@@ -92,7 +91,7 @@ class PossibleMotion(Part):
                     record.one_reported = record.all_reported = True  # the cause is known
         return outputs
 
-    def _add_stride(self, event: StrideTaken, record: FootRecord) -> Sequence[PartOutput]:
+    def _add_stride(self, event: StrideTaken, record: FootRecord) -> Outputs:
         motion = impossible_motion(event)
         reason = motion or impossible_angle(event)
         record.recent = (*record.recent[1 - MOST_RECENT :], reason is not None)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import ClassVar, Final
+from collections.abc import Iterable
+from typing import Final
 
 from ...events import Defect, DefectFound, HeelStrike, SampleRejected, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Site, Vec3, per_foot
-from ...types.attrs import define, field
-from ..part import Part, PartInput, PartOutput
+from ...types.attrs import define, field, stateful
+from ..part import Inputs, Outputs, Part, PartOutput
 from .axes import AxesCheck, BandwidthCheck
 from .readings import (
     ACCELEROMETER,
@@ -70,7 +70,7 @@ class SensorCheck:
     """Correction of the axes that was reported."""
 
 
-@define
+@stateful
 class SensorChecks(Part):
     """Reports what cannot be right in the samples of a foot, as DefectFound; a defect is reported once for a device.
 
@@ -86,11 +86,11 @@ class SensorChecks(Part):
     Cost: sums over blocks of 32 samples. Strides are examined until some of them have shown that the axes, gravity and
     bandwidth are right, and again after 300 s."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
 
-    feet: PerFoot[SensorCheck] = field(factory=lambda: per_foot(SensorCheck), init=False)
+    feet: PerFoot[SensorCheck] = field(factory=lambda: per_foot(SensorCheck))
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample and events; return the defects that they show."""
         outputs: list[PartOutput] = []
         if view is not None and (acc := view.sample.acc) is not None and (gyro := view.sample.gyro) is not None:
@@ -123,7 +123,7 @@ class SensorChecks(Part):
         if site.foot is not None:
             self.feet[site.foot] = SensorCheck()
 
-    def finish(self, now: float) -> Sequence[PartOutput]:
+    def finish(self, now: float) -> Outputs:
         """Return wrong axes that too few strides have shown for them to be reported before."""
         return [
             event

@@ -16,18 +16,18 @@ its signal and returns is treated as in `MeanOfFeet`."""
 from __future__ import annotations
 
 from cmath import phase, rect
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import partial
 from math import hypot
-from typing import TYPE_CHECKING, ClassVar, Final
+from typing import TYPE_CHECKING, Final
 
 from ...calibration import Calibration, usual_strides
 from ...events import Defect, DefectFound, PositionReported, SampleGap, StrideTaken
 from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Phase, Site, Vec2, Vec3, per_foot
-from ...types.attrs import define, field, frozen
+from ...types.attrs import define, field, frozen, stateful
 from ...types.vector import ZERO, add, sub, wrap_angle
-from ..part import Notice, PartInput, PartOutput, Position, Shift, StartGiven
+from ..part import Inputs, Outputs, PartOutput, Position, Shift, StartGiven
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import FEET, RATE, WIDTH, TrackErrorFilter, feet_apart, standing_foot
 from .moving_ground import MovingGround
@@ -114,42 +114,42 @@ class BothFeetSettings:
     """Flag: straight ways show the drift of the heading, and whether its calibration fits (straight_ways.py)."""
 
 
-@define
+@stateful
 class BothFeet(MeanOfFeet):
     """The mean position of two feet whose headings and positions correct each other, or the position of a foot alone.
 
     Latency: none; a foot itself is corrected at its next foot-flat, if its corrector accepts shifts."""
 
-    notices: ClassVar[tuple[type[Notice], ...]] = (StartGiven,)
+    notices = (StartGiven,)
 
     settings: BothFeetSettings = BothFeetSettings()
-    errors: TrackErrorFilter = field(factory=TrackErrorFilter, init=False)
+    errors: TrackErrorFilter = field(factory=TrackErrorFilter)
     """Covariance of the errors of both tracks, of which only the differences are used."""
-    common: CommonError = field(factory=CommonError, init=False)
+    common: CommonError = field(factory=CommonError)
     """Covariance of the errors that both tracks share."""
-    straight_ways: StraightWays = field(factory=StraightWays, init=False)
-    ground: MovingGround = field(factory=MovingGround, init=False)
-    compass: Compass | None = field(default=None, init=False)
+    straight_ways: StraightWays = field(factory=StraightWays)
+    ground: MovingGround = field(factory=MovingGround)
+    compass: Compass | None = None
     """The compass; None until a sample has a magnetic field."""
-    measured_at: float = field(default=0.0, init=False)
+    measured_at: float = 0.0
     """Time of the newest sample that the compass has, s."""
-    plan_start: PlanStart | None = field(default=None, init=False)
+    plan_start: PlanStart | None = None
     """Wearer's first place on the floor plan, in whose frame a person may report positions; None if it or the first
     heading is not known there."""
-    path: WalkedPath = field(factory=WalkedPath, init=False)
+    path: WalkedPath = field(factory=WalkedPath)
     """Path of the wearer so far."""
-    started: bool = field(default=False, init=False)
+    started: bool = False
     """Flag: both feet have had samples."""
-    distance: float = field(default=0.0, init=False)
+    distance: float = 0.0
     """Distance walked, m; it is counted up to `ALIGNMENT_DISTANCE`."""
-    width: float = field(default=WALKING_WIDTH, init=False)
+    width: float = WALKING_WIDTH
     """Walking width, m."""
-    strides: PerFoot[DirectedStride | None] = field(factory=lambda: dict.fromkeys(Foot), init=False)
+    strides: PerFoot[DirectedStride | None] = field(factory=lambda: dict.fromkeys(Foot))
     """Newest stride of each foot."""
-    divergence: float | None = field(default=None, init=False)
+    divergence: float | None = None
     """The newest angle between the tracks, rad; None before any and after a correction."""
-    directions: PerFoot[WalkingDirection] = field(factory=lambda: per_foot(WalkingDirection), init=False)
-    placements: PerFoot[tuple[float, Vec3]] = field(factory=lambda: dict.fromkeys(Foot, (0.0, ZERO)), init=False)
+    directions: PerFoot[WalkingDirection] = field(factory=lambda: per_foot(WalkingDirection))
+    placements: PerFoot[tuple[float, Vec3]] = field(factory=lambda: dict.fromkeys(Foot, (0.0, ZERO)))
     """Turn, rad, and offset, m, of each track when alignment ended; later corrections go to the feet themselves."""
 
     def calibrated(self, calibration: Calibration) -> BothFeet:
@@ -159,7 +159,7 @@ class BothFeet(MeanOfFeet):
             self.straight_ways.use_calibration(calibration.headings)
         return self
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
         if view is not None:
             returning = self.return_strides
@@ -207,7 +207,7 @@ class BothFeet(MeanOfFeet):
             compass = self.compass = Compass()
         compass.feet[view.foot].add_sample(view, mag)
 
-    def _use_position(self, event: PositionReported) -> Sequence[PartOutput]:
+    def _use_position(self, event: PositionReported) -> Outputs:
         """Correct both tracks by a reported position, reject it, or note a new place without an event."""
         from .reported_position import ReportedPosition, in_world_frame
 
@@ -253,16 +253,14 @@ class BothFeet(MeanOfFeet):
     def _keep_placements(self) -> None:
         self.placements = {foot: (track.turn, track.offset) for foot, track in self.tracks.items()}
 
-    def _add_stride(self, event: StrideTaken, after: AfterEvents) -> Sequence[PartOutput]:
+    def _add_stride(self, event: StrideTaken, after: AfterEvents) -> Outputs:
         """Correct a stride by what was seen before it, compare it with the other foot, and learn from the way so far.
 
         Returns what was found, and the correction of the foot."""
         foot, common, length, turn = event.foot, self.common, event.length, event.heading_change
         this, other = self.tracks[foot], self.tracks[OTHER[foot]]
-        for number in (*event.position, *event.displacement, *event.covariance):
-            if not abs(number) < MAX_TRACK_VALUE:
-                return self._restart()
-        if self.errors.diverged:
+        numbers = (*event.position, *event.displacement, *event.covariance)
+        if self.errors.diverged or not all([abs(number) < MAX_TRACK_VALUE for number in numbers]):
             return self._restart()
         alone = not (self.started and other.is_here)
         share = common.start_stride(foot, alone)
@@ -411,7 +409,7 @@ class BothFeet(MeanOfFeet):
                 x, y, yaw = errors[FEET[foot] : FEET[foot] + RATE]
                 self.tracks[foot].correct(end, yaw, complex(x, y), complex(*self.errors.centre))
 
-    def _shift_foot(self, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
+    def _shift_foot(self, foot: Foot, takes_shifts: bool) -> Outputs:
         """Return the correction that has accumulated for the foot since its last one, and reset its placement."""
         this, stride = self.tracks[foot], self.strides[foot]
         if stride is not None and self.distance < ALIGNMENT_DISTANCE:
@@ -425,7 +423,7 @@ class BothFeet(MeanOfFeet):
             return [Shift(foot, yaw - this.turn, shift)]
         return ()
 
-    def _restart(self) -> Sequence[PartOutput]:
+    def _restart(self) -> Outputs:
         """Restart the error filter, because its estimates or a stride have impossible values."""
         self.errors.start()
         self.strides = dict.fromkeys(Foot)

@@ -33,6 +33,7 @@ from math import exp, fsum, sqrt
 from ...calibration import HeadingCalibration
 from ...foot.navigate.bias import BIAS_WANDER, FIRST_BIAS, Bias
 from ...foot.navigate.corrector import LONGEST_FILLED_GAP
+from ...foot.world import Covariance2
 from ...types import OTHER, Foot, PerFoot
 from ...types.attrs import define, evolve, field, frozen
 
@@ -167,16 +168,12 @@ class CommonError:
         """Return the variance of drift and bias together, (rad a stride)^2, with strides of this duration, s."""
         return max(0.0, self._drift([self._drift(row, stride_time) for row in self.covariance], stride_time))
 
-    def bias_variance(self) -> float:
-        """Return the variance of the rate at which the biases of the feet turn the heading, (rad/s)^2."""
-        return self.variance_of([(row + BIAS, self.shares[foot]) for foot, row in FEET.items()])
-
     @property
     def heading_sigma(self) -> float:
         """Standard deviation of the heading, rad."""
         return sqrt(max(0.0, self.covariance[HEADING][HEADING]))  # below 0 only by rounding
 
-    def position_covariance(self, displacement: complex, since: int | None = None) -> tuple[float, float, float]:
+    def position_covariance(self, displacement: complex, since: int | None = None) -> Covariance2:
         """Return the covariance of the position: xx, xy, yy, m^2.
 
         `displacement` is that from the first position, m; or from a place whose errors have the rows from `since` on,
@@ -205,7 +202,7 @@ class CommonError:
 
     def propagate(
         self, foot: Foot, strides: float, turn: float, duration: float, displacement: complex,
-        variance: tuple[float, float, float],
+        variance: Covariance2,
     ) -> None:  # fmt: skip
         """Propagate the covariance over a stride of a foot with this `displacement`, m.
 

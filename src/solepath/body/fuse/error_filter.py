@@ -22,6 +22,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import exp, hypot
 
+from ...foot.world import Covariance2
 from ...types import OTHER, Foot, PerFoot, Vec2, per_foot
 from ...types.attrs import define, field
 from .common_error import Term, column
@@ -108,7 +109,7 @@ class TrackErrorFilter:
             p[moved][moved] += sigma * sigma
 
     def propagate(
-        self, foot: Foot, times: Vec2, end: complex, displacement: complex, variance: tuple[float, float, float],
+        self, foot: Foot, times: Vec2, end: complex, displacement: complex, variance: Covariance2,
         degraded: bool,
     ) -> None:  # fmt: skip
         """Propagate the covariance over a stride of a foot, with the `times` of its stance and swing, s.

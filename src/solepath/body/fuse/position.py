@@ -11,16 +11,15 @@ Horizontal vectors are complex numbers x + iy, m, where they are not part of a s
 from __future__ import annotations
 
 from cmath import phase, rect
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from math import cos, fsum, hypot, sin
-from typing import ClassVar
 
 from ...foot.view import FootPose, FootView
-from ...foot.world import Covariance3
+from ...foot.world import Covariance2, Covariance3
 from ...types import OTHER, Foot, PerFoot, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, add, sub, turned
-from ..part import PartInput, PartOutput, Position, TrackPart
+from ..part import Inputs, Outputs, Position, TrackPart
 
 ABSENCE_TIME = 1.0
 """Time without samples, s, after which a foot is absent while the other foot has samples."""
@@ -100,7 +99,7 @@ class PlacedTrack:
         own = complex(x - off_x, y - off_y) * rect(1.0, -self.turn)
         return (own.real, own.imag, z - off_z)
 
-    def turned_covariance(self, own: Covariance3) -> tuple[float, float, float]:
+    def turned_covariance(self, own: Covariance3) -> Covariance2:
         """Return the horizontal covariance `own` of the foot's own track in the common frame: xx, xy, yy, m^2."""
         xx, xy, _, yy, _, _ = own
         c, s = cos(self.turn), sin(self.turn)
@@ -128,7 +127,7 @@ class MeanOfFeet(TrackPart):
 
     After an alignment both feet have the same error, so the covariance is that of the foot that was not absent."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
 
     tracks: PerFoot[PlacedTrack] = field(factory=lambda: per_foot(PlacedTrack), init=False)
     placed_last: Foot | None = field(default=None, init=False)
@@ -145,7 +144,7 @@ class MeanOfFeet(TrackPart):
         left, right = self.tracks.values()
         return not (left.unplaced or right.unplaced)
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add one sample of a foot and detect an absent or returned foot; returns no output."""
         if view is not None:
             self.add_view(view)

@@ -8,6 +8,7 @@ from itertools import accumulate, pairwise
 from math import exp, fsum, hypot, sqrt
 
 from ...events import PositionRejected, PositionReported, TrackNode, TrackRevised
+from ...foot.world import Covariance2
 from ...types import Vec2
 from ...types.attrs import evolve, frozen
 from ...types.vector import pair
@@ -102,7 +103,7 @@ class ReportedPosition:
         path.add_node(TrackNode(self.event.t, position.real, position.imag))
         path.places[name] = NotedPlace(first, len(path.nodes) - 1)
 
-    def _covariance(self, since: int | None) -> tuple[float, float, float]:
+    def _covariance(self, since: int | None) -> Covariance2:
         """Return the covariance of the way from the known position, or from the place whose rows begin at `since`."""
         start = complex(*self.path.known) if since is None else self.error.aid(since)
         return self.error.position_covariance(self.place() - start, since)

@@ -29,7 +29,7 @@ from ...events import Defect, DefectFound, StrideTaken
 from ...types import Foot, Vec2
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import add, wrap_angle
-from .common_error import DRIFT, FEET, MAX_TURN_BACK, NO_MOVE, TURN, TURNING, CommonError, Move
+from .common_error import BIAS, DRIFT, FEET, MAX_TURN_BACK, NO_MOVE, TURN, TURNING, CommonError, Move
 
 MAX_FOOT_TURN = 0.2
 """Largest turn of a foot in a stride of a stretch, rad; feet turn by some degrees from stride to stride anyway."""
@@ -167,7 +167,9 @@ class Straightness:
         paused = self.t is not None and abs(t - self.t) > MAX_PAUSE  # the feet's clocks may be apart
         self.t = t
         if paused or abs(turn) > MAX_FOOT_TURN or hypot(displacement.real, displacement.imag) < MIN_ADVANCE:
-            return self.break_off()
+            found = self._end(self.recent[-1]) if self.recent else None
+            self.recent, self.left_out = [], 0
+            return found
         if self.left_out:
             self.left_out -= 1
             return None
@@ -187,12 +189,6 @@ class Straightness:
             return None
         found = self._end(self.recent[-1])
         self._start(self.direction)
-        return found
-
-    def break_off(self) -> Places | None:
-        """End the stretch at a stride that cannot belong to one; return it, if it is long enough."""
-        found = self._end(self.recent[-1]) if self.recent else None
-        self.recent, self.left_out = [], 0
         return found
 
     def reset(self) -> None:
@@ -347,8 +343,14 @@ class StraightWays:
             return NO_MOVE, None
         t = found.stride_time
         if self.calibrated is not None:
-            fit = self.fit = self.fit or _first_fit(self.calibrated, common)
-            bias_known = evolve(found, variance=found.variance + t * t * common.bias_variance())
+            fit = self.fit
+            if fit is None:
+                known, usual = common.drift_variance(0.0), _square_share(common) * DRIFT * DRIFT
+                other = DriftHypothesis(-_mean_drift(self.calibrated, common), usual + known)
+                fit = self.fit = CalibrationFit(DriftHypothesis(0.0, known), other)
+            # of the rate at which the biases of the feet turn the heading
+            rate_variance = common.variance_of([(row + BIAS, common.shares[foot]) for foot, row in FEET.items()])
+            bias_known = evolve(found, variance=found.variance + t * t * rate_variance)
             if fit.add(bias_known, found.drift + common.drift_with_bias(t)):
                 rate = fit.other.drift / t if t > 0.0 else 0.0  # feet whose clocks are apart may show no time
                 return self._drop(self.calibrated, fit.other, common), MISFIT.format(abs(degrees(60.0 * rate)))
@@ -394,10 +396,3 @@ def _mean_drift(calibrated: tuple[float, ...], common: CommonError) -> float:
 
 def _square_share(common: CommonError) -> float:
     return fsum([share * share for share in common.shares.values()])
-
-
-def _first_fit(calibrated: tuple[float, ...], common: CommonError) -> CalibrationFit:
-    known = common.drift_variance(0.0)
-    usual = _square_share(common) * DRIFT * DRIFT
-    other = DriftHypothesis(-_mean_drift(calibrated, common), usual + known)
-    return CalibrationFit(DriftHypothesis(0.0, known), other)

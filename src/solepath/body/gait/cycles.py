@@ -4,9 +4,6 @@ Latency: see GaitCycleMeasured. Samples without events cost almost no computing 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import ClassVar
-
 from ...events import (
     Defect,
     DefectFound,
@@ -21,8 +18,8 @@ from ...events import (
 from ...events.foot import LONGEST_HARMLESS_GAP
 from ...foot.view import FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, per_foot
-from ...types.attrs import define, field
-from ..part import ClockUnsettled, Notice, Part, PartInput, PartOutput
+from ...types.attrs import define, field, stateful
+from ..part import ClockUnsettled, Inputs, Outputs, Part, PartOutput
 from .means import GaitMeans, GaitParameters
 
 # Gait cycles of one foot, from its phase events.
@@ -263,18 +260,18 @@ MAX_WAIT = 0.5
 """Longest time for which a cycle waits for the other foot's samples, s."""
 
 
-@define
+@stateful
 class GaitCycles(Part):
     """Measures gait cycles from the events of both feet and returns GaitCycleMeasured; `means` has running means."""
 
-    needs_samples: ClassVar[bool] = True
-    notices: ClassVar[tuple[type[Notice], ...]] = (ClockUnsettled,)
+    needs_samples = True
+    notices = (ClockUnsettled,)
 
-    feet: PerFoot[Footfalls] = field(factory=lambda: per_foot(Footfalls), init=False)
-    means: GaitMeans = field(factory=GaitMeans, init=False)
-    idle: bool = field(default=True, init=False)
+    feet: PerFoot[Footfalls] = field(factory=lambda: per_foot(Footfalls))
+    means: GaitMeans = field(factory=GaitMeans)
+    idle: bool = True
     """Flag: no cycle waits for samples of the other foot."""
-    clocks_apart: bool = field(default=False, init=False)
+    clocks_apart: bool = False
     """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 
     @property
@@ -282,7 +279,7 @@ class GaitCycles(Part):
         """Running means of walking or of running, by the newest cycle in the means; None before any."""
         return self.means.parameters
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its events and return the cycles that are complete."""
         outputs = () if view is None else self._add_sample(view, events)
         for event in events:
@@ -293,7 +290,7 @@ class GaitCycles(Part):
                 self.feet[event.site.foot].unsettled = event.until
         return outputs
 
-    def _add_sample(self, view: FootView, events: Sequence[PartInput]) -> Sequence[PartOutput]:
+    def _add_sample(self, view: FootView, events: Inputs) -> Outputs:
         if self.idle and view.after is None:
             return ()
         this = self.feet[view.foot]
@@ -323,7 +320,7 @@ class GaitCycles(Part):
             this.close_cycle()
         return self._release(view.known_at)
 
-    def finish(self, now: float) -> Sequence[PartOutput]:
+    def finish(self, now: float) -> Outputs:
         """Return the cycles that still wait, because no more samples come."""
         for falls in self.feet.values():
             falls.close_cycle()
@@ -339,7 +336,7 @@ class GaitCycles(Part):
             falls = self.feet[site.foot]
             self.feet[site.foot] = Footfalls(count=falls.count, unsettled=falls.unsettled)
 
-    def _release(self, known_at: float) -> Sequence[PartOutput]:
+    def _release(self, known_at: float) -> Outputs:
         """Return the cycles that end before the other foot's newest sample, or that have waited for `MAX_WAIT`."""
         outputs: list[PartOutput] = []
         self.idle = True

@@ -16,7 +16,7 @@ from typing import Any
 
 from ...events import GaitCycleMeasured
 from ...types import Foot, PerFoot, ValueEnum, per_foot
-from ...types.attrs import define, evolve, field, frozen
+from ...types.attrs import define, evolve, field, frozen, stateful
 
 MEMORY_STRIDES = 120
 """Number of strides of a foot after which older strides fade."""
@@ -192,18 +192,18 @@ def _figures(means: dict[Parameter, RunningMean]) -> StrideFigures:
     return StrideFigures(**{one.value: mean.figure for one, mean in means.items() if one is not Parameter.OFF_PHASE})
 
 
-@define
+@stateful
 class GaitMeans:
     """The running means of the steady strides of both feet.
 
     A stride is added when the next stride of its foot follows, so that the last stride before a stop is left out."""
 
-    newest: PerFoot[GaitCycleMeasured | None] = field(factory=lambda: dict.fromkeys(Foot), init=False)
+    newest: PerFoot[GaitCycleMeasured | None] = field(factory=lambda: dict.fromkeys(Foot))
     """Newest stride of each foot."""
-    walking_means: ParameterMeans = field(factory=ParameterMeans, init=False)
-    running_means: ParameterMeans = field(factory=ParameterMeans, init=False)
+    walking_means: ParameterMeans = field(factory=ParameterMeans)
+    running_means: ParameterMeans = field(factory=ParameterMeans)
     """Running means of the strides of a runner."""
-    running: bool | None = field(default=None, init=False)
+    running: bool | None = None
     """Flag: the newest stride in the means was a running stride; None before any."""
 
     def add(self, stride: GaitCycleMeasured, memory: int = MEMORY_STRIDES) -> None:

@@ -9,16 +9,14 @@ angle is used."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import fsum, pi
-from typing import ClassVar
 
 from ...events import FootFlat, StrideTaken, TurnMade
 from ...foot.view import AfterEvents, FootView
 from ...types import OTHER, Foot, PerFoot, Quat, Site, Turn, per_foot
-from ...types.attrs import define, field, frozen
+from ...types.attrs import define, field, frozen, stateful
 from ...types.vector import heading_turned
-from ..part import Part, PartInput, PartOutput
+from ..part import Inputs, Outputs, Part, PartOutput
 
 # Separation of turning strides from straight strides (Liu et al. 2015, IEEE MASS, section IV.D).
 #
@@ -45,14 +43,14 @@ MAX_STRAIGHT_TURN = 0.3
 """Largest size of the estimated usual turn, rad."""
 
 
-@define
+@stateful
 class TurningStrideFilter:
     """The low-pass filter of one foot's turns; time and memory are O(1), and there is no latency."""
 
-    straight_turn: float = field(default=0.0, init=False)
+    straight_turn: float = 0.0
     """Usual turn of a straight stride, rad, counter-clockwise positive."""
 
-    straight_deviation: float | None = field(default=0.0, init=False)
+    straight_deviation: float | None = 0.0
     """Deviation of the last stride from the usual turn, rad, or 0; None when the path has turned with it."""
 
     def turn(self, angle: float) -> float:
@@ -145,21 +143,21 @@ class FootTurn:
     """Number of straight strides since the foot's last turning stride."""
 
 
-@define
+@stateful
 class TurnDetector:
     """Detects turns, each from its first to its last turning stride.
 
     Latency: a turn is known after `STRAIGHT_STRIDES` straight strides of the feet (two strides when only one foot has
     samples), or after the feet have stood for `MIN_PAUSE`."""
 
-    feet: PerFoot[FootTurn] = field(factory=lambda: per_foot(FootTurn), init=False)
-    t_start: float | None = field(default=None, init=False)
+    feet: PerFoot[FootTurn] = field(factory=lambda: per_foot(FootTurn))
+    t_start: float | None = None
     """Start of the first turning stride of the process, s; None outside a turn."""
-    t_end: float = field(default=0.0, init=False)
+    t_end: float = 0.0
     """End of the last turning stride, s."""
-    pause: float = field(default=MIN_PAUSE, init=False)
+    pause: float = MIN_PAUSE
     """Pause that ends the turn under way, s."""
-    previous_end: float | None = field(default=None, init=False)
+    previous_end: float | None = None
     """End of the previous turn, s; None before any."""
 
     def add_stride(self, event: StrideTaken) -> TurnProcess | None:
@@ -284,19 +282,19 @@ class FlatFoot:
     attitude: Quat
 
 
-@define
+@stateful
 class Turns(Part):
     """Detects and classifies turns from strides and pivots; see `TurnDetector` for the latency."""
 
-    needs_samples: ClassVar[bool] = True
+    needs_samples = True
 
-    detector: TurnDetector = field(factory=TurnDetector, init=False)
-    last_flat: dict[Foot, FlatFoot] = field(factory=dict, init=False)
+    detector: TurnDetector = field(factory=TurnDetector)
+    last_flat: dict[Foot, FlatFoot] = field(factory=dict)
     """Newest foot-flat of each foot."""
-    idle: bool = field(default=True, init=False)
+    idle: bool = True
     """Flag: no turn is under way."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its events and return the turns that have ended."""
         if view is None:
             return ()
@@ -314,7 +312,7 @@ class Turns(Part):
         self.idle = self.detector.t_start is None
         return outputs
 
-    def _add_foot_flat(self, events: Sequence[PartInput], after: AfterEvents, event: FootFlat) -> TurnProcess | None:
+    def _add_foot_flat(self, events: Inputs, after: AfterEvents, event: FootFlat) -> TurnProcess | None:
         """Add a foot-flat, before which the foot may have pivoted without a stride."""
         previous, attitude = self.last_flat.get(event.foot), after.flat_attitude
         self.last_flat[event.foot] = FlatFoot(event.t, attitude)
@@ -325,7 +323,7 @@ class Turns(Part):
                 return None
         return self.detector.add_pivot(event.foot, previous.t, event.t, heading_turned(previous.attitude, attitude))
 
-    def finish(self, now: float) -> Sequence[PartOutput]:
+    def finish(self, now: float) -> Outputs:
         """Return the turn under way, if any, because no more samples come."""
         return turn_made(self.detector.finish(), now)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from cmath import rect
 from math import cos, isfinite, pi, radians, sin, sqrt
 
-from ...types import Vec3
+from ...types import Vec2, Vec3
 from ...types.vector import dot, pair, sub
 from ..plan import MAX_LATITUDE, Anchor, FloorPlanError, Point
 
@@ -58,7 +58,7 @@ def _earth_fixed(latitude: float, longitude: float) -> Vec3:
     return prime * x, prime * y, prime * (1.0 - _E2) * z
 
 
-def south_west(positions: list[tuple[float, float]]) -> Anchor:
+def south_west(positions: list[Vec2]) -> Anchor:
     """Return the south-west corner of points (longitude, latitude), degrees, as an anchor with +y to the north.
 
     It is rounded to 1e-7 degrees (1 cm). Raises FloorPlanError without points, and when they cannot be degrees."""

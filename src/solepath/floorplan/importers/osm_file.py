@@ -11,6 +11,7 @@ from xml.etree.ElementTree import XML, ParseError, TreeBuilder, XMLParser
 from xml.etree.ElementTree import Element as XmlElement
 from xml.parsers.expat import ErrorString
 
+from ...types import Vec2
 from ...types.attrs import frozen
 from ..plan import FloorPlanError
 
@@ -27,7 +28,7 @@ class Element:
 
     kind: str
     id: str
-    position: tuple[float, float]
+    position: Vec2
     refs: list[str]
     members: list[tuple[str, str, str]]
     tags: dict[str, str]

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ...types import Layout, Phase, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, stateful
 from ..phase import LOADING, PUSH_OFF, STATIONARY, SWING, Cue
 from ..stance.stance import Load, Stance
 from .cues import MOST_SINGLE_CELLS, Cues, TimedCue
@@ -84,17 +84,17 @@ def _crossing(t: float, dt: float, previous_load: float, current_load: float, le
     return t - dt * (current_load - level) / (current_load - previous_load)
 
 
-@define
+@stateful
 class GaitCues(Cues):
     """Detects gait events from the inertial sensor and the load.
 
     Latency: that of `InertialCues`, or of `PressureCues` with pressure cells."""
 
-    inertial: InertialCues = field(factory=InertialCues, init=False)
-    pressure: PressureCues = field(factory=PressureCues, init=False)
-    touch: Touch | None = field(default=None, init=False)
+    inertial: InertialCues = field(factory=InertialCues)
+    pressure: PressureCues = field(factory=PressureCues)
+    touch: Touch | None = None
     """Detector of ground contact for an insole of few cells; None until there is one."""
-    sagittal: float = field(default=0.0, init=False)
+    sagittal: float = 0.0
     """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s; 0 if unknown."""
 
     def set_layout(self, layout: Layout) -> None:

@@ -16,7 +16,7 @@ The numbers were chosen by hand and not swept."""
 from __future__ import annotations
 
 from ...types import Layout
-from ...types.attrs import define, evolve, field, frozen
+from ...types.attrs import evolve, field, frozen, stateful
 from ...types.vector import TIME_EPSILON
 from ..pressure.insole import Extremes, centre
 from ..stance.stance import Load
@@ -54,28 +54,28 @@ class TouchSettings:
     """Load below which the foot leaves the ground, as a share of the full load."""
 
 
-@define
+@stateful
 class Touch:
     """Detects ground contact from the load. Latency: none. At first the foot is on the ground."""
 
     settings: TouchSettings = TouchSettings()
-    trusted: bool = field(default=False, init=False)
+    trusted: bool = False
     """The cells were right in the last swing, and nothing has contradicted them since."""
-    moving_since: float | None = field(default=None, init=False)
+    moving_since: float | None = None
     """Time since which the foot moves without load, or with unknown load, s; None while it does not."""
-    still_since: float | None = field(default=None, init=False)
+    still_since: float | None = None
     """Time since which the foot stands still although the cells show no load, s; None while it does not."""
-    load_unknown: bool = field(default=True, init=False)
+    load_unknown: bool = True
     """The load of the last sample is unknown."""
-    airborne: bool = field(default=False, init=False)
+    airborne: bool = False
     """The foot is in the air according to the cells."""
-    cells: list[Extremes] = field(factory=list, init=False)
+    cells: list[Extremes] = field(factory=list)
     """Lowest and highest recent value of each cell."""
-    in_front: list[bool] = field(factory=list, init=False)
+    in_front: list[bool] = field(factory=list)
     """Flag for each cell, True in the front half of the foot; empty without a layout."""
-    front_peak: float = field(default=0.0, init=False)
+    front_peak: float = 0.0
     """Highest load of any front cell since the last contact, as a share of its range."""
-    landed_at: float = field(default=0.0, init=False)
+    landed_at: float = 0.0
     """Time of the last contact, s."""
 
     def set_layout(self, layout: Layout) -> None:

@@ -21,7 +21,7 @@ from math import asin, fsum, sqrt
 from typing import NamedTuple
 
 from ...types import Quat, Vec3
-from ...types.attrs import define, field, frozen
+from ...types.attrs import define, field, frozen, stateful
 from ...types.vector import (
     GRAVITY,
     IDENTITY,
@@ -360,25 +360,25 @@ State = tuple[Quat, Vec3, Vec3, Covariance]
 """Attitude (sensor to navigation frame), velocity (m/s), position (m) and their covariance."""
 
 
-@define
+@stateful
 class Recovery:
     """Correction of the state of a filter for the clipped peaks of both sensors of one foot."""
 
-    gyro_clipping: Clipping = field(factory=Clipping, init=False)
+    gyro_clipping: Clipping = field(factory=Clipping)
     """Clipping of the gyroscope."""
-    acc_clipping: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
+    acc_clipping: Clipping = field(factory=lambda: Clipping(ACCELEROMETER))
     """Clipping of the accelerometer."""
-    last_acc: Vec3 = field(default=ZERO, init=False)
+    last_acc: Vec3 = ZERO
     """Last acc, sensor frame, m/s^2."""
-    earlier_acc: Vec3 = field(default=ZERO, init=False)
+    earlier_acc: Vec3 = ZERO
     """Acc before the last one, sensor frame, m/s^2."""
-    swing: SwingSamples = field(factory=SwingSamples, init=False)
+    swing: SwingSamples = field(factory=SwingSamples)
     """Samples since the gyroscope came near the end of its range."""
-    earlier_rate: Vec3 = field(default=ZERO, init=False)
+    earlier_rate: Vec3 = ZERO
     """Rate before the last one, sensor frame, rad/s."""
-    earlier_dt: float = field(default=0.0, init=False)
+    earlier_dt: float = 0.0
     """Time between the last two samples, s."""
-    watches: bool = field(default=False, init=False)
+    watches: bool = False
     """The next sample is watched wherever it lies, because a sensor was near the end of its range in this one."""
 
     def watch(

@@ -40,14 +40,7 @@ HEIGHT = PAIRS.index((2, 2))
 
 
 def propagate(
-    covariance: Covariance,
-    dt: float,
-    s: tuple[float, float, float],
-    d: tuple[float, float, float],
-    q_pp: float,
-    q_pv: float,
-    q_vv: float,
-    q_tt: float,
+    covariance: Covariance, dt: float, s: Vec3, d: Vec3, q_pp: float, q_pv: float, q_vv: float, q_tt: float
 ) -> Covariance:
     """Return P <- F P F' + Q over an interval of `dt` s.
 

@@ -15,7 +15,7 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 from ...types import Quat, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, stateful
 from ...types.vector import GRAVITY, TIME_EPSILON, ZERO, sub, tipped
 from ..phase import STATIONARY
 from ..rhythm import StanceRhythm
@@ -157,7 +157,7 @@ class IndependentInterval:
         )
 
 
-@define
+@stateful
 class ErrorStateFilter(Strapdown):
     """Strapdown navigation with stance evidence, weighted by the covariance of the motion so far.
 
@@ -168,35 +168,35 @@ class ErrorStateFilter(Strapdown):
     table in that document gives the accuracy of the default recipe without whole terms of the filter."""
 
     settings: ErrorStateSettings = ErrorStateSettings()
-    uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
+    uncertainty: Covariance = (0.0,) * 45
     """Covariance at the last propagation."""
-    elapsed: float = field(default=0.0, init=False)
+    elapsed: float = 0.0
     """Time since the covariance was last propagated, s."""
-    start_velocity: Vec3 = field(default=ZERO, init=False)
+    start_velocity: Vec3 = ZERO
     """Velocity at the last propagation, navigation frame, m/s."""
-    start_position: Vec3 = field(default=ZERO, init=False)
+    start_position: Vec3 = ZERO
     """Position at the last propagation, navigation frame, m."""
-    acc_variance: float = field(default=0.0, init=False)
+    acc_variance: float = 0.0
     """Variance that noise has added to each axis of the velocity since the last propagation, (m/s)^2."""
-    gyro_variance: float = field(default=0.0, init=False)
+    gyro_variance: float = 0.0
     """Variance that noise has added to each angle since the last propagation, rad^2."""
-    time_since_anchor: float = field(default=0.0, init=False)
+    time_since_anchor: float = 0.0
     """Time since the last anchor, s."""
-    level: LevelGround = field(factory=LevelGround, init=False)
+    level: LevelGround = field(factory=LevelGround)
     """Height correction of level walking."""
-    accepted_at: float | None = field(default=None, init=False)
+    accepted_at: float | None = None
     """Time at which evidence was last accepted, s; None before any."""
-    gated: bool = field(default=False, init=False)
+    gated: bool = False
     """True if the gate has rejected evidence since `accepted_at`."""
-    evidence_since: float | None = field(default=None, init=False)
+    evidence_since: float | None = None
     """Start of the current unbroken evidence, s; None without evidence."""
-    velocity_error: Vec3 = field(default=ZERO, init=False)
+    velocity_error: Vec3 = ZERO
     """Error of the velocity at the first accepted evidence of the newest stance, m/s; see `Corrector`."""
-    rhythm: StanceRhythm = field(factory=StanceRhythm, init=False)
+    rhythm: StanceRhythm = field(factory=StanceRhythm)
     """Usual durations of stance and swing, for evidence that the gate rejects."""
-    recovery: Recovery | None = field(default=None, init=False)
+    recovery: Recovery | None = None
     """Recovery of the clipped peaks of both sensors; None before any sample."""
-    interval: IndependentInterval = field(factory=IndependentInterval, init=False)
+    interval: IndependentInterval = field(factory=IndependentInterval)
     """Interval between independent readings, for the noise of what lies between two samples."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:

@@ -113,7 +113,11 @@ class LevelGround:
         slope_variance = SLOPE_SIGMA * SLOPE_SIGMA
         rise_variance = length * length * slope_variance
         gain = rise_variance / (level_variance + rise_variance)
-        level, slope, stair = self._priors()
+        # the prior probabilities, from the last stride
+        to_slope, to_stair = LEVEL_EXIT_PROBABILITIES
+        slope = (1.0 - self.slope) * to_slope + self.slope * STAY_PROBABILITIES[0]
+        stair = (1.0 - self.stair) * to_stair + self.stair * STAY_PROBABILITIES[1]
+        level = 1.0 - slope - stair
         level *= _normal_density(height, level_variance)
         slope *= _normal_density(height, level_variance + rise_variance)
         stair /= STAIR_HEIGHT_RANGE
@@ -143,13 +147,6 @@ class LevelGround:
             self._learn(level, height, length, variance, noise, up, pitch)
             self._follow_slope(slope, height / length, up)
         return (slope + stair) * height, level
-
-    def _priors(self) -> tuple[float, float, float]:
-        """Return the prior probabilities of level, slope and stair from the last stride."""
-        to_slope, to_stair = LEVEL_EXIT_PROBABILITIES
-        slope = (1.0 - self.slope) * to_slope + self.slope * STAY_PROBABILITIES[0]
-        stair = (1.0 - self.stair) * to_stair + self.stair * STAY_PROBABILITIES[1]
-        return 1.0 - slope - stair, slope, stair
 
     @staticmethod
     def _pitch_likelihood(difference: float, variance: float) -> float:

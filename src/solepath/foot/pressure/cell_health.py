@@ -326,8 +326,6 @@ class CellHealth:
     def _accept_count(self, t: float, known_at: float, count: int, layout: Layout | None, events: list[Event]) -> bool:
         """Return whether samples with `count` cells, a new number, are used from now on."""
         if self.count == 0:
-            if count == 0:
-                return False
             self._set_count(count)
             return True
         if count != self.wrong_count or t < self.wrong_count_since:

@@ -18,8 +18,8 @@ from operator import add
 
 from ...calibration import Newtons
 from ...events import Event, FootPressed, LayoutKnown
-from ...types import SITE_OF_FOOT, Cell, Foot, Layout, Phase, Sample
-from ...types.attrs import define, field
+from ...types import SITE_OF_FOOT, Cell, Foot, Layout, Phase, Sample, Vec2
+from ...types.attrs import define, field, stateful
 from ...types.vector import TIME_EPSILON
 from ..limitations import Limitations
 from ..settings import FootSettings, InsoleSettings
@@ -71,7 +71,7 @@ class Extremes:
             self.high = max(self.high, value)
 
 
-@define
+@stateful
 class InsoleLoads:
     """Converts the cell values of one insole to a `Load`.
 
@@ -80,30 +80,30 @@ class InsoleLoads:
     deleting p_noise", equation (1))."""
 
     settings: InsoleSettings = InsoleSettings()
-    layout: Layout | None = field(default=None, init=False)
-    in_newtons: bool = field(default=False, init=False)
+    layout: Layout | None = None
+    in_newtons: bool = False
     """The device sends newtons, so `settings.newtons` is not used."""
-    cells: tuple[float, ...] = field(default=(), init=False)
+    cells: tuple[float, ...] = ()
     """Values of the cells of the current sample without noise, N or unit of the samples; () after their use."""
-    sum: float = field(default=0.0, init=False)
+    sum: float = 0.0
     """Sum of `cells`."""
-    heel_cells: tuple[int, ...] = field(default=(), init=False)
+    heel_cells: tuple[int, ...] = ()
     """Indices of the cells of the heel area."""
-    forefoot_cells: tuple[int, ...] = field(default=(), init=False)
+    forefoot_cells: tuple[int, ...] = ()
     """Indices of the cells of the forefoot area."""
-    total: Extremes = field(factory=Extremes, init=False)
+    total: Extremes = field(factory=Extremes)
     """Extremes of the total load."""
-    heel: Extremes = field(factory=Extremes, init=False)
+    heel: Extremes = field(factory=Extremes)
     """Extremes of the load of the heel area."""
-    forefoot: Extremes = field(factory=Extremes, init=False)
+    forefoot: Extremes = field(factory=Extremes)
     """Extremes of the load of the forefoot area."""
-    tare: list[float] = field(factory=list, init=False)
+    tare: list[float] = field(factory=list)
     """Value of each cell in the air, unit of the samples."""
-    tare_total: float = field(default=0.0, init=False)
+    tare_total: float = 0.0
     """Sum of the cells at the sample that gave the tare, unit of the samples."""
-    was_airborne: bool = field(default=False, init=False)
+    was_airborne: bool = False
     """The foot was in the air in the last sample."""
-    load_risen: bool = field(default=False, init=False)
+    load_risen: bool = False
     """The load has risen again after it had fallen, so that it is known."""
 
     def set_layout(self, layout: Layout) -> None:
@@ -171,7 +171,7 @@ class InsoleLoads:
         """Return the cells minus their tare, at least 0, unit of `cells`; without a tare the cells as they are."""
         return above(self.tare, cells) if len(cells) == len(self.tare) else cells
 
-    def centre_of_pressure(self, cells: tuple[float, ...]) -> tuple[float, float] | None:
+    def centre_of_pressure(self, cells: tuple[float, ...]) -> Vec2 | None:
         """Return the centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout.
 
         It is the mean of the positions of the cells, weighted by their load above tare: equations (2) and (3) of "Smart
@@ -297,28 +297,24 @@ class LayoutGuess:
         return self._layout() if self.stances >= STANCES_OF_ESTIMATE else None
 
     def _layout(self) -> Layout | None:
-        largest_weight = max(self.weights)
-        if largest_weight <= 0.0:
+        weights = self.weights
+        least = LEAST_CELL_LOAD * max(weights)
+        mean_times = [m / w if w > least else None for m, w in zip(self.relative_times, weights, strict=True)]
+        known_times = sorted([middle for middle in mean_times if middle is not None])
+        if not known_times or known_times[-1] <= known_times[0]:
             return None
-        is_loaded = [w > LEAST_CELL_LOAD * largest_weight for w in self.weights]
-        mean_times = [
-            m / w if loaded else 0.0 for m, w, loaded in zip(self.relative_times, self.weights, is_loaded, strict=True)
-        ]
-        known_times = [middle for middle, loaded in zip(mean_times, is_loaded, strict=True) if loaded]
-        if not known_times:
-            return None
-        earliest, latest = min(known_times), max(known_times)
-        if latest <= earliest:
-            return None
+        earliest, latest = known_times[0], known_times[-1]
         metres_per_time = (FRONT_POSITION - REAR_POSITION) * ASSUMED_LENGTH / (latest - earliest)
         xs = [
-            REAR_POSITION * ASSUMED_LENGTH + (middle - earliest) * metres_per_time if loaded else 0.5 * ASSUMED_LENGTH
-            for middle, loaded in zip(mean_times, is_loaded, strict=True)
+            0.5 * ASSUMED_LENGTH
+            if middle is None
+            else REAR_POSITION * ASSUMED_LENGTH + (middle - earliest) * metres_per_time
+            for middle in mean_times
         ]
         return Layout(ESTIMATED_LAYOUT_ID, self.foot, tuple([Cell(x, 0.0) for x in xs]), ASSUMED_LENGTH)
 
 
-@define
+@stateful
 class Sole:
     """The pressure cells of one foot.
 
@@ -327,19 +323,19 @@ class Sole:
     foot: Foot
     settings: FootSettings = FootSettings()
     insole: InsoleLoads = field(init=False)
-    had_cells: bool = field(default=False, init=False)
+    had_cells: bool = False
     """At least one sample with usable cells was added."""
     health: CellHealth = field(init=False)
     guess: LayoutGuess = field(init=False)
-    layout_estimated: bool = field(default=False, init=False)
+    layout_estimated: bool = False
     """The layout is an estimate."""
-    calibrated_layout: Layout | None = field(default=None, init=False)
+    calibrated_layout: Layout | None = None
     """Layout of the calibration that waits for a sample with the same number of cells; None when none waits."""
-    count_checked: bool = field(default=False, init=False)
+    count_checked: bool = False
     """It is decided whether the calibration is used: it matches the number of cells, or was rejected."""
-    highest: float = field(default=0.0, init=False)
+    highest: float = 0.0
     """Highest recent value of any cell of a pressure event, unit of the cells; it decays slowly."""
-    layout_changed: bool = field(default=False, init=False)
+    layout_changed: bool = False
     """The layout has changed, and detector and cues have not received it yet."""
 
     def __attrs_post_init__(self) -> None:
@@ -378,10 +374,16 @@ class Sole:
         self.had_cells = True
         layout = self.insole.layout
         if self.layout_estimated and layout is not None and len(layout.cells) != len(cells):
-            self._forget_layout()  # it was estimated for another insole
+            self.layout_estimated, self.highest = False, 0.0  # it was estimated for another insole
+            self.guess, self.insole = LayoutGuess(self.foot), InsoleLoads(self.settings.insole)
         load = self.insole.update(t, cells, with_centre)
         if self.settings.needs_pressure and self.insole.layout is None and load is not None:
-            self._guess_layout(t, known_at, load, limitations, events)
+            guessed = self.guess.update(t, self.insole.above_tare(load.cells), load.total)
+            if guessed is not None:
+                text = f"nobody says where the cells of the {self.foot.value} insole are"
+                limitations.report(f"{text}: learnt from how steps load them", t, known_at, events)
+                self.layout_estimated = True
+                self._apply_layout(guessed, limitations)
         return load
 
     def make_event(self, t: float, known_at: float, pressure: tuple[float, ...]) -> FootPressed | None:
@@ -396,7 +398,7 @@ class Sole:
             values = tuple([0.0 if i in failed_cells else value for i, value in enumerate(values)])
         force = fsum(values)  # in the unit of the cells
         centre, layout = None, insole.layout
-        if layout is not None and not self.layout_estimated and len(values) == len(layout.cells):
+        if layout is not None and not self.layout_estimated:
             # after a long time in the air the range of loads is small; then the highest cell value sets the limit
             least_force = LEAST_LOAD * max(insole.total.high - insole.total.low, self.highest)
             if force > least_force:
@@ -431,18 +433,3 @@ class Sole:
             text = f"the {self.foot.value} insole tells newtons itself: the calibration's cubic is not used"
             limitations.queue(text)
         self.layout_changed = True
-
-    def _guess_layout(
-        self, t: float, known_at: float, load: Load, limitations: Limitations, events: list[Event]
-    ) -> None:
-        layout = self.guess.update(t, self.insole.above_tare(load.cells), load.total)
-        if layout is not None:
-            text = f"nobody says where the cells of the {self.foot.value} insole are: learnt from how steps load them"
-            limitations.report(text, t, known_at, events)
-            self.layout_estimated = True
-            self._apply_layout(layout, limitations)
-
-    def _forget_layout(self) -> None:
-        self.layout_estimated, self.highest = False, 0.0
-        self.guess = LayoutGuess(self.foot)
-        self.insole = InsoleLoads(self.settings.insole)

@@ -17,8 +17,8 @@ from __future__ import annotations
 
 from math import exp, inf, log, sqrt
 
-from ...types import Quat, Vec3
-from ...types.attrs import NOT_SAVED, define, field
+from ...types import Quat, Vec2, Vec3
+from ...types.attrs import NOT_SAVED, define, field, stateful
 from ...types.vector import IDENTITY, TIME_EPSILON, ZERO
 from ..phase import STATIONARY, SWING
 from ..settings import CycleSettings
@@ -81,7 +81,7 @@ class SensorHeight:
     sums: Sums = EMPTY
     """State of the current stance."""
 
-    def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> tuple[float, float]:
+    def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> Vec2:
         """Add one sample of a foot on the ground; return h w x up, the velocity x, y, m/s, navigation frame.
 
         `acc` is in m/s^2, `gyro` in rad/s, both in the sensor frame. `attitude` is sensor to navigation frame."""
@@ -139,7 +139,7 @@ class SensorHeight:
         self.height = min(max(self.product / self.square, LOWEST_HEIGHT), HIGHEST_HEIGHT)
 
 
-@define
+@stateful
 class Cycle(Detector):
     """Compares the SHOE statistic with a threshold from the last gait cycle; the noise follows from the motion.
 
@@ -147,23 +147,23 @@ class Cycle(Detector):
     Time is divided into spans of equal duration. The extremes are those of the last three spans and the current one."""
 
     settings: CycleSettings = CycleSettings()
-    sensor_height: SensorHeight = field(factory=SensorHeight, init=False)
-    shoe: ShoeDetector = field(factory=ShoeDetector, init=False)
-    span_end: float | None = field(default=None, init=False)
+    sensor_height: SensorHeight = field(factory=SensorHeight)
+    shoe: ShoeDetector = field(factory=ShoeDetector)
+    span_end: float | None = None
     """End of the current span, s; None before any."""
-    lows: tuple[float, float, float] = field(default=(NO_STATISTIC, NO_STATISTIC, NO_STATISTIC), init=False)
+    lows: tuple[float, float, float] = (NO_STATISTIC, NO_STATISTIC, NO_STATISTIC)
     """Lowest statistic of each of the last three spans."""
-    highs: tuple[float, float, float] = field(default=(0.0, 0.0, 0.0), init=False)
+    highs: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Highest statistic of each of the last three spans."""
-    lowest: float = field(default=NO_STATISTIC, init=False)
+    lowest: float = NO_STATISTIC
     """Lowest statistic of the current span."""
-    highest: float = field(default=0.0, init=False)
+    highest: float = 0.0
     """Highest statistic of the current span."""
-    past_low: float = field(default=NO_STATISTIC, init=False)
+    past_low: float = NO_STATISTIC
     """Lowest statistic of the last three spans together."""
-    past_high: float = field(default=0.0, init=False)
+    past_high: float = 0.0
     """Highest statistic of the last three spans together."""
-    threshold: float | None = field(default=None, init=False, metadata=NOT_SAVED)
+    threshold: float | None = field(default=None, metadata=NOT_SAVED)
     """Threshold by the extremes of all four spans; None until it is asked for after one of them has changed."""
 
     def update(
@@ -217,8 +217,6 @@ class Cycle(Detector):
             lowest = least_statistic
         if self.past_high > highest:
             highest = self.past_high
-        if highest < least_statistic:
-            highest = least_statistic
         threshold_position = self.settings.threshold_position
         self.threshold = exp((1.0 - threshold_position) * log(lowest) + threshold_position * log(highest))
         return self.threshold

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from ...types import Quat, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import field, stateful
 from ...types.vector import GRAVITY, IDENTITY, ZERO
 from ..phase import STATIONARY
 from ..settings import ShoeSettings
@@ -17,7 +17,7 @@ GYRO_SQUARE = (0.1 * 3.141592653589793 / 180.0) ** 2
 """Variance of the gyroscope noise, which scales the statistic, (rad/s)^2: that of 0.1 degrees/s (as Skog et al.)."""
 
 
-@define
+@stateful
 class ShoeDetector(Detector):
     """The SHOE detector: stance hypothesis optimal estimation, with fixed thresholds.
 
@@ -29,9 +29,9 @@ class ShoeDetector(Detector):
     velocity grows with sqrt(T) above the statistic of a foot at rest."""
 
     settings: ShoeSettings = ShoeSettings()
-    entries: list[tuple[float, float, float, float, float, float]] = field(factory=list, init=False)
+    entries: list[tuple[float, float, float, float, float, float]] = field(factory=list)
     """Time (s), acc x, y, z (m/s^2), and squared norms of acc and gyro (rad/s) of each sample in the window."""
-    sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
+    sums: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
     """Sums over the window of acc x, y, z and of the squared norms of acc and gyro."""
 
     def update(

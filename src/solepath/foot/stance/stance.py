@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import ClassVar, NamedTuple, Protocol, Self
 
 from ...calibration import Calibration
-from ...types import Foot, Layout, Phase, Quat, Vec3
+from ...types import Foot, Layout, Phase, Quat, Vec2, Vec3
 from ...types.attrs import frozen
 from ...types.vector import IDENTITY
 
@@ -30,7 +30,7 @@ class Load:
     """The foot is in the air: there is hardly any load."""
     cells: tuple[float, ...] = ()
     """Value of each cell without noise, in N with a calibration, otherwise in the unit of the samples."""
-    centre: tuple[float, float] | None = None
+    centre: Vec2 | None = None
     """Centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout.
 
     It is computed only for detectors and cues that say so (`uses_centre`), otherwise None."""

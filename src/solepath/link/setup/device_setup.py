@@ -22,7 +22,7 @@ from collections.abc import Iterable, Sequence
 from enum import Enum
 
 from ...types import SITE_OF_FOOT, Packet, Site
-from ...types.attrs import define, field, frozen
+from ...types.attrs import field, frozen, stateful
 from ...wire.error import WireError
 from ...wire.fields import build_text
 from ...wire.insole_info import parse_info
@@ -60,11 +60,11 @@ def shorten(text: str, size: int) -> str:
     return text.encode("utf-8", "replace")[:size].decode("utf-8", "ignore")
 
 
-@define(eq=False)
+@stateful(eq=False)
 class RecentTroubles:
     """The troubles of one device that were reported less than `REPORT_INTERVAL` ago."""
 
-    _reported: dict[bytes, float] = field(factory=dict, init=False)
+    _reported: dict[bytes, float] = field(factory=dict)
     """Time of the last report of each trouble, s, by its text."""
 
     def leave_out(self, values: list[Value], now: float) -> list[Value]:
@@ -117,7 +117,7 @@ REJECTED = {
 """Sentence for a rejected request. The setup goes on, except without a stream or without the site."""
 
 
-@define(eq=False)
+@stateful(eq=False)
 class DeviceSetup:
     """The setup of one connected device (see the module)."""
 
@@ -128,31 +128,31 @@ class DeviceSetup:
     address: str
     advertised_name: str
     """Name that the device advertises; "" when unknown."""
-    signal: int | None = None
+    signal: int | None
     """Signal strength of its advertisement, dBm; None when unknown."""
-    request: Request | None = field(default=None, init=False)
+    request: Request | None = None
     """Request to do now; None when there is nothing to do."""
-    end: str | None = field(default=None, init=False)
+    end: str | None = None
     """Reason to disconnect; None as long as there is none."""
-    is_listening: bool = field(default=False, init=False)
+    is_listening: bool = False
     """True when the device is set up, also while a frozen stream is set up again."""
-    has_streamed: bool = field(default=False, init=False)
+    has_streamed: bool = False
     """True once a stream has notified."""
-    _is_accepted: bool = field(default=False, init=False)
-    _info: bytes | None = field(default=None, init=False)
+    _is_accepted: bool = False
+    _info: bytes | None = None
     """Record from which the site was read, until its turn among the values."""
-    _queue: deque[Request] = field(factory=deque, init=False)
-    _written: list[Value] = field(factory=list, init=False)
+    _queue: deque[Request] = field(factory=deque)
+    _written: list[Value] = field(factory=list)
     """Values that were written until the device was set up, which may let it be silent."""
-    _values: list[Value] = field(factory=list, init=False)
+    _values: list[Value] = field(factory=list)
     """Values that the running call will return."""
-    _watched: tuple[str, ...] = field(default=(), init=False)
+    _watched: tuple[str, ...] = ()
     """Streams that must notify in time; none when silence is allowed."""
-    _last_t: dict[str, float] = field(factory=dict, init=False)
+    _last_t: dict[str, float] = field(factory=dict)
     """Time of the newest notification of each channel since the last setup, s."""
-    _set_up_at: float = field(default=0.0, init=False)
+    _set_up_at: float = 0.0
     """Time at which the device was last set up, s."""
-    _tries: int = field(default=0, init=False)
+    _tries: int = 0
     """Number of times in a row that a frozen stream was set up again."""
 
     @property
