@@ -27,6 +27,10 @@ class Candidate:
     """Name of the stairs, elevator or start position from which the candidate was derived."""
 
 
+DECIDED_WEIGHT = 0.995
+"""Least weight with which the heaviest candidate is the place: unlikely ones would make a mark flicker."""
+
+
 @frozen(kw_only=True)
 class Placed(BaseEvent):
     """The wearer's place on the plan after a stride, or on arrival by stairs or elevator.
@@ -47,6 +51,11 @@ class Placed(BaseEvent):
     candidates: tuple[Candidate, ...]
     """Candidates, the most probable first; one candidate when the place is certain."""
     final: bool = False
+
+    @property
+    def decided(self) -> bool:
+        """True when one candidate has 99.5 % of the weight, so that level, position and room are the wearer's."""
+        return any([candidate.weight >= DECIDED_WEIGHT for candidate in self.candidates])
 
 
 @frozen(kw_only=True)

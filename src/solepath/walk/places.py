@@ -18,7 +18,7 @@ class PlaceCounts:
     """Number of final strides of both feet."""
     places: int = 0
     decided_count: int = 0
-    """Number of decided places, which have one candidate only."""
+    """Number of decided places (Placed.decided)."""
     first_decided: tuple[int, float] | None = None
     """Number of strides before the first decided place, and its time, s."""
     level_starts: list[tuple[float, str]] = field(factory=list)
@@ -41,7 +41,7 @@ class PlaceCounts:
             case Placed():
                 self.last = event
                 self.places += 1
-                if len(event.candidates) == 1:
+                if event.decided:
                     self._add_decided(event)
             case PlaceLost():
                 self.loss_count += 1

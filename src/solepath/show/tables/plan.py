@@ -152,7 +152,7 @@ class PlanPicture:
         self._track(panel, level.id, view)
 
     def _candidates(self, panel: Element, level: str, view: View) -> None:
-        undecided = [place for place in self.places if len(place.candidates) > 1]
+        undecided = [place for place in self.places if not place.decided]
         interval = max(1, sum([len(place.candidates) for place in undecided]) // MAX_CANDIDATE_DOTS)
         for place in undecided[::interval]:
             for candidate in place.candidates:
@@ -162,7 +162,7 @@ class PlanPicture:
                     add(panel, dot, *view.at(candidate.position[:2]), CANDIDATE_COLOUR, opacity)
 
     def _track(self, panel: Element, level: str, view: View) -> None:
-        """Draw a line through the places with one candidate only; other places have dots."""
+        """Draw a line through the decided places; other places have dots."""
         lines = add(panel, "<g stroke-width='2.6' stroke-linecap='round'/>")
         for k, (before, after) in enumerate(pairwise(self.events)):
             if _is_decided(before) and _is_decided(after) and before.level == after.level == level:
@@ -204,7 +204,7 @@ class PlanPicture:
 
 
 def _is_decided(event: Placed | PlaceLost) -> TypeGuard[Placed]:
-    return isinstance(event, Placed) and len(event.candidates) == 1
+    return isinstance(event, Placed) and event.decided
 
 
 def _room_names(panel: Element, level: Level, view: View) -> None:

@@ -174,8 +174,8 @@ def place_lines(counts: PlaceCounts) -> list[str]:
         share = f"one place for {counts.decided_count} of {counts.places} strides"
         lines = [f"place: found after {counted(strides, 'stride')}, at {number(t, 1)} s; {share}"]
     if counts.last is not None:
-        count = len(counts.last.candidates)
-        lines.append(f"at the end: {_where(counts.last)}{f', one of {count} candidates' if count > 1 else ''}")
+        several = "" if counts.last.decided else f", one of {len(counts.last.candidates)} candidates"
+        lines.append(f"at the end: {_where(counts.last)}{several}")
     if counts.level_starts:
         levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.level_starts])
         unlisted = counts.level_changes - MAX_LISTED
@@ -188,9 +188,9 @@ def place_lines(counts: PlaceCounts) -> list[str]:
 
 def place_line(place: Placed) -> str:
     """Return a line with the wearer's present level, room and door if they have names, and position, m, plan frame."""
-    count = len(place.candidates)
-    sureness = f", {100.0 * place.candidates[0].weight:.0f} % sure, one of {count} candidates" if count > 1 else ""
-    return f"place: {_where(place)}{sureness}"
+    heaviest, *others = place.candidates
+    sureness = f", {100.0 * heaviest.weight:.0f} % sure, one of {1 + len(others)} candidates"
+    return f"place: {_where(place)}{'' if place.decided else sureness}"
 
 
 def _where(place: Placed) -> str:
@@ -200,5 +200,5 @@ def _where(place: Placed) -> str:
     names += [] if place.door is None else [f"at door {printable(place.door)}"]
     x, y, _ = place.position
     names.append(f"({number(x, 1)}, {number(y, 1)}) m")
-    names += [f"within {number(place.spread, 1)} m"] if len(place.candidates) == 1 else []
+    names += [f"within {number(place.spread, 1)} m"] if place.decided else []
     return ", ".join(names)

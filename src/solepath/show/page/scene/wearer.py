@@ -14,8 +14,6 @@ from .bending import Bend
 from .lists import GrowingList, TrackPoint, add_position, new_track
 
 MAX_CANDIDATES = 40
-DECIDED_WEIGHT = 0.995
-"""Share from which on the likeliest candidate is where the wearer is: unlikely ones would make the mark flicker."""
 
 PlacePoint = tuple[float, str, float, float, float]
 """(t, level, x, y, z) in s and m."""
@@ -78,7 +76,7 @@ def _place(place: Placed) -> dict[str, Any]:
     return {
         **members(place, "level", "position", "spread", spread=2),
         **{key: None if name is None else printable(name) for key, name in names.items()},
-        "decided": len(place.candidates) <= 1 or place.candidates[0].weight >= DECIDED_WEIGHT,
+        "decided": place.decided,
         "candidates": [
             members(one, "level", "heading", "weight", "origin") | dict(zip("xyz", plain(one.position), strict=True))
             for one in place.candidates[:MAX_CANDIDATES]

@@ -160,7 +160,7 @@ def plan_figure(parent: Element, report: ReportContent) -> bool:
         svg.attrib |= {"class": f"plan {kind}", "role": "img", "id": f"solepath-plan-{kind}"}
         element.append(svg)
     notes = ["Colours go from the start to the end; dots are candidates, the fainter the less likely."]
-    rooms = list(dict.fromkeys([place.room for place in places if place.room and len(place.candidates) == 1]))
+    rooms = list(dict.fromkeys([place.room for place in places if place.room and place.decided]))
     if rooms:
         more = f" and {len(rooms) - MAX_ROOMS} more" if len(rooms) > MAX_ROOMS else ""
         notes.append(f"On the way: {', '.join(rooms[:MAX_ROOMS])}{more}.")
