@@ -17,7 +17,7 @@ from typing import Any
 
 from ...types import Foot
 from ..bad_rows import BadRows
-from ..errors import RecordingError, Report, os_error_text, printable, warn
+from ..errors import RecordingError, Report, printable, warn
 from ..mapping.mapping import TableMapping
 from ..mapping.words import foot_of_text
 from ..samples.columns import TableColumns
@@ -82,10 +82,7 @@ def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = 
 def _read_channels(path: Path) -> list[dict[str, str]]:
     """Return the rows of channels.tsv, which describe the columns of a `_motion.tsv` in their order."""
     beside = path.with_name(path.name.removesuffix(MOTION_END) + "_channels.tsv")
-    try:
-        channels = read_table(beside)
-    except OSError as error:
-        raise RecordingError(beside, os_error_text(error)) from error
+    channels = read_table(beside)
     if not channels or not all("type" in channel for channel in channels):
         raise RecordingError(beside, "describes no channels, each with a type")
     return channels
