@@ -11,7 +11,7 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ...types import Foot, Sample
 from ..bad_rows import BadRows
@@ -127,10 +127,12 @@ def read_file(
     headers: list[TableColumns],
     *,
     is_alone: bool = True,
+    described: tuple[Sequence[str], Sequence[str]] | None = None,
 ) -> list[FootTable]:
     """Return the tables of the feet in one file, of which only the cells were read; its columns go to `headers`.
 
-    There are none for a sheet whose columns have faults."""
+    There are none for a sheet whose columns have faults. `described`: names and units of the columns, if another file
+    has them."""
     if path.suffix.lower() == ".npz":
         from .npz import check_lengths, open_npz  # imports numpy, which text does not need
 
@@ -139,6 +141,11 @@ def read_file(
     else:
         sheet, columns = open_sheet(path, mapping), {}
     with sheet as (layout, rows):
+        if described is not None:
+            if len(layout.names) != len(described[0]):
+                what = f"has {len(layout.names)} columns, and {len(described[0])} are described"
+                raise RecordingError(path, what)
+            layout = evolve(layout, names=described[0], units=described[1])
         found = find_columns(layout, mapping, foot, is_alone=is_alone)
         if not found.feet and not found.faults:
             raise guess_mapping(layout, rows)
