@@ -80,8 +80,7 @@ def load_samples(
     total = BadRows(paths[0], report, "row")
     problems: list[RecordingError] = []
     tables: list[FootTable] = []
-    unnamed: dict[Path, set[str]] = {}
-    headers: list[TableColumns] = []
+    headers, guessed = list[TableColumns](), list[TableColumns]()
     for path, its_foot in zip(paths, feet, strict=True):
         bad_rows = BadRows(path, report, "row")
         try:
@@ -89,14 +88,16 @@ def load_samples(
             tables += clean(own, only, bad_rows)
         except RecordingError as error:
             problems += error.problems
-            if its_foot is None and isinstance(error, UnknownTable) and error.quantities:
-                unnamed[path] = error.quantities
+            guessed += [error.found] if isinstance(error, UnknownTable) and error.found is not None else []
         total.count, total.good = total.count + bad_rows.count, total.good + bad_rows.good
     found_keys = {key for found in headers for key in found.found_keys}
     for found in headers:
         problems += found.list_problems(set() if found.is_empty else found.elsewhere & found_keys)
-        if any(table.is_assumed for table in found.feet):
-            unnamed[found.header.path] = found.quantities
+    unnamed = {
+        found.header.path: found.quantities
+        for found in [*guessed, *headers]
+        if any(table.is_assumed for table in found.feet)
+    }
     if not tables and not problems and only is not None:
         problems.append(RecordingError(paths[0], f"holds nothing of the {only.value} foot"))
     example = _name_feet(paths, unnamed, problems)
@@ -148,7 +149,7 @@ def read_file(
             layout = evolve(layout, names=described[0], units=described[1])
         found = find_columns(layout, mapping, foot, is_alone=is_alone)
         if not found.feet and not found.faults:
-            raise guess_mapping(layout, rows)
+            raise guess_mapping(layout, rows, foot)
         headers.append(found)
         if found.is_empty or found.list_problems(found.elsewhere):
             return []
