@@ -203,8 +203,8 @@ class LoggedDevice:
             for operation, accesses in ACCESS_BY_OPERATION.items():
                 if names := [each.name for access in accesses for each in channels if each.access is access]:
                     one.channels[operation] = names[0]
-            said = {named, *one.channels.values()}
-            yield from [hint for hint in hints if one.has_values and handles[hint] in said]
+            found = {named, *one.channels.values()}
+            yield from [hint for hint in hints if one.has_values and handles[hint] in found]
             foot = one.read_foot(known)
             if self.site is None and foot is not None:
                 self.site = SITE_OF_FOOT[foot]
