@@ -202,6 +202,8 @@ def clean(tables: Sequence[FootTable], only: Foot | None, bad_rows: BadRows) -> 
     if used:
         total = max(map(len, used))
         faults = {number: (where, what) for table in used for number, where, what in remove_bad_rows(table)}
-        bad_rows.add_all([faults[number] for number in sorted(faults)], total)
+        bad_rows.good = total - len(faults)
+        for number in sorted(faults):
+            bad_rows.add(*faults[number])
         bad_rows.finish()
     return [table for table in used if len(table)]
