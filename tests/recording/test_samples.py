@@ -44,10 +44,10 @@ def test_both_feet_on_a_shared_clock_come_left_then_right_at_each_instant(tmp_pa
     assert {s.site for s in read_samples(path, Foot.LEFT)} == {Site.LEFT_FOOT}
 
 
-def test_a_sheet_may_put_the_foot_before_the_axis_and_number_the_axes(tmp_path):
+def test_a_sheet_of_both_feet_may_have_other_columns_and_other_quantities_of_each(tmp_path):
     path = tmp_path / "two.csv"
     path.write_text(
-        "\ufeffnote,T,acc_left_0,acc_left_1,acc_left_2,pressure_1_right,pressure_2_right\n"
+        "\ufeffnote,t,acc_x_left,acc_y_left,acc_z_left,pressure_0_right,pressure_1_right\n"
         '"a, b",0.00,0,0,9.8,1,2\nx,0.01,0,0,9.8,3,4\n',
         encoding="utf-8",
     )
@@ -87,15 +87,15 @@ def burst_times(size: int, within: float) -> dict[str, np.ndarray]:
 
 
 FAULTY = {
-    "no t": (without(still(), "t"), "names no column t (it names acc_0, "),
+    "no t": (without(still(), "t"), "names no column t (it names acc_x, "),
     "nothing measured": (
         {"t": still()["t"], "mag": np.ones((20, 3))},
         "names no column acc_x or pressure_0 (it names t, mag)",
     ),
     "gyro alone": (without(still(), "acc"), "names gyro but not acc; repair: give the file of the accelerometer"),
     "both kinds of name": (still() | {"acc_left": still()["acc"]}, "has columns with and without a foot's name"),
-    "acc of two axes": (still() | {"acc": np.ones((20, 2))}, "names no column acc_z (it names t, acc_0, acc_1, gyro_0"),
-    "four axes": (still() | {"acc": np.ones((20, 4))}, "acc needs 3 columns, not 4 (acc_0, acc_1, acc_2, acc_3)"),
+    "acc of two axes": (still() | {"acc": np.ones((20, 2))}, "acc: holds float64 of the shape (20, 2), not columns of"),
+    "four axes": (still() | {"acc": np.ones((20, 4))}, "acc: holds float64 of the shape (20, 4), not columns of"),
     "a cube": (still() | {"acc": np.ones((20, 3, 2))}, "acc: holds float64 of the shape (20, 3, 2), not columns of"),
     "one gyro row less": (still() | {"gyro": still(19)["gyro"]}, "gyro: has 19 rows but t has 20"),
     "words": (still() | {"acc": np.full((20, 3), "x")}, "acc: holds <U1 of the shape (20, 3), not columns of numbers"),
@@ -187,7 +187,6 @@ def test_a_missing_or_empty_file_and_a_directory_are_named(tmp_path, name):
         ("0.0,1.0,2.0,9.8\n0.1,1,2,9.8\n", "pressure_0 (it holds numbers: is the line with the names missing?)"),
         ("acc_x,acc_y,acc_z\n0,0,9.8\n", "line 1: names no column t"),
         ("t,acc_x,acc_z\n0,0,9.8\n", "line 1: names no column acc_y"),
-        ("t,acc_x,acc_y,acc_z,acc_3\n0,0,0,9.8,1\n", "line 1: acc needs 3 columns, not 4 (acc_x, acc_y, acc_z, acc_3)"),
         ("t,acc_x,acc_y,acc_z,acc_x\n0,0,0,9.8,0\n", "line 1: names the column acc_x twice"),
         ("t,pressure_0,pressure_2\n0,0,0\n", "line 1: names no column pressure_1"),
         ("t,gyro_x,gyro_y,gyro_z,pressure_0\n0,0,0,0,0\n", "line 1: names gyro but not acc"),

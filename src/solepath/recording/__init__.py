@@ -2,16 +2,7 @@
 
 from .bad_rows import LONGEST_LINE
 from .clock_offset import shift_clock
-from .errors import (
-    RecordingError,
-    RecordingProblems,
-    RecordingWarning,
-    Report,
-    open_file,
-    os_error_text,
-    printable,
-    warn,
-)
+from .errors import RecordingError, RecordingWarning, Report, open_file, os_error_text, printable, warn
 from .mapping import TableMapping, read_mapping
 from .packet_writer import PacketWriter
 from .packets import FORMAT, VERSION, read_header, read_packets, read_start_time
@@ -23,7 +14,6 @@ __all__ = [
     "VERSION",
     "PacketWriter",
     "RecordingError",
-    "RecordingProblems",
     "RecordingWarning",
     "Report",
     "Source",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, AnyStr, Generic
 
@@ -89,13 +89,6 @@ class BadRows:
         self.count += 1
         if self.count > self.good + MAX_EXCESS:
             self._raise()
-
-    def add_all(self, faults: Sequence[tuple[str, str]], total: int) -> None:
-        """Count these bad rows, each with its place and fault, of so many rows."""
-        for where, what in faults[:MAX_NAMED]:
-            self.add(where, what)
-        self.count += len(faults[MAX_NAMED:])
-        self.good = total - len(faults)
 
     def finish(self) -> None:
         """Report the number of bad rows if not all were named; raise RecordingError if they are more than half."""

@@ -19,6 +19,8 @@ class RecordingError(Exception):
     `repair` is an option of the command line, a line of a mapping or an action with which the fault ends; "" if none is
     known."""
 
+    _problems: tuple[RecordingError, ...] = ()
+
     def __init__(self, path: Path | str, what: str, where: str = "", repair: str = "") -> None:
         self.path, self.where, self.what, self.repair = Path(path), where, what, repair
         parts = [printable(str(path)), *(part for part in (where, what) if part)]
@@ -26,34 +28,23 @@ class RecordingError(Exception):
 
     @property
     def problems(self) -> tuple[RecordingError, ...]:
-        """All faults that were found: this one, unless it is a RecordingProblems."""
-        return (self,)
+        """All faults that were found, in their order: this one, unless it was made by `of`."""
+        return self._problems or (self,)
 
     @classmethod
     def of(cls, problems: Sequence[RecordingError]) -> RecordingError:
-        """Return one error for all of these, which are at least one."""
-        return problems[0] if len(problems) == 1 else RecordingProblems(problems)
+        """Return one error for all of these, which are at least one; its text has one line for each."""
+        first = problems[0]
+        if len(problems) > 1:
+            first = RecordingError(first.path, first.what, first.where, first.repair)
+            first.args, first._problems = ("\n".join(map(str, problems)),), tuple(problems)
+        return first
 
 
 class UnusableValues(RecordingError):
     """Error for a recording whose numbers can be read but are not what they should be.
 
     They are in another unit, or the times are not those of the samples."""
-
-
-class RecordingProblems(RecordingError):
-    """Error for several faults of one or more files, found at once; its text has one line for each."""
-
-    def __init__(self, problems: Sequence[RecordingError]) -> None:
-        first = problems[0]
-        super().__init__(first.path, first.what, first.where, first.repair)
-        self._problems = tuple(problems)
-        self.args = ("\n".join(map(str, problems)),)
-
-    @property
-    def problems(self) -> tuple[RecordingError, ...]:
-        """All faults, in the order in which they were found."""
-        return self._problems
 
 
 class RecordingWarning(UserWarning):

@@ -1,7 +1,7 @@
 """Known formats of tables of samples: those of formats.toml, and this project's own.
 
-The names of this project are t,acc_x,acc_y,acc_z,gyro_x,...,pressure_0,... in SI units; acc_x_left or acc_left_x of a
-foot, with 0, 1, 2 for x, y, z. Other columns are ignored."""
+The names of this project are t,acc_x,acc_y,acc_z,gyro_x,...,pressure_0,... in SI units, and acc_x_left of a foot. Other
+columns are ignored."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from attrs import evolve, field, frozen
 
-from .mapping.mapping import MEASURED, TableMapping, match_name
+from .mapping.mapping import TableMapping, match_name
 
 if TYPE_CHECKING:
     from .samples.sheet import SheetLayout
@@ -87,38 +87,25 @@ class _OwnExport(Export):
     """The format with this project's own names, whose meaning is in the name itself."""
 
     def fits(self, header: SheetLayout) -> bool:
-        # other programs write Acc_X too, but not beside a column t
-        names = [match[1] for match in map(_OWN_NAME.fullmatch, header.names) if match]
-        has_time = "t" in map(str.lower, names)
-        return any((name.lower() if has_time else name) in MEASURED for name in names)
+        return any(not key.startswith("t") for key in self._find(header))
 
     def read_mapping(self, header: SheetLayout) -> TableMapping:
-        found: dict[str, dict[str, str]] = {}
-        for name in header.names:
-            match = _OWN_NAME.fullmatch(name)
-            if match is None or (match[2] and match[4]) or (match[1].lower() == "t" and match[3]):
-                continue
-            quantity, foot, axis = (text.lower() for text in (match[1], match[2] or match[4] or "", match[3] or "0"))
-            if quantity in ("acc", "gyro"):
-                axis = {"0": "x", "1": "y", "2": "z"}.get(axis, axis)
-            found.setdefault("_".join(filter(None, (quantity, foot))), {})[axis] = name
-        measured = [key for key in found if not key.startswith("t")]
-        if 0 < sum("_" in key for key in measured) < len(measured):
+        columns = self._find(header)
+        if 0 < sum("_" in key for key in columns if key[0] != "t") < sum(key[0] != "t" for key in columns):
             raise ValueError("has columns with and without a foot's name: is it of one foot or of two?")
-        columns = {}
-        for key, names in found.items():
-            quantity, _, foot = key.partition("_")
-            first = int("0" not in names and len(names) > 1)
-            axes = {"t": ["0"], "pressure": map(str, range(first, first + len(names)))}.get(quantity, "xyz")
-            # a component that is missing has the name that it should have
-            columns[key] = [names.pop(axis, "_".join(filter(None, (quantity, axis, foot)))) for axis in axes]
-            columns[key] += names.values()
         return TableMapping(columns)
 
+    def _find(self, header: SheetLayout) -> dict[str, list[str]]:
+        """Return the names that the columns of each key should have, if the header has any of them."""
+        expected = {}
+        for end in ("", "_left", "_right"):
+            cells = len([name for name in header.names if re.fullmatch(f"pressure_[0-9]+{end}", name)])
+            expected[f"t{end}"] = [f"t{end}"]
+            for quantity, axes in (("acc", "xyz"), ("gyro", "xyz"), ("pressure", range(cells))):
+                expected[quantity + end] = [f"{quantity}_{axis}{end}" for axis in axes]
+        return {key: names for key, names in expected.items() if not set(names).isdisjoint(header.names)}
 
-_OWN_NAME = re.compile(
-    r"(t|acc|gyro|pressure)(?:_(left|right))?(?:_([xyz]|[0-9]{1,4}))?(?:_(left|right))?", re.IGNORECASE
-)
+
 OWN = _OwnExport()
 """The format with this project's own names."""
 EXPORTS: dict[str, Export] = {}

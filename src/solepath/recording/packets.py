@@ -38,16 +38,13 @@ def read_start_time(header: Mapping[str, Any]) -> tuple[datetime, float | None] 
     """Return the start time (UTC) from a header, and the time `t` of the packets (s) at that moment.
 
     `t` is None if the start is the first packet's arrival. The result is None without a usable start time."""
-    text, t = header.get("began"), header.get("began_t")
-    if not isinstance(text, str) or type(t) not in (int, float, type(None)):
-        return None
+    t = header.get("began_t")
     try:
-        moment = datetime.fromisoformat(text)
-        t_start = None if t is None else float(t)
-        if moment.tzinfo is None or (t_start is not None and not isfinite(t_start)):
+        moment = datetime.fromisoformat(header["began"])
+        if moment.tzinfo is None or type(t) not in (int, float, type(None)) or not isfinite(t or 0.0):
             return None
-        return moment.astimezone(UTC), t_start
-    except (ValueError, OverflowError):
+        return moment.astimezone(UTC), None if t is None else float(t)
+    except (KeyError, TypeError, ValueError, OverflowError):
         return None
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from itertools import chain
+from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -74,11 +74,9 @@ class Source:
             yield from open_packets(self.path, report=lambda _: None).packets
             return
         try:
-            for packet in self._pipe.packets:
+            for packet in islice(self._pipe.packets, MAX_AHEAD):
                 self._packets_ahead.append(packet)
                 yield packet
-                if len(self._packets_ahead) >= MAX_AHEAD:
-                    return
         except RecordingError as error:
             self._failure = error
             raise
@@ -88,24 +86,17 @@ class Source:
             self.done += 1
             yield sample
 
-    def _read_packets(self) -> Iterator[Packet]:
-        if self._pipe is not None:
-            ahead, self._packets_ahead = self._packets_ahead, []
-            yield from chain(ahead, self._pipe.packets)
-            if self._failure is not None:
-                raise self._failure
-            return
-        opened = open_packets(self.path, report=self.report, progress=partial(setattr, self, "done"))
-        self.bad_rows = opened.bad_lines
-        yield from opened.packets
-
     def _iterate_packets(self) -> Iterator[Packet | Sample]:
+        opened = self._pipe or open_packets(self.path, report=self.report, progress=partial(setattr, self, "done"))
+        self.bad_rows, ahead, self._packets_ahead = opened.bad_lines, self._packets_ahead, []
         has_packets = has_used_packets = False
-        for packet in self._read_packets():
+        for packet in chain(ahead, opened.packets):
             has_packets = True
             if self.foot is None or packet.site.foot in (None, self.foot):
                 has_used_packets = True
                 yield packet
+        if self._failure is not None:
+            raise self._failure
         if not has_packets:
             self.report(f"{printable(str(self.path))}: holds no packets")
         elif self.foot is not None and not has_used_packets:
@@ -137,8 +128,9 @@ def open_source(
     columns of tables mean, as far as they do not say it themselves. RecordingError, with all problems, when something
     cannot be used."""
     paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
-    name, path = label_files(paths), paths[0]
-    only = foot if isinstance(foot, Foot) else None
+    path, only = paths[0], foot if isinstance(foot, Foot) else None
+    source = Source(path, only, report, name=label_files(paths))
+    samples: SampleRecording | None = None
     if path.name.endswith(MOTION_END) and mapping is None:
         other = next((one for one in paths if recording_of(one) != recording_of(path)), None)
         if other is not None:
@@ -146,21 +138,24 @@ def open_source(
             raise RecordingError(other, what)
         from .bids.reader import load_motion
 
-        motion = load_motion(path, only, report=report)
-        return Source(path, only, report, len(motion), samples=motion, bad_rows=motion.bad_rows, name=name)
-    if mapping is not None or len(paths) > 1 or path.suffix.lower() in SAMPLE_SUFFIXES:
+        samples = load_motion(path, only, report=report)
+    elif mapping is not None or len(paths) > 1 or path.suffix.lower() in SAMPLE_SUFFIXES:
         from .samples import load_samples  # packets do not need it
 
         samples = load_samples(paths, foot, mapping=mapping, report=report)
-        header = {} if samples.start_time is None else {"began": samples.start_time.isoformat(), "began_t": 0.0}
-        return Source(
-            path, only, report, len(samples), samples=samples, header=header, bad_rows=samples.bad_rows, name=name
-        )
+    if samples is not None:
+        source.samples, source.total, source.bad_rows = samples, len(samples), samples.bad_rows
+        if samples.start_time is not None:
+            source.header = {"began": samples.start_time.isoformat(), "began_t": 0.0}
+        return source
     opened = open_packets(path, report=report)
-    if not path.is_file():
-        return Source(path, only, report, header=opened.header, bad_rows=opened.bad_lines, pipe=opened, name=name)
-    opened.close()
-    return Source(path, only, report, total=path.stat().st_size, header=opened.header, name=name)
+    source.header = opened.header
+    if path.is_file():
+        opened.close()
+        source.total = path.stat().st_size
+    else:
+        source._pipe, source.bad_rows = opened, opened.bad_lines
+    return source
 
 
 def read_samples(

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from array import array
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from importlib.resources import files
 from math import isfinite, nan
 from pathlib import Path
 from typing import Any
@@ -15,9 +17,16 @@ from attrs import define, field
 from ...types import Site
 from ..errors import RecordingError, os_error_text, printable
 from ..posed import PosedSample
-from .names import CHANNEL_TYPES, CHANNELS, SCALAR, TSV_MISSING
+from .names import TSV_MISSING
 
-_CHANNEL_COLUMNS = ("name", "component", "type", "tracked_point", "units", "reference_frame", "description")
+CHANNEL_COLUMNS = ("name", "component", "type", "tracked_point", "units", "reference_frame", "description")
+"""Columns of channels.tsv."""
+CHANNEL_TYPES = ("ACCEL", "ANGACCEL", "GYRO", "JNTANG", "LATENCY", "MAGN", "MISC", "ORNT", "POS", "VEL")
+"""All types of channels of Motion-BIDS."""
+CHANNELS: dict[str, dict[str, Any]] = tomllib.loads(
+    files("solepath.recording.bids").joinpath("motion.toml").read_text()
+)
+"""Quantities in the order of their channels, with their components and cells of channels.tsv."""
 
 
 @define
@@ -38,17 +47,12 @@ class MotionColumns:
         """Add a sample as a row."""
         sample, state, row = posed.sample, posed.state, len(self.t)
         values: dict[str, Sequence[float] | None] = {
-            "acc": sample.acc,
-            "gyro": sample.gyro,
-            "mag": sample.mag,
             "device": sample.quat,
             "air_pressure": None if sample.air_pressure is None else (sample.air_pressure,),
-            "pressure": sample.pressure,
             "saturated": (1.0,) if sample.saturated else (0.0,) if "saturated" in self._columns else None,
-            "position": None if state is None else state.position,
-            "velocity": None if state is None else state.velocity,
-            "attitude": None if state is None else state.attitude,
         }
+        values |= {name: getattr(sample, name) for name in ("acc", "gyro", "mag", "pressure")}
+        values |= {name: getattr(state, name, None) for name in ("position", "velocity", "attitude")}
         for name, value in values.items():
             if value is not None and name not in self._columns:
                 before = [0.0 if name == "saturated" else nan] * row
@@ -73,13 +77,13 @@ class MotionColumns:
         """Return the rows of channels.tsv: one for each column of motion.tsv, in their order."""
         rows = []
         for quantity, kind in CHANNELS.items():
-            columns = self._columns.get(quantity, ()) if quantity != "latency" else (self.t,)
-            for number, _ in enumerate(columns):
-                component = kind.components[number] if kind.components else TSV_MISSING
-                end = f"_{component}" if component != TSV_MISSING else f"_{number}" if kind.components != SCALAR else ""
-                units = self.pressure_units if quantity == "pressure" else kind.units
-                values = (quantity + end, component, kind.kind, self.site.value, units, kind.frame, kind.description)
-                rows.append(dict(zip(_CHANNEL_COLUMNS, values, strict=True)))
+            for number, _ in enumerate([self.t] if quantity == "latency" else self._columns.get(quantity, ())):
+                component = str(kind["components"][number]) if kind["components"] else TSV_MISSING
+                end = (
+                    "" if kind["components"] == [TSV_MISSING] else f"_{number if not kind['components'] else component}"
+                )
+                row = kind | {"name": quantity + end, "component": component, "tracked_point": self.site.value}
+                rows.append(row | {"units": self.pressure_units} if quantity == "pressure" else row)
         return rows
 
     def metadata(self, task: str, start: float, version: str) -> dict[str, Any]:
@@ -102,10 +106,6 @@ class MotionColumns:
             "SoftwareVersions": f"solepath {version}",
         } | {f"{kind}ChannelCount": counts[kind] for kind in CHANNEL_TYPES}
 
-    def write_channels(self, path: Path) -> None:
-        """Write the table channels.tsv, which describes the columns of motion.tsv."""
-        write_table(path, _CHANNEL_COLUMNS, self.channels())
-
     def write_motion(self, path: Path, start: float) -> None:
         """Write motion.tsv, which has no header; latencies count from `start`, s."""
         columns = [column for quantity in CHANNELS for column in self._columns.get(quantity, ())]
@@ -120,12 +120,17 @@ def to_json(value: Any) -> str:
     return json.dumps(value, indent=2, allow_nan=False) + "\n"
 
 
+def _read_text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8-sig", errors="replace")
+    except OSError as error:
+        raise RecordingError(path, os_error_text(error)) from error
+
+
 def read_json(path: Path) -> dict[str, Any]:
     """Return the content of a metadata file; RecordingError when it is not a JSON object."""
     try:
-        content = json.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise RecordingError(path, os_error_text(error)) from error
+        content = json.loads(_read_text(path))
     except (ValueError, RecursionError) as error:
         raise RecordingError(path, f"is not JSON: {printable(str(error))}") from None
     if not isinstance(content, dict):
@@ -133,14 +138,13 @@ def read_json(path: Path) -> dict[str, Any]:
     return content
 
 
-def write_table(path: Path, columns: Sequence[str], rows: Sequence[dict[str, str]]) -> None:
-    """Write a table of text cells with a header."""
-    lines = [columns, *([row.get(column, TSV_MISSING) for column in columns] for row in rows)]
-    path.write_text("".join(["\t".join(line) + "\n" for line in lines]), encoding="utf-8", newline="\n")
+def to_tsv(columns: Iterable[str], rows: Iterable[Mapping[str, str]]) -> str:
+    """Return the text of a table with a header."""
+    lines = [[*columns], *([row.get(column, TSV_MISSING) for column in columns] for row in rows)]
+    return "".join(["\t".join(line) + "\n" for line in lines])
 
 
 def read_table(path: Path) -> list[dict[str, str]]:
-    """Return the rows of a table with a header, as texts by column."""
-    lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
-    header = lines[0].split("\t") if lines else []
-    return [dict(zip(header, line.split("\t"), strict=False)) for line in lines[1:] if line.strip()]
+    """Return the rows of a table with a header, as texts by column; none for a file that does not exist."""
+    lines = [line.split("\t") for line in _read_text(path).splitlines() if line.strip()] if path.exists() else []
+    return [dict(zip(lines[0], line, strict=False)) for line in lines[1:]]

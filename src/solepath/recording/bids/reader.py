@@ -8,17 +8,17 @@ the folders above (BIDS, "The Inheritance Principle")."""
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import datetime
-from itertools import pairwise
 from math import isnan
 from pathlib import Path
 from typing import Any
 
 from ...types import Foot
 from ..bad_rows import BadRows
-from ..errors import RecordingError, Report, os_error_text, printable, warn
+from ..errors import RecordingError, Report, printable, warn
 from ..mapping.mapping import TableMapping
+from ..mapping.units import UNITS, unit_of
 from ..mapping.words import foot_of_text
 from ..samples.columns import TableColumns
 from ..samples.plausible import list_unit_problems
@@ -44,33 +44,35 @@ def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = 
     if not path.is_file():
         raise RecordingError(path, "no such file")
     beside = sorted(path.parent.glob(f"*{MOTION_END}"))
-    systems = [(one, _read_channels(one)) for one in beside if recording_of(one) == recording_of(path)]
+    systems = {one: _read_channels(one) for one in beside if recording_of(one) == recording_of(path)}
     points = [
         (system, point, foot_of_text(point) if ON_FOOT.search(point) else None)
-        for system, channels in systems
+        for system, channels in systems.items()
         for point in dict.fromkeys(one.get("tracked_point", "") for one in channels if one["type"] in _QUANTITY_OF_TYPE)
     ]
     if len(points) == 1:
         points = [(system, point, side or foot or Foot.RIGHT) for system, point, side in points]
-    named = sorted([(side.value, system, point) for system, point, side in points if side is not None])
+    named = [(system, point, side) for system, point, side in points if side is not None]
     if not named:
         found = printable(", ".join(sorted({point for _, point, _ in points})) or "none")
         raise RecordingError(path, f"no tracked point with ACCEL or GYRO is a foot; there are: {found}")
-    for (one, _, first), (other, _, second) in pairwise(named):
-        if one == other:
-            where = printable(f"{first}, {second}")
-            raise RecordingError(path, f"several tracked points are on the {one} foot: {where}")
+    for side in Foot:
+        same = [point for _, point, other in named if other is side]
+        if len(same) > 1:
+            where = printable(", ".join(same))
+            raise RecordingError(path, f"several tracked points are on the {side.value} foot: {where}")
     # without the start of every file, all are taken to start together
-    starts = {system: _start_of(system) for system, _ in systems}
+    starts = {system: _start_of(system) for system in systems}
     known = [start for start in starts.values() if start is not None]
-    bad_rows, tables = BadRows(path, report, "row"), []
-    for side, system, point in named:
-        table = _read_point(system, dict(systems)[system], point, Foot(side), bad_rows)
-        start = starts[system] if len(known) == len(starts) else None
-        if start is not None:
-            table.t = floats([t + (start - min(known)) for t in table.t])
-        tables.append(table)
-    used = clean(tables, foot, bad_rows)
+    bad_rows, tables = BadRows(path, report, "row"), list[FootTable]()
+    for system in dict.fromkeys(system for system, _, _ in named):
+        sides = {point: side for one, point, side in named if one == system}
+        for table in _read_system(system, systems[system], sides, bad_rows):
+            start = starts[system] if len(known) == len(starts) else None
+            if start is not None:
+                table.t = floats([t + (start - min(known)) for t in table.t])
+            tables.append(table)
+    used = clean(sorted(tables, key=lambda one: one.foot.value), foot, bad_rows)
     if not used:
         raise RecordingError(path, f"holds nothing of the {foot.value} foot" if foot else "holds no samples")
     problems = [problem for table in used for problem in list_unit_problems(table)]
@@ -82,63 +84,52 @@ def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = 
 def _read_channels(path: Path) -> list[dict[str, str]]:
     """Return the rows of channels.tsv, which describe the columns of a `_motion.tsv` in their order."""
     beside = path.with_name(path.name.removesuffix(MOTION_END) + "_channels.tsv")
-    try:
-        channels = read_table(beside)
-    except OSError as error:
-        raise RecordingError(beside, os_error_text(error)) from error
+    channels = read_table(beside)
     if not channels or not all("type" in channel for channel in channels):
         raise RecordingError(beside, "describes no channels, each with a type")
     return channels
 
 
-def _map_columns(path: Path, channels: Sequence[dict[str, str]], point: str, foot: Foot) -> TableMapping:
-    """Return the mapping of the columns of a tracked point, which is on `foot`."""
-    found: dict[str, dict[str, int]] = {}
-    for number, channel in enumerate(channels):
-        quantity, component = _QUANTITY_OF_TYPE.get(channel["type"], ""), channel.get("component", "").lower()
-        if channel["type"] == "MISC" and re.fullmatch(r"pressure_[0-9]+", channel.get("name", "")):
-            quantity, component = "pressure", channel["name"]
-        if quantity and channel.get("tracked_point", "") == point:
-            found.setdefault(quantity, {})[component] = number
-    columns: dict[str, list[str]] = {}
-    units = {}
-    for quantity, numbers in found.items():
-        if quantity != "pressure":
-            if not {*"xyz"} <= numbers.keys():
-                raise RecordingError(path, f"{quantity} of {printable(point)} has no x, y and z")
-            numbers = {axis: numbers[axis] for axis in "xyz"}
-            units[quantity] = ", ".join(dict.fromkeys(channels[number].get("units", "") for number in numbers.values()))
-        columns[f"{quantity}_{foot.value}"] = [str(number + 1) for number in numbers.values()]
-    latencies = [str(number + 1) for number, channel in enumerate(channels) if channel["type"] == "LATENCY"]
-    if latencies:
-        columns["t"] = latencies[:1]
-    metadata = {} if latencies else _inherited(path)
-    rates = [metadata.get(key) for key in ("SamplingFrequencyEffective", "SamplingFrequency")]
-    rate = next((float(one) for one in rates if isinstance(one, int | float) and one > 0), None)
-    if not latencies and rate is None:
-        raise RecordingError(path, "has no LATENCY channel, and its metadata have no SamplingFrequency")
-    try:
-        return TableMapping(columns, units, rate=rate, separator="tab", header=0)
-    except ValueError as error:
-        raise RecordingError(path, printable(str(error))) from None
+def _name_of(channel: Mapping[str, str], sides: Mapping[str, Foot]) -> str:
+    """Return the name that this project has for a column, such as acc_x_left; "" for one that is not used."""
+    kind, name, foot = channel["type"], channel.get("name", ""), sides.get(channel.get("tracked_point", ""))
+    if kind in _QUANTITY_OF_TYPE and foot is not None:
+        return f"{_QUANTITY_OF_TYPE[kind]}_{channel.get('component', '').lower()}_{foot.value}"
+    if kind == "MISC" and re.fullmatch(r"pressure_[0-9]+", name) and foot is not None:
+        return f"{name}_{foot.value}"
+    return "t" if kind == "LATENCY" else ""
 
 
-def _read_point(path: Path, channels: Sequence[dict[str, str]], point: str, foot: Foot, bad_rows: BadRows) -> FootTable:
-    """Return the samples of a tracked point, which is on `foot`; a row without any inertial one is no sample."""
+def _read_system(
+    path: Path, channels: Sequence[dict[str, str]], sides: Mapping[str, Foot], bad_rows: BadRows
+) -> list[FootTable]:
+    """Return the samples of the tracked points of one file; a row without any inertial one is no sample."""
+    names = [_name_of(channel, sides) for channel in channels]
+    units = [channel.get("units", "") for channel in channels]
+    for name, unit in zip(names, units, strict=True):
+        quantity = name.partition("_")[0]
+        if quantity in ("acc", "gyro") and unit_of(unit, quantity) is None:
+            raise RecordingError(
+                path, f"{quantity} is in {printable(unit)}, not in one of {', '.join(UNITS[quantity])}"
+            )
+    rate = None
+    if "t" not in names:
+        metadata = _inherited(path)
+        rates = [metadata.get(key) for key in ("SamplingFrequencyEffective", "SamplingFrequency")]
+        rate = next((float(one) for one in rates if isinstance(one, int | float) and one > 0), None)
+        if rate is None:
+            raise RecordingError(path, "has no LATENCY channel, and its metadata have no SamplingFrequency")
+    mapping = TableMapping(rate=rate, separator="tab", header=0)
     headers: list[TableColumns] = []
-    tables = read_file(path, foot, _map_columns(path, channels, point, foot), bad_rows, headers)
-    count = len(headers[0].header.names)
-    if count != len(channels):
-        raise RecordingError(path, f"has {count} columns, and channels.tsv describes {len(channels)}")
+    tables = read_file(path, None, mapping, bad_rows, headers, described=(names, units))
     if problems := headers[0].list_problems():
         raise RecordingError.of(problems)
-    (table,) = tables
-    table.names["t"] = "latency"
-    inertial = [zip(*columns, strict=True) for quantity, columns in table.columns.items() if quantity != "pressure"]
-    table.select([any(not any(map(isnan, vector)) for vector in row) for row in zip(*inertial, strict=True)])
-    if not len(table):
+    for table in tables:
+        inertial = [zip(*columns, strict=True) for q, columns in table.columns.items() if q != "pressure"]
+        table.select([any(not any(map(isnan, vector)) for vector in row) for row in zip(*inertial, strict=True)])
+    if not any(map(len, tables)):
         bad_rows.finish()
-    return table
+    return tables
 
 
 def _inherited(path: Path) -> dict[str, Any]:

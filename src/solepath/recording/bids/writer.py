@@ -28,7 +28,7 @@ from ...types import Site
 from ..errors import RecordingError
 from ..packets import read_start_time
 from ..posed import PosedSample
-from .columns import MotionColumns, read_json, read_table, to_json, write_table
+from .columns import CHANNEL_COLUMNS, MotionColumns, read_json, read_table, to_json, to_tsv
 from .gait_rows import EVENT_COLUMNS, event_row
 from .names import BIDS_VERSION, TSV_MISSING, Entities
 
@@ -64,13 +64,11 @@ class MotionWriter:
             raise RecordingError(self.root, f"has other files and no {DESCRIPTION}: it is no BIDS dataset")
         if (self.root / DESCRIPTION).is_file():
             read_json(self.root / DESCRIPTION)  # a dataset with a damaged description is not added to
-        self._earlier = self._list_earlier()
+        folder = self.root / self.entities.folder
+        listed = sorted(folder.iterdir()) if folder.is_dir() else []
+        self._earlier = [path for path in listed if self.entities.owns(path.name)]
         if self._earlier and not replace:
             raise RecordingError(self._earlier[0], "the dataset has this recording already")
-
-    def _list_earlier(self) -> list[Path]:
-        folder = self.root / self.entities.folder
-        return [path for path in sorted(folder.iterdir()) if self.entities.owns(path.name)] if folder.is_dir() else []
 
     def add(self, samples: Iterable[PosedSample], events: Iterable[Event]) -> None:
         """Add samples in order of time, and the events that came with them."""
@@ -81,10 +79,7 @@ class MotionWriter:
                 self._events.append(row)
         for posed in samples:
             site = posed.sample.site
-            columns = self._sensors.get(site)
-            if columns is None:
-                columns = self._sensors[site] = MotionColumns(site)
-            columns.add(posed)
+            self._sensors.setdefault(site, MotionColumns(site)).add(posed)
 
     def write(self) -> list[Path]:
         """Write all files and return those of the recording; RecordingError without any sample, OSError."""
@@ -93,37 +88,33 @@ class MotionWriter:
         start = min([columns.t[0] for columns in self._sensors.values()])
         folder = self.root / self.entities.folder
         folder.mkdir(parents=True, exist_ok=True)
+        events = [{"onset": f"{t - start:.6f}"} | row for t, row in sorted(self._events, key=lambda one: one[0])]
         described = {name: _TEXTS.joinpath(name).read_text("utf-8") for name in ("events.json", "channels.json")}
-        texts = {self.entities.file("events.json"): described["events.json"]}
-        names = [self.entities.file("events.tsv")]
+        name = self.entities.file
+        texts = {name("events.json"): described["events.json"], name("events.tsv"): to_tsv(EVENT_COLUMNS, events)}
         files = FileReplacements()
         try:
-            self._write_events(files.temporary_path(folder / names[0]), start)
             for site, columns in self._sensors.items():
-                columns.pressure_units = self._pressure_units.get(site, "N")
-                motion, channels = (self.entities.file(end, columns.tracksys) for end in ("motion.tsv", "channels.tsv"))
-                columns.write_motion(files.temporary_path(folder / motion), start)
-                columns.write_channels(files.temporary_path(folder / channels))
+                columns.pressure_units, system = self._pressure_units.get(site, "N"), columns.tracksys
+                texts[name("motion.tsv", system)] = ""
+                texts[name("channels.tsv", system)] = to_tsv(CHANNEL_COLUMNS, columns.channels())
                 metadata = columns.metadata(self.entities.task, start, version("solepath"))
-                texts[self.entities.file("motion.json", columns.tracksys)] = to_json(metadata)
-                texts[self.entities.file("channels.json", columns.tracksys)] = described["channels.json"]
-                names += [motion, channels]
+                texts[name("motion.json", system)] = to_json(metadata)
+                texts[name("channels.json", system)] = described["channels.json"]
+            written = {folder / one: files.temporary_path(folder / one) for one in texts}
+            for path, text in zip(written.values(), texts.values(), strict=True):
+                path.write_text(text, encoding="utf-8", newline="\n")
+            for columns in self._sensors.values():
+                columns.write_motion(written[folder / name("motion.tsv", columns.tracksys)], start)
             files.move_to_targets()
         finally:
             files.discard()
-        for name, text in texts.items():
-            write_whole(folder / name, text)
-        written = [folder / name for name in [*names, *texts]]
         for path in self._earlier:
             if path not in written:
                 path.unlink()  # of a sensor that this recording does not have
         self._write_scans(start)
         self._write_dataset()
         return sorted(written)
-
-    def _write_events(self, path: Path, start: float) -> None:
-        rows = [{"onset": f"{t - start:.6f}"} | row for t, row in sorted(self._events, key=lambda one: one[0])]
-        write_table(path, EVENT_COLUMNS, rows)
 
     def _write_scans(self, start: float) -> None:
         """Write the start of each file into scans.tsv; all count their latencies from the start of the recording."""
@@ -133,13 +124,11 @@ class MotionWriter:
             exact = first_moment + timedelta(seconds=0.0 if t is None else start - t)
             moment = exact.isoformat(timespec="microseconds").replace("+00:00", "Z")
         path = self.root / self.entities.scans
-        rows = read_table(path) if path.is_file() else []
-        rows = [row for row in rows if not self.entities.owns(Path(row.get("filename", "")).name)]
+        rows = [row for row in read_table(path) if not self.entities.owns(Path(row.get("filename", "")).name)]
         for columns in self._sensors.values():
             name = self.entities.file("motion.tsv", columns.tracksys)
             rows.append({"filename": f"motion/{name}", "acq_time": moment})
-        others = [column for column in (rows[0] if rows else {}) if column not in ("filename", "acq_time")]
-        write_table(path, ("filename", "acq_time", *others), rows)
+        write_whole(path, to_tsv({"filename": "", "acq_time": ""} | rows[0], rows))
 
     def _write_dataset(self) -> None:
         name = self.root.resolve().name
@@ -154,7 +143,7 @@ class MotionWriter:
         if not any(self.root.glob("README*")):
             write_whole(self.root / README, _README_TEXT.format(name=name))
         path, person = self.root / PARTICIPANTS, f"sub-{self.entities.subject}"
-        rows = read_table(path) if path.is_file() else []
+        rows = read_table(path)
         if person not in [row.get("participant_id") for row in rows]:
-            columns = tuple(rows[0]) if rows else ("participant_id",)
-            write_table(path, columns, [*rows, {"participant_id": person}])
+            rows.append({"participant_id": person})
+            write_whole(path, to_tsv(rows[0], rows))

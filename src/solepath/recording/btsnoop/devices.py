@@ -193,30 +193,21 @@ class LoggedDevice:
     def identify(self, known: KnownDevices, handles: Handles) -> Iterator[tuple[str, int]]:
         """Set profile, channels and site from `handles`, discovery and values, and yield the entries of `handles` used.
 
-        An entry is not used if it contradicts the device's profile or a discovered channel. An entry for any device is
-        not used for an attribute that was discovered with another type."""
+        An entry is for an attribute that was not discovered; one that says what the discovery says counts as used."""
         self.profile = known.find_profile({one.uuid for one in self.attributes.values()})
         own = () if self.profile is None else self.profile.channels
         for handle, one in self.attributes.items():
             hints = [(address, handle) for address in (self.address.upper(), "") if (address, handle) in handles]
-            fitting = [hint for hint in hints if one.has_values and self._fits(one, hint[0], handles[hint], known)]
-            yield from fitting
-            named = handles[fitting[0]] if fitting else "" if one.uuid else one.proven_channel
+            named = "" if one.uuid else handles[hints[0]] if hints else one.proven_channel
             channels = known.channels[named] if named else [each for each in own if each.characteristic == one.uuid]
             for operation, accesses in ACCESS_BY_OPERATION.items():
                 if names := [each.name for access in accesses for each in channels if each.access is access]:
                     one.channels[operation] = names[0]
+            found = {named, *one.channels.values()}
+            yield from [hint for hint in hints if one.has_values and handles[hint] in found]
             foot = one.read_foot(known)
             if self.site is None and foot is not None:
                 self.site = SITE_OF_FOOT[foot]
-
-    def _fits(self, attribute: LoggedAttribute, address: str, channel: str, known: KnownDevices) -> bool:
-        """Return whether the attribute's discovery, if any, allows that it is the channel of this name."""
-        if self.profile is not None and channel not in self.profile.channel_by_name:
-            return False
-        if attribute.uuid in ("", known.channels[channel][0].characteristic):
-            return True
-        return address != "" and all(attribute.uuid != one[0].characteristic for one in known.channels.values())
 
 
 def explain_unused(hint: tuple[str, int], channel: str, devices: Iterable[LoggedDevice]) -> str:

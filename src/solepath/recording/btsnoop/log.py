@@ -17,9 +17,12 @@ from ...link.driver import Driver
 from ...types import Packet, Site
 from ...wire.receiver import ConnectionFrame, build_connected
 from ..errors import RecordingError, Report, printable, warn
-from .devices import AttOperation, Handles, LoggedAttribute, LoggedDevice, explain_unused, known_devices
+from .devices import Handles, LoggedDevice, explain_unused, known_devices
 from .records import reject_pipe
 from .values import ValueListener
+
+MAX_NAMED = 4
+"""Largest number of unknown attributes of a device that are named."""
 
 
 @define
@@ -122,14 +125,15 @@ def _describe_omissions(devices: Sequence[LoggedDevice]) -> Iterator[str]:
     others = 0
     for device in devices:
         valued = {handle: one for handle, one in device.attributes.items() if one.has_values}
-        unnamed = {
-            handle: one
-            for handle, one in valued.items()
-            if one.count and AttOperation.NOTIFIED not in one.channels and not one.uuid
-        }
-        if unnamed:
-            values = _count_text(sum([one.count for one in unnamed.values()]), "value")
-            yield f"{values} of {device.address} left out: no discovery says what is {_describe_handles(unnamed)}"
+        unknown = {handle: one for handle, one in valued.items() if one.count and not one.channels and not one.uuid}
+        if unknown:
+            values = _count_text(sum([one.count for one in unknown.values()]), "value")
+            texts = [
+                f"{handle:#06x} ({', '.join(map(str, sorted(one.lengths)[:3]))} bytes)"
+                for handle, one in unknown.items()
+            ]
+            which = ", ".join(texts[:MAX_NAMED]) + (" ..." if len(texts) > MAX_NAMED else "")
+            yield f"{values} of {device.address} left out: no discovery says what is {which}"
         if device.site is None and device.count:
             values = _count_text(device.count, "value")
             yield f"{values} of {device.address}, {device.noun}, left out: nobody says where it was worn"
@@ -144,12 +148,3 @@ def _describe_omissions(devices: Sequence[LoggedDevice]) -> Iterator[str]:
 
 def _count_text(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
-
-
-def _describe_handles(attributes: Mapping[int, LoggedAttribute]) -> str:
-    """Return a text with the first four handles and the lengths of their values."""
-    texts = [
-        f"{handle:#06x} ({', '.join(map(str, sorted(evidence.lengths)[:3]))} bytes)"
-        for handle, evidence in list(attributes.items())[:4]
-    ]
-    return ", ".join(texts) + (" ..." if len(attributes) > len(texts) else "")

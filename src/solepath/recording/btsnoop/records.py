@@ -125,18 +125,15 @@ def read_records(
 
 
 def _parse_datalink(path: Path, start: bytes) -> Datalink:
-    if not start:
-        raise RecordingError(path, "is empty")
     magic, version, datalink = FILE_HEADER.unpack(start.ljust(FILE_HEADER.size)[: FILE_HEADER.size])
     if len(start) < FILE_HEADER.size or magic != MAGIC:
-        raise RecordingError(path, "does not begin as a btsnoop log")
-    if version != VERSION:
-        raise RecordingError(path, f"is btsnoop of version {version}; this release reads version {VERSION}")
-    known = {one.value: one for one in Datalink}
-    if datalink not in known:
-        supported = ", ".join(f"{one.value} ({one.name})" for one in Datalink)
-        raise RecordingError(path, f"is btsnoop of datalink {datalink}; this release reads {supported}")
-    return known[datalink]
+        raise RecordingError(path, "does not begin as a btsnoop log" if start else "is empty")
+    found = next((one for one in Datalink if one.value == datalink and version == VERSION), None)
+    if found is None:
+        readable = ", ".join(f"{one.value} ({one.name})" for one in Datalink)
+        what = f"is btsnoop of datalink {datalink}, version {version}"
+        raise RecordingError(path, f"{what}; this release reads {readable}, version {VERSION}")
+    return found
 
 
 def _unwrap(datalink: Datalink, t: int, flags: int, data: bytes, whole: bool) -> HciRecord:

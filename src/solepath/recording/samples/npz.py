@@ -14,7 +14,7 @@ from numpy.lib.format import read_array
 from numpy.typing import NDArray
 
 from ..errors import RecordingError, describe_error, open_file, printable
-from ..mapping.mapping import KEYS, TableMapping
+from ..mapping.mapping import COMPONENTS, KEYS, TableMapping
 from .columns import TableColumns
 from .sheet import SheetLayout
 from .table import MAX_VALUES
@@ -28,20 +28,24 @@ FLOAT_SIZE = 8
 def open_npz(path: Path, mapping: TableMapping) -> tuple[SheetLayout, TableMapping, dict[int, list[float]]]:
     """Return the keys of an archive as a header of columns, the mapping with their names, and the columns in use.
 
-    A key holds all components of a quantity, which become columns such as acc_0, or one of them. RecordingError as for
+    A key holds all components of a quantity, which become columns such as acc_x, or one of them. RecordingError as for
     `read_arrays`, and for an array that is used and does not hold columns of numbers."""
     given = {name.lstrip("-") for names in mapping.columns.values() for name in names}
     parts: dict[str, list[str]] = {}
     names: list[str] = []
     columns: dict[int, list[float]] = {}
     for key, array in _read_members(path, {*KEYS, *given}.__contains__).items():
+        quantity, _, foot = key.partition("_")
         parts[key] = [key]
         if array is not None:
-            if array.dtype.kind not in "fiu" or array.ndim not in (1, 2):
+            width = COMPONENTS.get(quantity) if key in KEYS and array.ndim == 2 else None
+            if array.dtype.kind not in "fiu" or array.ndim not in (1, 2) or width not in (None, array.shape[-1]):
                 what = f"holds {printable(str(array.dtype), 40)} of the shape {array.shape}, not columns of numbers"
                 raise RecordingError(path, what, key)
             if array.ndim == 2:
-                parts[key] = [f"{key}_{k}" for k in range(array.shape[1])]
+                axes = "xyz" if width == 3 else range(array.shape[1])
+                start, end = (quantity, foot and f"_{foot}") if key in KEYS else (key, "")
+                parts[key] = [f"{start}_{axis}{end}" for axis in axes]
             values = array.astype(np.float64).reshape(len(array), len(parts[key]))
             columns |= enumerate(values.T.tolist(), len(names))
         names += parts[key]

@@ -11,7 +11,7 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ...types import Foot, Sample
 from ..bad_rows import BadRows
@@ -80,8 +80,7 @@ def load_samples(
     total = BadRows(paths[0], report, "row")
     problems: list[RecordingError] = []
     tables: list[FootTable] = []
-    unnamed: dict[Path, set[str]] = {}
-    headers: list[TableColumns] = []
+    headers, guessed = list[TableColumns](), list[TableColumns]()
     for path, its_foot in zip(paths, feet, strict=True):
         bad_rows = BadRows(path, report, "row")
         try:
@@ -89,14 +88,16 @@ def load_samples(
             tables += clean(own, only, bad_rows)
         except RecordingError as error:
             problems += error.problems
-            if its_foot is None and isinstance(error, UnknownTable) and error.quantities:
-                unnamed[path] = error.quantities
+            guessed += [error.found] if isinstance(error, UnknownTable) and error.found is not None else []
         total.count, total.good = total.count + bad_rows.count, total.good + bad_rows.good
     found_keys = {key for found in headers for key in found.found_keys}
     for found in headers:
         problems += found.list_problems(set() if found.is_empty else found.elsewhere & found_keys)
-        if any(table.is_assumed for table in found.feet):
-            unnamed[found.header.path] = found.quantities
+    unnamed = {
+        found.header.path: found.quantities
+        for found in [*guessed, *headers]
+        if any(table.is_assumed for table in found.feet)
+    }
     if not tables and not problems and only is not None:
         problems.append(RecordingError(paths[0], f"holds nothing of the {only.value} foot"))
     example = _name_feet(paths, unnamed, problems)
@@ -127,10 +128,12 @@ def read_file(
     headers: list[TableColumns],
     *,
     is_alone: bool = True,
+    described: tuple[Sequence[str], Sequence[str]] | None = None,
 ) -> list[FootTable]:
     """Return the tables of the feet in one file, of which only the cells were read; its columns go to `headers`.
 
-    There are none for a sheet whose columns have faults."""
+    There are none for a sheet whose columns have faults. `described`: names and units of the columns, if another file
+    has them."""
     if path.suffix.lower() == ".npz":
         from .npz import check_lengths, open_npz  # imports numpy, which text does not need
 
@@ -139,9 +142,14 @@ def read_file(
     else:
         sheet, columns = open_sheet(path, mapping), {}
     with sheet as (layout, rows):
+        if described is not None:
+            if len(layout.names) != len(described[0]):
+                what = f"has {len(layout.names)} columns, and {len(described[0])} are described"
+                raise RecordingError(path, what)
+            layout = evolve(layout, names=described[0], units=described[1])
         found = find_columns(layout, mapping, foot, is_alone=is_alone)
         if not found.feet and not found.faults:
-            raise guess_mapping(layout, rows)
+            raise guess_mapping(layout, rows, foot)
         headers.append(found)
         if found.is_empty or found.list_problems(found.elsewhere):
             return []
@@ -194,6 +202,8 @@ def clean(tables: Sequence[FootTable], only: Foot | None, bad_rows: BadRows) -> 
     if used:
         total = max(map(len, used))
         faults = {number: (where, what) for table in used for number, where, what in remove_bad_rows(table)}
-        bad_rows.add_all([faults[number] for number in sorted(faults)], total)
+        bad_rows.good = total - len(faults)
+        for number in sorted(faults):
+            bad_rows.add(*faults[number])
         bad_rows.finish()
     return [table for table in used if len(table)]
