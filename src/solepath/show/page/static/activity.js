@@ -35,7 +35,7 @@ function figures(state) {
   const rests = !finished && pace?.cadence == null; // nothing is new
   const most = mostDifferent((finished ? whole.rows : state.gait?.rows) ?? []);
   const share = Math.abs(most?.share ?? NaN);
-  const side = most && `${most.share < 0 ? "left" : "right"} ${most.more}`;
+  const side = most && ` ${most.share < 0 ? "left" : "right"} ${most.more}`; // a space outside of it would move
   const metres = distance(state);
   const texts = {
     speed: fixed(speed, 2),
@@ -43,7 +43,7 @@ function figures(state) {
     symmetry: !most ? "–" : most.even ? "even" : `${fixed(100 * share, share < 0.0995 ? 1 : 0)} %`,
     distance: strides > 0 ? fixed(metres, metres < 99.95 ? 1 : 0) : "–",
     strides: String(strides ?? "–"),
-    "symmetry-words": most && rests ? "last walk" : !most || most.even ? "" : side,
+    "symmetry-words": most && rests ? " last walk" : !most || most.even ? "" : side,
     "symmetry-label": !most ? "left and right" : most.even ? `${most.name}: ${fixed(100 * share, 1)} ${most.points ? "points" : "%"}` : most.name,
     "speed-label": `${finished ? "mean speed" : "speed now"}, m/s`,
     "cadence-label": `${finished ? "mean" : "cadence now,"} steps/min`,
