@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..types import Foot, Layout, Sample, Vec2, Vec3, WalkingMode
+from ..types import Floats, Foot, Layout, Sample, Vec2, Vec3, WalkingMode
 from ..types.attrs import COUNT, evolve, field, fields, frozen, limited, limits
 
 MAX_CELLS = 4096
@@ -49,7 +49,7 @@ class InsoleCalibration:
     """Positions of the cells, for devices and files that do not send them."""
     newtons: Newtons | None = None
     """Conversion of raw values to N; None when the values stay in their own unit."""
-    noise: tuple[float, ...] = field(default=(), metadata=limits(0.0, 1e6))
+    noise: Floats = field(default=(), metadata=limits(0.0, 1e6))
     """Value of each unloaded cell, in N if there are `newtons`, otherwise in the unit of the samples (Chen et al. 2019,
     equation (1))."""
 
@@ -78,13 +78,9 @@ class ShoeGeometry:
     """Radius L_r of the heel, from its rear end to the point of the sole below the sensor, m."""
     height: float = limited(0.029, 0.0, 1.0, "m")
     """Height H_imu of the sensor above that point of the sole, m."""
-    forefoot_radius: tuple[float, ...] = field(
-        default=(0.070, 0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0), metadata=POLYNOMIAL
-    )
+    forefoot_radius: Floats = field(default=(0.070, 0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0), metadata=POLYNOMIAL)
     """Radius L_r of the forefoot, m, as a polynomial of the pitch (rad, heel up positive), constant first."""
-    pivot_to_toe: tuple[float, ...] = field(
-        default=(0.090, -0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0), metadata=POLYNOMIAL
-    )
+    pivot_to_toe: Floats = field(default=(0.090, -0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0), metadata=POLYNOMIAL)
     """Distance L_p2t of the forefoot, m, as a polynomial of the pitch (rad, heel up positive), constant first."""
     steepest: float = limited(1.3, 0.01, 1.6, "rad")
     """Largest pitch for which the polynomials hold, rad; the smallest is 0."""
@@ -169,11 +165,11 @@ class RestNoise:
 class TriadCalibration:
     """Correction of a three-axis sensor: the true values are `matrix` times (reading - `bias`)."""
 
-    matrix: tuple[float, ...] = field(metadata={COUNT: (9, 9), **limits(-MAX_TILT, 1.0 + MAX_TILT)})
+    matrix: Floats = field(metadata={COUNT: (9, 9), **limits(-MAX_TILT, 1.0 + MAX_TILT)})
     """Nine elements, row by row, no unit."""
     bias: Vec3 = field(metadata=limits(-5.0, 5.0, "m/s^2"))
     """Reading where the true value is 0, m/s^2 or rad/s."""
-    matrix_sigma: tuple[float, ...] = field(metadata={COUNT: (9, 9), **limits(0.0, 0.1)})
+    matrix_sigma: Floats = field(metadata={COUNT: (9, 9), **limits(0.0, 0.1)})
     """Standard deviations of `matrix`, no unit."""
     bias_sigma: Vec3 = field(metadata=limits(0.0, 5.0, "m/s^2"))
     """Standard deviations of `bias` on the day of the calibration, m/s^2 or rad/s."""

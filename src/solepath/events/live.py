@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..types import Foot, Phase, Vec2, Vec3
+from ..types import Floats, Foot, Phase, Vec2, Vec3
 from ..types.attrs import frozen
 from .happening import BaseEvent
 
@@ -48,7 +48,7 @@ class FootPressed(BaseEvent):
     It is reported with every sample that has usable cells. It is never final."""
 
     foot: Foot
-    values: tuple[float, ...]
+    values: Floats
     """Value of each cell in the layout's order, in the unit of the samples (N if a calibration converts counts to N).
     The cell's noise is subtracted, and after the first swing also its tare. A failed cell has 0."""
     force: float

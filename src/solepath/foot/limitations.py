@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..events import Event, Limitation
-from ..types import SITE_OF_FOOT, Foot, Layout
+from ..types import SITE_OF_FOOT, Floats, Foot, Layout
 from ..types.attrs import define, field
 
 LACKING_TIME = 1.0
@@ -51,13 +51,7 @@ class Limitations:
             self.report(text, t, known_at, events)
 
     def rejects_calibration(
-        self,
-        layout: Layout | None,
-        noise: tuple[float, ...],
-        count: int,
-        t: float,
-        known_at: float,
-        events: list[Event],
+        self, layout: Layout | None, noise: Floats, count: int, t: float, known_at: float, events: list[Event]
     ) -> bool:
         """Return whether the calibration is rejected, as its number of cells has been wrong for `MISMATCH_TIME`.
 

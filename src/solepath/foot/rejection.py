@@ -6,7 +6,7 @@ from math import hypot, inf, isfinite
 from typing import NamedTuple
 
 from ..events import Defect, Rejection, SampleRejected
-from ..types import Sample, Vec3
+from ..types import Floats, Sample, Vec3
 from ..types.records import MAX_TIME
 
 ABSURD_ACC = 500.0
@@ -99,7 +99,7 @@ def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> RejectionReas
     return RejectionReason(Rejection.ABSURD, detail)
 
 
-def _size_of_numbers(cells: tuple[float, ...]) -> float:
+def _size_of_numbers(cells: Floats) -> float:
     """Return the root of the sum of squares of the cells that are numbers; cell_health.py handles the others."""
     try:
         return hypot(*[value for value in cells if value is not None and isfinite(value)])

@@ -9,7 +9,7 @@ docs/accuracy.md; docs/settings.md has the effect of half and of twice each. The
 from __future__ import annotations
 
 from ..calibration import HeadingCalibration, InsoleCalibration, Newtons
-from ..types import Layout
+from ..types import Floats, Layout
 from ..types.attrs import evolve, frozen
 
 
@@ -23,7 +23,7 @@ class InsoleSettings:
     """Rear end of the forefoot area, measured from the heel, as a share of the length of the insole, 0 to 1."""
     newtons: Newtons | None = None
     """Conversion of raw cell values to N; None leaves the values in the unit of the samples."""
-    noise: tuple[float, ...] = ()
+    noise: Floats = ()
     """Value of each unloaded cell, to be subtracted: N with `newtons`, otherwise in the unit of the samples.
 
     It is not used for an insole with another number of cells."""

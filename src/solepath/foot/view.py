@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
-from ..types import Foot, Layout, Phase, Quat, Sample, Vec2, Vec3
+from ..types import Floats, Foot, Layout, Phase, Quat, Sample, Vec2, Vec3
 from ..types.attrs import define
 from .navigate.bias import Bias
 from .world import Covariance3
@@ -18,7 +18,7 @@ It is that of the fastest 20 m of the world record of 100 m, 1.61 s from 60 to 8
 class PressedCells(NamedTuple):
     """The values of the pressure cells of one sample, calibrated and without noise."""
 
-    values: tuple[float, ...]
+    values: Floats
     """Value of each cell, N or in the unit of the samples."""
     layout: Layout | None
     """Layout of the cells; None when it is unknown."""

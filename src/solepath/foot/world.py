@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, sin
 
-from ..types import Quat, Vec2, Vec3
+from ..types import Floats, Quat, Vec2, Vec3
 from ..types.attrs import define
 from ..types.vector import from_yaw, multiply
 
@@ -60,7 +60,7 @@ class World:
             return q
         return multiply(from_yaw(atan2(self.north[1], self.north[0])), q)
 
-    def rotate_covariance(self, covariance: tuple[float, ...]) -> Covariance3:
+    def rotate_covariance(self, covariance: Floats) -> Covariance3:
         """Return the covariance of a vector in the world frame for `covariance`, that in the navigation frame."""
         xx, xy, xz, yy, yz, zz = covariance
         if self.north is None:
@@ -91,7 +91,7 @@ class PathCovariance:
     position_yaw: Vec2 = (0.0, 0.0)
     """Covariance of position x and y with yaw, m rad."""
 
-    def extend(self, displacement: Vec3, stretch: tuple[float, ...]) -> PathCovariance:
+    def extend(self, displacement: Vec3, stretch: Floats) -> PathCovariance:
         """Return the path with one more stretch, given by displacement (m) and covariance (`Corrector.anchor`)."""
         dx, dy, _ = displacement
         px, py = -dy, dx

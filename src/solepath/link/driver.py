@@ -22,7 +22,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ..events import Rejection
-from ..types import Foot, Layout, Quat, Vec3
+from ..types import Floats, Foot, Layout, Quat, Vec3
 from ..types.attrs import COUNT, field, frozen, limited, limits
 from ..types.checking import find_fault
 from ..wire.error import WireError
@@ -64,7 +64,7 @@ class Measured:
     """Specific force, m/s^2."""
     gyro: Vec3 | None = None
     """Angular rate, rad/s."""
-    pressure: tuple[float, ...] | None = field(default=None, metadata=ITEMS)
+    pressure: Floats | None = field(default=None, metadata=ITEMS)
     """Value of each cell, as in types.Sample: N when the device declares a scale, otherwise counts."""
     quat: Quat | None = None
     """Attitude, sensor to world, as a quaternion of any length; all zero when the device does not know it."""

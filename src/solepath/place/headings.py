@@ -13,7 +13,7 @@ from math import atan2, cos, degrees, hypot, isfinite, pi, radians, sin
 from ..events import PlanContradicted, WearerMoved
 from ..floorplan.plan import FloorPlan
 from ..types.attrs import stateful
-from .particles import Particle, scaled, stored, total_weight
+from .particles import Cloud, scaled, stored, total_weight
 
 START_HEADING_ERROR = 0.24
 """Largest error of a known start heading, rad, with the error of the first stride's direction (the track's x axis)."""
@@ -86,7 +86,7 @@ class KnownHeading:
         if self.heading is not None:
             self.heading = (self.heading[0] - yaw, self.heading[1])
 
-    def update(self, plan: FloorPlan, here: WearerMoved, particles: list[Particle]) -> list[Particle]:
+    def update(self, plan: FloorPlan, here: WearerMoved, particles: Cloud) -> Cloud:
         """Allow the first heading the error of the track now; without one, take that by the compass, if there is one.
 
         Two standard deviations of the track are 95 % of its errors; with pi, any heading is possible. Returns the
@@ -102,7 +102,7 @@ class KnownHeading:
         is_new, self.source = self.source is HeadingSource.NONE, HeadingSource.COMPASS
         return stored(_weigh(particles, self.heading, is_new))
 
-    def find_contradiction(self, particles: list[Particle], t: float, known_at: float) -> list[PlanContradicted]:
+    def find_contradiction(self, particles: Cloud, t: float, known_at: float) -> list[PlanContradicted]:
         """Use the heading no longer if at `t`, s, all particles have other ones, and return the events that say so."""
         if self.heading is None:
             return []
@@ -129,7 +129,7 @@ class KnownHeading:
         return [PlanContradicted(t=t, known_at=known_at, what=what, heading_off=round(off, 4))]
 
 
-def _weigh(particles: list[Particle], heading: Heading, is_new: bool) -> list[Particle]:
+def _weigh(particles: Cloud, heading: Heading, is_new: bool) -> Cloud:
     """Return the particles weighed by the compass, which shows the heading for the first time or goes on.
 
     A new heading weighs as a known one does at arrivals: `ANY_HEADING_SHARE` is spread over the whole circle, the rest

@@ -17,6 +17,7 @@ from .particles import (
     MIN_CANDIDATE_WEIGHT,
     NOISE_ENTRIES,
     NOISE_TABLE,
+    Cloud,
     Particle,
     resample,
     scaled,
@@ -40,12 +41,12 @@ BOTH_LEVELS_LIMITS = (0.3, 0.8)
 """Limits, as shares of the climb to the next landing, between which the wearer may be on either level."""
 
 
-def entering(plan: IndexedPlan, particles: list[Particle], kind: ConnectorKind, displacement: Point) -> list[Particle]:
+def entering(plan: IndexedPlan, particles: Cloud, kind: ConnectorKind, displacement: Point) -> Cloud:
     """Return a particle that changes level for each particle near stairs or an elevator, as `kind` says.
 
     `displacement` is that of the track since the change may have started, m."""
     back = (-displacement[0], -displacement[1])
-    found: list[Particle] = []
+    found: Cloud = []
     for particle in particles:
         place = particle.after(back)
         landings = [one for one in plan.landings if one.kind is kind and one.level == particle.level]
@@ -73,10 +74,10 @@ def place_near(plan: IndexedPlan, level: int, place: Point, offset: Point) -> Po
     return place if plan.crosses(level, *place, x, y) else (x, y)
 
 
-def leaving(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached, random: int) -> list[Particle]:
+def leaving(plan: IndexedPlan, changing: Cloud, arrived: LevelReached, random: int) -> Cloud:
     """Return a particle at each possible exit of each one that changes level; the other direction weighs less."""
     exits = {at: weigh_exits(plan, plan.landings[at - 1], arrived) for at in landings_of(changing)}
-    found: list[Particle] = []
+    found: Cloud = []
     for k, one in enumerate(changing):
         ex, ey, eh, es = NOISE_TABLE[(random + k) % NOISE_ENTRIES]
         turn, stretch = TURN_ERROR * eh, 1.0 + STRETCH_ERROR * es
@@ -88,12 +89,12 @@ def leaving(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached, 
     return found
 
 
-def landings_of(particles: list[Particle]) -> list[int]:
+def landings_of(particles: Cloud) -> list[int]:
     """Return the indices of the landings at which particles change level."""
     return sorted({particle.landing for particle in particles} - {0})
 
 
-def odds_of_reversal(plan: IndexedPlan, changing: list[Particle], arrived: LevelReached) -> dict[int, float] | None:
+def odds_of_reversal(plan: IndexedPlan, changing: Cloud, arrived: LevelReached) -> dict[int, float] | None:
     """Return how a level's weight changes if the stairs are later reported in the other direction, by level.
 
     Levels to which they lead in both directions are left out. None for a lift."""
@@ -110,8 +111,8 @@ def odds_of_reversal(plan: IndexedPlan, changing: list[Particle], arrived: Level
 
 
 def levels_on_the_way(
-    plan: IndexedPlan, particles: list[Particle], passage: Passage | None, here: WearerMoved
-) -> tuple[list[Particle], dict[int, float]]:
+    plan: IndexedPlan, particles: Cloud, passage: Passage | None, here: WearerMoved
+) -> tuple[Cloud, dict[int, float]]:
     """Return the particles, those that change level with a level, and their heights, m, by landing of entry.
 
     The level is the nearer one; about half-way, particles alternate between both. Heights end at the next landing."""
@@ -147,7 +148,7 @@ With 2, half a storey of 2.7 m or more contradicts, and an error of 1.5 m does n
 
 
 def contradicted_height(
-    plan: IndexedPlan, ride: LevelReached, particles: list[Particle], known_at: float
+    plan: IndexedPlan, ride: LevelReached, particles: Cloud, known_at: float
 ) -> list[PlanContradicted]:
     """Return an event if no lift of the plan makes a ride of this height and direction from a particle's level.
 
@@ -196,9 +197,7 @@ TWINS = 30
 """Number of particles that an alike level gets when it has none left: as many as are kept for a light candidate."""
 
 
-def hold_alike_levels(
-    plan: IndexedPlan, before: list[Particle], after: list[Particle], move: Point, placed: Placed
-) -> list[Particle]:
+def hold_alike_levels(plan: IndexedPlan, before: Cloud, after: Cloud, move: Point, placed: Placed) -> Cloud:
     """Return the particles `after` a move of the track, m, with the ratios that alike levels at one place had `before`.
 
     The place is that which was reported before the move, and its level the one to which others are compared. If an
@@ -218,7 +217,7 @@ def hold_alike_levels(
     new, around = _near(after, x, y), _near(after, x, y, PLACE_RADIUS + length)
     if level not in new:
         return after
-    factors, twins = dict[int, float](), list[Particle]()
+    factors, twins = dict[int, float](), Cloud()
     new_weight = total_weight(new[level])
     for other, particles in old.items():
         share = total_weight(particles) / weight
@@ -233,9 +232,9 @@ def hold_alike_levels(
     return scaled(after, [factors.get(one.level, 1.0) if _is_near(one, x, y) else 1.0 for one in after]) + twins
 
 
-def _near(particles: list[Particle], x: float, y: float, radius: float = PLACE_RADIUS) -> dict[int, list[Particle]]:
+def _near(particles: Cloud, x: float, y: float, radius: float = PLACE_RADIUS) -> dict[int, Cloud]:
     """Return the particles near (x, y) that do not change level, by level."""
-    near: dict[int, list[Particle]] = {}
+    near: dict[int, Cloud] = {}
     for particle in particles:
         if _is_near(particle, x, y, radius):
             near.setdefault(particle.level, []).append(particle)
@@ -246,7 +245,7 @@ def _is_near(particle: Particle, x: float, y: float, radius: float = PLACE_RADIU
     return not particle.landing and -radius < particle.x - x < radius and -radius < particle.y - y < radius
 
 
-def _are_alike(plan: IndexedPlan, near: dict[int, list[Particle]], move: Point, level: int, other: int) -> bool:
+def _are_alike(plan: IndexedPlan, near: dict[int, Cloud], move: Point, level: int, other: int) -> bool:
     """Return whether the walls of two levels allow and stop the same moves of the particles on both."""
     moves = [(one.x, one.y, *one.after(move)) for one in (near[level] + near[other])[::EVERY]]
     return all([plan.crosses(level, *one) is plan.crosses(other, *one) for one in moves])

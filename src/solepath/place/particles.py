@@ -16,6 +16,7 @@ from typing import NamedTuple
 from ..events import Candidate
 from ..floorplan.index import IndexedPlan
 from ..floorplan.plan import FloorPlan, Point
+from ..types import Floats
 from ..types.attrs import define
 
 
@@ -57,6 +58,9 @@ class Particle(NamedTuple):
         return _new(Particle, (x, y, a, b, weight, level, origin, landing))
 
 
+Cloud = list[Particle]
+"""Hypotheses that together say where the wearer may be."""
+
 _new = tuple.__new__  # Particle(...) takes twice as long, where every particle is made anew
 _DIGITS = Struct("<eee")
 """Stored form of a, b and the weight of a particle: float16."""
@@ -71,7 +75,7 @@ def total_weight(particles: Iterable[Particle]) -> float:
     return fsum([particle.weight for particle in particles])
 
 
-def scaled(particles: list[Particle], factors: Iterable[float]) -> list[Particle]:
+def scaled(particles: Cloud, factors: Iterable[float]) -> Cloud:
     """Return the particles, the weight of each times its factor."""
     return [
         particle if k == 1.0 else particle.weighing(k * particle.weight)
@@ -79,7 +83,7 @@ def scaled(particles: list[Particle], factors: Iterable[float]) -> list[Particle
     ]
 
 
-def stored(particles: list[Particle]) -> list[Particle]:
+def stored(particles: Cloud) -> Cloud:
     """Return the particles as stored, with the largest weight scaled to 1, without those that are too light.
 
     a, b and the weight keep three digits, because no track is more accurate than 0.0005 rad, and x and y 1/128 m."""
@@ -94,12 +98,12 @@ def stored(particles: list[Particle]) -> list[Particle]:
     ]
 
 
-def turned(particles: list[Particle], yaw: float) -> list[Particle]:
+def turned(particles: Cloud, yaw: float) -> Cloud:
     """Return the particles as stored, for a track that was turned by `yaw`, rad."""
     return stored([one.turned(yaw) for one in particles])
 
 
-def resample(particles: list[Particle], count: int, offset: float = 0.5) -> list[Particle]:
+def resample(particles: Cloud, count: int, offset: float = 0.5) -> Cloud:
     """Return `count` particles that represent all, by systematic resampling with `offset` from 0 to 1.
 
     Each particle is drawn with a frequency proportional to the root of its weight, and gets that root as weight. The
@@ -109,7 +113,7 @@ def resample(particles: list[Particle], count: int, offset: float = 0.5) -> list
     if not step > 0.0:
         return []
     threshold, cumulative = offset * step, 0.0
-    drawn: list[Particle] = []
+    drawn: Cloud = []
     for root, particle in zip(roots, particles, strict=True):
         cumulative += root
         while threshold < cumulative and len(drawn) < count:
@@ -118,13 +122,18 @@ def resample(particles: list[Particle], count: int, offset: float = 0.5) -> list
     return drawn
 
 
-def effective_count(particles: list[Particle]) -> float:
+def at_most(count: int, particles: Cloud) -> Cloud:
+    """Return the particles, resampled if they are more than `count`."""
+    return particles if len(particles) <= count else resample(particles, count)
+
+
+def effective_count(particles: Cloud) -> float:
     """Return the effective number of particles, by the roots of their weights."""
     roots, total = fsum([sqrt(particle.weight) for particle in particles]), total_weight(particles)
     return roots * roots / total if total > 0.0 else 0.0
 
 
-def have_not_moved(particles: list[Particle], previous: list[Particle]) -> bool:
+def have_not_moved(particles: Cloud, previous: Cloud) -> bool:
     """Return whether every particle has the place of a previous one."""
     places = {particle[:2] for particle in previous}
     return all(particle[:2] in places for particle in particles)
@@ -181,24 +190,24 @@ NEAR_LANDING = 4.0
 
 def sway(
     plan: IndexedPlan,
-    particles: list[Particle],
+    particles: Cloud,
     move: Point,
     error_factor: float,
     turn: float,
     random: int,
     both_sides: bool = False,
-) -> list[Particle]:
+) -> Cloud:
     """Return the particles after a move of the track, m, without those for which the plan forbids it.
 
     `error_factor` multiplies the track's usual errors, `turn` is the size of the wearer's turn, rad, and `random` the
     first index in the table. With `both_sides`, a particle at a wall continues on both sides, not only the free one."""
     walls, new = plan.walls, _new
-    kept: list[Particle] = []
+    kept: Cloud = []
     for k, factor, bends in ((random, error_factor, BEND_ANGLES), (random + 499, 2.0 * error_factor, WIDE_BEND_ANGLES)):
         turn_error, stretch = factor * (HEADING_NOISE + TURN_NOISE * turn), factor * STRETCH_NOISE
         move_error = factor * (MOVE_ERROR * hypot(*move) + PLACE_ERROR)
         noise = chain(NOISE_TABLE[k % NOISE_ENTRIES + 1 :], cycle(NOISE_TABLE))
-        (dx, dy), blocked = move, list[Particle]()
+        (dx, dy), blocked = move, Cloud()
         for particle, (ex, ey, eh, es) in zip(particles, noise, strict=False):
             x, y, a, b, w, level, origin, _ = particle
             s = 1.0 + STRETCH_DECAY * (1.0 - a * a - b * b) + stretch * es
@@ -236,10 +245,10 @@ def sway(
     return kept
 
 
-def move_across_gap(plan: IndexedPlan, particles: list[Particle], move: Point, random: int) -> list[Particle]:
+def move_across_gap(plan: IndexedPlan, particles: Cloud, move: Point, random: int) -> Cloud:
     """Return the particles after a gap that are within the plan; the straight line to them may cross walls."""
     error = GAP_ERROR * hypot(*move)
-    moved: list[Particle] = []
+    moved: Cloud = []
     for k in range(2 * len(particles)):
         (x, y), (ex, ey, _, _) = particles[k // 2].after(move), NOISE_TABLE[(random + k) % NOISE_ENTRIES]
         moved.append(particles[k // 2].at(x + error * ex, y + error * ey))
@@ -252,11 +261,11 @@ HEADING_COUNT, PARTICLES_PER_HEADING = 12, 8
 """Number of headings that are tried after such a turn, and number of particles for each heading."""
 
 
-def after_wrong_turn(plan: IndexedPlan, particles: list[Particle], displacement: Point) -> list[Particle]:
+def after_wrong_turn(plan: IndexedPlan, particles: Cloud, displacement: Point) -> Cloud:
     """Return a few particles of low weight in all headings, because the track's angle of an about-turn may be wrong.
 
     The walls decide between them. `displacement` is the track's since the turn, m."""
-    (dx, dy), turned_back = displacement, list[Particle]()
+    (dx, dy), turned_back = displacement, Cloud()
     drawn = resample([particle for particle in particles if not particle.landing], PARTICLES_PER_HEADING)
     share = WRONG_TURN_SHARE * total_weight(particles) / (total_weight(drawn) or 1.0) / (HEADING_COUNT - 1)
     for k in range(1, HEADING_COUNT):
@@ -268,7 +277,7 @@ def after_wrong_turn(plan: IndexedPlan, particles: list[Particle], displacement:
     return moved_freely(plan, turned_back, displacement)
 
 
-def moved_freely(plan: IndexedPlan, particles: list[Particle], move: Point) -> list[Particle]:
+def moved_freely(plan: IndexedPlan, particles: Cloud, move: Point) -> Cloud:
     """Return the particles after a move of the track, m, without those that cross a wall."""
     moved = [(one, *one.after(move)) for one in particles]
     return [one.at(x, y) for one, x, y in moved if not plan.crosses(one.level, one.x, one.y, x, y)]
@@ -301,7 +310,7 @@ class _Group:
     """Landing of the first particle."""
     weight: float = 0.0
     """Sum of the weights."""
-    sums: tuple[float, ...] = (0.0,) * 5
+    sums: Floats = (0.0,) * 5
     """Weighted sums of x, y, a, b and the length of (a, b)."""
 
     @property
@@ -325,7 +334,7 @@ class _Group:
         return a * particle.a + b * particle.b > MIN_TURN_COSINE * length * hypot(particle.a, particle.b)
 
 
-def _group(particles: list[Particle], limit: float) -> list[_Group]:
+def _group(particles: Cloud, limit: float) -> list[_Group]:
     """Return all particles as one group when their rms deviation is below `limit`, m; else grouped by distance."""
     whole = _Group(*particles[0][5:])
     if all([particle.level == whole.level for particle in particles]):
@@ -356,7 +365,7 @@ def _group(particles: list[Particle], limit: float) -> list[_Group]:
 
 
 def candidates_of(
-    particles: list[Particle], plan: FloorPlan, heights: dict[int, float], track_height: float | None, limit: float
+    particles: Cloud, plan: FloorPlan, heights: dict[int, float], track_height: float | None, limit: float
 ) -> tuple[tuple[Candidate, ...], float]:
     """Return the candidates, heaviest first, and the rms distance of all particles from the first candidate, m.
 

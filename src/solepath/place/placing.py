@@ -48,9 +48,11 @@ from .particles import (
     MAX_MOVE,
     NOISE_ENTRIES,
     NOISE_TABLE,
+    Cloud,
     Noise,
     Particle,
     after_wrong_turn,
+    at_most,
     candidates_of,
     effective_count,
     have_not_moved,
@@ -183,7 +185,7 @@ class Particles(Part):
     notices = (StartGiven,)
     needs_position = True
 
-    particles: list[Particle] = field(factory=list)
+    particles: Cloud = field(factory=list)
     """The particles, at most `MAX_PARTICLES`."""
     random: int = 1
     """State of the random numbers."""
@@ -219,49 +221,46 @@ class Particles(Part):
     """First arrival while its exits are not decided; None before, afterwards, and with a known heading."""
     strides_since: int = 0
     """Number of strides since the first arrival."""
-    unmapped: list[Particle] = field(factory=list)
+    unmapped: Cloud = field(factory=list)
     """Particles that were in a lift when it went to where the plan has no landing; empty if it did not."""
     unmapped_height: float = 0.0
     """Height of all rides since then, m, upwards."""
 
+    def _draw(self) -> int:
+        """Return a random number."""
+        self.random = next_random(self.random)
+        return self.random
+
     # How particles move, are made and are thinned out: another method has its own.
 
-    def extend(
-        self, plan: IndexedPlan, particles: list[Particle], move: Point, error_factor: float, turn: float
-    ) -> list[Particle]:
+    def extend(self, plan: IndexedPlan, particles: Cloud, move: Point, error_factor: float, turn: float) -> Cloud:
         """Return the particles after a move of the track, m, without those for which the plan forbids it.
 
         `error_factor` is a factor of the track's usual errors, `turn` the size of the wearer's turn, rad."""
-        self.random = next_random(self.random)
-        return sway(plan, particles, move, error_factor, turn, self.random)
+        return sway(plan, particles, move, error_factor, turn, self._draw())
 
     def scatter(self, k: int, count: int) -> Noise:
         """Return offsets for the k-th of `count` new particles, each from -1 to 1: x, y, heading, stretch."""
         return NOISE_TABLE[k % NOISE_ENTRIES]
 
-    def thin(self, particles: list[Particle], count: int) -> list[Particle]:
+    def thin(self, particles: Cloud, count: int) -> Cloud:
         """Return about `count` particles that represent the distribution of all."""
-        self.random = next_random(self.random)
-        return resample(particles, count, (self.random % 4093) / 4093.0)
+        return resample(particles, count, (self._draw() % 4093) / 4093.0)
 
-    def set_particles(self, particles: list[Particle]) -> None:
+    def set_particles(self, particles: Cloud) -> None:
         """Set the particles, thinned to the largest number that may be kept."""
         self.particles = stored(self._limited(particles))
 
-    def _limited(self, particles: list[Particle]) -> list[Particle]:
+    def _limited(self, particles: Cloud) -> Cloud:
         return particles if len(particles) <= MAX_PARTICLES else self.thin(particles, MAX_PARTICLES)
 
-    def _move(
-        self, plan: IndexedPlan, particles: list[Particle], move: Point, error_factor: float, turn: float
-    ) -> list[Particle]:
+    def _move(self, plan: IndexedPlan, particles: Cloud, move: Point, error_factor: float, turn: float) -> Cloud:
         """Return all particles after a move of the track, m."""
         # on stairs a particle follows the track, because the walls of neither level apply
         moved = [one.at(*one.after(move)) for one in particles if one.landing]
         walking = [one for one in particles if not one.landing] if moved else particles
         if hypot(*move) > MAX_MOVE:
-            self.random = next_random(self.random)
-            walking = move_across_gap(plan, walking, move, self.random)
-            walking = walking if len(walking) <= MAX_PARTICLES else resample(walking, MAX_PARTICLES)
+            walking = at_most(MAX_PARTICLES, move_across_gap(plan, walking, move, self._draw()))
         elif walking:
             walking = self.extend(plan, walking, move, error_factor, turn)
         return moved + walking
@@ -276,10 +275,10 @@ class Particles(Part):
         count: int,
         weight: float = 1.0,
         origin: int = 0,
-    ) -> list[Particle]:
+    ) -> Cloud:
         """Return `count` particles around a place with an rms error, m, in all headings when `heading` is None."""
         radius = min(max(error, 0.0), MAX_START_SPREAD) * SPREAD_FACTOR
-        particles: list[Particle] = []
+        particles: Cloud = []
         for k in range(count):
             ex, ey, eh, es = self.scatter(k, count)
             turn = 2.0 * pi * (k + 0.5 * eh) / count if heading is None else heading[0] + heading[1] * eh
@@ -466,7 +465,7 @@ class Particles(Part):
 
     # Changes of level.
 
-    def _staying(self) -> list[Particle]:
+    def _staying(self) -> Cloud:
         """Return the particles that do not change level; if all do, all as if there were no change."""
         particles = self.particles
         return [one for one in particles if not one.landing] or [one._replace(landing=0) for one in particles]
@@ -487,22 +486,20 @@ class Particles(Part):
             self.unmapped = []
         elif not self.unmapped and arrived.height is not None:
             riders = [one for one in self.particles if one.landing] or self._entering(plan, self.particles, arrived)
-            self.unmapped = stored(riders if len(riders) <= KNOWN_PARTICLES else resample(riders, KNOWN_PARTICLES))
+            self.unmapped = stored(at_most(KNOWN_PARTICLES, riders))
             self.unmapped_height = height
         certainty = CONTRADICTED_CERTAINTY if wrong else arrived.certainty
         self._continue_from_exits(plan, evolve(arrived, certainty=certainty))
         return wrong
 
-    def _entering(
-        self, plan: IndexedPlan, particles: list[Particle], change: LevelChangePossible | LevelReached
-    ) -> list[Particle]:
+    def _entering(self, plan: IndexedPlan, particles: Cloud, change: LevelChangePossible | LevelReached) -> Cloud:
         return entering(plan, particles, change.kind, self._displacement_since(change.t_start))
 
     def _come_back(self, plan: IndexedPlan, whole: LevelReached, is_back: bool) -> None:
         """Continue the particles of a lift that stopped between landings, after the rest of its way or back."""
         riders, self.unmapped, self.arrived_at = self.unmapped, [], whole.t
-        self.random = next_random(self.random)
-        found = [one._replace(landing=0) for one in riders] if is_back else leaving(plan, riders, whole, self.random)
+        random = self._draw()
+        found = [one._replace(landing=0) for one in riders] if is_back else leaving(plan, riders, whole, random)
         others = resample([one._replace(landing=0) for one in self.particles], KNOWN_PARTICLES)
         weight, other_weight = total_weight(found), total_weight(others)
         k = FAIR_CERTAINTY / (1.0 - FAIR_CERTAINTY) * other_weight / weight if weight and other_weight else 1.0
@@ -520,8 +517,7 @@ class Particles(Part):
         if is_same_climb and entered and not any([find_exits(plan, at, arrived.up) for at in entered]):
             self.particles = stored(staying)  # the rest of a climb that already counted as a whole storey
             return
-        self.random = next_random(self.random)
-        found = leaving(plan, changing, arrived, self.random)
+        found = leaving(plan, changing, arrived, self._draw())
         k = arrived.certainty / (1.0 - arrived.certainty)
         if total_weight(found) > MIN_LANDING_SHARE * total:
             self.level_uncertain, self.first_arrival = False, None
@@ -541,7 +537,7 @@ class Particles(Part):
         found = self._move_from_exits(plan, self._limited(found), arrived) + resample(staying, KNOWN_PARTICLES)
         self.set_particles(found or self.particles)
 
-    def _spread_over_exits(self, plan: IndexedPlan, arrived: LevelReached, most: int) -> list[Particle]:
+    def _spread_over_exits(self, plan: IndexedPlan, arrived: LevelReached, most: int) -> Cloud:
         """Return about `most` particles, spread over all exits that `arrived` allows and over all headings.
 
         With a known heading of the track, half of them have it, and nearly all of the weight."""
@@ -552,7 +548,7 @@ class Particles(Part):
                 for landing, share in weigh_exits(plan, entered, arrived):
                     weights[landing.index] = weights.get(landing.index, 0.0) + share
         total, roots = fsum(weights.values()), fsum([sqrt(weight) for weight in weights.values()])
-        particles: list[Particle] = []
+        particles: Cloud = []
         for index in sorted(weights):
             landing, share = plan.landings[index - 1], weights[index] / total
             count = max(int(most * sqrt(weights[index]) / roots), 8)
@@ -592,9 +588,9 @@ class Particles(Part):
             particles = self._spread_over_exits(plan, first, RESTARTED_PARTICLES)
             self.set_particles(self._move_from_exits(plan, particles, first) or self.particles)
 
-    def _move_from_exits(self, plan: IndexedPlan, particles: list[Particle], arrived: LevelReached) -> list[Particle]:
+    def _move_from_exits(self, plan: IndexedPlan, particles: Cloud, arrived: LevelReached) -> Cloud:
         """Return particles at exits moved along the track up to now; they left at different times until `arrived.t`."""
-        moved: list[Particle] = []
+        moved: Cloud = []
         times, k = EXIT_TIMES[arrived.kind], self.stride_scale.factor
         for first, dt in enumerate(times):
             some = particles[first :: len(times)]

@@ -17,7 +17,7 @@ from math import dist, exp, fsum, inf, isfinite
 from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
 from ..floorplan.index import IndexedPlan, Landing
 from ..floorplan.plan import ConnectorKind, Point
-from ..types import Activity, Foot, Vec3
+from ..types import Activity, Floats, Foot, Vec3
 from ..types.attrs import define, field, frozen, stateful
 from ..types.vector import add, sub
 
@@ -79,7 +79,7 @@ class Storeys:
     """Least climb, m; 0 without stairs."""
     most: float
     """Largest climb, m."""
-    rises: tuple[float, ...]
+    rises: Floats
     """Every possible climb, m, the least first; empty when the plan has no heights."""
     flights: int
     """Least number of flights of a storey; 0 if the plan does not know it of every staircase."""

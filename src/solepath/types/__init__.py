@@ -5,6 +5,7 @@ from .records import (
     OTHER,
     SITE_OF_FOOT,
     Activity,
+    Floats,
     Foot,
     OnBody,
     Packet,
@@ -19,6 +20,7 @@ from .records import (
     Vec2,
     Vec3,
     WalkingMode,
+    both,
     per_foot,
 )
 
@@ -26,6 +28,7 @@ __all__ = [
     "OTHER",
     "Activity",
     "Cell",
+    "Floats",
     "Foot",
     "Layout",
     "OnBody",
@@ -42,6 +45,7 @@ __all__ = [
     "Vec3",
     "WalkingMode",
     "ValueEnum",
+    "both",
     "per_foot",
     "shared",
 ]

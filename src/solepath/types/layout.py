@@ -7,7 +7,7 @@ from math import dist
 from struct import pack
 
 from .attrs import field, frozen, limited, limits
-from .records import Foot
+from .records import Floats, Foot
 
 
 @frozen
@@ -43,12 +43,12 @@ class Layout:
     """Largest value that a cell can report, in the unit of the samples (N or counts)."""
 
     @cached_property
-    def xs(self) -> tuple[float, ...]:
+    def xs(self) -> Floats:
         """Position of each cell along the foot's x axis, to the toe, m."""
         return tuple([cell.x for cell in self.cells])
 
     @cached_property
-    def ys(self) -> tuple[float, ...]:
+    def ys(self) -> Floats:
         """Position of each cell along the foot's y axis, to the left, m."""
         return tuple([cell.y for cell in self.cells])
 

@@ -22,6 +22,9 @@ Vec2 = tuple[float, float]
 Quat = tuple[float, float, float, float]
 """Unit quaternion (w, x, y, z) that turns sensor coordinates into world coordinates."""
 
+Floats = tuple[float, ...]
+"""Numbers, as many as the docstring of the field or argument says."""
+
 
 class ValueEnum(Enum):
     """An enum whose members are printed as their values and hashed by identity.
@@ -53,6 +56,11 @@ PerFoot = dict[Foot, _Value]
 def per_foot(make: Callable[[], _Value]) -> PerFoot[_Value]:
     """Return a new value for each foot."""
     return {foot: make() for foot in Foot}
+
+
+def both(of: PerFoot[_Value], foot: Foot) -> tuple[_Value, _Value]:
+    """Return the value of a foot, and that of the other one."""
+    return of[foot], of[OTHER[foot]]
 
 
 class OnBody(ValueEnum):
@@ -175,7 +183,7 @@ class Sample:
     """Specific force, m/s^2, sensor frame (+9.81 upwards at rest)."""
     gyro: Vec3 | None = None
     """Angular rate, rad/s, sensor frame."""
-    pressure: tuple[float, ...] | None = None
+    pressure: Floats | None = None
     """One value per cell in the order of the layout: N when the device declares a scale, otherwise counts; more is more
     load."""
     quat: Quat | None = None

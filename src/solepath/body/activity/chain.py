@@ -12,7 +12,7 @@ from __future__ import annotations
 from functools import lru_cache
 from math import fsum, log
 
-from ...types import Activity
+from ...types import Activity, Floats
 from ...types.attrs import frozen
 
 STAND, WALK, RUN, STAIRS_UP, STAIRS_DOWN, UNKNOWN = range(6)
@@ -42,7 +42,7 @@ RIDE_STATES = frozenset(range(ELEVATOR_STARTS_UP, ELEVATOR_HALTS_DOWN + 1))
 UNACCELERATED_STATES = frozenset((ELEVATOR_MOVES_UP, ELEVATOR_CREEPS_UP, ELEVATOR_MOVES_DOWN, ELEVATOR_CREEPS_DOWN))
 """States of a ride without acceleration, before its last pulse."""
 
-Chances = tuple[tuple[float, ...], ...]
+Chances = tuple[Floats, ...]
 """Chances of a transition from each of the first five states (rows) to each of them (columns); a row adds up to 1."""
 Shifts = tuple[tuple[Activity, Activity, float], ...]
 """For each change: old activity, new activity, and time from the block of its detection to the change, s."""
@@ -88,7 +88,7 @@ class Chain:
 
     predecessors: tuple[tuple[tuple[int, float], ...], ...]
     """States that may precede each state, with the natural logarithm of the chance."""
-    shift: tuple[tuple[float, ...], ...]
+    shift: tuple[Floats, ...]
     """Time from the block in which a change from a state (row) to a state (column) was detected to the change, s."""
 
 

@@ -10,7 +10,7 @@ from enum import StrEnum
 from math import exp, fsum
 
 from ...events import ActivityChanged, Event, LiftRidden
-from ...types import Activity
+from ...types import Activity, Floats
 from ...types.attrs import field, stateful
 from ...types.vector import TIME_EPSILON
 from .chain import ACTIVITIES, STAND, UNKNOWN, Chain
@@ -179,7 +179,7 @@ STATE_OF_ACTIVITY = {activity: ACTIVITIES.index(activity) for activity in Activi
 """First state of each activity in the chain (chain.py): that in which it begins."""
 
 
-BlockSigns = tuple[tuple[float, ...], ElevatorEvidence]
+BlockSigns = tuple[Floats, ElevatorEvidence]
 """Signs of activity in a block: the log-likelihoods of `MOTIONS` and of an unknown one, and the forces on both feet."""
 
 

@@ -12,7 +12,7 @@ from itertools import pairwise
 from math import exp, inf, log, sqrt
 from operator import attrgetter
 
-from ...types import Activity
+from ...types import Activity, Floats
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIME_EPSILON
 from .chain import (
@@ -246,11 +246,11 @@ class BlockEvidence:
     """The evidence of the block that starts at `t`, s."""
 
     t: float
-    motion_scores: tuple[float, ...]
+    motion_scores: Floats
     """Log-likelihoods of the first six states of chain.py by the motion of the feet (`motion_votes`)."""
     forces: tuple[BlockForce | None, ...]
     """Force on the left and on the right foot."""
-    pressure_scores: tuple[float, ...]
+    pressure_scores: Floats
     """Log-likelihood of each state by the air pressure."""
     before: Height | None
     """Height just before the block by the air pressure."""

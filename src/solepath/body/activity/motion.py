@@ -16,7 +16,7 @@ from math import dist, exp, fsum, hypot, inf, log, tanh
 from operator import truediv
 from typing import Any
 
-from ...types import Activity
+from ...types import Activity, Floats
 from ...types.attrs import frozen
 from .chain import Chain, Chances, Shifts, chain_of
 from .elevator_evidence import SWAY_DEVIATION, BlockForce
@@ -199,7 +199,7 @@ MAX_STANDING_FORCE = 40.0
 """Largest mean force of a standing foot, m/s^2."""
 
 
-def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> tuple[float, ...]:
+def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> Floats:
     """Return the log-likelihoods of `MOTIONS` and of an unknown activity, from the features of each foot or None."""
     votes = [0.0] * len(MOTIONS)
     unknown = 0.0

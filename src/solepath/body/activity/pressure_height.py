@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import deque
 from math import fsum, log
 
-from ...types import OTHER, Foot
+from ...types import OTHER, Floats, Foot
 from ...types.attrs import define, field
 from ..altitude import height_of, measured_noise
 from .chain import ELEVATOR_CREEPS_DOWN, ELEVATOR_CREEPS_UP, STAND
@@ -142,7 +142,7 @@ class PressureHeight:
         mean = fsum([height * count for height, count in near]) / readings
         return mean, AIR_NOISE * AIR_NOISE + self.noise / readings
 
-    def score_slope(self, index: int, block: float) -> tuple[float, ...]:
+    def score_slope(self, index: int, block: float) -> Floats:
         """Return the log-likelihood of the slope around block number `index` for each state, relative to the best.
 
         `block` is the duration of a block, s."""

@@ -10,7 +10,7 @@ from math import sqrt
 from typing import Final, NamedTuple
 
 from ...events import Defect, DefectFound
-from ...types import SITE_OF_FOOT, Foot, Vec3
+from ...types import SITE_OF_FOOT, Floats, Foot, Vec3
 from ...types.attrs import define, field
 
 # The finding of a check of a foot's sensors.
@@ -103,7 +103,7 @@ class StanceFinder:
     """Integral of the specific force over the interval under way, m/s."""
     intervals: list[Interval] = field(factory=list)
     """Newest intervals: those of the stride under way and `HALF_WINDOW` before it."""
-    rates: tuple[float, ...] = ()
+    rates: Floats = ()
     """Mean angular rates of the newest intervals, rad/s: at most `WINDOW` of them."""
     sums: tuple[int, int, int, int] = (0, 0, 0, 0)
     """Sums of the specific forces of these intervals, `FORCE`, and of their squares."""

@@ -26,7 +26,7 @@ from math import atan2, degrees, exp, fsum, hypot, log, sqrt
 
 from ...calibration import HeadingCalibration
 from ...events import Defect, DefectFound, StrideTaken
-from ...types import Foot, Vec2
+from ...types import Floats, Foot, Vec2
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import add, wrap_angle
 from .common_error import BIAS, DRIFT, FEET, MAX_TURN_BACK, NO_MOVE, TURN, TURNING, CommonError, Move
@@ -118,7 +118,7 @@ class Places:
     strides: float = 0.0
     """Number of usual strides in which the heading of the mean of both feet has drifted since the start."""
     count: int = 0
-    sums: tuple[float, ...] = (0.0,) * 8
+    sums: Floats = (0.0,) * 8
     """Sums of x, x^2, x^3, x^4, y, x y, x^2 y and y^2."""
 
     def add(self, t: float, x: float, y: float, strides: float) -> Places:
@@ -154,7 +154,7 @@ class Straightness:
     """The places after each of the last strides, the newest last; empty without a stretch."""
     left_out: int = 0
     """Number of strides that are left out before the next stretch starts, because the wearer still turns."""
-    counts: tuple[float, ...] = FIRST_COUNTS
+    counts: Floats = FIRST_COUNTS
     """Number of stretches that were straight, that bent gently and that bent, each fading by `FORGETTING`."""
     wander: Vec2 = (USUAL_WANDER * USUAL_WANDER, WANDER_WEIGHT)
     """Variance of the wandering, m^2, and the number of stretches as which it counts."""
@@ -287,7 +287,7 @@ class StraightWays:
     """Learns the drift of the heading from straight ways, and drops a calibration that they contradict."""
 
     straightness: Straightness = field(factory=Straightness)
-    calibrated: tuple[float, ...] | None = None
+    calibrated: Floats | None = None
     """Drift, rad a stride, and turning, no unit, of each foot that a calibration says and the feet remove, as in
     `CALIBRATED`; None without one, and once it was dropped."""
     fit: CalibrationFit | None = None
@@ -368,7 +368,7 @@ class StraightWays:
     def _forget_calibration(self) -> None:
         self.calibrated, self.fit, self.moved = None, None, []
 
-    def _drop(self, calibrated: tuple[float, ...], other: DriftHypothesis, common: CommonError) -> Move:
+    def _drop(self, calibrated: Floats, other: DriftHypothesis, common: CommonError) -> Move:
         """Take the calibration back from the whole track; both feet drift as the `other` hypothesis says."""
         total, mean = NO_MOVE, _mean_drift(calibrated, common)
         variance = other.variance / _square_share(common)
@@ -390,7 +390,7 @@ MISFIT = (
 """Sentence on a calibration that is dropped."""
 
 
-def _mean_drift(calibrated: tuple[float, ...], common: CommonError) -> float:
+def _mean_drift(calibrated: Floats, common: CommonError) -> float:
     return fsum([share * drift for share, drift in zip(common.shares.values(), calibrated[::2], strict=True)])
 
 

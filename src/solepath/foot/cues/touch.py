@@ -15,7 +15,7 @@ The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from ...types import Layout
+from ...types import Floats, Layout
 from ...types.attrs import evolve, field, frozen, stateful
 from ...types.vector import TIME_EPSILON
 from ..pressure.insole import Extremes, centre
@@ -120,7 +120,7 @@ class Touch:
             self.airborne = load.total < (self.settings.ground_load if self.airborne else self.settings.air_load)
         return self.airborne
 
-    def _is_airborne_by_cell(self, t: float, values: tuple[float, ...]) -> bool:
+    def _is_airborne_by_cell(self, t: float, values: Floats) -> bool:
         if len(self.cells) != len(values):
             self.cells = [Extremes() for _ in values]
             if len(self.in_front) != len(values):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol, Self
 
 from ...calibration import Calibration
-from ...types import Foot, Quat, Vec3
+from ...types import Floats, Foot, Quat, Vec3
 from ...types.vector import ZERO
 from ..phase import Cue
 from ..stance.stance import Stance
@@ -60,12 +60,12 @@ class Corrector(Protocol):
     def repair(self, yaw: float, position: Vec3) -> None:
         """Repair a stride that had a gap, at its end: turn the attitude by `yaw` rad and set `position`, m."""
 
-    def anchor(self) -> tuple[float, ...]:
+    def anchor(self) -> Floats:
         """End a stretch of the path and start the next one; return the covariance of the one that ends.
 
         It consists of position xx, xy, xz, yy, yz, zz (m^2) and yaw (rad^2)."""
 
-    def covariance(self) -> tuple[float, ...]:
+    def covariance(self) -> Floats:
         """Return the covariance of the current stretch, as `anchor` would, without a change."""
 
     # what follows is optional: the default does nothing

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from math import exp, fsum, sqrt
 
-from ...types import Phase, Quat, Vec3
+from ...types import Floats, Phase, Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, ZERO, add, sub, tipped
 from ..settings import DedriftSettings
@@ -73,12 +73,12 @@ class LinearDedrift(Strapdown):
         self.attitude, self.velocity, self.position = attitude, velocity, position
         self.force = self.rate = None
 
-    def anchor(self) -> tuple[float, ...]:
+    def anchor(self) -> Floats:
         stretch = self.covariance()
         self.length = self.time_since_anchor = 0.0
         return stretch
 
-    def covariance(self) -> tuple[float, ...]:
+    def covariance(self) -> Floats:
         variance = (self.settings.path_error * self.length) ** 2
         drift = self.settings.turn_drift
         yaw = drift * drift * self.time_since_anchor

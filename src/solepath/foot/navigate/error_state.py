@@ -14,7 +14,7 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING
 
-from ...types import Quat, Vec3
+from ...types import Floats, Quat, Vec3
 from ...types.attrs import define, field, stateful
 from ...types.vector import GRAVITY, TIME_EPSILON, ZERO, sub, tipped
 from ..phase import STATIONARY
@@ -388,7 +388,7 @@ class ErrorStateFilter(Strapdown):
         if variance > least:
             self.uncertainty = constrain_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 
-    def anchor(self) -> tuple[float, ...]:
+    def anchor(self) -> Floats:
         if self.recovery is not None:
             self.recovery.end_stride()
         self._propagate()
@@ -397,7 +397,7 @@ class ErrorStateFilter(Strapdown):
         self.uncertainty = forget_position_and_yaw(self.uncertainty)
         return stretch
 
-    def covariance(self) -> tuple[float, ...]:
+    def covariance(self) -> Floats:
         covariance = self._propagated() if self.elapsed > 0.0 else self.uncertainty
         return (*covariance[:6], HEADING_DRIFT * HEADING_DRIFT * self.time_since_anchor)
 

@@ -19,7 +19,7 @@ from collections.abc import Iterable
 from math import atan2, hypot, pi
 
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads
-from ...types import Layout, Phase, Site, Vec3
+from ...types import Floats, Layout, Phase, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ..rejection import ABSURD_PRESSURE
 
@@ -88,7 +88,7 @@ class CellSpan:
     high: float = 0.0
     """Highest sum of the cells."""
 
-    def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
+    def add(self, cells: Floats, excluded: list[int]) -> None:
         """Add one sample; cells with an index in `excluded` do not count in the sum."""
         total = add_up([v for i, v in enumerate(cells) if i not in excluded] if excluded else cells)
         if not self.lows:
@@ -255,7 +255,7 @@ class CellHealth:
         self,
         t: float,
         known_at: float,
-        cells: tuple[float, ...],
+        cells: Floats,
         phase: Phase,
         gyro: Vec3 | None = None,
         layout: Layout | None = None,
@@ -305,7 +305,7 @@ class CellHealth:
                 self.window_start, self.swings, self.span = t, 0, CellSpan()
         return events
 
-    def usable(self, cells: tuple[float, ...]) -> tuple[float, ...]:
+    def usable(self, cells: Floats) -> Floats:
         """Return `cells`, those of the last `update`, with 0 for failed cells and for values that are no numbers.
 
         The result is () when no cell can be used."""
@@ -348,7 +348,7 @@ class CellHealth:
         self.failed, self.suspected, self.excluded, self.lively_windows = {}, {}, [], [0] * count
         self.reset()
 
-    def _watch_numbers(self, t: float, known_at: float, cells: tuple[float, ...], events: list[Event]) -> None:
+    def _watch_numbers(self, t: float, known_at: float, cells: Floats, events: list[Event]) -> None:
         since = dict(self.non_numeric)
         self.non_numeric = [(i, since.get(i, t)) for i, value in enumerate(cells) if not _is_number(value)]
         reported = self.failed.get(CellFault.MISSING, [])

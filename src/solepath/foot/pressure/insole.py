@@ -18,7 +18,7 @@ from operator import add
 
 from ...calibration import Newtons
 from ...events import Event, FootPressed, LayoutKnown
-from ...types import SITE_OF_FOOT, Cell, Foot, Layout, Phase, Sample, Vec2
+from ...types import SITE_OF_FOOT, Cell, Floats, Foot, Layout, Phase, Sample, Vec2
 from ...types.attrs import define, field, stateful
 from ...types.vector import TIME_EPSILON
 from ..limitations import Limitations
@@ -83,7 +83,7 @@ class InsoleLoads:
     layout: Layout | None = None
     in_newtons: bool = False
     """The device sends newtons, so `settings.newtons` is not used."""
-    cells: tuple[float, ...] = ()
+    cells: Floats = ()
     """Values of the cells of the current sample without noise, N or unit of the samples; () after their use."""
     sum: float = 0.0
     """Sum of `cells`."""
@@ -120,7 +120,7 @@ class InsoleLoads:
         """End the current spans because times restart; the extremes stay."""
         self.total.span_end = self.heel.span_end = self.forefoot.span_end = None
 
-    def update(self, t: float, cells: tuple[float, ...], with_centre: bool = True) -> Load | None:
+    def update(self, t: float, cells: Floats, with_centre: bool = True) -> Load | None:
         """Return the load of one sample, as shares of the full load; None while that is unknown.
 
         `with_centre`: the centre of pressure is computed, too."""
@@ -167,11 +167,11 @@ class InsoleLoads:
         centre = self.centre_of_pressure(cells) if with_centre and not airborne else None
         return Load(share, heel, forefoot, airborne, cells, centre)
 
-    def above_tare(self, cells: tuple[float, ...]) -> tuple[float, ...]:
+    def above_tare(self, cells: Floats) -> Floats:
         """Return the cells minus their tare, at least 0, unit of `cells`; without a tare the cells as they are."""
         return above(self.tare, cells) if len(cells) == len(self.tare) else cells
 
-    def centre_of_pressure(self, cells: tuple[float, ...]) -> Vec2 | None:
+    def centre_of_pressure(self, cells: Floats) -> Vec2 | None:
         """Return the centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout.
 
         It is the mean of the positions of the cells, weighted by their load above tare: equations (2) and (3) of "Smart
@@ -185,7 +185,7 @@ class InsoleLoads:
         return x_sum / load, y_sum / load
 
 
-def above(unloaded: Iterable[float], cells: tuple[float, ...]) -> tuple[float, ...]:
+def above(unloaded: Iterable[float], cells: Floats) -> Floats:
     """Return the cells minus their values without load, at least 0."""
     pairs = zip(cells, unloaded, strict=True)
     return tuple([value - least if value > least else 0.0 for value, least in pairs])
@@ -205,7 +205,7 @@ def weighted_sums(
     return total, x_sum, y_sum
 
 
-def in_newtons(newtons: Newtons, cells: tuple[float, ...]) -> tuple[float, ...]:
+def in_newtons(newtons: Newtons, cells: Floats) -> Floats:
     """Return raw values in N: 0 below the threshold, and at most the largest calibrated force."""
     a, b, c, d = newtons.coefficients
     threshold, most = newtons.threshold, newtons.most
@@ -266,7 +266,7 @@ class LayoutGuess:
     stances: int = 0
     """Number of complete stances so far."""
 
-    def update(self, t: float, cells: tuple[float, ...], load_share: float) -> Layout | None:
+    def update(self, t: float, cells: Floats, load_share: float) -> Layout | None:
         """Add one sample; return the layout once it is known.
 
         `cells` holds the values minus those in the air, `load_share` their total as a share of the full load."""
@@ -386,7 +386,7 @@ class Sole:
                 self._apply_layout(guessed, limitations)
         return load
 
-    def make_event(self, t: float, known_at: float, pressure: tuple[float, ...]) -> FootPressed | None:
+    def make_event(self, t: float, known_at: float, pressure: Floats) -> FootPressed | None:
         """Return the pressure event of the sample of the last `add_sample`; None if no cell could be used."""
         insole, health = self.insole, self.health
         if not health.usable(pressure):

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import ClassVar, NamedTuple, Protocol, Self
 
 from ...calibration import Calibration
-from ...types import Foot, Layout, Phase, Quat, Vec2, Vec3
+from ...types import Floats, Foot, Layout, Phase, Quat, Vec2, Vec3
 from ...types.attrs import frozen
 from ...types.vector import IDENTITY
 
@@ -28,7 +28,7 @@ class Load:
     """Load of the forefoot area, as a share of the full load; None if no working cell is in that area."""
     airborne: bool
     """The foot is in the air: there is hardly any load."""
-    cells: tuple[float, ...] = ()
+    cells: Floats = ()
     """Value of each cell without noise, in N with a calibration, otherwise in the unit of the samples."""
     centre: Vec2 | None = None
     """Centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout.

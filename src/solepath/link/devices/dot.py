@@ -11,6 +11,7 @@ from typing import Any
 
 from construct import Bytes, Const, ExprValidator, Int8ul, Int16ul, Int32ul, OneOf, Struct
 
+from ...types import Floats
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, Hex
 from ..driver import Driver, Known, Measured, Reader, Reading
@@ -32,11 +33,11 @@ def _uuid(short: int) -> str:
     return f"1517{short:04x}-4947-11e9-8646-d663bd873d93"
 
 
-def _all_finite(values: tuple[float, ...], _: Any) -> bool:
+def _all_finite(values: Floats, _: Any) -> bool:
     return all(map(isfinite, values))
 
 
-def _has_length_one(quat: tuple[float, ...], _: Any) -> bool:
+def _has_length_one(quat: Floats, _: Any) -> bool:
     # the squared length deviates from 1 by twice as much as the length
     return _all_finite(quat, None) and abs(fsum([part * part for part in quat]) - 1.0) < 2.0 * MAX_LENGTH_ERROR
 

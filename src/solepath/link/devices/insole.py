@@ -10,7 +10,7 @@ from operator import itemgetter
 from typing import ClassVar
 
 from ...events import LayoutKnown, PacketRejected, Rejection
-from ...types import Layout, Sample, Site, shared
+from ...types import Floats, Layout, Sample, Site, shared
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, unit
 from ...wire.envelope import MAGIC
@@ -43,7 +43,7 @@ MOST_TABLES = 16
 
 To make a table takes as long as 50 samples of 96 cells. A look-up then takes less than a product for each cell, with
 which the forces of further scales are computed."""
-_TABLES: dict[float, tuple[float, ...]] = {}
+_TABLES: dict[float, Floats] = {}
 """Force of each count, N, by scale, N per count."""
 
 
@@ -204,7 +204,7 @@ class InsoleLink(DeviceLink):
         return out
 
 
-def _pressures(counts: tuple[int, ...], scale: float) -> tuple[float, ...]:
+def _pressures(counts: tuple[int, ...], scale: float) -> Floats:
     """Return the force of each cell, N, or its count if `scale`, N per count, is 0."""
     scale = scale or 1.0
     table = _TABLES.get(scale)
