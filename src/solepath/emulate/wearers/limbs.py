@@ -34,7 +34,7 @@ from .gait import WalkPlan
 from .load import Loads
 from .motion import BLOCK, FootMotion, Kinematics, join_blocks
 from .shoe import Mounting, Shoe
-from .turning import matrices, multiply_quaternions, quaternions, unit, yaw_roll_matrices
+from .turning import matrices, multiply_quaternions, quaternions, twice_axis, unit, yaw_roll_matrices
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES
 
 INTERVAL = 0.01
@@ -162,8 +162,7 @@ class Body:
         before, position, after = p0 + r0 @ arm, p1 + r1 @ arm, p2 + r2 @ arm
         acceleration = (before - 2.0 * position + after) / _DIFFERENCE_STEP**2
         # r0^T r2 minus its transpose is 4 steps times the matrix of the cross product with the rate.
-        turn = np.einsum("nji,njk->nik", r0, r2) / (4.0 * _DIFFERENCE_STEP)
-        rate = np.stack([turn[:, j, i] - turn[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
+        rate = twice_axis(np.einsum("nji,njk->nik", r0, r2) / (4.0 * _DIFFERENCE_STEP))
         force = np.einsum("nji,nj->ni", r1, acceleration + (0.0, 0.0, GRAVITY))
         mounting_turn = matrices(np.array([mounting.attitude]))[0]
         return Kinematics(
