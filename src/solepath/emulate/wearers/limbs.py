@@ -34,7 +34,7 @@ from .gait import WalkPlan
 from .load import Loads
 from .motion import BLOCK, FootMotion, Kinematics, join_blocks
 from .shoe import Mounting, Shoe
-from .turning import matrices, multiply_quaternions, quaternions, twice_axis, unit, yaw_roll_matrices
+from .turning import matrices, multiply_quaternions, quaternions, rotation, twice_axis, unit
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES
 
 INTERVAL = 0.01
@@ -114,7 +114,7 @@ class Body:
     def pelvis(self, t: Array) -> tuple[Array, Array]:
         """Return the point between the hips (N, 3), world, m, and the attitude (N, 3, 3) of the pelvis at `t`, s."""
         values = self._interpolate(self.track, t)
-        return values[:, :3], yaw_roll_matrices(values[:, 3], values[:, 4])
+        return values[:, :3], rotation(values[:, 3], np.zeros(len(t)), values[:, 4])
 
     def slip(self, foot: Foot, t: Array) -> Array:
         """Return the slip of the foot in its shoe along x and y of the foot frame at times `t`, s, m, (N, 2)."""
@@ -220,7 +220,7 @@ def body(
     yaw, roll = yaw + sway[:, 0], sway[:, 1]
 
     reach = _reach_limit(plan, t) * (limbs.thigh + limbs.shank)
-    half_hip = 0.5 * limbs.hip_width * yaw_roll_matrices(yaw, roll)[:, :, 1]
+    half_hip = 0.5 * limbs.hip_width * rotation(yaw, np.zeros(len(t)), roll)[:, :, 1]
     highest = np.full(len(t), np.inf)
     for foot in Foot:
         horizontal_offset = ankles[foot][:, :2] - centre - SIDE_SIGNS[foot] * half_hip[:, :2]

@@ -25,7 +25,7 @@ from ..routes.elevator import CarRide
 from ..routes.escalator import EscalatorRide
 from .curves import Array
 from .shoe import Mounting
-from .turning import matrices
+from .turning import matrices, rotation
 
 RowIndices = NDArray[np.intp]
 
@@ -110,7 +110,7 @@ class FootMotion:
         first *= inverse_duration
         second *= inverse_duration**2
         pitch, yaw, roll = value[PITCH], value[YAW], value[ROLL]
-        turn = _rotation(yaw, -pitch, roll)
+        turn = rotation(yaw, -pitch, roll)
         rate, rate_change = _body_rates(value, first, second)
 
         # A rolling arc moves the reference point from its curve by radius * pitch against the heading.
@@ -195,17 +195,6 @@ def _body_rates(value: Array, first: Array, second: Array) -> tuple[Array, Array
         axis=1,
     )
     return rate, change
-
-
-def _rotation(yaw: Array, b: Array, roll: Array) -> Array:
-    """Return Rz(yaw) Ry(b) Rx(roll) as matrices, (N, 3, 3)."""
-    sy, cy, sb, cb, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(b), np.cos(b), np.sin(roll), np.cos(roll)
-    rows = [
-        [cy * cb, cy * sb * sr - sy * cr, cy * sb * cr + sy * sr],
-        [sy * cb, sy * sb * sr + cy * cr, sy * sb * cr - cy * sr],
-        [-sb, cb * sr, cb * cr],
-    ]
-    return np.stack([np.stack(row, axis=1) for row in rows], axis=1)
 
 
 def _quaternion(yaw: Array, b: Array, roll: Array) -> Array:

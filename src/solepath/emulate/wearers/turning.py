@@ -62,8 +62,12 @@ def twice_axis(turn: Array) -> Array:
     return np.stack([turn[:, j, i] - turn[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
 
 
-def yaw_roll_matrices(yaw: Array, roll: Array) -> Array:
-    """Return Rz(yaw) Rx(roll) as matrices, (N, 3, 3)."""
-    sy, cy, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(roll), np.cos(roll)
-    rows = [[cy, -sy * cr, sy * sr], [sy, cy * cr, -cy * sr], [np.zeros_like(yaw), sr, cr]]
+def rotation(yaw: Array, b: Array, roll: Array) -> Array:
+    """Return Rz(yaw) Ry(b) Rx(roll) as matrices, (N, 3, 3)."""
+    sy, cy, sb, cb, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(b), np.cos(b), np.sin(roll), np.cos(roll)
+    rows = [
+        [cy * cb, cy * sb * sr - sy * cr, cy * sb * cr + sy * sr],
+        [sy * cb, sy * sb * sr + cy * cr, sy * sb * cr - cy * sr],
+        [-sb, cb * sr, cb * cr],
+    ]
     return np.stack([np.stack(row, axis=1) for row in rows], axis=1)
