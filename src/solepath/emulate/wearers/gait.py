@@ -200,6 +200,11 @@ class WalkPlan:
     escalators: tuple[EscalatorRide, ...] = ()
     """Rides on escalators, standing or walking; the poses of strides do not contain their displacement."""
 
+    @property
+    def moving_ground(self) -> tuple[CarRide | EscalatorRide, ...]:
+        """Rides of all kinds."""
+        return (*self.rides, *self.escalators)
+
     def ground_shift(self, t: Array) -> Array:
         """Return how far escalators have moved the ground under the feet at times `t`, s, world frame, (N, 3), m."""
         total = np.zeros((len(t), 3))

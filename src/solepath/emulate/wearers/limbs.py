@@ -248,7 +248,7 @@ def _centre_of_pressure(plan: WalkPlan, loads: Loads, shoe: Shoe, t: Array) -> A
     for foot in Foot:
         poses = [plan.starts[foot], *(stride.end for stride in plan.strides[foot])]
         table = np.array([(pose.x, pose.y, pose.heading) for pose in poses])
-        x, y, yaw = table[np.maximum(np.searchsorted(loads.stances[foot][:, 0], t, side="right") - 1, 0)].T
+        x, y, yaw = table[loads.stance_rows(foot, t)].T
         zones = np.array([zone.x for zone in (HEEL, MIDFOOT, FOREFOOT, TOES)]) * shoe.length
         ahead, left = zones @ loads.zone_shares(foot, t) - shoe.ankle[0], loads.lateral_shift(foot, t)
         point = np.stack((x + ahead * np.cos(yaw) - left * np.sin(yaw), y + ahead * np.sin(yaw) + left * np.cos(yaw)))

@@ -28,7 +28,6 @@ from numpy.typing import NDArray
 
 from ...types import Foot, Layout
 from ...types.vector import GRAVITY
-from ..routes.escalator import GroundRide
 from .curves import Array, Rng, hand_over
 from .gait import SETTLE_TIME, LoadLaw, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
@@ -81,8 +80,12 @@ class Loads:
             foot: np.array([0.0, *(stride.style.forefoot_share for stride in plan.strides[foot])]) for foot in Foot
         }
         """Share of the load that lands on the forefoot in each stance, (n)."""
-        self.rides: tuple[GroundRide, ...] = (*plan.rides, *plan.escalators)
+        self.rides = plan.moving_ground
         self.pad, self.law = wearer.pad, wearer.load_law
+
+    def stance_rows(self, foot: Foot, t: Array) -> NDArray[np.intp]:
+        """Return the number of the last stance that has begun at each of the times `t`, s, or 0."""
+        return np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
 
     def total(self, foot: Foot, t: Array) -> Array:
         """Return the load under one foot at times `t`, s, in newtons, (N)."""
@@ -156,7 +159,7 @@ class Loads:
         """Return how far the pad lets the patch under a heel be ahead of its place at `t`, s, in m, (N)."""
         if self.pad is None or not len(self.start):
             return np.zeros_like(t)
-        rows = np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
+        rows = self.stance_rows(foot, t)
         # the amplitude grows with the square of the speed
         speed = np.interp(t, self.beat_times, np.sqrt(self.load_amplitude / BOUNCE_AMPLITUDE))
         return self.pad.shift(self.stances[foot][rows], heel_share, self.weight, speed, t)
@@ -167,7 +170,7 @@ class Loads:
 
     def zone_shifts(self, foot: Foot, t: Array) -> Array:
         """Return the shift to the left of the load under heel, midfoot, forefoot and toes at `t`, s, in m, (4, N)."""
-        rows = np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
+        rows = self.stance_rows(foot, t)
         bend, chance, t_decay = self.lateral_shifts[foot][rows].T
         shifts = np.array(ZONE_SHIFTS[self.law])[:, None] * bend + chance
         return np.asarray(shifts * (1.0 - hand_over((t - t_decay) / SETTLE_TIME)))
@@ -185,10 +188,8 @@ class Loads:
 
     def zone_shares(self, foot: Foot, t: Array) -> Array:
         """Return the shares of heel, midfoot, forefoot and toes in the foot's load at `t`, s, (4, N)."""
-        stances = self.stances[foot]
-        rows = np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)
-        row = stances[rows]
-        foot_flat, heel_off, off = row[:, 1], row[:, 2], row[:, 3]
+        rows = self.stance_rows(foot, t)
+        _, foot_flat, heel_off, off = self.stances[foot][rows].T
         ramp = np.minimum(heel_off - foot_flat, SETTLE_TIME)
         rolled_share = 0.45 * hand_over((t - foot_flat) / ramp) + 0.55 * hand_over((t - heel_off + ramp) / ramp)
         if self.forefoot_shares[foot].any():

@@ -74,10 +74,8 @@ class FootMotion:
     """Radius of the arc on which the sole rolls, m, (rows); 0 in swing."""
     phase: Array
     """Index of the phase in PHASES, (rows)."""
-    rides: tuple[CarRide, ...] = ()
-    """Elevator rides of the wearer; the curves do not contain the motion of the car during a ride."""
-    escalators: tuple[EscalatorRide, ...] = ()
-    """Rides on escalators; the curves contain neither the motion during a ride nor the displacement after it."""
+    rides: tuple[CarRide | EscalatorRide, ...] = ()
+    """Rides of the wearer. The curves contain neither the motion during a ride nor the displacement by an escalator."""
 
     def phases(self, t: Array) -> list[Phase]:
         """Return the phase of the foot at times `t`, s."""
@@ -130,14 +128,13 @@ class FootMotion:
         velocity = centre_v + _apply(turn, arm_velocity)
         acceleration = centre_a + _apply(turn, _cross(rate_change, arm) + _cross(rate, arm_velocity))
 
-        for car in self.rides:
-            riding = np.flatnonzero((t >= car.start) & (t < car.end))
-            for total, added in zip((position, velocity, acceleration), car.at(t[riding]), strict=True):
-                total[riding] += added
-        for escalator in self.escalators:
-            later = np.flatnonzero(t >= escalator.start)
-            for total, added in zip((position, velocity, acceleration), escalator.at(t[later]), strict=True):
-                total[later] += added
+        for ride in self.rides:
+            moved = t >= ride.start
+            if isinstance(ride, CarRide):
+                moved &= t < ride.end
+            rows = np.flatnonzero(moved)
+            for total, added in zip((position, velocity, acceleration), ride.at(t[rows]), strict=True):
+                total[rows] += added
 
         # Specific force is acceleration minus gravity, in the sensor frame.
         opposed_gravity = acceleration + np.array([0.0, 0.0, GRAVITY])

@@ -59,7 +59,7 @@ class _MotionBuilder:
         self.worn_shoe, self.sway, self.rng, self.contact_rng = wearer.shoe, wearer.sway, rng, contact_rng
         self.shoe = wearer.shoe
         self.contact = RIGID.draw(contact_rng)
-        self.rides, self.escalators, self.duration = plan.rides, plan.escalators, plan.duration
+        self.rides, self.moving_ground, self.duration = plan.rides, plan.moving_ground, plan.duration
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
 
     def build(self, start: Pose, strides: tuple[PlannedStride, ...]) -> FootMotion:
@@ -74,8 +74,7 @@ class _MotionBuilder:
             self.land(stride)
             self.stand(stride.end, stride.foot_flat, leave_time, stride.rest_pitch if leave_time < _FOREVER else 0.0)
         t_start, duration, curves, reference, radius, phase = map(np.array, zip(*self.rows, strict=True))
-        rides = (self.rides, self.escalators)
-        return FootMotion(t_start, duration, curves, reference, radius, phase.astype(np.intp), *rides)
+        return FootMotion(t_start, duration, curves, reference, radius, phase.astype(np.intp), self.moving_ground)
 
     def stand(self, pose: Pose, t_start: float, end: float, rest_pitch: float) -> None:
         """Add a foot that stands at `pose` from `t_start` to `end`, s; an elevator ride in this time lifts it."""
