@@ -23,6 +23,7 @@ from solepath.emulate.wearers.turning import from_rotation_vectors, matrices, mu
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Activity, Foot, Phase
 from solepath.types.vector import GRAVITY, from_rotation_vector
+from solepath_lab.emulated.unsteady import Swaying
 from solepath_lab.emulated.wearers import SUBJECTS
 
 START = Route().stand(1.0).walk(3.0)
@@ -49,7 +50,7 @@ class Way:
 WAYS = {
     "winding": Way(START.turn(radians(90), 2.0).walk(2.0).turn(pi).walk(3.0, 0.8).stop(1.0)),
     "worn soles": Way(START.walk(3.0).stop(1.0), wearer=Wearer(shoe=Shoe(contact=evolve(WORN, pivot_shift=0.02)))),
-    "swaying": Way(START.stop(3.0), wearer=Wearer(sway=radians(0.1), swerve=(2.0, 2.0))),
+    "swaying": Way(START.stop(3.0), wearer=Wearer(sway=Swaying(radians(0.1)), swerve=(2.0, 2.0))),
     "backwards": Way(START.walk(4.0, direction=pi).walk(2.0).stop(1.0)),
     "to the left": Way(START.walk(4.0, direction=0.5 * pi).walk(2.0).stop(1.0), wearer=SUBJECTS[2]),
     "to the right": Way(START.walk(4.0, direction=-0.5 * pi).walk(2.0).stop(1.0)),

@@ -25,7 +25,6 @@ from .motion import PHASES, FootMotion
 from .ramps import axes, leaning, ramp_height, steeper
 from .shoe import Rocker
 from .soles.contact import MAX_IMPACT_SHARE, RIGID, TOE_SLIP, impact_displacement, slip_at_toe_off
-from .sway import SHORTEST_STANDING, sway_pieces
 from .swing import pitch_at, reversal_share, running_swing_pitch, walking_swing_pitch
 
 TOE_OFF_SLOPES = (2.1, -2.0)
@@ -35,6 +34,8 @@ HEEL_STRIKE_SLOPES = (0.5, -4.0)
 
 LEVELLING_WEIGHT = 5.0
 """Weight of LEVELLING in swing: it lowers the peak speed of a foot from 1.9 to 1.7 times the mean speed."""
+SHORTEST_STANDING = 1.0
+"""Shortest time of standing in which a foot sways, s; a stance in walking is shorter."""
 _FOREVER = 1e6
 """Time for which a foot stands before the first and after the last stride, s."""
 
@@ -89,7 +90,7 @@ class _MotionBuilder:
             return
         arc = self.shoe.heel
         centre = [constant(float(value)) for value in self._centre(arc, pose)]
-        for start, stop, (pitch, yaw, roll) in sway_pieces(t_start, first, last, end, self.sway, self.rng):
+        for start, stop, (pitch, yaw, roll) in self.sway.pieces(t_start, first, last, end, self.rng):
             curves = leaning([*centre, pitch, yaw + constant(pose.heading), roll], pose, arc.radius)
             self._add(start, stop, curves, (arc.x, arc.radius), arc.radius, Phase.STATIONARY)
 
