@@ -229,8 +229,9 @@ def test_the_shoe_rolls_without_slip_over_heel_and_forefoot() -> None:
         spans = ((stride.heel_off, stride.toe_off), (stride.heel_strike + RIGID.impact_time, stride.foot_flat))
         for arc, (start, end) in zip((shoe.forefoot, shoe.heel), spans, strict=True):
             for t in np.linspace(start + 1e-6, end - 1e-6, 5)[:, None]:
-                height = arc.radius * (1.0 - np.cos(motion.pitch(t)[0]))
-                point = motion.at(t, Mounting((float(motion.contact(t)[0]), 0.0, float(height))))
+                pitch = float(motion.pitch(t)[0])
+                touched = (arc.x - arc.radius * np.sin(pitch), 0.0, arc.radius * (1.0 - np.cos(pitch)))
+                point = motion.at(t, Mounting(touched))
                 assert point.position[0, 2] == pytest.approx(0.0, abs=1e-9)
                 assert np.linalg.norm(point.velocity[0]) < 1e-9
 

@@ -86,15 +86,6 @@ class FootMotion:
         row = self._piece(t)
         return _evaluate(self._factors[0][:, PITCH], row, (t - self.start[row]) / self.duration[row])
 
-    def contact(self, t: Array) -> Array:
-        """Return the x coordinate in the foot frame at which the sole touches the ground, m; nan in swing.
-
-        The ground is taken as level: on a ramp the point is off by the slope times the radius of the rocker."""
-        row = self._piece(t)
-        radius = self.radius[row]
-        touched = self.reference[row, 0] - radius * np.sin(self.pitch(t))
-        return np.where(radius > 0.0, touched, np.nan)
-
     def at(self, t: Array, mounting: Mounting) -> Kinematics:
         """Return the motion of a sensor mounted on this foot at times `t`, s."""
         t = np.asarray(t, dtype=np.float64)
