@@ -23,6 +23,7 @@ from solepath.emulate.wearers.turning import from_rotation_vectors, matrices, mu
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Activity, Foot, Phase
 from solepath.types.vector import GRAVITY, from_rotation_vector
+from solepath_lab.emulated.unsteady import Swaying
 from solepath_lab.emulated.wearers import SUBJECTS
 
 START = Route().stand(1.0).walk(3.0)
@@ -49,7 +50,7 @@ class Way:
 WAYS = {
     "winding": Way(START.turn(radians(90), 2.0).walk(2.0).turn(pi).walk(3.0, 0.8).stop(1.0)),
     "worn soles": Way(START.walk(3.0).stop(1.0), wearer=Wearer(shoe=Shoe(contact=evolve(WORN, pivot_shift=0.02)))),
-    "swaying": Way(START.stop(3.0), wearer=Wearer(sway=radians(0.1), swerve=(2.0, 2.0))),
+    "swaying": Way(START.stop(3.0), wearer=Wearer(sway=Swaying(radians(0.1)), swerve=(2.0, 2.0))),
     "backwards": Way(START.walk(4.0, direction=pi).walk(2.0).stop(1.0)),
     "to the left": Way(START.walk(4.0, direction=0.5 * pi).walk(2.0).stop(1.0), wearer=SUBJECTS[2]),
     "to the right": Way(START.walk(4.0, direction=-0.5 * pi).walk(2.0).stop(1.0)),
@@ -228,8 +229,9 @@ def test_the_shoe_rolls_without_slip_over_heel_and_forefoot() -> None:
         spans = ((stride.heel_off, stride.toe_off), (stride.heel_strike + RIGID.impact_time, stride.foot_flat))
         for arc, (start, end) in zip((shoe.forefoot, shoe.heel), spans, strict=True):
             for t in np.linspace(start + 1e-6, end - 1e-6, 5)[:, None]:
-                height = arc.radius * (1.0 - np.cos(motion.pitch(t)[0]))
-                point = motion.at(t, Mounting((float(motion.contact(t)[0]), 0.0, float(height))))
+                pitch = float(motion.pitch(t)[0])
+                touched = (arc.x - arc.radius * np.sin(pitch), 0.0, arc.radius * (1.0 - np.cos(pitch)))
+                point = motion.at(t, Mounting(touched))
                 assert point.position[0, 2] == pytest.approx(0.0, abs=1e-9)
                 assert np.linalg.norm(point.velocity[0]) < 1e-9
 

@@ -22,9 +22,9 @@ from solepath.emulate.routes.building import FOUR_LOOPS
 from solepath.emulate.routes.ways import wandering
 from solepath.emulate.sensors.dot import Dot
 from solepath.emulate.sensors.insoles import layout
-from solepath.emulate.sensors.magnetic_field import MagneticField
 from solepath.emulate.sensors.parts import AK8963, LSM6DSOX
 from solepath_lab.emulated.limb_samples import limb_samples
+from solepath_lab.emulated.magnetic_field import DisturbedField
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ROUGH = Radio(loss=0.03, duplicate=0.01, corrupt=0.01, truncate=0.01, latency=0.01, jitter=0.04)
@@ -63,7 +63,7 @@ def compass() -> Iterable[Sample]:
     for angle in (pi, -1.5 * pi, 1.2 * pi):
         route = route.turn(angle, 10.0)
     insoles = {site: Insole(cells=8, rate=50.0, mag=AK8963) for site in (LEFT, RIGHT)}
-    return sampled(route.stop(2.0), insoles=insoles, field=MagneticField(radians(20.0), seed=4), seed=3).samples
+    return sampled(route.stop(2.0), insoles=insoles, field=DisturbedField(radians(20.0), seed=4), seed=3).samples
 
 
 def there_and_back() -> Iterable[Sample]:

@@ -12,7 +12,7 @@ from solepath import ActivityChanged, DefectFound, Event, LiftRidden, Placed, Se
 from solepath.emulate import Insole, sampled
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.ways import case_study
-from solepath.emulate.sensors.magnetic_field import EARTH, MagneticField
+from solepath.emulate.sensors.magnetic_field import EARTH
 from solepath.emulate.sensors.parts import AK8963
 from solepath.emulate.walk import SampledWalk
 from solepath.events import Defect
@@ -20,6 +20,7 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor
 from solepath.types import SITE_OF_FOOT, Foot, Site, Vec3
 from solepath.validate.place import is_near, is_on_floor
+from solepath_lab.emulated.magnetic_field import DisturbedField
 
 WAY = case_study()
 CAME = 60.0
@@ -31,7 +32,7 @@ NEAR_MAGNET, AT_SENSOR = (60e-6, 30e-6, 20e-6), (600e-6, 300e-6, 200e-6)
 @cache
 def walk() -> SampledWalk:
     insoles = {SITE_OF_FOOT[foot]: Insole(cells=24, mag=AK8963) for foot in Foot}
-    return sampled(WAY.route, insoles=insoles, field=MagneticField(radians(20.0), seed=4), seed=3)
+    return sampled(WAY.route, insoles=insoles, field=DisturbedField(radians(20.0), seed=4), seed=3)
 
 
 NORTHERN = evolve(BUILDING, anchor=Anchor(48.0, 11.0, atan2(EARTH[1], EARTH[0]) - 0.5 * pi))

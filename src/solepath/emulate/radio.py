@@ -11,28 +11,26 @@ from operator import attrgetter
 
 import numpy as np
 from attrs import field, frozen
+from attrs.validators import and_, ge, le
 
 from ..types import Packet, Site
 from .sensors.device import Notification
 from .wearers.curves import Rng
 
-
-def _share(_: object, attribute: object, value: float) -> None:
-    if not 0.0 <= value <= 1.0:
-        raise ValueError(f"a share must be between 0 and 1, got {value}")
+_SHARE = and_(ge(0.0), le(1.0))
 
 
 @frozen
 class Radio:
     """The settings of a radio channel; shares are from 0 to 1, times in s."""
 
-    loss: float = field(default=0.0, validator=_share)
+    loss: float = field(default=0.0, validator=_SHARE)
     """Share of notifications that never arrive."""
-    duplicate: float = field(default=0.0, validator=_share)
+    duplicate: float = field(default=0.0, validator=_SHARE)
     """Share of notifications that arrive twice."""
-    corrupt: float = field(default=0.0, validator=_share)
+    corrupt: float = field(default=0.0, validator=_SHARE)
     """Share of notifications that arrive with up to three inverted bits."""
-    truncate: float = field(default=0.0, validator=_share)
+    truncate: float = field(default=0.0, validator=_SHARE)
     """Share of notifications that arrive cut short."""
     latency: float = 0.005
     """Least transmission time, s."""

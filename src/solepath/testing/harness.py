@@ -1,11 +1,9 @@
-"""Test harnesses for parts: a detector runs alone, a corrector or cues in a foot, a part of the body in a wearer.
-
-Numbers without a source were chosen by hand."""
+"""Test harnesses for parts: a detector runs alone, a corrector or cues in a foot, a part of the body in a wearer."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from math import inf, isfinite
+from math import hypot, inf, isfinite
 from typing import Any
 
 from attrs import define, evolve, field
@@ -27,12 +25,8 @@ from ..session.state import SessionSettings, SessionState
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
 from ..types.vector import IDENTITY, ZERO
 
-GAP_SPANS = ((2.5, 2.6), (5.0, 5.4))
-"""Start and end of a short and of a long gap, s, that are cut from every `GAP_PERIOD` of the samples."""
-GAP_PERIOD = 6.0
-"""Period with which the gaps repeat, s."""
 LENGTH_TOLERANCE = 1e-6
-"""Largest deviation of the length of a unit quaternion from 1."""
+"""Largest deviation of the length of a unit quaternion from 1; chosen by hand."""
 
 
 @define
@@ -43,14 +37,6 @@ class DetectorHarness:
     insole: InsoleLoads
     t: float | None = field(default=None, init=False)
     """Time of the newest sample, s."""
-
-    def with_gaps(self, samples: list[Sample]) -> list[Sample]:
-        """Return all samples, because a detector is tested without gaps."""
-        return samples
-
-    def pressure_only(self, samples: list[Sample]) -> list[Sample]:
-        """Return no samples, because a detector needs inertial values."""
-        return []
 
     def restart(self) -> None:
         part: Any = self.part
@@ -81,31 +67,7 @@ class DetectorHarness:
 
 
 @define
-class WalkHarness:
-    """Runs a part on a walk with gaps, and then on pressure samples without inertial values."""
-
-    t: float = field(default=0.0, init=False)
-    """Time of the newest sample, s."""
-
-    def with_gaps(self, samples: list[Sample]) -> list[Sample]:
-        """Return the samples without those in a gap (`GAP_SPANS`)."""
-        t_start = samples[0].t if samples else 0.0
-        return [s for s in samples if not any([a < (s.t - t_start) % GAP_PERIOD < b for a, b in GAP_SPANS])]
-
-    def pressure_only(self, samples: list[Sample]) -> list[Sample]:
-        """Return the pressures of `samples` as samples without inertial values, from 1 s after the newest one on."""
-        return [Sample(self.t + 1.0 + s.t - samples[0].t, s.site, pressure=s.pressure) for s in samples if s.pressure]
-
-    def finish(self) -> list[Any]:
-        return []
-
-    def problems(self, output: Any) -> Iterator[str]:
-        """Yield a sentence for every output that a session cannot use."""
-        return iter(())
-
-
-@define
-class FootHarness(WalkHarness):
+class FootHarness:
     """Runs a corrector or cues within a foot, as a session does."""
 
     tracker: FootTracker
@@ -125,60 +87,45 @@ class FootHarness(WalkHarness):
         self.tracker.reset()
 
     def feed(self, sample: Sample) -> Any:
-        tracker, self.t = self.tracker, sample.t
+        tracker = self.tracker
         events = tracker.feed(sample)
-        corrector = tracker.corrector
-        state = (
-            corrector.position,
-            corrector.velocity,
-            corrector.attitude,
-            corrector.covariance(),
-            corrector.error_index,
-        )
+        one = tracker.corrector
+        state = (one.position, one.velocity, one.attitude, one.covariance(), one.error_index)
         return sample.t, events, state if tracker.levelled else None, tracker.cues.sagittal
 
-
-@define
-class CorrectorHarness(FootHarness):
-    """Runs a corrector within a foot."""
+    def finish(self) -> list[Any]:
+        return []
 
     def problems(self, output: Any) -> Iterator[str]:
-        """Yield a sentence for every value of the corrector that an event cannot have."""
-        _, _, state, _ = output
-        if state is None:
-            return
-        position, velocity, (w, x, y, z), covariance, error_index = state
-        for name, value in (("position", position), ("velocity", velocity)):
-            if len(value) != 3 or not _all_finite(value):
-                yield f"{name} is three finite numbers, not {value}"
-        if not abs(w * w + x * x + y * y + z * z - 1.0) < 2.0 * LENGTH_TOLERANCE:  # the square errs twice as much
-            yield f"attitude is a unit quaternion, not {(w, x, y, z)}"
-        if (
-            len(covariance) != 7
-            or not _all_finite(covariance)
-            or min(covariance[0], covariance[3], covariance[5], covariance[6]) < 0.0
-        ):
-            yield f"a covariance is seven finite numbers with variances of 0 or more, not {covariance}"
-        if error_index is not None and not 0.0 <= error_index < inf:
-            yield f"error_index is None, or finite and not below 0, not {error_index}"
+        """Yield a sentence for every value that an event cannot have, and every cue that lies in the future."""
+        t, events, state, sagittal = output
+        yield from self._cue_problems(t, events, sagittal) if self.name == "cues" else self._state_problems(state)
 
-
-@define
-class CuesHarness(FootHarness):
-    """Runs cues within a foot."""
-
-    def problems(self, output: Any) -> Iterator[str]:
-        """Yield a sentence for every cue that lies in the future and every value that is not finite."""
-        t, events, _, sagittal = output
+    def _cue_problems(self, t: float, events: Any, sagittal: float) -> Iterator[str]:
         for event in events:
             if isinstance(event, HeelStrike | FootFlat | HeelOff | ToeOff) and not event.t <= t:
                 yield f"a cue is of the past, not a {type(event).__name__} of {event.t:.3f} s in a sample of {t:.3f} s"
         if not isfinite(sagittal):
             yield f"sagittal is finite, not {sagittal}"
 
+    def _state_problems(self, state: Any) -> Iterator[str]:
+        if state is None:
+            return
+        position, velocity, attitude, covariance, error_index = state
+        for name, value in (("position", position), ("velocity", velocity)):
+            if len(value) != 3 or not _all_finite(value):
+                yield f"{name} is three finite numbers, not {value}"
+        if not abs(hypot(*attitude) - 1.0) < LENGTH_TOLERANCE:
+            yield f"attitude is a unit quaternion, not {attitude}"
+        variances = [covariance[k] for k in (0, 3, 5, 6)] if len(covariance) == 7 else [-1.0]
+        if not _all_finite(covariance) or min(variances) < 0.0:
+            yield f"a covariance is seven finite numbers with variances of 0 or more, not {covariance}"
+        if error_index is not None and not 0.0 <= error_index < inf:
+            yield f"error_index is None, or finite and not below 0, not {error_index}"
+
 
 @define
-class WearerHarness(WalkHarness):
+class WearerHarness:
     """Runs a part of the body, after the parts of the default recipe."""
 
     state: SessionState
@@ -198,7 +145,6 @@ class WearerHarness(WalkHarness):
             self.state.reset(SITE_OF_FOOT[foot])
 
     def feed(self, sample: Sample) -> Any:
-        self.t = sample.t
         return self.state.feed_sample(sample)
 
     def finish(self) -> list[Any]:
@@ -222,23 +168,22 @@ def harness_for(part: Any, foot: Foot, layout: Layout | None) -> DetectorHarness
             insole.set_layout(layout)
             part.set_layout(layout)
         return DetectorHarness(part, insole)
-    harness: FootHarness
-    if Corrector in kinds:
-        harness = CorrectorHarness(FootTracker(foot, Cycle(), part, GaitCues()), "corrector")
-    elif Cues in kinds:
-        harness = CuesHarness(FootTracker(foot, Cycle(), ErrorStateFilter(), part), "cues")
-    elif Part in kinds:
+    if Part in kinds:
         state = SessionState(SessionSettings(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration()))
         state.set_plan(None)
         if layout is not None:
             site = SITE_OF_FOOT[foot]
             state.report(site, LayoutKnown(t=0.0, known_at=0.0, site=site, layout=layout))
         return WearerHarness(state)
+    if Corrector in kinds:
+        tracker, name = FootTracker(foot, Cycle(), part, GaitCues()), "corrector"
+    elif Cues in kinds:
+        tracker, name = FootTracker(foot, Cycle(), ErrorStateFilter(), part), "cues"
     else:
         raise TypeError(f"{type(part).__name__} extends neither Detector nor Corrector nor Cues nor Part")
     if layout is not None:
-        harness.tracker.set_layout(layout)
-    return harness
+        tracker.set_layout(layout)
+    return FootHarness(tracker, name)
 
 
 def _all_finite(values: Iterable[float]) -> bool:

@@ -22,7 +22,7 @@ from attrs import define, evolve, field, frozen
 
 from solepath.body.fuse.both_feet import BothFeet
 from solepath.calibration.records import merged
-from solepath.emulate.sensors.magnetic_field import UNDISTURBED, MagneticField
+from solepath.emulate.sensors.magnetic_field import UNDISTURBED
 from solepath.emulate.sensors.parts import AK8963
 from solepath.emulate.walk import SampledWalk, sampled
 from solepath.emulate.wearers.truth import Truth
@@ -36,6 +36,7 @@ from ..evaluate.run import Meta, RunSettings
 from ..measures.consistency import consistency
 from ..measures.score import Figures, Scored
 from .heading_walks import IsComplete, calibration_samples, heading_route, insoles_of, wearer_of
+from .magnetic_field import DisturbedField
 
 CHECKED_TIMES = (60, 300, 900, 1800)
 """Times after which the covariance is compared with the error, s."""
@@ -163,7 +164,7 @@ def emulated_walk(kind: str, is_complete: IsComplete, seed: int, disturbance: fl
     insoles, magnetic_field = insoles_of(seed), UNDISTURBED
     if disturbance is not None:
         insoles = {site: evolve(insole, mag=AK8963) for site, insole in insoles.items()}
-        magnetic_field = MagneticField(disturbance, seed)
+        magnetic_field = DisturbedField(disturbance, seed)
     route = heading_route(kind, seed, is_complete)
     return sampled(route, wearer=wearer_of(seed), insoles=insoles, seed=seed, field=magnetic_field)
 

@@ -22,6 +22,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 from solepath.types.vector import GRAVITY
 
+from .unsteady import Swaying, Wandering
 from .wearers import random_wearer
 
 STANDING_TIME = 3.0
@@ -34,9 +35,9 @@ LEAST_SWERVE, MOST_SWERVE, SIDE_DIFFERENCE = 0.3, 1.4, 0.2
 With them, a scale error of 1 % of one axis turns the heading by 2 to 16 degrees a minute; on recordings of eleven data
 sets it is 2 to 20, and differs by a fifth, seldom by a factor of two, between the feet of a wearer."""
 LEAST_WANDER, MOST_WANDER, FOOTFALL_VARIATION = 0.03, 0.08, 0.02
-"""Least and largest wandering of a wearer about the path, and lateral variation of the footfalls, m (wander.py)."""
+"""Least and largest wandering of a wearer about the path, and lateral variation of the footfalls, m (unsteady.py)."""
 SWAY = radians(0.14)
-"""Sway of a standing foot, rad (sway.py)."""
+"""Sway of a standing foot, rad (unsteady.py)."""
 G_EFFECT = radians(0.1) / GRAVITY
 """False angular rate per specific force, rad/s per m/s^2: 0.1 degrees/s per g, as the sheets of the MPU-6050 and the
 IMU-3000 specify; that of the LSM6DSOX does not specify any."""
@@ -60,8 +61,8 @@ def wearer_of(seed: int) -> Wearer:
     wearer, _ = random_wearer(rng)
     swerve = float(rng.uniform(LEAST_SWERVE, MOST_SWERVE))
     left, right = (swerve * float(1.0 + SIDE_DIFFERENCE * rng.standard_normal()) for _ in Foot)
-    wander = float(rng.uniform(LEAST_WANDER, MOST_WANDER))
-    return evolve(wearer, swerve=(left, right), wander=wander, sway=SWAY, width_variation=FOOTFALL_VARIATION)
+    wander = Wandering(float(rng.uniform(LEAST_WANDER, MOST_WANDER)))
+    return evolve(wearer, swerve=(left, right), wander=wander, sway=Swaying(SWAY), width_variation=FOOTFALL_VARIATION)
 
 
 def insoles_of(seed: int) -> dict[Site, Insole]:

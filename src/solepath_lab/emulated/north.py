@@ -20,7 +20,7 @@ from solepath import recipes
 from solepath.cli.common.inputs import add_recipe_name
 from solepath.emulate.routes.ways import BuildingWalk, wandering
 from solepath.emulate.sensors.insole_device import Insole
-from solepath.emulate.sensors.magnetic_field import EARTH, MagneticField
+from solepath.emulate.sensors.magnetic_field import EARTH
 from solepath.emulate.sensors.parts import AK8963
 from solepath.emulate.walk import SampledWalk, sampled
 from solepath.events import PlanContradicted
@@ -33,6 +33,7 @@ from solepath.validate.place import NEAR_DISTANCE, PlaceScore, score
 from .. import markdown
 from ..options import option
 from .buildings import HALF_TURN
+from .magnetic_field import DisturbedField
 
 DECLINATION = radians(4.0)
 """Angle from true to magnetic north, clockwise, rad: that of Central Europe (WMM2025)."""
@@ -54,7 +55,7 @@ def walk_with_compass(way: BuildingWalk, disturbance: float, seed: int) -> Sampl
     horizontal, direction = hypot(EARTH[0], EARTH[1]), 0.5 * pi - DECLINATION - (way.start.heading or 0.0)
     earth = (horizontal * cos(direction), horizontal * sin(direction), EARTH[2])
     insoles = {SITE_OF_FOOT[foot]: Insole(cells=8, mag=AK8963) for foot in Foot}
-    return sampled(way.route, insoles=insoles, field=MagneticField(disturbance, seed, earth), seed=seed)
+    return sampled(way.route, insoles=insoles, field=DisturbedField(disturbance, seed, earth), seed=seed)
 
 
 def plan_with(bearing: float | None, way: BuildingWalk) -> IndexedPlan:

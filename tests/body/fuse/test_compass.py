@@ -14,9 +14,9 @@ from strides import stride
 
 from solepath.body.fuse.common_error import FEET, HEADING, CommonError
 from solepath.body.fuse.compass import Compass, H, StanceField
-from solepath.emulate.sensors.magnetic_field import MagneticField
 from solepath.types import Foot
 from solepath.types.vector import IDENTITY, from_yaw
+from solepath_lab.emulated.magnetic_field import DisturbedField
 
 STEP, STRIDE_TIME = 0.7, 1.1
 """Advance of the body from the stride of one foot to that of the other, m, and duration of a stride, s."""
@@ -53,7 +53,7 @@ class Walked:
         lengths: tuple[float, float] = (1.5, 15.0),
     ) -> None:  # fmt: skip
         rng = np.random.default_rng(seed)
-        field = MagneticField(radians(disturbance), seed, lengths=lengths)
+        field = DisturbedField(radians(disturbance), seed, lengths=lengths)
         self.error, self.compass, self.faults, self.most_moved = CommonError(), Compass(), list[str](), 0.0
         self.iron = rng.normal(0.0, 8.0, (2, 3))
         for row in FEET.values():  # the bias is known

@@ -14,12 +14,12 @@ from solepath.body.fuse.both_feet import BothFeet
 from solepath.body.fuse.common_error import HEADING
 from solepath.body.fuse.compass import Compass
 from solepath.emulate import Insole, Route, sampled
-from solepath.emulate.sensors.magnetic_field import MagneticField
 from solepath.emulate.sensors.parts import AK8963
 from solepath.emulate.walk import SampledWalk
 from solepath.types import Site
+from solepath_lab.emulated.magnetic_field import DisturbedField
 
-FIELD = MagneticField(radians(20.0), seed=4)
+FIELD = DisturbedField(radians(20.0), seed=4)
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 
 

@@ -12,10 +12,11 @@ from soak import longer
 from solepath import Session
 from solepath.emulate import Insole, sampled
 from solepath.emulate.routes.ways import wandering
-from solepath.emulate.sensors.magnetic_field import EARTH, MagneticField
+from solepath.emulate.sensors.magnetic_field import EARTH
 from solepath.emulate.sensors.parts import AK8963
 from solepath.events import StrideTaken
 from solepath.types import SITE_OF_FOOT, Foot, Sample
+from solepath_lab.emulated.magnetic_field import DisturbedField
 
 TRUE = atan2(EARTH[1], EARTH[0])
 """Direction of the emulated field of the earth from the wearer's first heading, rad."""
@@ -25,7 +26,7 @@ Norths = list[tuple[float, float] | None]
 @cache
 def walked(seed: int) -> tuple[Sample, ...]:
     insoles = {SITE_OF_FOOT[foot]: Insole(cells=8, mag=AK8963) for foot in Foot}
-    field = MagneticField(radians(20.0), seed)
+    field = DisturbedField(radians(20.0), seed)
     return sampled(wandering(seed).route, insoles=insoles, field=field, seed=seed).samples
 
 

@@ -12,9 +12,9 @@ from soak import soaked
 
 from solepath.body.fuse.common_error import DRIFT, FEET, CommonError
 from solepath.body.fuse.straight_ways import Straightness
-from solepath.emulate.routes.wander import Wander
 from solepath.saving import codec as machine
 from solepath.types import Foot
+from solepath_lab.emulated.unsteady import Wander
 
 STEP = 0.65
 """Advance of the body from the stride of one foot to that of the other, m."""

@@ -9,9 +9,10 @@ from attrs import evolve
 from solepath import Foot, Site
 from solepath.emulate import CC2541, CC2650, Insole, Route, emulate, sampled
 from solepath.emulate.sensors.air import STILL_AIR, Air, PressureStep
-from solepath.emulate.sensors.magnetic_field import EARTH, MagneticField
+from solepath.emulate.sensors.magnetic_field import EARTH
 from solepath.emulate.sensors.parts import AK8963
 from solepath.types import SITE_OF_FOOT
+from solepath_lab.emulated.magnetic_field import DisturbedField
 
 ROUTE = Route().stand(2.0).walk(8.0, 1.3).stop(2.0)
 
@@ -57,12 +58,12 @@ def test_a_door_that_takes_no_time_or_never_opens_fully_and_endless_weather_are_
 
 def test_a_field_turns_a_compass_by_its_root_mean_square_and_in_few_places_by_far_more() -> None:
     places = np.random.default_rng(1).uniform(-200.0, 200.0, (8000, 2))
-    hx, hy, _ = MagneticField(radians(20.0), seed=3).at(places).T
+    hx, hy, _ = DisturbedField(radians(20.0), seed=3).at(places).T
     turned = np.arctan2(EARTH[0] * hy - EARTH[1] * hx, EARTH[0] * hx + EARTH[1] * hy)
     rms = np.sqrt(np.mean(turned**2))
     assert rms == pytest.approx(radians(20.0), rel=0.15)
     assert np.median(np.abs(turned)) < 0.6 * rms and np.quantile(np.abs(turned), 0.99) > 2.5 * rms
-    field = MagneticField(radians(20.0), seed=3, variation=0.0)
+    field = DisturbedField(radians(20.0), seed=3, variation=0.0)
     here = field.at(places)[:, 1] - EARTH[1]
 
     def correlation(distance: float) -> float:
@@ -76,7 +77,7 @@ def test_a_standing_foot_measures_the_field_of_the_earth_and_a_magnetometer_chan
     insole = Insole(cells=24, mag=exact)
     samples = sampled(ROUTE, insoles={Site.LEFT_FOOT: insole}, seed=2).samples
     assert hypot(*(samples[0].mag or ())) == pytest.approx(hypot(*EARTH), rel=1e-3)
-    disturbed = sampled(ROUTE, insoles={Site.LEFT_FOOT: insole}, field=MagneticField(radians(20.0)), seed=2).samples
+    disturbed = sampled(ROUTE, insoles={Site.LEFT_FOOT: insole}, field=DisturbedField(radians(20.0)), seed=2).samples
     plain = sampled(ROUTE, insoles={Site.LEFT_FOOT: evolve(insole, mag=None)}, seed=2).samples
     assert [one.mag for one in disturbed] != [one.mag for one in samples]
     assert tuple(evolve(one, mag=None) for one in disturbed) == plain

@@ -42,7 +42,7 @@ SHORT, LONG = 0.5 * sqrt(2.0 * pi) * 1.5, 0.25 * sqrt(2.0 * pi) * 15.0
 """Distances over which the correlation of both parts of the disturbance sums up to 1, m.
 
 A part with the correlation exp(-x^2 / (2 L^2)) across the way has sqrt(2 pi) L, and along the way, a field without curl
-has 0; L of 1.5 and 15 m is assumed (emulate/sensors/magnetic_field.py). The long part has half as much as that: a
+has 0; L of 1.5 and 15 m is assumed (solepath_lab/emulated/magnetic_field.py). The long part has half as much as that: a
 disturbance that is thought to last longer than it does looks like a drift of the feet. Chosen on tuning walks."""
 SHARE = 0.75
 """Variance of each part of the disturbance, as a share of the size of both: a half, times 1.5, because its size is that

@@ -52,7 +52,7 @@ WANDER_LENGTH, MIN_INDEPENDENT = 4.5, 7.0
 """Length after which the wandering is another one, m, and least number of such lengths that a curvature counts.
 
 Both describe the curvature of parabolas that are fitted to a spline with random knots every 5 m. Emulated wearers
-wander by the same spline (emulate/routes/wander.py), so they do not prove these numbers."""
+wander by the same spline (solepath_lab/emulated/unsteady.py), so they do not prove these numbers."""
 MAX_WANDER_SHARE, HALF_SHARE_LENGTH = 0.75, 16.0
 """Share of the wandering that a parabola through a long stretch leaves, and length at which it leaves half of that, m;
 of the same spline."""

@@ -14,7 +14,6 @@ from bumble import att, core, data_types, hci
 from bumble.device import Connection, Device, DeviceConfiguration
 from bumble.gatt import Characteristic, CharacteristicValue, Service
 from bumble.host import Host
-from bumble.profiles.gap import GenericAccessService
 from bumble.transport.common import AsyncPipeSink, Transport
 
 from ...ble.scanning import Backend
@@ -75,20 +74,12 @@ class Server:
         self._timer: asyncio.TimerHandle | None = None
         self._due = 0.0
         self._link_end: asyncio.Future[bytes] | None = None  # never gets a result; cancelled when the link ends
-        self._advertising: asyncio.Task[None] | None = None
-        self._stopped = False
         self._controller = VirtualController(
             peripheral.name, medium, lambda: self._advertised() if peripheral.visible(self._loop.time()) else None
         )
-        config = DeviceConfiguration(
-            name=self.peripheral.name,
-            address=hci.Address(self.peripheral.address),
-            gap_service_enabled=False,
-            gatt_service_enabled=False,
-        )
+        config = DeviceConfiguration(name=peripheral.name, address=hci.Address(peripheral.address))
         self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
         enable_just_works(self._device, lambda: self.peripheral.accepts_pairing(self._loop.time()))
-        self._device.add_service(GenericAccessService(peripheral.name))
         self._served: dict[str, Characteristic[bytes]] = {}
         for service in peripheral.services:
             found = {one.channel: self._characteristic(one) for one in service.characteristics}
@@ -116,26 +107,21 @@ class Server:
         """Start the controller and advertise."""
         await self._device.power_on()
         self.peripheral.on_change = self._arm
-        await self._advertise()
-
-    async def stop(self) -> None:
-        """End the link and leave the medium."""
-        self._stopped = True
-        if self._link is not None:
-            await end_link(self._link)
-        if self._advertising is not None:
-            await self._advertising
-        self._disarm()
-        self.peripheral.on_change = None
-        await self._device.power_off()
-        self.medium.leave(self._controller)
-
-    async def _advertise(self) -> None:
         await self._device.start_advertising(
+            auto_restart=True,
             advertising_data=self._advertised(),
             advertising_interval_min=ADVERTISING_INTERVAL,
             advertising_interval_max=ADVERTISING_INTERVAL,
         )
+
+    async def stop(self) -> None:
+        """End the link and leave the medium."""
+        if self._link is not None:
+            await end_link(self._link)
+        self._disarm()
+        self.peripheral.on_change = None
+        await self._device.power_off()
+        self.medium.leave(self._controller)
 
     def _advertised(self) -> bytes:
         """Return the advertisement: services and name, without flags (Core supplement, A 1.3: they may be left out)."""
@@ -169,8 +155,6 @@ class Server:
         if self._link_end is not None:
             self._link_end.cancel()
         self.peripheral.disconnected(self._loop.time())
-        if not self._stopped:
-            self._advertising = self._loop.create_task(self._advertise())
 
     # requests; `_characteristic` binds the first argument, the channel
 

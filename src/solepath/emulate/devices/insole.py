@@ -14,7 +14,7 @@ from ...wire.device import build_battery
 from ...wire.error import WireError
 from ...wire.fields import build_text
 from ...wire.fragment import FRAME_ID_COUNT, MAX_FRAGMENTS, split
-from ...wire.insole import InsoleFrame, build_frame
+from ...wire.insole import build_frame
 from ...wire.insole_control import Resend, SetInterval, StartSampling, StopSampling, parse_control
 from ...wire.insole_info import build_info
 from ..sensors.device import device_rng, foot_of
@@ -41,14 +41,12 @@ _MAX_FRAME_SIZE, _HEADER_AND_CRC_SIZE, _FRAGMENT_HEADER_SIZE = 512, 16, 1
 
 @define(eq=False)
 class _Frames:
-    """A ValueSource of the frames of a signal, with offsets that are added to its sequence numbers and ticks.
+    """A ValueSource of the frames of a signal.
 
     `sent_numbers` are the numbers of the stored frames, `to_resend` those of the frames that must be sent again."""
 
     signal: InsoleSignal
     batch: int
-    sequence_offset: int = 0
-    tick_offset: int = 0
     sent_numbers: deque[int] = Factory(deque)
     to_resend: deque[int] = Factory(deque)
 
@@ -67,29 +65,23 @@ class _Frames:
             self.sent_numbers.popleft()
         return found
 
-    def frame(self, number: int) -> InsoleFrame:
-        frame = self.signal.frame(number, self.batch)
-        sequence, ticks = (frame.sequence + self.sequence_offset) % 2**16, (frame.ticks + self.tick_offset) % 2**32
-        return evolve(frame, sequence=sequence, ticks=ticks)
-
-    def signal_ticks(self, number: int) -> int:
-        """Return the ticks of a frame without the offset."""
-        return self.signal.ticks + number * self.batch * self.signal.interval
-
-    def elapsed(self, number: int, since: float) -> int:
-        """Return the ticks of the device's clock from `since`, s, to the frame's first sample."""
-        return round((self.signal.sample_time(number, self.batch) - since) / self.signal.step * self.signal.interval)
+    def start_at(self, number: int, sequence: int, since: float, ticks: int) -> None:
+        """Set the sequence number of a frame, and the ticks that the device's clock shows at the time `since`, s."""
+        signal, first = self.signal, number * self.batch
+        elapsed = round((signal.first + signal.step * first - since) / signal.step * signal.interval)
+        self.signal = evolve(signal, sequence=sequence - number, ticks=ticks + elapsed - first * signal.interval)
 
     def resend(self, command: Resend) -> None:
         """Queue those of the requested frames that are still stored; they are sent with the next frames."""
         requested = {(command.first + i) % 2**16 for i in range(command.count)}
-        first_sequence = self.signal.sequence + self.sequence_offset
         self.to_resend += [
-            n for n in self.sent_numbers if (first_sequence + n) % 2**16 in requested and n not in self.to_resend
+            number
+            for number in self.sent_numbers
+            if (self.signal.sequence + number) % 2**16 in requested and number not in self.to_resend
         ]
 
     def _fragments(self, number: int, retransmitted: bool, mtu: int) -> list[bytes]:
-        frame = build_frame(evolve(self.frame(number), retransmitted=retransmitted))
+        frame = build_frame(evolve(self.signal.frame(number, self.batch), retransmitted=retransmitted))
         return split(frame, mtu - ATT_HEADER_SIZE, number % FRAME_ID_COUNT)
 
 
@@ -159,13 +151,9 @@ class InsolePeripheral(Peripheral):
 
     def _frames_from(self, t: float) -> _Frames:
         """Return the frames from `t` on; after a restart the sequence starts at 0 and the ticks at the restart."""
-        frames = _Frames(self.signal(), self._batch())
-        if self.faults.restarted_at is not None:
-            number = frames.first_number_from(t)
-            frames.sequence_offset = -(frames.signal.sequence + number) % 2**16
-            frames.tick_offset = (
-                frames.elapsed(number, self.faults.restarted_at) - frames.signal_ticks(number)
-            ) % 2**32
+        frames, restarted_at = _Frames(self.signal(), self._batch()), self.faults.restarted_at
+        if restarted_at is not None:
+            frames.start_at(frames.first_number_from(t), 0, restarted_at, 0)
         return frames
 
     def _batch(self) -> int:
@@ -177,12 +165,7 @@ class InsolePeripheral(Peripheral):
 
     def _continued_frames(self, old: _Frames, t: float) -> _Frames:
         """Return the frames at the current interval that continue the sequence and the clock of the old ones at `t`."""
-        new = _Frames(self.signal(), old.batch)
-        number = new.first_number_from(t)
+        new, signal = _Frames(self.signal(), old.batch), old.signal
         last = old.sent_numbers[-1] if old.sent_numbers else old.first_number_from(t) - 1
-        new.sequence_offset = (
-            old.signal.sequence + old.sequence_offset + last + 1 - new.signal.sequence - number
-        ) % 2**16
-        ticks = old.signal.ticks + old.tick_offset + new.elapsed(number, old.signal.first)
-        new.tick_offset = (ticks - new.signal_ticks(number)) % 2**32
+        new.start_at(new.first_number_from(t), signal.sequence + last + 1, signal.first, signal.ticks)
         return new

@@ -14,15 +14,16 @@ A fault script (faults.py) acts inside the device; the server sees only its effe
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from math import inf
+from operator import itemgetter
+from typing import Protocol
 
 from attrs import frozen
 
 from ...types import Site
 from .attributes import SMALLEST_MTU, AttCode, AttError, Outgoing, Service, check_fits
 from .faults import PAIRING_ARGUMENT, Fault, FaultKind, FaultState
-from .flows import Flows, ValueSource
 
 _TIMER_TOLERANCE = 2e-6
 """Time by which a timer may fire too early, s; it is the resolution of an event loop's clock."""
@@ -44,6 +45,19 @@ class Placement:
     """Faults of a script; those of other sites have no effect on this device."""
 
 
+class ValueSource(Protocol):
+    """The values of one channel, each with a number and a time of the walk, s; times grow with the number."""
+
+    def first_number_from(self, t: float) -> int:
+        """Return the number of the first value at time `t` or later."""
+
+    def due(self, number: int) -> float:
+        """Return the time at which the radio has the value of this number, s; inf when there is no such value."""
+
+    def values(self, number: int, mtu: int) -> Sequence[bytes]:
+        """Return the notifications of the value in order; there are several when the value is too long for one."""
+
+
 class Peripheral:
     """A virtual device as a GATT server; insole.py and tag.py define its attributes.
 
@@ -63,7 +77,9 @@ class Peripheral:
         self.faults = FaultState(placement.faults, placement.site)
         """Faults of the script that have happened in this walk, and their effects."""
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
-        self._flows = Flows()
+        self._sources: dict[str, ValueSource] = {}
+        self._next_numbers: dict[str, int] = {}
+        self._subscribed: set[str] = set()
         self._now = -inf
         self.is_connected = False
         self.is_encrypted = False
@@ -89,7 +105,10 @@ class Peripheral:
 
     def flow(self, channel: str, source: ValueSource | None, t: float) -> None:
         """Set the source of the channel's values from `t` s of the walk on; None stops the channel."""
-        self._flows.put(channel, source, t)
+        if source is None:
+            self._sources.pop(channel, None)
+        else:
+            self._sources[channel], self._next_numbers[channel] = source, source.first_number_from(t)
 
     # methods that the server calls
 
@@ -107,7 +126,8 @@ class Peripheral:
         """Restart the walk and its fault script at this time of the event loop, s; earlier faults have no effect."""
         self._started_at = started_at
         self.faults = FaultState(self._script, self.site)
-        self._flows.go_to(self._now - started_at)
+        for channel, source in self._sources.items():
+            self._next_numbers[channel] = source.first_number_from(self._now - started_at)
         self._notify_changed()
 
     def visible(self, now: float) -> bool:
@@ -130,7 +150,8 @@ class Peripheral:
         """End the link: remove all subscriptions and reset the device as its protocol says."""
         self._advance(now)
         self.is_connected = self.is_encrypted = False
-        self._flows.clear()
+        self._sources.clear()
+        self._subscribed.clear()
         self.agreed_mtu = SMALLEST_MTU
         self.stop()
 
@@ -140,7 +161,13 @@ class Peripheral:
             raise AttError(AttCode.REQUEST_NOT_SUPPORTED)
         t = self._advance(now)
         self._check_paired(channel)
-        self._flows.subscribe(channel, on, t)
+        if not on:
+            self._subscribed.discard(channel)
+        elif channel not in self._subscribed:
+            self._subscribed.add(channel)
+            if channel in self._sources:
+                number = self._sources[channel].first_number_from(t)
+                self._next_numbers[channel] = max(self._next_numbers[channel], number)
         self._notify_changed()
 
     def read(self, channel: str, now: float) -> bytes | None:
@@ -168,18 +195,20 @@ class Peripheral:
         """Return when to call `poll` and `must_hang_up` next, s of the event loop; None when nothing is due."""
         if not self.is_connected:
             return None
-        soonest = min(self._flows.find_due(inf)[1], self.faults.next_at())
+        soonest = min(self._first_due()[0], self.faults.next_at())
         return None if soonest == inf else max(self._now, self._started_at + soonest)
 
     def poll(self, now: float) -> list[Outgoing]:
         """Return the notifications that are due by now, with the faults applied, in the order of time."""
         found: list[Outgoing] = []
         while self.is_connected:
-            channel, due = self._flows.find_due(now - self._started_at + _TIMER_TOLERANCE)
-            t = self._advance(now) if channel is None else self._advance_faults(due)
-            if channel is None or self.faults.must_disconnect:
+            due, channel = self._first_due()
+            is_over = due > now - self._started_at + _TIMER_TOLERANCE
+            t = self._advance(now) if is_over else self._advance_faults(due)
+            if is_over or self.faults.must_disconnect:
                 break
-            source, number = self._flows.take(channel)
+            source, number = self._sources[channel], self._next_numbers[channel]
+            self._next_numbers[channel] += 1
             if self.faults.frozen(t) or self._is_closed(channel):
                 continue
             for value in source.values(number, self.agreed_mtu):
@@ -195,6 +224,15 @@ class Peripheral:
         self._advance(now)
         must_disconnect, self.faults.must_disconnect = self.faults.must_disconnect, False
         return must_disconnect and self.is_connected
+
+    def _first_due(self) -> tuple[float, str]:
+        """Return the time at which the next value is due, s, and its channel, which is subscribed; inf when none is."""
+        found = [
+            (source.due(self._next_numbers[channel]), channel)
+            for channel, source in self._sources.items()
+            if channel in self._subscribed
+        ]
+        return min(found, key=itemgetter(0), default=(inf, ""))
 
     def _hangs(self, channel: str, t: float) -> bool:
         """Return whether a request to the channel is never answered; raise AttError when it is rejected."""

@@ -11,7 +11,6 @@ stairs; the speed of the steps is fitted to the time that this takes."""
 from __future__ import annotations
 
 from math import cos, radians, sin, tan
-from typing import Protocol
 
 import numpy as np
 from attrs import frozen
@@ -61,21 +60,6 @@ class Escalator:
     def run(self) -> float:
         """Horizontal distance from end to end, m."""
         return 2.0 * (LEVEL_LENGTH + BEND_RADIUS * sin(INCLINE)) + self.incline_length * cos(INCLINE)
-
-
-class GroundRide(Protocol):
-    """Something that moves the ground under both feet for a time."""
-
-    @property
-    def start(self) -> float:
-        """Time at which the ground starts to move, s."""
-
-    @property
-    def end(self) -> float:
-        """Time at which the ground stops, s."""
-
-    def at(self, t: Array) -> tuple[Array, Array, Array]:
-        """Return displacement, velocity and acceleration of the ground at `t`, (N, 3) each, world frame, SI units."""
 
 
 @frozen(eq=False)

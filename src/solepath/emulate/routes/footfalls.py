@@ -9,7 +9,6 @@ from ..wearers.curves import Rng
 from ..wearers.gait import Wearer
 from .path import AHEAD, BACK, Flight, Piece, Pose, Turn, WalkPath
 from .styles import BACKWARDS_RATIO, SIDE_STEP, StrideKind, running_cadence
-from .wander import Wander
 
 
 @frozen
@@ -71,12 +70,12 @@ class FootfallPlan:
         if len(ends) > 1 and ends[-1] - path.length > path.length - ends[-2]:
             ends.pop()
         scale = path.length / ends[-1]
-        wander = Wander.drawn(path.length, self.wearer.wander, self.rng) if self.wearer.wander else None
+        move_pose = self.wearer.wander.way(path.length, self.rng) if self.wearer.wander else None
         footfalls = []
         for end in (scale * end for end in ends):
             pose, move = path.at(end)
-            if wander is not None:
-                pose = wander.move(pose, end)
+            if move_pose is not None:
+                pose = move_pose(pose, end)
             speed, running = path.pace(end)
             step_time = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
             kind = StrideKind.RUN if running else StrideKind.WALK

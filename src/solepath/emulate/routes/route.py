@@ -127,15 +127,14 @@ class Route:
             raise ValueError(f"walk: slope must be between -{MAX_SLOPE} and {MAX_SLOPE}, got {slope}")
         if slope and self._ends_near(lambda move: move.stairs is not None):
             raise ValueError(f"walk: {LANDING} m on the level lie between a flight of stairs and a ramp")
-        if direction != AHEAD:
-            if slope and direction != BACK:
-                raise ValueError("walk: side steps are on the level")
-            usual_speed = BACKWARDS_SPEED if direction == BACK else SIDEWAYS_SPEED
-            chosen_speed = usual_speed if speed is None else _positive("speed", speed)
-            return self._then(Move(_positive("distance", distance), chosen_speed, slope=slope, direction=direction))
-        chosen_speed = self.speed if speed is None else _positive("speed", speed)
-        move = Move(_positive("distance", distance), chosen_speed, self.spacing, slope=slope)
-        return evolve(self._then(move), speed=chosen_speed)
+        is_ahead = direction == AHEAD
+        if slope and not is_ahead and direction != BACK:
+            raise ValueError("walk: side steps are on the level")
+        usual_speed = {AHEAD: self.speed, BACK: BACKWARDS_SPEED}.get(direction, SIDEWAYS_SPEED)
+        chosen_speed = usual_speed if speed is None else _positive("speed", speed)
+        spacing = self.spacing if is_ahead else None
+        move = Move(_positive("distance", distance), chosen_speed, spacing, slope=slope, direction=direction)
+        return evolve(self._then(move), speed=chosen_speed if is_ahead else self.speed)
 
     def jog(self, distance: float, speed: float = 2.6) -> Route:
         """Run `distance` m straight on at `speed` m/s; the speed is not kept for later moves.
@@ -243,7 +242,7 @@ def _positive(name: str, value: float) -> float:
 
 def _main_direction(direction: float) -> float:
     """Return the main direction that is meant, rad; ValueError when none is near."""
-    for meant in (AHEAD, LEFT, RIGHT, BACK):
-        if abs(remainder(direction - meant, 2.0 * pi)) < DIRECTION_TOLERANCE:
-            return meant
+    meant = min((AHEAD, LEFT, RIGHT, BACK), key=lambda one: abs(remainder(direction - one, 2.0 * pi)))
+    if abs(remainder(direction - meant, 2.0 * pi)) < DIRECTION_TOLERANCE:
+        return meant
     raise ValueError(f"walk: direction must be 0, pi/2, -pi/2 or pi, got {direction}")

@@ -77,10 +77,6 @@ class InsoleSignal:
             saturated=any(bool(self.saturated[row]) for row in rows),
         )
 
-    def sample_time(self, number: int, batch: int = 1) -> float:
-        """Return the true time of a frame's first sample, s."""
-        return self.first + self.step * (number * batch)
-
     def ready(self, number: int, batch: int = 1) -> float:
         """Return the true time at which the radio has a frame, s."""
         return self.first + self.step * (number * batch + batch - 1) + HANDLING_TIME

@@ -154,17 +154,11 @@ def random_drift(t: Array, correlation_time: float, axes: int, rng: Rng) -> Arra
 
 
 def read_cells(
-    true: Array,
-    t: Array,
-    chip: CellErrors,
-    count: float,
-    rng: Rng,
-    full_count: int = FULL_COUNT,
-    upward_force: Array | None = None,
+    true: Array, t: Array, chip: CellErrors, count: float, rng: Rng, upward_force: Array | None = None
 ) -> CountReading:
     """Return the counts of an insole's cells for their true loads, in newtons, (N, cells), at times `t`, s, (N).
 
-    `count` is the load of one count, in newtons, and `full_count` the largest count. `upward_force` (N) is the specific
+    `count` is the load of one count, in newtons. `upward_force` (N) is the specific
     force along the sole's upward normal, m/s^2, for parts with `relief_per_g`."""
     cells = true.shape[1]
     gain = 1.0 + chip.gain * np.clip(rng.standard_normal(cells), -3.0, 3.0)
@@ -176,17 +170,15 @@ def read_cells(
         true = lagged.copy()
     follow = 1.0 - exp(-interval / chip.lag)
     for load, before, after in zip(true[1:], lagged[:-1], lagged[1:], strict=True):
-        np.subtract(load, before, out=after)  # before + follow * (load - before), without intermediate arrays
-        after *= follow
-        after += before
+        after[:] = before + follow * (load - before)
     # In place, because the loads of many cells on a long walk need much memory.
     lagged *= gain
     lagged += preload
     lagged += chip.noise * rng.standard_normal(true.shape)
     lagged /= count
     counts = np.rint(lagged, out=lagged)
-    saturated = np.any(counts >= full_count, axis=1)
-    return CountReading(np.clip(counts, 0, full_count, out=counts).astype(np.int64), saturated)
+    saturated = np.any(counts >= FULL_COUNT, axis=1)
+    return CountReading(np.clip(counts, 0, FULL_COUNT, out=counts).astype(np.int64), saturated)
 
 
 def _contact_loads(

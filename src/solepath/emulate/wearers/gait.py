@@ -8,6 +8,7 @@ in styles.py."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from enum import Enum
 from typing import Protocol
 
@@ -20,7 +21,7 @@ from ..routes.elevator import CarRide
 from ..routes.escalator import EscalatorRide
 from ..routes.path import Flight, Pose
 from ..routes.styles import StrideKind, Style
-from .curves import Array
+from .curves import Array, Rng
 from .shoe import Shoe
 
 
@@ -35,6 +36,25 @@ class HeelPad(Protocol):
 
         `stance` has heel-strike, foot-flat, heel-off and toe-off, s, (N, 4). `heel_share` is the share of the heel in
         the foot's load, `weight` is in N, and `speed` is a ratio to 1.3 m/s."""
+
+
+class Wandering(Protocol):
+    """Wandering of a body about the path."""
+
+    def way(self, length: float, rng: Rng) -> Callable[[Pose, float], Pose]:
+        """Return a function that moves a pose on a path of this length, m, which is so many m along it."""
+
+
+class Swaying(Protocol):
+    """Sway of a foot that stands."""
+
+    def pieces(
+        self, t_start: float, first: float, last: float, end: float, rng: Rng
+    ) -> Iterator[tuple[float, float, list[Array]]]:
+        """Yield the pieces of a foot that stands from `t_start` to `end`, s, and sways from `first` to `last`, s.
+
+        A piece has its start and end, s, and the curves of pitch, yaw and roll, rad. All are 0 at `first` and `last`,
+        and yaw is relative to the foot's own."""
 
 
 class LoadLaw(Enum):
@@ -90,10 +110,10 @@ class Wearer:
     """Standard deviation of the distance along the path from a mark to the foot that steps on it, m (assumed)."""
     swerve: tuple[float, float] = (1.0, 1.0)
     """Roll and yaw of the left and the right foot in mid-swing, as a ratio to 9 and 6 degrees."""
-    wander: float = 0.0
-    """Standard deviation of the body's lateral displacement from the path, m; 0: the body keeps to the path."""
-    sway: float = 0.0
-    """Standard deviation of pitch and roll of a foot while the wearer stands, rad; 0: a standing foot is still."""
+    wander: Wandering | None = None
+    """Lateral displacement of the body from the path; None: the body keeps to the path."""
+    sway: Swaying | None = None
+    """Sway of a foot while the wearer stands; None: a standing foot is still."""
     rest_pitch: float = 4e-4
     """Standard deviation of the largest pitch of a foot that stands between two strides, rad, cut off at one of them.
 
@@ -199,6 +219,11 @@ class WalkPlan:
     """Elevator rides of the wearer."""
     escalators: tuple[EscalatorRide, ...] = ()
     """Rides on escalators, standing or walking; the poses of strides do not contain their displacement."""
+
+    @property
+    def moving_ground(self) -> tuple[CarRide | EscalatorRide, ...]:
+        """Rides of all kinds."""
+        return (*self.rides, *self.escalators)
 
     def ground_shift(self, t: Array) -> Array:
         """Return how far escalators have moved the ground under the feet at times `t`, s, world frame, (N, 3), m."""

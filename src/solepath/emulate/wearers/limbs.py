@@ -34,7 +34,7 @@ from .gait import WalkPlan
 from .load import Loads
 from .motion import BLOCK, FootMotion, Kinematics, join_blocks
 from .shoe import Mounting, Shoe
-from .turning import matrices, multiply_quaternions, quaternions, unit, yaw_roll_matrices
+from .turning import matrices, multiply_quaternions, quaternions, rotation, twice_axis, unit
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES
 
 INTERVAL = 0.01
@@ -114,7 +114,7 @@ class Body:
     def pelvis(self, t: Array) -> tuple[Array, Array]:
         """Return the point between the hips (N, 3), world, m, and the attitude (N, 3, 3) of the pelvis at `t`, s."""
         values = self._interpolate(self.track, t)
-        return values[:, :3], yaw_roll_matrices(values[:, 3], values[:, 4])
+        return values[:, :3], rotation(values[:, 3], np.zeros(len(t)), values[:, 4])
 
     def slip(self, foot: Foot, t: Array) -> Array:
         """Return the slip of the foot in its shoe along x and y of the foot frame at times `t`, s, m, (N, 2)."""
@@ -162,8 +162,7 @@ class Body:
         before, position, after = p0 + r0 @ arm, p1 + r1 @ arm, p2 + r2 @ arm
         acceleration = (before - 2.0 * position + after) / _DIFFERENCE_STEP**2
         # r0^T r2 minus its transpose is 4 steps times the matrix of the cross product with the rate.
-        turn = np.einsum("nji,njk->nik", r0, r2) / (4.0 * _DIFFERENCE_STEP)
-        rate = np.stack([turn[:, j, i] - turn[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
+        rate = twice_axis(np.einsum("nji,njk->nik", r0, r2) / (4.0 * _DIFFERENCE_STEP))
         force = np.einsum("nji,nj->ni", r1, acceleration + (0.0, 0.0, GRAVITY))
         mounting_turn = matrices(np.array([mounting.attitude]))[0]
         return Kinematics(
@@ -221,7 +220,7 @@ def body(
     yaw, roll = yaw + sway[:, 0], sway[:, 1]
 
     reach = _reach_limit(plan, t) * (limbs.thigh + limbs.shank)
-    half_hip = 0.5 * limbs.hip_width * yaw_roll_matrices(yaw, roll)[:, :, 1]
+    half_hip = 0.5 * limbs.hip_width * rotation(yaw, np.zeros(len(t)), roll)[:, :, 1]
     highest = np.full(len(t), np.inf)
     for foot in Foot:
         horizontal_offset = ankles[foot][:, :2] - centre - SIDE_SIGNS[foot] * half_hip[:, :2]
@@ -249,7 +248,7 @@ def _centre_of_pressure(plan: WalkPlan, loads: Loads, shoe: Shoe, t: Array) -> A
     for foot in Foot:
         poses = [plan.starts[foot], *(stride.end for stride in plan.strides[foot])]
         table = np.array([(pose.x, pose.y, pose.heading) for pose in poses])
-        x, y, yaw = table[np.maximum(np.searchsorted(loads.stances[foot][:, 0], t, side="right") - 1, 0)].T
+        x, y, yaw = table[loads.stance_rows(foot, t)].T
         zones = np.array([zone.x for zone in (HEEL, MIDFOOT, FOREFOOT, TOES)]) * shoe.length
         ahead, left = zones @ loads.zone_shares(foot, t) - shoe.ankle[0], loads.lateral_shift(foot, t)
         point = np.stack((x + ahead * np.cos(yaw) - left * np.sin(yaw), y + ahead * np.sin(yaw) + left * np.cos(yaw)))

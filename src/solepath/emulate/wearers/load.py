@@ -24,14 +24,12 @@ source were chosen by hand for plausible loads and not swept."""
 from __future__ import annotations
 
 import numpy as np
-from attrs import frozen
 from numpy.typing import NDArray
 
 from ...types import Foot, Layout
 from ...types.vector import GRAVITY
-from ..routes.escalator import GroundRide
 from .curves import Array, Rng, hand_over
-from .gait import SETTLE_TIME, HeelPad, LoadLaw, PlannedStride, WalkPlan, Wearer
+from .gait import SETTLE_TIME, LoadLaw, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, cell_shares
 
@@ -54,42 +52,40 @@ _BLOCK_SIZE = 4096
 """Number of instants computed at a time, because intermediate arrays need the memory of a hundred cells."""
 
 
-@frozen(eq=False)
 class Loads:
     """The vertical load under both feet over time.
 
     A hand-over is a time in which load moves from one foot to the other. A beat is the middle of a double support or of
     a flight; a bout also has one at its start, and one half of SETTLE_TIME after its last heel-strike."""
 
-    weight: float
-    """Weight of the body, N."""
-    start: Array
-    """Start of each hand-over, s."""
-    end: Array
-    """End of each hand-over, s."""
-    share_before: Array
-    """Share of the left foot in the load before each hand-over."""
-    share_after: Array
-    """Share of the left foot in the load after each hand-over."""
-    beat_times: Array
-    """Time of each beat, s."""
-    load_amplitude: Array
-    """Amplitude of the load about the weight from each beat to the next, as a share of the weight."""
-    run_contacts: Array
-    """Heel-strike after each beat, toe-off before the next, s, (beats, 2); 0 where that beat is not in flight."""
-    stances: dict[Foot, Array]
-    """Heel-strike, foot-flat, heel-off and toe-off of each stance, s, (n, 4)."""
-    lateral_shifts: dict[Foot, Array]
-    """Shift of the load to the left in each stance by the bend and by chance, m, and time at which it starts to decay
-    at a halt, s, (n, 3)."""
-    forefoot_shares: dict[Foot, Array]
-    """Share of the load that lands on the forefoot in each stance, (n)."""
-    rides: tuple[GroundRide, ...] = ()
-    """Rides of the wearer in elevators and on escalators."""
-    pad: HeelPad | None = None
-    """Pad of either heel; None: the patch under a heel has a fixed size and moves with the pitch only."""
-    law: LoadLaw = LoadLaw.OUTWARD
-    """Law by which the load moves in a bend."""
+    def __init__(self, plan: WalkPlan, wearer: Wearer, rng: Rng) -> None:
+        """Take the loads of a planned walk; `rng` draws the lateral position of the load in each stance."""
+        hand_overs, beats = _hand_overs(plan)
+        self.weight = wearer.mass * GRAVITY
+        """Weight of the body, N."""
+        self.start, self.end, self.share_before, self.share_after = np.array(hand_overs).reshape(-1, 4).T
+        """Start and end of each hand-over, s, and share of the left foot in the load before and after it."""
+        self.beat_times, speeds, *contacts = np.array(beats).reshape(-1, 4).T
+        """Time of each beat, s."""
+        self.load_amplitude = np.minimum(BOUNCE_AMPLITUDE * (speeds / 1.3) ** 2, MAX_BOUNCE_AMPLITUDE)
+        """Amplitude of the load about the weight from each beat to the next, as a share of the weight."""
+        self.run_contacts = np.stack(contacts, axis=1)
+        """Heel-strike after each beat, toe-off before the next, s, (beats, 2); 0 where that beat is not in flight."""
+        self.stances = {foot: _stances(plan, foot) for foot in Foot}
+        """Heel-strike, foot-flat, heel-off and toe-off of each stance, s, (n, 4)."""
+        self.lateral_shifts = {foot: _lateral_shifts(plan, foot, wearer, rng) for foot in Foot}
+        """Shift of the load to the left in each stance by the bend and by chance, m, and time at which it starts to
+        decay at a halt, s, (n, 3)."""
+        self.forefoot_shares = {
+            foot: np.array([0.0, *(stride.style.forefoot_share for stride in plan.strides[foot])]) for foot in Foot
+        }
+        """Share of the load that lands on the forefoot in each stance, (n)."""
+        self.rides = plan.moving_ground
+        self.pad, self.law = wearer.pad, wearer.load_law
+
+    def stance_rows(self, foot: Foot, t: Array) -> NDArray[np.intp]:
+        """Return the number of the last stance that has begun at each of the times `t`, s, or 0."""
+        return np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
 
     def total(self, foot: Foot, t: Array) -> Array:
         """Return the load under one foot at times `t`, s, in newtons, (N)."""
@@ -163,7 +159,7 @@ class Loads:
         """Return how far the pad lets the patch under a heel be ahead of its place at `t`, s, in m, (N)."""
         if self.pad is None or not len(self.start):
             return np.zeros_like(t)
-        rows = np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
+        rows = self.stance_rows(foot, t)
         # the amplitude grows with the square of the speed
         speed = np.interp(t, self.beat_times, np.sqrt(self.load_amplitude / BOUNCE_AMPLITUDE))
         return self.pad.shift(self.stances[foot][rows], heel_share, self.weight, speed, t)
@@ -174,7 +170,7 @@ class Loads:
 
     def zone_shifts(self, foot: Foot, t: Array) -> Array:
         """Return the shift to the left of the load under heel, midfoot, forefoot and toes at `t`, s, in m, (4, N)."""
-        rows = np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
+        rows = self.stance_rows(foot, t)
         bend, chance, t_decay = self.lateral_shifts[foot][rows].T
         shifts = np.array(ZONE_SHIFTS[self.law])[:, None] * bend + chance
         return np.asarray(shifts * (1.0 - hand_over((t - t_decay) / SETTLE_TIME)))
@@ -192,10 +188,8 @@ class Loads:
 
     def zone_shares(self, foot: Foot, t: Array) -> Array:
         """Return the shares of heel, midfoot, forefoot and toes in the foot's load at `t`, s, (4, N)."""
-        stances = self.stances[foot]
-        rows = np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)
-        row = stances[rows]
-        foot_flat, heel_off, off = row[:, 1], row[:, 2], row[:, 3]
+        rows = self.stance_rows(foot, t)
+        _, foot_flat, heel_off, off = self.stances[foot][rows].T
         ramp = np.minimum(heel_off - foot_flat, SETTLE_TIME)
         rolled_share = 0.45 * hand_over((t - foot_flat) / ramp) + 0.55 * hand_over((t - heel_off + ramp) / ramp)
         if self.forefoot_shares[foot].any():
@@ -205,31 +199,6 @@ class Loads:
         forefoot_share = rolled_share - 0.5 * midfoot_share
         toes = forefoot_share * (0.05 + 0.10 * rolled_share + 0.60 * hand_over((t - heel_off) / (off - heel_off)))
         return np.stack((1.0 - rolled_share - 0.5 * midfoot_share, midfoot_share, forefoot_share - toes, toes))
-
-
-def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
-    """Return the loads of a planned walk; `rng` draws the lateral position of the load in each stance."""
-    hand_overs, beats = _hand_overs(plan)
-    table = np.array(hand_overs).reshape(-1, 4)
-    beat_times = np.array(beats).reshape(-1, 4)
-    return Loads(
-        weight=wearer.mass * GRAVITY,
-        start=table[:, 0],
-        end=table[:, 1],
-        share_before=table[:, 2],
-        share_after=table[:, 3],
-        beat_times=beat_times[:, 0],
-        load_amplitude=np.minimum(BOUNCE_AMPLITUDE * (beat_times[:, 1] / 1.3) ** 2, MAX_BOUNCE_AMPLITUDE),
-        run_contacts=beat_times[:, 2:],
-        stances={foot: _stances(plan, foot) for foot in Foot},
-        lateral_shifts={foot: _lateral_shifts(plan, foot, wearer, rng) for foot in Foot},
-        forefoot_shares={
-            foot: np.array([0.0, *(stride.style.forefoot_share for stride in plan.strides[foot])]) for foot in Foot
-        },
-        rides=(*plan.rides, *plan.escalators),
-        pad=wearer.pad,
-        law=wearer.load_law,
-    )
 
 
 def _equivalent_speed(stride: PlannedStride) -> float:

@@ -25,7 +25,7 @@ from ..routes.elevator import CarRide
 from ..routes.escalator import EscalatorRide
 from .curves import Array
 from .shoe import Mounting
-from .turning import matrices
+from .turning import matrices, rotation
 
 RowIndices = NDArray[np.intp]
 
@@ -74,10 +74,8 @@ class FootMotion:
     """Radius of the arc on which the sole rolls, m, (rows); 0 in swing."""
     phase: Array
     """Index of the phase in PHASES, (rows)."""
-    rides: tuple[CarRide, ...] = ()
-    """Elevator rides of the wearer; the curves do not contain the motion of the car during a ride."""
-    escalators: tuple[EscalatorRide, ...] = ()
-    """Rides on escalators; the curves contain neither the motion during a ride nor the displacement after it."""
+    rides: tuple[CarRide | EscalatorRide, ...] = ()
+    """Rides of the wearer. The curves contain neither the motion during a ride nor the displacement by an escalator."""
 
     def phases(self, t: Array) -> list[Phase]:
         """Return the phase of the foot at times `t`, s."""
@@ -87,15 +85,6 @@ class FootMotion:
         """Return the pitch of the sole, rad, (N); positive when the toe is up."""
         row = self._piece(t)
         return _evaluate(self._factors[0][:, PITCH], row, (t - self.start[row]) / self.duration[row])
-
-    def contact(self, t: Array) -> Array:
-        """Return the x coordinate in the foot frame at which the sole touches the ground, m; nan in swing.
-
-        The ground is taken as level: on a ramp the point is off by the slope times the radius of the rocker."""
-        row = self._piece(t)
-        radius = self.radius[row]
-        touched = self.reference[row, 0] - radius * np.sin(self.pitch(t))
-        return np.where(radius > 0.0, touched, np.nan)
 
     def at(self, t: Array, mounting: Mounting) -> Kinematics:
         """Return the motion of a sensor mounted on this foot at times `t`, s."""
@@ -110,7 +99,7 @@ class FootMotion:
         first *= inverse_duration
         second *= inverse_duration**2
         pitch, yaw, roll = value[PITCH], value[YAW], value[ROLL]
-        turn = _rotation(yaw, -pitch, roll)
+        turn = rotation(yaw, -pitch, roll)
         rate, rate_change = _body_rates(value, first, second)
 
         # A rolling arc moves the reference point from its curve by radius * pitch against the heading.
@@ -130,14 +119,13 @@ class FootMotion:
         velocity = centre_v + _apply(turn, arm_velocity)
         acceleration = centre_a + _apply(turn, _cross(rate_change, arm) + _cross(rate, arm_velocity))
 
-        for car in self.rides:
-            riding = np.flatnonzero((t >= car.start) & (t < car.end))
-            for total, added in zip((position, velocity, acceleration), car.at(t[riding]), strict=True):
-                total[riding] += added
-        for escalator in self.escalators:
-            later = np.flatnonzero(t >= escalator.start)
-            for total, added in zip((position, velocity, acceleration), escalator.at(t[later]), strict=True):
-                total[later] += added
+        for ride in self.rides:
+            moved = t >= ride.start
+            if isinstance(ride, CarRide):
+                moved &= t < ride.end
+            rows = np.flatnonzero(moved)
+            for total, added in zip((position, velocity, acceleration), ride.at(t[rows]), strict=True):
+                total[rows] += added
 
         # Specific force is acceleration minus gravity, in the sensor frame.
         opposed_gravity = acceleration + np.array([0.0, 0.0, GRAVITY])
@@ -195,17 +183,6 @@ def _body_rates(value: Array, first: Array, second: Array) -> tuple[Array, Array
         axis=1,
     )
     return rate, change
-
-
-def _rotation(yaw: Array, b: Array, roll: Array) -> Array:
-    """Return Rz(yaw) Ry(b) Rx(roll) as matrices, (N, 3, 3)."""
-    sy, cy, sb, cb, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(b), np.cos(b), np.sin(roll), np.cos(roll)
-    rows = [
-        [cy * cb, cy * sb * sr - sy * cr, cy * sb * cr + sy * sr],
-        [sy * cb, sy * sb * sr + cy * cr, sy * sb * cr - cy * sr],
-        [-sb, cb * sr, cb * cr],
-    ]
-    return np.stack([np.stack(row, axis=1) for row in rows], axis=1)
 
 
 def _quaternion(yaw: Array, b: Array, roll: Array) -> Array:

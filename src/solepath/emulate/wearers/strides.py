@@ -17,7 +17,7 @@ import numpy as np
 from attrs import evolve
 
 from ...types import Foot, Phase
-from ..routes.path import Flight, Pose
+from ..routes.path import Pose
 from ..routes.styles import StrideKind
 from .curves import BUMP, LEVELLING, Array, EndState, Rng, constant, evaluate, join, subcurve
 from .gait import PlannedStride, WalkPlan, Wearer
@@ -25,7 +25,6 @@ from .motion import PHASES, FootMotion
 from .ramps import axes, leaning, ramp_height, steeper
 from .shoe import Rocker
 from .soles.contact import MAX_IMPACT_SHARE, RIGID, TOE_SLIP, impact_displacement, slip_at_toe_off
-from .sway import SHORTEST_STANDING, sway_pieces
 from .swing import pitch_at, reversal_share, running_swing_pitch, walking_swing_pitch
 
 TOE_OFF_SLOPES = (2.1, -2.0)
@@ -35,6 +34,8 @@ HEEL_STRIKE_SLOPES = (0.5, -4.0)
 
 LEVELLING_WEIGHT = 5.0
 """Weight of LEVELLING in swing: it lowers the peak speed of a foot from 1.9 to 1.7 times the mean speed."""
+SHORTEST_STANDING = 1.0
+"""Shortest time of standing in which a foot sways, s; a stance in walking is shorter."""
 _FOREVER = 1e6
 """Time for which a foot stands before the first and after the last stride, s."""
 
@@ -59,7 +60,7 @@ class _MotionBuilder:
         self.worn_shoe, self.sway, self.rng, self.contact_rng = wearer.shoe, wearer.sway, rng, contact_rng
         self.shoe = wearer.shoe
         self.contact = RIGID.draw(contact_rng)
-        self.rides, self.escalators, self.duration = plan.rides, plan.escalators, plan.duration
+        self.rides, self.moving_ground, self.duration = plan.rides, plan.moving_ground, plan.duration
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
 
     def build(self, start: Pose, strides: tuple[PlannedStride, ...]) -> FootMotion:
@@ -74,8 +75,7 @@ class _MotionBuilder:
             self.land(stride)
             self.stand(stride.end, stride.foot_flat, leave_time, stride.rest_pitch if leave_time < _FOREVER else 0.0)
         t_start, duration, curves, reference, radius, phase = map(np.array, zip(*self.rows, strict=True))
-        rides = (self.rides, self.escalators)
-        return FootMotion(t_start, duration, curves, reference, radius, phase.astype(np.intp), *rides)
+        return FootMotion(t_start, duration, curves, reference, radius, phase.astype(np.intp), self.moving_ground)
 
     def stand(self, pose: Pose, t_start: float, end: float, rest_pitch: float) -> None:
         """Add a foot that stands at `pose` from `t_start` to `end`, s; an elevator ride in this time lifts it."""
@@ -90,7 +90,7 @@ class _MotionBuilder:
             return
         arc = self.shoe.heel
         centre = [constant(float(value)) for value in self._centre(arc, pose)]
-        for start, stop, (pitch, yaw, roll) in sway_pieces(t_start, first, last, end, self.sway, self.rng):
+        for start, stop, (pitch, yaw, roll) in self.sway.pieces(t_start, first, last, end, self.rng):
             curves = leaning([*centre, pitch, yaw + constant(pose.heading), roll], pose, arc.radius)
             self._add(start, stop, curves, (arc.x, arc.radius), arc.radius, Phase.STATIONARY)
 
@@ -152,64 +152,45 @@ class _MotionBuilder:
         curves_of_pitch = running_swing_pitch if stride.kind is StrideKind.RUN else walking_swing_pitch
         pitches = curves_of_pitch(pitch_start, pitch_end, duration)
         if stride.flight is not None:
-            style = stride.style
-            displacement = p1 - p0
+            style, displacement = stride.style, p1 - p0
             hold = style.mid_swing_shift * min(1.0, 2.0 * stride.flight.going / hypot(displacement[0], displacement[1]))
             x += hold * displacement[0] * BUMP
             y += hold * displacement[1] * BUMP
             z += style.early_rise * 2.0 * abs(stride.flight.rise) * LEVELLING
-            z += self._bump_over_stairs(stride, stride.flight, (x, y, z), pitches, yaw) * BUMP
-        else:
-            z += self._bump_over_ground(stride, (x, y, z), pitches, roll) * BUMP
+        z += self._bump(stride, [x, y, z, yaw, roll], pitches) * BUMP
         ankle = (shoe.ankle[0], shoe.ankle[2])
         reversal = stride.toe_off + reversal_share(stride) * duration
         for t_start, end, pitch in ((stride.toe_off, reversal, pitches[0]), (reversal, stride.heel_strike, pitches[1])):
-            share_start, share_end = ((t - stride.toe_off) / duration for t in (t_start, end))
-            curves = [subcurve(curve, share_start, share_end) for curve in (x, y, z)]
-            curves += [pitch, subcurve(yaw, share_start, share_end), subcurve(roll, share_start, share_end)]
-            self._add(t_start, end, curves, ankle, 0.0, Phase.SWING)
+            shares = [(t - stride.toe_off) / duration for t in (t_start, end)]
+            x_part, y_part, z_part, *turns = [subcurve(curve, *shares) for curve in (x, y, z, yaw, roll)]
+            self._add(t_start, end, [x_part, y_part, z_part, pitch, *turns], ankle, 0.0, Phase.SWING)
 
-    def _bump_over_ground(
-        self, stride: PlannedStride, ankle_curves: tuple[Array, Array, Array], pitches: tuple[Array, Array], roll: Array
-    ) -> float:
-        """Return the factor of BUMP, m, with which the sole stays at least `clearance` times BUMP above the ground."""
-        shoe, s = self.shoe, np.linspace(0.1, 0.9, 41)
+    def _bump(self, stride: PlannedStride, curves: list[Array], pitches: tuple[Array, Array]) -> float:
+        """Return the factor of BUMP, m, that keeps the sole at least `clearance` times BUMP above what is below it.
+
+        `curves` are x, y and z of the ankle, yaw and roll. The sole is taken as discs, on stairs as more of them, whose
+        centre and radius are interpolated between its two arcs."""
+        shoe, flight, arcs = self.shoe, stride.flight, (self.shoe.heel, self.shoe.forefoot)
+        s, discs, height = np.linspace(0.1, 0.9, 41), [(arc.x, arc.radius) for arc in arcs], -np.inf
+        if flight is not None:
+            s, shares, height = np.linspace(0.04, 0.96, 93), np.linspace(0.0, 1.0, 7).tolist(), 0.0
+            (x0, r0), (x1, r1) = discs
+            discs = [(x0 + (x1 - x0) * share, r0 + (r1 - r0) * share) for share in shares]
+        x, y, z, yaw, roll = (evaluate(curve, s) for curve in curves)
+        angle, bump = pitch_at(pitches, s, reversal_share(stride)), evaluate(BUMP, s)
+        edge = 0.5 * shoe.width * np.abs(np.sin(roll))
         ground = stride.start.z + (stride.end.z - stride.start.z) * s
-        x, y, z = (evaluate(curve, s) for curve in ankle_curves)
-        angle, bump = pitch_at(pitches, s, reversal_share(stride)), evaluate(BUMP, s)
-        edge = 0.5 * shoe.width * np.abs(np.sin(evaluate(roll, s)))
-        height = -np.inf
-        for arc in (shoe.heel, shoe.forefoot):
-            dx, dz = arc.x - shoe.ankle[0], arc.radius - shoe.ankle[2]
-            centre = np.sin(angle) * dx + np.cos(angle) * dz
-            if stride.start.grade or stride.end.grade:
-                ground = ramp_height(stride.start, stride.end, x, y, np.cos(angle) * dx - np.sin(angle) * dz)
-            low = z + centre - arc.radius - edge - ground
-            height = max(height, float(np.max(stride.clearance - low / bump)))
-        return height
-
-    def _bump_over_stairs(
-        self,
-        stride: PlannedStride,
-        flight: Flight,
-        ankle_curves: tuple[Array, Array, Array],
-        pitches: tuple[Array, Array],
-        yaw: Array,
-    ) -> float:
-        """Return the factor of BUMP, m, that keeps the sole above the treads and edges of a flight.
-
-        The sole is taken as discs whose centre and radius are interpolated between its two arcs."""
-        shoe, s = self.shoe, np.linspace(0.04, 0.96, 93)
-        angle, bump = pitch_at(pitches, s, reversal_share(stride)), evaluate(BUMP, s)
-        x, y, z, turned = (evaluate(curve, s) for curve in (*ankle_curves, yaw))
-        height = 0.0
-        for share in np.linspace(0.0, 1.0, 7):
-            radius = shoe.heel.radius + (shoe.forefoot.radius - shoe.heel.radius) * share
-            dx = shoe.heel.x + (shoe.forefoot.x - shoe.heel.x) * share - shoe.ankle[0]
-            dz = radius - shoe.ankle[2]
+        for arc_x, radius in discs:
+            dx, dz = arc_x - shoe.ankle[0], radius - shoe.ankle[2]
             ahead, up = np.cos(angle) * dx - np.sin(angle) * dz, np.sin(angle) * dx + np.cos(angle) * dz
-            least = flight.clear_height(x + np.cos(turned) * ahead, y + np.sin(turned) * ahead, np.full(len(s), radius))
-            height = max(height, float(np.max(stride.clearance + (least - z - up) / bump)))
+            if flight is not None:
+                least = flight.clear_height(x + np.cos(yaw) * ahead, y + np.sin(yaw) * ahead, np.full(len(s), radius))
+                need = (least - z - up) / bump
+            else:
+                if stride.start.grade or stride.end.grade:
+                    ground = ramp_height(stride.start, stride.end, x, y, ahead)
+                need = -(z + up - radius - edge - ground) / bump
+            height = max(height, float(np.max(stride.clearance + need)))
         return height
 
     def _ankle(self, arc: Rocker, pose: Pose, pitch: EndState) -> _PointMotion:

@@ -43,22 +43,31 @@ def quaternions(turn: Array) -> Array:
 
     Candidate k is the quaternion multiplied by four times its component k. The candidate with the largest component is
     the most exact one; it is scaled to length one."""
-    m = [[turn[:, i, j] for j in range(3)] for i in range(3)]
-    trace = m[0][0] + m[1][1] + m[2][2]
-    w = [1.0 + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]]
-    x = [w[1], 1.0 + 2.0 * m[0][0] - trace, m[0][1] + m[1][0], m[0][2] + m[2][0]]
-    y = [w[2], x[2], 1.0 + 2.0 * m[1][1] - trace, m[1][2] + m[2][1]]
-    z = [w[3], x[3], y[3], 1.0 + 2.0 * m[2][2] - trace]
-    candidates = np.stack([np.stack(one, axis=1) for one in (w, x, y, z)], axis=1)
-    largest = np.argmax(np.stack([w[0], x[1], y[2], z[3]], axis=1), axis=1)
+    diagonal = np.diagonal(turn, axis1=1, axis2=2)
+    trace = diagonal[:, 0] + diagonal[:, 1] + diagonal[:, 2]
+    candidates = np.empty((len(turn), 4, 4))
+    candidates[:, 0, 0] = 1.0 + trace
+    candidates[:, 0, 1:] = candidates[:, 1:, 0] = twice_axis(turn)
+    candidates[:, 1:, 1:] = turn + turn.swapaxes(1, 2)
+    candidates[:, [1, 2, 3], [1, 2, 3]] = 1.0 + 2.0 * diagonal - trace[:, None]
+    largest = np.argmax(np.diagonal(candidates, axis1=1, axis2=2), axis=1)
     q = unit(candidates[np.arange(len(candidates)), largest])
     flips = np.where(np.sum(q[1:] * q[:-1], axis=1) < 0.0, -1.0, 1.0)
     q[1:] *= np.cumprod(flips)[:, None]
     return np.asarray(q)
 
 
-def yaw_roll_matrices(yaw: Array, roll: Array) -> Array:
-    """Return Rz(yaw) Rx(roll) as matrices, (N, 3, 3)."""
-    sy, cy, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(roll), np.cos(roll)
-    rows = [[cy, -sy * cr, sy * sr], [sy, cy * cr, -cy * sr], [np.zeros_like(yaw), sr, cr]]
+def twice_axis(turn: Array) -> Array:
+    """Return the vectors (N, 3) whose cross products are matrices (N, 3, 3) less their transposes."""
+    return np.stack([turn[:, j, i] - turn[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
+
+
+def rotation(yaw: Array, b: Array, roll: Array) -> Array:
+    """Return Rz(yaw) Ry(b) Rx(roll) as matrices, (N, 3, 3)."""
+    sy, cy, sb, cb, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(b), np.cos(b), np.sin(roll), np.cos(roll)
+    rows = [
+        [cy * cb, cy * sb * sr - sy * cr, cy * sb * cr + sy * sr],
+        [sy * cb, sy * sb * sr + cy * cr, sy * sb * cr - cy * sr],
+        [-sb, cb * sr, cb * cr],
+    ]
     return np.stack([np.stack(row, axis=1) for row in rows], axis=1)

@@ -16,7 +16,7 @@ from ..sensors.sensors import instants, measure_imu, samples_of
 from .curves import Array
 from .gait import Wearer
 from .limbs import Body, body
-from .load import loads
+from .load import Loads
 from .motion import Kinematics
 from .shoe import IN_SOLE, Mounting
 from .strides import foot_motions
@@ -44,7 +44,7 @@ class Walker:
         self.plan = plan(route, self.wearer, np.random.default_rng([seed, 0]))
         sway_rng, contact_rng = np.random.default_rng([seed, 6]), np.random.default_rng([seed, 10])
         self.motions = foot_motions(self.plan, self.wearer, sway_rng, contact_rng)
-        self.loads = loads(self.plan, self.wearer, np.random.default_rng([seed, 4]))
+        self.loads = Loads(self.plan, self.wearer, np.random.default_rng([seed, 4]))
 
     @cached_property
     def body(self) -> Body:
