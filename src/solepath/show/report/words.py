@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ...recording import printable
-from ...types import Foot, Site
+from ...types import Foot
 from ...walk.walk import Walk
-from ..tables.summary import activity_lines, link_health, sample_lines, wear_lines
+from ..tables.summary import activity_lines, link_health, links_of, sample_lines, wear_lines
 from ..tables.table import counted, duration_text, number
 from .clock import ReportClock
 from .markup import whole_sentences
@@ -42,8 +42,7 @@ def faults(walk: Walk) -> list[str]:
 def sensors(walk: Walk) -> str:
     """Return the sensors in one line, with the names of the devices and the kinds of their data."""
     lines = []
-    for site in [site for site in Site if site in walk.links]:
-        link = walk.links[site]
+    for site, link in links_of(walk):
         name = f" ({printable(link.name, MAX_NAME_LENGTH)})" if link.name else ""
         kinds = " and ".join(["motion"] * link.has_motion + ["pressure"] * link.has_pressure)
         lines.append(f"{site.words}{name}{': ' if kinds else ''}{kinds}")
@@ -53,8 +52,7 @@ def sensors(walk: Walk) -> str:
 def link_rows(walk: Walk) -> list[list[str]]:
     """Return the rows of the table of links."""
     rows = []
-    for site in [site for site in Site if site in walk.links]:
-        link = walk.links[site]
+    for site, link in links_of(walk):
         battery = "-" if link.battery is None else f"{100.0 * link.battery:.0f} %"
         gaps = str(link.gaps), number(link.gap_time, 2), str(link.lost)
         faults = str(link.rejected.total()), str(link.silences), battery

@@ -19,6 +19,11 @@ from .words import activity_words, directions, turn_words
 NO_DATA = "no data from either foot"
 
 
+def links_of(walk: Walk) -> list[tuple[Site, LinkLedger]]:
+    """Return the ledgers of the links in the order of Site."""
+    return [(site, walk.links[site]) for site in Site if site in walk.links]
+
+
 def summary(walk: Walk, *, title: str, seconds: float) -> str:
     """Return the summary of one recording; `seconds` is the wall time that computing it took."""
     duration = walk.covered_time.total
@@ -125,9 +130,9 @@ def link_health(walk: Walk) -> list[str]:
         lines.append(f"a stream froze and was set up again {times(restarts)}")
     if dropped := total("dropped"):
         lines.append(f"{counted(dropped, 'packet')} dropped: too many came to be used in time")
-    for site in Site:
-        if site in walk.links and walk.links[site].connections > 1:
-            lines.append(f"{site.words}: connected {times(walk.links[site].connections)}")
+    for site, link in links_of(walk):
+        if link.connections > 1:
+            lines.append(f"{site.words}: connected {times(link.connections)}")
     return lines + [f"trouble, {printable(what)}" for what in walk.troubles]
 
 
@@ -140,7 +145,7 @@ def latency(walk: Walk) -> list[str]:
 
 def status(walk: Walk) -> list[str]:
     """Return a line on the link of each site, in the order of Site, and one on the place if it is known."""
-    lines = [_link(site, walk.links[site], walk.now) for site in Site if site in walk.links]
+    lines = [_link(site, link, walk.now) for site, link in links_of(walk)]
     return lines + ([place_line(walk.places.last)] if walk.places.last is not None else [])
 
 
