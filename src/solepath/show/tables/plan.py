@@ -23,14 +23,14 @@ MAX_LEVEL_WIDTH = 720.0
 """Largest width of the drawing of a level by default, px."""
 MAX_LEVEL_HEIGHT = 640.0
 """Largest height of the drawing of a level by default, px."""
-MARGIN, PANEL_GAP, SPACE_ABOVE, SPACE_BELOW = 24.0, 36.0, 64.0, 64.0
+MARGIN, PANEL_GAP, SPACE_ABOVE, SPACE_BELOW = 24.0, 36.0, 64.0, 92.0
 """Margin of the picture, gap between panels, space above the panels and below them, px."""
-NARROW_WIDTH = 640.0
-"""Width of the picture below which the legend has two lines, px."""
 NAME_SIZE, LETTER_WIDTH = 12.0, 7.5
 """Size of the letters of a room's name, and the largest mean width of a letter that is expected, px."""
 MARGIN_SHARE, MIN_MARGIN = 0.02, 0.5
 """Margin around what is drawn: as a share of its larger extent, and the least, m."""
+TIMES_LEFT = 184.0
+"""Place of the scale of times, px."""
 MAX_CANDIDATE_DOTS = 4000
 """Approximate limit of the number of candidates that are drawn."""
 
@@ -56,6 +56,7 @@ END = (
     "<g><circle cx='{}' cy='{}' r='6' fill='{}' stroke='white' stroke-width='2'/><text x='{}' y='{}' font-size='11' "
     "font-weight='600' fill='{}' stroke='white' stroke-width='3' paint-order='stroke'>{}</text></g>"
 )
+DOT = "<g><circle cx='{}' cy='{}' r='5' fill='{}' fill-opacity='0.7'/><text x='{}' y='{}'>{}</text></g>"
 MARK = (
     "<g transform='translate({} {})' stroke-width='1.2'><title>{}</title><circle r='7' fill='{}' stroke='white'/>"
     "<path d='{}' stroke='#1f2933' fill='none'/></g>"
@@ -100,7 +101,7 @@ class PlanPicture:
         columns = self.columns or min(count, 3)
         width = 2.0 * MARGIN + columns * view.width + (columns - 1) * PANEL_GAP
         bottom = SPACE_ABOVE - (-count // columns) * (view.height + PANEL_GAP)
-        height = bottom + (2.0 if width < NARROW_WIDTH else 1.0) * SPACE_BELOW
+        height = bottom + SPACE_BELOW
         svg = add(Element("figure"), PICTURE, width, height, width, height, title, MARGIN, title)
         svg.set("xmlns", "http://www.w3.org/2000/svg")
         for k, level in enumerate(self.plan.levels):
@@ -183,21 +184,15 @@ class PlanPicture:
         bar = "<path d='M{} {}v6h{}v-6' fill='none' stroke='#1f2933' stroke-width='1.5'/>"
         add(svg, bar, MARGIN, top + 4.0, metres * scale)
         add(svg, TEXT, MARGIN, top + 28.0, f"{metres:g} m")
-        left = MARGIN + max(metres * scale, 60.0) + 40.0
         if self.places:
-            colour_bar(svg, TRACK_COLOURS, left, top + 2.0, 120.0)
-            add(svg, TEXT, left, top + 28.0, f"{self.places[0].t:.0f} s")
-            add(svg, TEXT, left + 120.0, top + 28.0, f"{self.places[-1].t:.0f} s").set("text-anchor", "end")
-            left += 160.0
-        if width < NARROW_WIDTH:
-            left, top = MARGIN + 5.0, top + 0.8 * SPACE_BELOW
+            colour_bar(svg, TRACK_COLOURS, TIMES_LEFT, top + 2.0, 120.0)
+            add(svg, TEXT, TIMES_LEFT, top + 28.0, f"{self.places[0].t:.0f} s")
+            add(svg, TEXT, TIMES_LEFT + 90.0, top + 28.0, f"{self.places[-1].t:.0f} s")
         kinds = {connector.kind for connector in self.plan.connectors}
-        marks = {"candidate": (CANDIDATE_COLOUR, "0.4")}
-        marks |= {kind.value: (colour, "1") for kind, (colour, _) in CONNECTORS.items() if kind in kinds}
-        for word, (colour, opacity) in marks.items():
-            add(svg, "<circle cx='{}' cy='{}' r='5' fill='{}' fill-opacity='{}'/>", left, top + 6.0, colour, opacity)
-            add(svg, TEXT, left + 10.0, top + 10.0, word)
-            left += 30.0 + 8.0 * len(word)
+        marks = {kind.value: colour for kind, (colour, _) in CONNECTORS.items() if kind in kinds}
+        marks = {"candidate": CANDIDATE_COLOUR} | marks
+        for k, (word, colour) in enumerate(marks.items()):
+            add(svg, DOT, MARGIN + 5.0 + 110.0 * k, top + 57.0, colour, MARGIN + 15.0 + 110.0 * k, top + 61.0, word)
         if self.plan.anchor is not None:
             bearing = f"{-degrees(self.plan.anchor.bearing):.1f}"
             add(svg, NORTH, width - MARGIN - 16.0, top + 12.0, bearing)
