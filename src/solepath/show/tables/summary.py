@@ -73,21 +73,6 @@ def sample_lines(walk: Walk) -> list[str]:
     return lines
 
 
-def fused_stride(walk: Walk) -> list[str]:
-    """Return lines about the last fused stride: distance (12), similarity (9), error index (10), coefficient (11).
-
-    The numbers are those of Chen et al. 2019. The list is empty if the recipe does not fuse strides."""
-    fused = walk.fused
-    if fused is None:
-        return []
-    return [
-        f"both feet: {number(fused.distance)} m by the {fused.chosen} foot; "
-        f"last stride {number(fused.stride_length)} m",
-        f"  similarity {number(fused.similarity)}, error index {number(fused.error_index)} m/s, "
-        f"own share {number(fused.coefficient)}",
-    ]
-
-
 def activity_lines(walk: Walk, now: float) -> list[str]:
     """Return a line for activities until `now`, s, flights of stairs, lift rides and turns each, if there were any."""
     found = {

@@ -109,8 +109,8 @@ class View:
 
     def at(self, point: Point) -> Point:
         """Return the place of a position, px."""
-        x = self.left + 0.5 * self.width + (point[0] - self.centre[0]) * self.scale
-        return x, self.top + 0.5 * self.height - (point[1] - self.centre[1]) * self.scale
+        x, y = self.axes
+        return x(point[0]), y(point[1])
 
     @property
     def axes(self) -> tuple[AxisScale, AxisScale]:

@@ -15,7 +15,7 @@ from rich.text import Text
 from ...types import Foot, Phase
 from ...walk.walk import FootCounts, Walk
 from .plot import plot
-from .summary import fused_stride, link_health, status, wear_lines
+from .summary import link_health, status, wear_lines
 
 FRAME_RATE = 12.0
 """Largest number of pictures a second; chosen by hand."""
@@ -54,7 +54,7 @@ def picture(walk: Walk, title: str) -> Group:
     feet = Table.grid(expand=False, padding=(0, 3))
     for foot in Foot:
         feet.add_row(*_foot(walk, foot))
-    health = fused_stride(walk) + status(walk) + wear_lines(walk) + link_health(walk)
+    health = status(walk) + wear_lines(walk) + link_health(walk)
     return Group(
         Panel(feet, title=title, width=PLOT_SIZE[0] + 4),
         Panel("\n".join(plot(walk.track.points, *PLOT_SIZE)), title="track", width=PLOT_SIZE[0] + 4),
