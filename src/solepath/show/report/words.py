@@ -7,7 +7,6 @@ from ...types import Foot
 from ...walk.walk import Walk
 from ..tables.summary import activity_lines, link_health, links_of, sample_lines, wear_lines
 from ..tables.table import counted, duration_text, number
-from .clock import ReportClock
 from .markup import whole_sentences
 
 MAX_NAME_LENGTH = 60
@@ -15,11 +14,10 @@ MAX_NAME_LENGTH = 60
 LINK_HEADER = ("sensor", "samples", "Hz", "gaps", "s in gaps", "lost", "rejected", "silent", "battery")
 
 
-def overview(walk: Walk, clock: ReportClock) -> list[str]:
-    """Return the sentences on the course of the recording."""
-    time = walk.covered_time
-    back = "; its times go back in between" if time.span_count > 1 else ""
-    lines = [f"the recording lasts {duration_text(time.total if time.span_count else clock.end - clock.start)}{back}"]
+def overview(walk: Walk, duration: float, end: float) -> list[str]:
+    """Return the sentences on the course of the recording, which lasts for `duration` until `end`, s."""
+    back = "; its times go back in between" if walk.covered_time.span_count > 1 else ""
+    lines = [f"the recording lasts {duration_text(duration)}{back}"]
     for foot in Foot:
         counts, cycles = walk.feet.get(foot), walk.cycles[foot].count
         if counts is not None and counts.strides:
@@ -31,7 +29,7 @@ def overview(walk: Walk, clock: ReportClock) -> list[str]:
         lines.append("no foot took a stride")
     if walk.fused is not None:
         lines.append(f"both feet together went {number(walk.fused.distance, 1)} m")
-    return whole_sentences(lines + activity_lines(walk, clock.end))
+    return whole_sentences(lines + activity_lines(walk, end))
 
 
 def faults(walk: Walk) -> list[str]:

@@ -21,8 +21,6 @@ MAX_HEIGHT = 366.0
 """Largest height of a track on its drawing, px."""
 WIDE_WIDTH, WIDE_HEIGHT = 840.0, 386.0
 """Width of the drawing for wide screens and paper, and largest height of the track on it, px."""
-MAX_ROOMS = 12
-"""Largest number of rooms that are named below the plan."""
 MIN_RISE = 0.5
 """Least range of heights that is drawn over time, m; below it the way is level."""
 MARGIN_SHARE, MIN_MARGIN = 0.06, 0.4
@@ -126,8 +124,7 @@ def plan_figure(parent: Element, report: ReportContent) -> bool:
     notes = ["Colours go from the start to the end; dots are candidates, the fainter the less likely."]
     rooms = list(dict.fromkeys([place.room for place in places if place.room and len(place.candidates) == 1]))
     if rooms:
-        more = f" and {len(rooms) - MAX_ROOMS} more" if len(rooms) > MAX_ROOMS else ""
-        notes.append(f"On the way: {', '.join(rooms[:MAX_ROOMS])}{more}.")
+        notes.append(f"On the way: {', '.join(rooms)}.")
     if len(levels) < len(plan.levels):
         notes.append("Levels where the wearer was not are left out.")
     caption(element, "Track on the floor plan", *notes)
