@@ -17,7 +17,7 @@ from attrs import define, evolve
 from ...events import Placed, PlaceLost
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level
 from ..output import os_errors_naming
-from .svg import STEPS, View, add, blend, colour_bar, line
+from .svg import STEPS, View, add, colour_bar, line, shade
 
 MAX_LEVEL_WIDTH = 720.0
 """Largest width of the drawing of a level by default, px."""
@@ -37,7 +37,10 @@ MAX_CANDIDATE_DOTS = 4000
 SOFT_COLOUR, FLOOR_COLOUR, WALL_COLOUR = "#5f6b78", "#f4f6f8", "#323f4b"
 DOOR_COLOUR, CANDIDATE_COLOUR = "#d9b382", "#6b7a8c"
 START_COLOUR, END_COLOUR = "#2e7d32", "#c62828"
-TRACK_COLOURS = ("#440154", "#3b528b", "#21918c", "#5ec962", "#f0b420")
+TRACK_COLOURS = (
+    "#440154", "#482173", "#433e85", "#38598c", "#2d708e", "#25858e", "#1e9b8a", "#2ab07f", "#52c569", "#86d549",
+    "#b8d030", "#f0b420",
+)  # fmt: skip
 """Colours of the track from its start to its end."""
 CONNECTORS = {
     ConnectorKind.STAIRS: ("#9fb3c8", "M-4 3h2.7v-2.3h2.7v-2.3h2.7"),
@@ -168,7 +171,7 @@ class PlanPicture:
         for k, (before, after) in enumerate(pairwise(self.events)):
             if _is_decided(before) and _is_decided(after) and before.level == after.level == level:
                 ends = *view.at(before.position[:2]), *view.at(after.position[:2])
-                colour = blend(TRACK_COLOURS, k / len(self.places))
+                colour = shade(TRACK_COLOURS, k / len(self.places))
                 add(lines, "<polyline points='{},{} {},{}' stroke='{}'/>", *ends, colour)
         decided = [place for place in self.places if _is_decided(place)]
         first = "start" if decided[:1] == self.places[:1] else "found"
