@@ -167,14 +167,14 @@ class PlanPicture:
 
     def _track(self, panel: Element, level: str, view: View) -> None:
         """Draw a line through the places with one candidate only; other places have dots."""
-        lines = add(panel, "<g stroke-width='2.6' stroke-linecap='round'/>")
+        lines, places = add(panel, "<g stroke-width='2.6' stroke-linecap='round'/>"), self.places
         for k, (before, after) in enumerate(pairwise(self.events)):
             if _is_decided(before) and _is_decided(after) and before.level == after.level == level:
                 ends = *view.at(before.position[:2]), *view.at(after.position[:2])
-                colour = shade(TRACK_COLOURS, k / len(self.places))
+                colour = shade(TRACK_COLOURS, k / len(places))
                 add(lines, "<polyline points='{},{} {},{}' stroke='{}'/>", *ends, colour)
-        decided = [place for place in self.places if _is_decided(place)]
-        first = "start" if decided[:1] == self.places[:1] else "found"
+        decided = [place for place in places if _is_decided(place)]
+        first = "start" if decided[:1] == places[:1] else "found"
         marked = [(decided[0], START_COLOUR, first), (decided[-1], END_COLOUR, "end")] if decided else []
         for place, colour, word in marked:
             if place.level == level:
