@@ -15,7 +15,7 @@ from typing import Any
 
 from ...recipes import Recipe
 from ...saving import codec
-from ...show.tables.summary import site_links
+from ...show.tables.summary import links_of
 from ...walk.links import LinkLedger
 from ...walk.walk import Walk
 
@@ -34,7 +34,7 @@ def write_run(path: Path, recipe: Recipe, walk: Walk, options: argparse.Namespac
         "recipe_sha256": sha256(settings.encode()).hexdigest(),
         "inputs": [{"name": one.name, "sha256": _digest(one)} for one in inputs if one is not None and one.is_file()],
         "options": _given(options),
-        "sites": {site.value: _figures(link) for site, link in site_links(walk)},
+        "sites": {site.value: _figures(link) for site, link in links_of(walk)},
         "findings": [
             {"code": defect.name.lower(), "site": site.value, "text": found.what}
             for (site, defect), found in walk.found_defects.items()

@@ -5,6 +5,8 @@ where most of its members are; `Reference.words` says which it is."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from attrs import frozen
 
 from ...types import ValueEnum
@@ -63,30 +65,29 @@ OLDEST = 100.0
 """Age at which the oldest groups end, years."""
 
 
-def _group_name(first: float, sex: Sex | None) -> str:
-    people = "people" if sex is None else {Sex.MALE: "men", Sex.FEMALE: "women"}[sex]
-    return f"healthy {people} aged {first:.0f} to {99 if first >= 80 else first + 9:.0f}"
+def _of_group(groups: Sequence[Sequence[float]], age: float, people: str, words: str, source: str) -> Reference | None:
+    """Return the values of the group of an age; None outside all groups."""
+    known = [group for group in groups if group[0] <= age < OLDEST]
+    if not known:
+        return None
+    first, value, *ends = known[-1]
+    low, high = ends or (None, None)
+    group = f"mean of healthy {people} aged {first:.0f} to {99 if first >= 80 else first + 9:.0f}"
+    return Reference(value=value, low=low, high=high, words=f"{group}, {words}", source=source)
 
 
 def walking_speed_reference(person: Person) -> Reference | None:
     """Return the mean usual walking speed, m/s, of people of this age and sex; None below 20 and above 99 years."""
-    groups = [group for group in WALKING_SPEEDS[person.sex] if group[0] <= person.age < OLDEST]
-    if not groups:
-        return None
-    first, mean = groups[-1]
-    return Reference(value=mean, words=f"mean of {_group_name(first, person.sex)}, usual pace", source=SPEED_SOURCE)
+    people = "men" if person.sex is Sex.MALE else "women"
+    return _of_group(WALKING_SPEEDS[person.sex], person.age, people, "usual pace", SPEED_SOURCE)
 
 
 def up_and_go_reference(person: Person) -> Reference | None:
     """Return the mean timed up and go, s, of people of this age; None below 60 and above 99 years.
 
     The source calls a person slower than the upper end of the interval worse than average."""
-    groups = [group for group in UP_AND_GO_TIMES if group[0] <= person.age < OLDEST]
-    if not groups:
-        return None
-    first, mean, low, high = groups[-1]
-    words = f"mean of {_group_name(first, None)}, with the 95 % interval of the mean"
-    return Reference(value=mean, low=low, high=high, words=words, source=UP_AND_GO_SOURCE)
+    words = "with the 95 % interval of the mean"
+    return _of_group(UP_AND_GO_TIMES, person.age, "people", words, UP_AND_GO_SOURCE)
 
 
 def six_minute_reference(person: Person) -> Reference | None:

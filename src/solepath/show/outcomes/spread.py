@@ -8,6 +8,7 @@ tests/outcomes/test_spread.py shows how often the intervals hold the true value.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from math import ceil, fsum, sqrt
 from statistics import fmean
 
@@ -161,35 +162,19 @@ def steady_strides(events: Iterable[Event]) -> list[GaitCycleMeasured]:
 
 def _samples(events: Iterable[Event], name: str) -> dict[Foot, FootSample]:
     """Return the moments of a parameter over the steady strides of each foot that has any."""
-    pairs: dict[Foot, list[tuple[GaitCycleMeasured, float]]] = {foot: [] for foot in Foot}
-    for stride in steady_strides(events):
-        if (value := getattr(stride, name)) is not None:
-            pairs[stride.foot].append((stride, value))
-    return {foot: moments(runs_of(found)) for foot, found in pairs.items() if found}
+    strides = [(one, value) for one in steady_strides(events) if (value := getattr(one, name)) is not None]
+    found = {foot: [pair for pair in strides if pair[0].foot is foot] for foot in Foot}
+    return {foot: moments(pairs) for foot, pairs in found.items() if pairs}
 
 
-def runs_of(pairs: Iterable[tuple[GaitCycleMeasured, float]]) -> list[list[float]]:
-    """Return the values of the strides of a foot in runs, within which the strides follow each other."""
-    runs: list[list[float]] = []
-    end: float | None = None
-    for stride, value in pairs:
-        if stride.t_start != end:
-            runs.append([])
-        runs[-1].append(value)
-        end = stride.t
-    return runs
-
-
-def moments(runs: Sequence[Sequence[float]]) -> FootSample:
-    """Return the moments of values in runs of strides that follow each other."""
-    values = [value for run in runs for value in run]
-    count = len(values)
-    mean = fmean(values)
-    squares = fsum([(value - mean) ** 2 for value in values])
-    pairs = [(a - mean) * (b - mean) for run in runs for a, b in zip(run, run[1:], strict=False)]
+def moments(pairs: Sequence[tuple[GaitCycleMeasured, float]]) -> FootSample:
+    """Return the moments of values in the strides of a foot, some of which follow each other."""
+    count, mean = len(pairs), fmean([value for _, value in pairs])
+    squares = fsum([(value - mean) ** 2 for _, value in pairs])
+    following = [(a - mean) * (b - mean) for (one, a), (after, b) in pairwise(pairs) if one.t == after.t_start]
     correlation = 0.0
-    if pairs and squares > 0.0:
-        found = fmean(pairs) / (squares / count)
+    if following and squares > 0.0:
+        found = fmean(following) / (squares / count)
         # the bias of the estimate (Marriott and Pope 1954, Biometrika 41)
         correlation = min(max(found + (1.0 + 4.0 * found) / count, 0.0), MAX_CORRELATION)
-    return FootSample(count, mean, squares / (count - 1) if count > 1 else 0.0, correlation)
+    return FootSample(count, mean, squares / max(count - 1, 1), correlation)

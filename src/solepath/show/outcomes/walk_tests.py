@@ -53,12 +53,12 @@ class SixMinuteWalk:
     @property
     def speed(self) -> float | None:
         """Distance over duration, stops included, m/s."""
-        return None if self.distance is None or self.duration <= 0.0 else self.distance / self.duration
+        return self.distance and self.distance / self.duration
 
     @property
-    def cadence(self) -> float | None:
+    def cadence(self) -> float:
         """Steps a minute over the whole duration, stops included."""
-        return None if self.duration <= 0.0 else 60.0 * self.steps / self.duration
+        return 60.0 * self.steps / self.duration
 
     @property
     def distance_index(self) -> float | None:

@@ -74,11 +74,6 @@ class ReportContent:
         return ReportClock(*(self.walk.sample_span or self.walk.event_span or (0.0, 0.0)))
 
     @property
-    def footprints(self) -> Sequence[StrideTaken]:
-        """Strides of both feet, whose positions are those of the foot-flats at their ends."""
-        return [stride for strides in self.walk.strides.values() for stride in strides]
-
-    @property
     def track(self) -> Sequence[TimedPosition]:
         """Track of the wearer or, if it is not known, that of the foot with the most strides."""
         return list(self.walk.wearer_track) or max(map(list, self.walk.strides.values()), key=len)

@@ -1,12 +1,11 @@
 """Measures of a walk that a report shows large and compares: five of a walk, five of a run.
 
-    measures = walk_measures(gait.of(False), asymmetry)
+    found = measures(gait.of(False))
 
 Bands of reference are named by `Measure.name`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from math import degrees, hypot
 
 from attrs import frozen
@@ -14,20 +13,24 @@ from attrs import frozen
 from ...body.gait.means import Figure, GaitParameters
 from .running import running_means
 
-Found = tuple[float, float | None] | None
-"""Value of a measure and its variation from stride to stride as a standard deviation; None if it is not known."""
-
-
-@frozen
-class Specification:
-    """The label, unit, digits after the point and short definition of a measure, and how it follows from the means."""
-
-    label: str
-    unit: str
-    digits: int
-    detail: str
-    """Definition in a few words, such as "both feet on the ground"; may be empty."""
-    find: Callable[[GaitParameters], Found]
+SWING_DIFFERENCE = "swing_difference_percent"
+PACE = {
+    "speed_m_per_s": ("Speed", "m/s", 2, ""),
+    "cadence_steps_per_min": ("Cadence", "steps/min", 0, ""),
+    "stride_length_m": ("Stride length", "m", 2, "two steps"),
+}
+SPECIFICATIONS = {
+    **PACE,
+    "double_support_percent": ("Double support", "%", 1, "both feet on the ground"),
+    "stance_percent": ("Stance", "%", 1, "the foot on the ground"),
+    SWING_DIFFERENCE: ("Asymmetry", "%", 1, "of swing time"),
+    **{f"run_{name}": specification for name, specification in PACE.items()},
+    "contact_time_ms": ("Contact time", "ms", 0, "the foot on the ground"),
+    "flight_time_ms": ("Flight time", "ms", 0, "no foot on the ground"),
+    "strike_angle_deg": ("Strike angle", "deg", 1, "of the foot at contact, toe up"),
+    "vertical_oscillation_mm": ("Vertical oscillation", "mm", 0, "estimate"),
+}
+"""Label, unit, digits after the point and short definition of each measure by its name."""
 
 
 @frozen
@@ -36,6 +39,13 @@ class Measure:
 
     name: str
     """Name in files of bands, such as "speed_m_per_s"."""
+    label: str
+    unit: str
+    digits: int
+    detail: str
+    """Definition in a few words, such as "both feet on the ground"."""
+    running: bool
+    """True for a measure of running."""
     value: float
     spread: float | None
     """Variation from stride to stride as a standard deviation; None if it is not known.
@@ -43,19 +53,9 @@ class Measure:
     Of an asymmetry it is half the width of the 95 % interval."""
 
     @property
-    def kind(self) -> Specification:
-        """Label, unit and digits."""
-        return SPECIFICATIONS[self.name]
-
-    @property
-    def is_of_run(self) -> bool:
-        """True of a measure of running."""
-        return self.name in RUN
-
-    @property
     def text(self) -> str:
         """Value with its digits, without the unit."""
-        return f"{self.value:z.{self.kind.digits}f}"
+        return f"{self.value:z.{self.digits}f}"
 
     @property
     def size(self) -> float:
@@ -63,98 +63,42 @@ class Measure:
         return abs(self.value) if self.name == SWING_DIFFERENCE else self.value
 
 
-def _scaled(figure: Figure | None, factor: float) -> Found:
-    return None if figure is None else (factor * figure.mean, figure.sd and factor * figure.sd)
+Found = tuple[float, float | None] | None
+"""Value and spread of a measure; None if it is not known."""
 
 
-def _mean_of(name: str, factor: float = 1.0) -> Callable[[GaitParameters], Found]:
-    return lambda means: _scaled(getattr(means.both, name), factor)
+def _found(figure: Figure | None, factor: float = 1.0) -> Found:
+    return None if figure is None else (factor * figure.mean, figure.sd and abs(factor) * figure.sd)
 
 
-def _cadence(means: GaitParameters) -> Found:
-    """Return the cadence, steps/min; to the first order it varies as the stride time does."""
-    time = means.both.stride_time
-    return None if time is None else (120.0 / time.mean, time.cv and 120.0 / time.mean * time.cv)
+def measures(means: GaitParameters, difference: Found = None) -> list[Measure]:
+    """Return the measures of walking or of running (running.py) that are known.
 
-
-def _double_support(means: GaitParameters) -> Found:
-    both = means.both
-    time, double, supports = (
-        both.stride_time,
-        both.double_support,
-        (both.initial_double_support, both.terminal_double_support),
-    )
-    if time is None or double is None or double <= 0.0:
-        return None
-    # initial and terminal double support are taken as independent
-    spreads = [figure.sd for figure in supports if figure is not None and figure.sd is not None]
-    return 100.0 * double / time.mean, 100.0 * hypot(*spreads) / time.mean if len(spreads) == 2 else None
-
-
-def _stance(means: GaitParameters) -> Found:
-    time = means.both.stride_time
-    return None if time is None else _scaled(means.both.stance_time, 100.0 / time.mean)
-
-
-def _flight(means: GaitParameters) -> Found:
-    run, support = running_means(means), means.both.terminal_double_support
-    if run is None or run.flight_time is None or support is None:
-        return None
-    return 1000.0 * run.flight_time, support.sd and 1000.0 * support.sd
-
-
-def _oscillation(means: GaitParameters) -> Found:
-    run = running_means(means)
-    return None if run is None or run.vertical_oscillation is None else (1000.0 * run.vertical_oscillation, None)
-
-
-SWING_DIFFERENCE = "swing_difference_percent"
-SPEED, CADENCE = "speed_m_per_s", "cadence_steps_per_min"
-DOUBLE_SUPPORT, STANCE = "double_support_percent", "stance_percent"
-PACE = {
-    SPEED: Specification("Speed", "m/s", 2, "", _mean_of("speed")),
-    CADENCE: Specification("Cadence", "steps/min", 0, "", _cadence),
-    "stride_length_m": Specification("Stride length", "m", 2, "two steps", _mean_of("stride_length")),
-}
-WALK = {
-    **PACE,
-    DOUBLE_SUPPORT: Specification("Double support", "%", 1, "both feet on the ground", _double_support),
-    STANCE: Specification("Stance", "%", 1, "the foot on the ground", _stance),
-}
-RUN = {
-    **{f"run_{name}": kind for name, kind in PACE.items()},
-    "contact_time_ms": Specification(
-        "Contact time", "ms", 0, "the foot on the ground", _mean_of("stance_time", 1000.0)
-    ),
-    "flight_time_ms": Specification("Flight time", "ms", 0, "no foot on the ground", _flight),
-    "strike_angle_deg": Specification(
-        "Strike angle", "deg", 1, "of the foot at contact, toe up", _mean_of("heel_strike_angle", degrees(1.0))
-    ),
-    "vertical_oscillation_mm": Specification("Vertical oscillation", "mm", 0, "estimate", _oscillation),
-}
-SPECIFICATIONS = {
-    **WALK,
-    SWING_DIFFERENCE: Specification("Asymmetry", "%", 1, "of swing time", lambda means: None),
-    **RUN,
-}
-"""All measures by their names."""
-
-
-def walk_measures(means: GaitParameters, difference: Found) -> list[Measure]:
-    """Return speed, cadence, stride length, double support or else stance, and the asymmetry, if known.
-
-    `difference` is that of the swing times, (right - left) / mean, and half the width of its 95 % interval, in percent.
-    Without speed and length, stance is added."""
-    found = {name: kind.find(means) for name, kind in WALK.items()}
-    if found[DOUBLE_SUPPORT] and found[SPEED]:
-        del found[STANCE]
-    return _known({**found, SWING_DIFFERENCE: difference}.items())
-
-
-def run_measures(means: GaitParameters) -> list[Measure]:
-    """Return speed and cadence and stride length of a run, and its running measures (running.py), if known."""
-    return _known([(name, kind.find(means)) for name, kind in RUN.items()])
-
-
-def _known(found: Iterable[tuple[str, Found]]) -> list[Measure]:
-    return [Measure(name, *values) for name, values in found if values is not None]
+    `difference` is that of the swing times of a walk, (right - left) / mean, and half the width of its 95 % interval,
+    in percent. Stance is only added where double support or speed is not known."""
+    both, run, time = means.both, running_means(means), means.both.stride_time
+    # to the first order the cadence varies as the stride time does
+    cadence = None if time is None else (120.0 / time.mean, time.cv and 120.0 / time.mean * time.cv)
+    prefix, pace = "run_" if means.running else "", (_found(both.speed), cadence, _found(both.stride_length))
+    found = {f"{prefix}{name}": one for name, one in zip(PACE, pace, strict=True)}
+    if run is not None:
+        support = both.terminal_double_support
+        found |= {
+            "contact_time_ms": _found(both.stance_time, 1000.0),
+            "flight_time_ms": None if run.flight_time is None else _found(support, -1000.0),
+            "strike_angle_deg": _found(both.heel_strike_angle, degrees(1.0)),
+        }
+        if run.vertical_oscillation is not None:
+            found["vertical_oscillation_mm"] = 1000.0 * run.vertical_oscillation, None
+    elif time is not None:
+        percent, double = 100.0 / time.mean, both.double_support
+        if double is not None and double > 0.0:
+            # initial and terminal double support are taken as independent
+            supports = (both.initial_double_support, both.terminal_double_support)
+            spreads = [percent * figure.sd for figure in supports if figure is not None and figure.sd is not None]
+            found["double_support_percent"] = percent * double, hypot(*spreads) if len(spreads) == 2 else None
+        if len(found) == len(PACE) or both.speed is None:
+            found["stance_percent"] = _found(both.stance_time, percent)
+    found[SWING_DIFFERENCE] = difference
+    known = [(name, one) for name, one in found.items() if one is not None]
+    return [Measure(name, *SPECIFICATIONS[name], means.running, *one) for name, one in known]

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from math import pi
 
-from ...body.gait.means import Figure, GaitParameters
+from ...body.gait.means import GaitParameters
 from ...events.gait_cycle import GaitCycleMeasured
 from ...types.attrs import frozen
 from ...types.vector import GRAVITY
@@ -58,7 +58,9 @@ def running_means(parameters: GaitParameters) -> Running | None:
     both = parameters.both
     if not parameters.running or both.stance_time is None:
         return None
-    return _running(both.stance_time.mean, _mean(both.terminal_double_support), _mean(both.heel_strike_angle), True)
+    others = (both.terminal_double_support, both.heel_strike_angle)
+    support, angle = [None if figure is None else figure.mean for figure in others]
+    return _running(both.stance_time.mean, support, angle, True)
 
 
 def vertical_oscillation(contact_time: float, flight_time: float) -> float:
@@ -77,7 +79,3 @@ def _running(contact_time: float, double_support: float | None, strike_angle: fl
     flight = None if double_support is None or double_support > 0.0 else -double_support
     oscillation = None if flight is None or not level else vertical_oscillation(contact_time, flight)
     return Running(contact_time, flight, strike_angle, oscillation)
-
-
-def _mean(figure: Figure | None) -> float | None:
-    return None if figure is None else figure.mean

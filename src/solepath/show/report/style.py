@@ -8,11 +8,11 @@ from __future__ import annotations
 
 STYLE = """
 :root { --paper: #fff; --ink: #1b2430; --soft: #54606e; --rule: #d9dfe6; --panel: #f5f7f9;
-  --left: #0067a8; --right: #b84700; --accent: #1d6f5c; --warn: #7d5200; --grid: #e4e8ed; --double: #d5dbe2;
+  --left: #0067a8; --right: #b84700; --accent: #1d6f5c; --warn: #7d5200; --grid: #e4e8ed;
   --onbar: #fff; --good: #1d6f5c; --stop: #a4262c; --band: #9fd3c3; color-scheme: light dark; }
 @media screen and (prefers-color-scheme: dark) {
   :root { --paper: #12171d; --ink: #e6ebf1; --soft: #a3afbc; --rule: #333e4a; --panel: #1a2129;
-    --left: #5ab4f0; --right: #ff9d57; --accent: #5fd0b3; --warn: #e8b558; --grid: #29323c; --double: #3a4653;
+    --left: #5ab4f0; --right: #ff9d57; --accent: #5fd0b3; --warn: #e8b558; --grid: #29323c;
     --onbar: #0d1116; --good: #5fd0b3; --stop: #ff8f8a; --band: #2c6f5f; }
 }
 * { box-sizing: border-box; }
@@ -87,8 +87,8 @@ svg:where(:not(.plan)) path { fill: none; }
 .mark.right { stroke: var(--right); stroke-width: 1.5; } .mark.faint { opacity: .45; }
 .missing { stroke: var(--warn); stroke-width: 1.2; } .turn { stroke: var(--ink); stroke-width: 1.5; }
 .dense .mark { opacity: .3; stroke-width: 1; } .dense .mark.left { stroke-width: 2.4; }
-.dense .turn, .dense .missing { opacity: .35; stroke-width: .6; } .dense .line { stroke-width: 2.4; }
-.double { fill: var(--double); } .flight { fill: none; stroke: var(--soft); stroke-dasharray: 3 3; }
+.dense .turn, .dense .missing { opacity: .35; stroke-width: .6; }
+.flight { fill: none; stroke: var(--soft); stroke-dasharray: 3 3; }
 .swing { fill: var(--paper); stroke: var(--rule); fill-opacity: .55; }
 .stance.left { fill: var(--left); } .stance.right { fill: var(--right); }
 svg .bar { fill: var(--accent); }

@@ -74,7 +74,7 @@ def paired_difference(strides: Sequence[GaitCycleMeasured], name: str) -> tuple[
     both feet have in common, such as a change of speed, does not count. The interval is Student's t, with fewer strides
     for differences that resemble the one before (show/outcomes/spread.py). None with fewer than MIN_PAIRS."""
     from ..outcomes.quantiles import student_quantile
-    from ..outcomes.spread import moments, runs_of, steady_strides
+    from ..outcomes.spread import moments, steady_strides
 
     known = [stride for stride in steady_strides(strides) if getattr(stride, name) is not None]
     known.sort(key=lambda stride: stride.t_start)
@@ -86,7 +86,7 @@ def paired_difference(strides: Sequence[GaitCycleMeasured], name: str) -> tuple[
             pairs.append((stride, 2.0 * (right - left) / (right + left)))
     if len(pairs) < MIN_PAIRS:
         return None
-    sample = moments(runs_of(pairs))
+    sample = moments(pairs)
     independent = max(sample.mean_count, 2.0)
     return sample.mean, student_quantile(independent - 1.0) * sqrt(sample.variance / independent)
 

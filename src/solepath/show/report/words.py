@@ -5,9 +5,8 @@ from __future__ import annotations
 from ...recording import printable
 from ...types import Foot
 from ...walk.walk import Walk
-from ..tables.summary import activity_lines, degraded_lines, link_health, site_links, wear_lines
+from ..tables.summary import activity_lines, degraded_lines, link_health, links_of, wear_lines
 from ..tables.table import counted, duration_text, number
-from .clock import ReportClock
 from .markup import whole_sentences
 
 MAX_NAME_LENGTH = 60
@@ -15,11 +14,10 @@ MAX_NAME_LENGTH = 60
 LINK_HEADER = ("sensor", "samples", "Hz", "missing", "%", "s absent", "rejected", "silent", "battery")
 
 
-def overview(walk: Walk, clock: ReportClock) -> list[str]:
-    """Return the sentences on the course of the recording."""
-    time = walk.covered_time
-    back = "; its times go back in between" if time.span_count > 1 else ""
-    lines = [f"the recording lasts {duration_text(time.total if time.span_count else clock.end - clock.start)}{back}"]
+def overview(walk: Walk, duration: float, end: float) -> list[str]:
+    """Return the sentences on the course of the recording, which lasts for `duration` until `end`, s."""
+    back = "; its times go back in between" if walk.covered_time.span_count > 1 else ""
+    lines = [f"the recording lasts {duration_text(duration)}{back}"]
     for foot in Foot:
         counts, cycles = walk.feet.get(foot), walk.cycles[foot].count
         if counts is not None and counts.strides:
@@ -31,7 +29,7 @@ def overview(walk: Walk, clock: ReportClock) -> list[str]:
         lines.append("no foot took a stride")
     if walk.fused is not None:
         lines.append(f"both feet together went {number(walk.fused.distance, 1)} m")
-    return whole_sentences(lines + activity_lines(walk, clock.end))
+    return whole_sentences(lines + activity_lines(walk, end))
 
 
 def faults(walk: Walk) -> list[str]:
@@ -42,7 +40,7 @@ def faults(walk: Walk) -> list[str]:
 def sensors(walk: Walk) -> str:
     """Return the sensors in one line, with the names of the devices and the kinds of their data."""
     lines = []
-    for site, link in site_links(walk):
+    for site, link in links_of(walk):
         name = f" ({printable(link.name, MAX_NAME_LENGTH)})" if link.name else ""
         kinds = " and ".join(["motion"] * link.has_motion + ["pressure"] * link.has_pressure)
         lines.append(f"{site.words}{name}{': ' if kinds else ''}{kinds}")
@@ -52,7 +50,7 @@ def sensors(walk: Walk) -> str:
 def link_rows(walk: Walk) -> list[list[str]]:
     """Return the rows of the table of links."""
     rows = []
-    for site, link in site_links(walk):
+    for site, link in links_of(walk):
         battery = "-" if link.battery is None else f"{100.0 * link.battery:.0f} %"
         missing = str(link.missing), number(100.0 * link.missing_share, 1), number(link.absent_time, 1)
         faults = str(link.rejected.total()), str(link.silences), battery

@@ -17,27 +17,30 @@ from attrs import define, evolve
 from ...events import Placed, PlaceLost
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level
 from ..output import os_errors_naming
-from .svg import STEPS, View, add, blend, colour_bar, line
+from .svg import STEPS, View, add, colour_bar, line, shade
 
 MAX_LEVEL_WIDTH = 720.0
 """Largest width of the drawing of a level by default, px."""
 MAX_LEVEL_HEIGHT = 640.0
 """Largest height of the drawing of a level by default, px."""
-MARGIN, PANEL_GAP, SPACE_ABOVE, SPACE_BELOW = 24.0, 36.0, 64.0, 64.0
+MARGIN, PANEL_GAP, SPACE_ABOVE, SPACE_BELOW = 24.0, 36.0, 64.0, 92.0
 """Margin of the picture, gap between panels, space above the panels and below them, px."""
-NARROW_WIDTH = 640.0
-"""Width of the picture below which the legend has two lines, px."""
 NAME_SIZE, LETTER_WIDTH = 12.0, 7.5
 """Size of the letters of a room's name, and the largest mean width of a letter that is expected, px."""
 MARGIN_SHARE, MIN_MARGIN = 0.02, 0.5
 """Margin around what is drawn: as a share of its larger extent, and the least, m."""
+TIMES_LEFT = 184.0
+"""Place of the scale of times, px."""
 MAX_CANDIDATE_DOTS = 4000
 """Approximate limit of the number of candidates that are drawn."""
 
 SOFT_COLOUR, FLOOR_COLOUR, WALL_COLOUR = "#5f6b78", "#f4f6f8", "#323f4b"
 DOOR_COLOUR, CANDIDATE_COLOUR = "#d9b382", "#6b7a8c"
 START_COLOUR, END_COLOUR = "#2e7d32", "#c62828"
-TRACK_COLOURS = ("#440154", "#3b528b", "#21918c", "#5ec962", "#f0b420")
+TRACK_COLOURS = (
+    "#440154", "#482173", "#433e85", "#38598c", "#2d708e", "#25858e", "#1e9b8a", "#2ab07f", "#52c569", "#86d549",
+    "#b8d030", "#f0b420",
+)  # fmt: skip
 """Colours of the track from its start to its end."""
 CONNECTORS = {
     ConnectorKind.STAIRS: ("#9fb3c8", "M-4 3h2.7v-2.3h2.7v-2.3h2.7"),
@@ -56,6 +59,7 @@ END = (
     "<g><circle cx='{}' cy='{}' r='6' fill='{}' stroke='white' stroke-width='2'/><text x='{}' y='{}' font-size='11' "
     "font-weight='600' fill='{}' stroke='white' stroke-width='3' paint-order='stroke'>{}</text></g>"
 )
+DOT = "<g><circle cx='{}' cy='{}' r='5' fill='{}' fill-opacity='0.7'/><text x='{}' y='{}'>{}</text></g>"
 MARK = (
     "<g transform='translate({} {})' stroke-width='1.2'><title>{}</title><circle r='7' fill='{}' stroke='white'/>"
     "<path d='{}' stroke='#1f2933' fill='none'/></g>"
@@ -100,7 +104,7 @@ class PlanPicture:
         columns = self.columns or min(count, 3)
         width = 2.0 * MARGIN + columns * view.width + (columns - 1) * PANEL_GAP
         bottom = SPACE_ABOVE - (-count // columns) * (view.height + PANEL_GAP)
-        height = bottom + (2.0 if width < NARROW_WIDTH else 1.0) * SPACE_BELOW
+        height = bottom + SPACE_BELOW
         svg = add(Element("figure"), PICTURE, width, height, width, height, title, MARGIN, title)
         svg.set("xmlns", "http://www.w3.org/2000/svg")
         for k, level in enumerate(self.plan.levels):
@@ -163,14 +167,14 @@ class PlanPicture:
 
     def _track(self, panel: Element, level: str, view: View) -> None:
         """Draw a line through the decided places; other places have dots."""
-        lines = add(panel, "<g stroke-width='2.6' stroke-linecap='round'/>")
+        lines, places = add(panel, "<g stroke-width='2.6' stroke-linecap='round'/>"), self.places
         for k, (before, after) in enumerate(pairwise(self.events)):
             if _is_decided(before) and _is_decided(after) and before.level == after.level == level:
                 ends = *view.at(before.position[:2]), *view.at(after.position[:2])
-                colour = blend(TRACK_COLOURS, k / len(self.places))
+                colour = shade(TRACK_COLOURS, k / len(places))
                 add(lines, "<polyline points='{},{} {},{}' stroke='{}'/>", *ends, colour)
-        decided = [place for place in self.places if _is_decided(place)]
-        first = "start" if decided[:1] == self.places[:1] else "found"
+        decided = [place for place in places if _is_decided(place)]
+        first = "start" if decided[:1] == places[:1] else "found"
         marked = [(decided[0], START_COLOUR, first), (decided[-1], END_COLOUR, "end")] if decided else []
         for place, colour, word in marked:
             if place.level == level:
@@ -183,21 +187,15 @@ class PlanPicture:
         bar = "<path d='M{} {}v6h{}v-6' fill='none' stroke='#1f2933' stroke-width='1.5'/>"
         add(svg, bar, MARGIN, top + 4.0, metres * scale)
         add(svg, TEXT, MARGIN, top + 28.0, f"{metres:g} m")
-        left = MARGIN + max(metres * scale, 60.0) + 40.0
         if self.places:
-            colour_bar(svg, TRACK_COLOURS, left, top + 2.0, 120.0)
-            add(svg, TEXT, left, top + 28.0, f"{self.places[0].t:.0f} s")
-            add(svg, TEXT, left + 120.0, top + 28.0, f"{self.places[-1].t:.0f} s").set("text-anchor", "end")
-            left += 160.0
-        if width < NARROW_WIDTH:
-            left, top = MARGIN + 5.0, top + 0.8 * SPACE_BELOW
+            colour_bar(svg, TRACK_COLOURS, TIMES_LEFT, top + 2.0, 120.0)
+            add(svg, TEXT, TIMES_LEFT, top + 28.0, f"{self.places[0].t:.0f} s")
+            add(svg, TEXT, TIMES_LEFT + 90.0, top + 28.0, f"{self.places[-1].t:.0f} s")
         kinds = {connector.kind for connector in self.plan.connectors}
-        marks = {"candidate": (CANDIDATE_COLOUR, "0.4")}
-        marks |= {kind.value: (colour, "1") for kind, (colour, _) in CONNECTORS.items() if kind in kinds}
-        for word, (colour, opacity) in marks.items():
-            add(svg, "<circle cx='{}' cy='{}' r='5' fill='{}' fill-opacity='{}'/>", left, top + 6.0, colour, opacity)
-            add(svg, TEXT, left + 10.0, top + 10.0, word)
-            left += 30.0 + 8.0 * len(word)
+        marks = {kind.value: colour for kind, (colour, _) in CONNECTORS.items() if kind in kinds}
+        marks = {"candidate": CANDIDATE_COLOUR} | marks
+        for k, (word, colour) in enumerate(marks.items()):
+            add(svg, DOT, MARGIN + 5.0 + 110.0 * k, top + 57.0, colour, MARGIN + 15.0 + 110.0 * k, top + 61.0, word)
         if self.plan.anchor is not None:
             bearing = f"{-degrees(self.plan.anchor.bearing):.1f}"
             add(svg, NORTH, width - MARGIN - 16.0, top + 12.0, bearing)

@@ -28,10 +28,10 @@ class RecipeRun:
         """Return the figures of the run as texts by their names; "-" is a figure that is not known."""
         walk, cells = self.walk, {}
         feet = {foot: walk.feet.get(foot, FootCounts()) for foot in Foot}
-        for foot, counts in feet.items():
-            cells[f"strides, {foot} foot"] = str(counts.strides) if foot in walk.known_feet else "-"
-        for foot, counts in feet.items():
-            cells[f"distance m, {foot} foot"] = number(counts.distance) if foot in walk.feet else "-"
+        for foot in walk.known_feet:
+            cells[f"strides, {foot} foot"] = str(feet[foot].strides)
+            cells[f"degraded strides, {foot} foot"] = str(feet[foot].degraded)
+            cells[f"distance m, {foot} foot"] = number(feet[foot].distance)
         cells["distance m, both feet fused"] = number(None if walk.fused is None else walk.fused.distance)
         ends = [(counts.start, counts.position) for counts in feet.values()]
         ways = [[b - a for a, b in zip(start, end, strict=True)] for start, end in ends if start and end]
@@ -44,8 +44,6 @@ class RecipeRun:
             for row in gait_rows(gait):
                 means = [one for one in (row.both, row.left, row.right) if one is not None]
                 cells[f"{row.label} {row.unit}"] = number(means[0], row.digits)
-        for foot, counts in feet.items():
-            cells[f"degraded strides, {foot} foot"] = str(counts.degraded) if foot in walk.known_feet else "-"
         cells["defects of the data"] = str(len(walk.defects))
         cells["limitations"] = str(len(walk.limitations))
         samples = sum([walk.samples(foot) for foot in Foot])  # whole numbers
@@ -62,6 +60,6 @@ def recipe_lines(title: str, runs: Sequence[RecipeRun]) -> list[str]:
     rows = [[name, *[column.get(name, "-") for column in columns]] for name in names]
     lines = table(header, [row for row in rows if set(row[1:]) != {"-"}]).splitlines()
     for run in runs:
-        lines += [f"{run.recipe}: DEFECT, {printable(what)}" for what in run.walk.defects]
-        lines += [f"{run.recipe}: limitation, {printable(what)}" for what in run.walk.limitations]
+        for kind, found in (("DEFECT", run.walk.defects), ("limitation", run.walk.limitations)):
+            lines += [f"{run.recipe}: {kind}, {printable(what)}" for what in found]
     return lines

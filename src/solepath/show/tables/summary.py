@@ -21,6 +21,11 @@ SHORTEST_ABSENCE = 0.05
 """Shortest absence that is written, s; a shorter one would be written as 0.0 s."""
 
 
+def links_of(walk: Walk) -> list[tuple[Site, LinkLedger]]:
+    """Return the ledgers of the links in the order of Site."""
+    return [(site, walk.links[site]) for site in Site if site in walk.links]
+
+
 def summary(walk: Walk, *, title: str, seconds: float) -> str:
     """Return the summary of one recording; `seconds` is the wall time that computing it took."""
     duration = walk.covered_time.total
@@ -76,21 +81,6 @@ def missing_words(link: LinkLedger) -> str:
     return ", ".join(words)
 
 
-def fused_stride(walk: Walk) -> list[str]:
-    """Return lines about the last fused stride: distance (12), similarity (9), error index (10), coefficient (11).
-
-    The numbers are those of Chen et al. 2019. The list is empty if the recipe does not fuse strides."""
-    fused = walk.fused
-    if fused is None:
-        return []
-    return [
-        f"both feet: {number(fused.distance)} m by the {fused.chosen} foot; "
-        f"last stride {number(fused.stride_length)} m",
-        f"  similarity {number(fused.similarity)}, error index {number(fused.error_index)} m/s, "
-        f"own share {number(fused.coefficient)}",
-    ]
-
-
 def activity_lines(walk: Walk, now: float) -> list[str]:
     """Return a line for activities until `now`, s, flights of stairs, lift rides and turns each, if there were any."""
     found = {
@@ -108,11 +98,6 @@ def wear_lines(walk: Walk) -> list[str]:
     return walk.wear_problems + [f"{foot}: silent {times(n)} while the other walked on" for foot, n in silences]
 
 
-def site_links(walk: Walk) -> list[tuple[Site, LinkLedger]]:
-    """Return the ledgers of all sites in the order of Site."""
-    return [(site, walk.links[site]) for site in Site if site in walk.links]
-
-
 def link_health(walk: Walk) -> list[str]:
     """Return a line for each kind of fault of the links; none without faults."""
     links = list(walk.links.values())
@@ -120,7 +105,7 @@ def link_health(walk: Walk) -> list[str]:
     def total(name: str) -> int:
         return sum([getattr(link, name) for link in links])  # whole numbers
 
-    lines = [f"{site.words}: {words}" for site, link in site_links(walk) if (words := missing_words(link))]
+    lines = [f"{site.words}: {words}" for site, link in links_of(walk) if (words := missing_words(link))]
     rejected = sum([link.rejected for link in links], Counter[tuple[str, str]]())
     for kind in ("packet", "sample"):
         reasons = {reason: count for (what, reason), count in rejected.items() if what == f"{kind}s"}
@@ -135,7 +120,7 @@ def link_health(walk: Walk) -> list[str]:
         lines.append(f"a stream froze and was set up again {times(restarts)}")
     if dropped := total("dropped"):
         lines.append(f"{counted(dropped, 'packet')} dropped: too many came to be used in time")
-    for site, link in site_links(walk):
+    for site, link in links_of(walk):
         if link.connections > 1:
             lines.append(f"{site.words}: connected {times(link.connections)}")
     return lines + [f"trouble, {printable(what)}" for what in walk.troubles]
@@ -150,7 +135,7 @@ def latency(walk: Walk) -> list[str]:
 
 def status(walk: Walk) -> list[str]:
     """Return a line on the link of each site, in the order of Site, and one on the place if it is known."""
-    lines = [_link(site, link, walk.now) for site, link in site_links(walk)]
+    lines = [_link(site, link, walk.now) for site, link in links_of(walk)]
     return lines + ([place_line(walk.places.last)] if walk.places.last is not None else [])
 
 

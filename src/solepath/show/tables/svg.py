@@ -109,8 +109,8 @@ class View:
 
     def at(self, point: Point) -> Point:
         """Return the place of a position, px."""
-        x = self.left + 0.5 * self.width + (point[0] - self.centre[0]) * self.scale
-        return x, self.top + 0.5 * self.height - (point[1] - self.centre[1]) * self.scale
+        x, y = self.axes
+        return x(point[0]), y(point[1])
 
     @property
     def axes(self) -> tuple[AxisScale, AxisScale]:
@@ -122,17 +122,13 @@ class View:
         )
 
 
-def blend(colours: Sequence[str], share: float) -> str:
-    """Return the colour at `share`, 0 to 1, of a scale through the evenly spaced `colours`."""
-    position = min(max(share, 0.0), 1.0) * (len(colours) - 1)
-    k = min(int(position), len(colours) - 2)
-    pairs = zip(bytes.fromhex(colours[k][1:]), bytes.fromhex(colours[k + 1][1:]), strict=True)
-    return f"#{bytes([round(a + (position - k) * (b - a)) for a, b in pairs]).hex()}"
+def shade(colours: Sequence[str], share: float) -> str:
+    """Return the colour at `share`, 0 to 1, of a scale of colours."""
+    return colours[min(max(int(share * len(colours)), 0), len(colours) - 1)]
 
 
 def colour_bar(parent: Element, colours: Sequence[str], left: float, top: float, width: float) -> None:
     """Draw a scale of colours, from left to right."""
-    step = width / 30.0
-    for k in range(30):
-        bar = "<rect x='{}' y='{}' width='{}' height='8' fill='{}'/>"
-        add(parent, bar, left + step * k, top, step + 0.3, blend(colours, k / 29.0))
+    step = width / len(colours)
+    for k, colour in enumerate(colours):
+        add(parent, "<rect x='{}' y='{}' width='{}' height='8' fill='{}'/>", left + step * k, top, step + 0.3, colour)

@@ -15,8 +15,7 @@ from rich.text import Text
 from ...types import Foot, Phase
 from ...walk.walk import FootCounts, Walk
 from .plot import plot
-from .summary import fused_stride, link_health, status, wear_lines
-from .table import number
+from .summary import link_health, status, wear_lines
 
 FRAME_RATE = 12.0
 """Largest number of pictures a second; chosen by hand."""
@@ -55,25 +54,16 @@ def picture(walk: Walk, title: str) -> Group:
     feet = Table.grid(expand=False, padding=(0, 3))
     for foot in Foot:
         feet.add_row(*_foot(walk, foot))
-    lines = plot(walk.track.points, *PLOT_SIZE)
-    health = fused_stride(walk) + status(walk) + wear_lines(walk) + link_health(walk)
+    health = status(walk) + wear_lines(walk) + link_health(walk)
     return Group(
         Panel(feet, title=title, width=PLOT_SIZE[0] + 4),
-        Panel(Text("\n".join(lines)), title="track", width=PLOT_SIZE[0] + 4),
+        Panel("\n".join(plot(walk.track.points, *PLOT_SIZE)), title="track", width=PLOT_SIZE[0] + 4),
         Panel(Text("\n".join(health)), title=f"link, {walk.item_count} packets", width=PLOT_SIZE[0] + 4),
     )
 
 
-def _foot(walk: Walk, foot: Foot) -> tuple[Text, ...]:
+def _foot(walk: Walk, foot: Foot) -> tuple[str, ...]:
     counts = walk.feet.get(foot, FootCounts())
-    phase = Text("-" if counts.phase is None else f"{counts.phase:10}")
-    if counts.phase is not None:
-        phase.stylize(f"bold {PHASE_COLOURS[counts.phase]}")
-    position = "" if counts.position is None else "at " + " ".join(number(v).rjust(6) for v in counts.position) + " m"
-    return (
-        Text(f"{foot}"),
-        phase,
-        Text(f"{counts.strides:3d} strides"),
-        Text(f"{counts.distance:6.2f} m"),
-        Text(position),
-    )
+    phase = "-" if counts.phase is None else f"[bold {PHASE_COLOURS[counts.phase]}]{counts.phase:10}[/]"
+    position = "" if counts.position is None else "at " + " ".join([f"{v:6.2f}" for v in counts.position]) + " m"
+    return foot.value, phase, f"{counts.strides:3d} strides", f"{counts.distance:6.2f} m", position

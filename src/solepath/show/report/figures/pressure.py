@@ -13,7 +13,7 @@ from attrs import evolve
 
 from ....types import Foot, Layout
 from ....walk.soles import STATIONS, SoleLoads
-from ...tables.svg import View, add, blend, colour_bar, line
+from ...tables.svg import View, add, colour_bar, line, shade
 from ..markup import figure, paragraph, table, whole_sentences
 from .axes import MARGIN_SHARE, PATH, Chart, write
 
@@ -91,7 +91,7 @@ def _map(parent: Element, name: str, title: str, drawn: Drawn, loads: Loads, *, 
         write(svg, middle, 14.0, foot.value, "label")
         for cell, load in zip(layout.cells, loads[foot], strict=True):
             disc = "<circle cx='{}' cy='{}' r='{}' fill='{}' class='cells'/>"
-            add(svg, disc, *view.at((-cell.y, cell.x)), r * view.scale, blend(SHADES, load / (highest or 1.0)))
+            add(svg, disc, *view.at((-cell.y, cell.x)), r * view.scale, shade(SHADES, load / (highest or 1.0)))
         if paths:
             _draw_paths(svg, sole, view)
     colour_bar(svg, SHADES, 50.0, 290.0, 180.0)

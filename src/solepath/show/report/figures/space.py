@@ -11,10 +11,10 @@ from xml.etree.ElementTree import Element
 
 from attrs import evolve
 
-from ...tables.svg import Point, View, add, line, ticks
+from ...tables.svg import Point, View, add, line
 from ..content import TimedPosition
 from ..markup import WIDTH, figure
-from .axes import PATH, square_ticks, write
+from .axes import PATH, square_ticks
 from .track import mark_end
 
 LEAST_RISE = 1.0
@@ -56,7 +56,7 @@ def space_figure(parent: Element, track: Sequence[TimedPosition]) -> None:
     lines = [("grid", [(x, y0, low), (x, y1, low)]) for x in across]
     lines += [("grid", [(x0, y, low), (x1, y, low)]) for y in up]
     lines += [("flight", [(x, y, low) for x, y, _ in places]), ("way", places)]
-    lines += [("axis", [(x, y, z), (x, y, low)]) for x, y, z in (places[0], places[-1], (x0, y0, high))]
+    lines += [("axis", [(x, y, z), (x, y, low)]) for x, y, z in (places[0], places[-1])]
 
     def on_paper(place: Space) -> Point:
         right, down = project(place, exaggeration)
@@ -65,7 +65,10 @@ def space_figure(parent: Element, track: Sequence[TimedPosition]) -> None:
     shown = [on_paper(place) for _, path in lines for place in path]
     view = View.fit(shown, WIDTH - 2.0 * MARGIN, MAX_HEIGHT - 2.0 * MARGIN)
     view = evolve(view, left=0.5 * (WIDTH - view.width), top=MARGIN)
-    notes = [f"A square of the floor is {step:g} m wide; the dashed line is the track on the floor."]
+    notes = [
+        f"Heights are from {low:.1f} to {high:.1f} m.",
+        f"A square of the floor is {step:g} m wide; the dashed line is the track on the floor.",
+    ]
     notes += [f"Heights are drawn {exaggeration:g} times as large."] if exaggeration > 1.0 else []
     what = f"The track in space, with heights from {low:.1f} to {high:.1f} m."
     svg = figure(parent, "space", "Track in space", what, view.height + 2.0 * MARGIN, *notes)
@@ -73,7 +76,3 @@ def space_figure(parent: Element, track: Sequence[TimedPosition]) -> None:
         add(svg, PATH, line([view.at(on_paper(place)) for place in path]), kind)
     mark_end(svg, view.at(on_paper(places[0])), "start", -6.0)
     mark_end(svg, view.at(on_paper(places[-1])), "end", 13.0)
-    for z, words in ticks(low, high, 5).items():
-        x, y = view.at(on_paper((x0, y0, z)))
-        write(svg, x - 4.0, y + 4.0, words, "tick", "end")
-    write(svg, 2.0, 12.0, "height, m", "label", "start")

@@ -43,14 +43,14 @@ def comparison(parent: Element, before: ReportContent, after: ReportContent, fac
 
 
 def _row(before: Measure, after: Measure) -> list[str]:
-    kind, change = after.kind, after.value - before.value
-    share = f" ({100.0 * change / abs(before.value):+.0f} %)" if before.value and kind.unit not in ("%", "deg") else ""
-    label = f"{'running: ' if after.is_of_run else ''}{kind.label.lower()}, {kind.unit}"
+    change = after.value - before.value
+    share = f" ({100.0 * change / abs(before.value):+.0f} %)" if before.value and after.unit not in ("%", "deg") else ""
+    label = f"{'running: ' if after.running else ''}{after.label.lower()}, {after.unit}"
     spread = words = "-"
     if before.spread is not None and after.spread is not None:
         least = hypot(before.spread, after.spread)
         if after.name != SWING_DIFFERENCE:
             least *= sqrt(0.5)
-            spread = f"{least:.{max(kind.digits, 1)}f}"
+            spread = f"{least:.{max(after.digits, 1)}f}"
         words = "yes" if abs(change) > least else "no"
-    return [label, before.text, after.text, f"{change:+.{kind.digits}f}{share}", spread, words]
+    return [label, before.text, after.text, f"{change:+.{after.digits}f}{share}", spread, words]

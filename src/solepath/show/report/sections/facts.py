@@ -9,7 +9,7 @@ from attrs import frozen
 
 from ....body.gait.means import GaitParameters
 from ..content import ReportContent
-from ..measures import Measure, run_measures, walk_measures
+from ..measures import Measure, measures
 from ..walk_summary import SWING_TIME, FootDifference, distance_in, foot_differences, gait_spans
 
 
@@ -54,7 +54,7 @@ class Facts:
     @property
     def measures(self) -> list[Measure]:
         """Large figures, of walking, or of running if the wearer only ran."""
-        return [one for one in self.all_measures if one.is_of_run is (self.kind == "Run")][:5] or self.all_measures[:5]
+        return [one for one in self.all_measures if one.running is (self.kind == "Run")][:5] or self.all_measures[:5]
 
     @property
     def difference_words(self) -> str:
@@ -74,8 +74,8 @@ def facts_of(report: ReportContent) -> Facts:
     differences = foot_differences(list(walk.newest_cycles), walking)
     swing = differences.get(SWING_TIME)
     interval = None if swing is None else (100.0 * swing.value, 100.0 * swing.half_width)
-    measures = [] if walking is None else walk_measures(walking, interval)
-    measures += [] if running is None else run_measures(running)
+    found = [] if walking is None else measures(walking, interval)
+    found += [] if running is None else measures(running)
     cycles = [one for found in walk.cycles.values() for one in found]
     distances = {foot: list(pairs) for foot, pairs in walk.distances.items()}
     bouts = {}
@@ -84,4 +84,4 @@ def facts_of(report: ReportContent) -> Facts:
         strides = len([one for one in cycles if any([start <= one.t <= end for start, end in spans])])
         if duration > 0.0 and (strides or distance):
             bouts[is_run] = Bout(duration, distance, strides)
-    return Facts(report, [one for one in (walking, running) if one is not None], bouts, differences, measures)
+    return Facts(report, [one for one in (walking, running) if one is not None], bouts, differences, found)

@@ -46,10 +46,10 @@ def _way(facts: Facts, is_run: bool) -> str:
     if bout.distance is not None:
         text += f" {number(bout.distance, 0 if bout.distance >= 9.95 else 1)} m"
     text += f" {'for' if bout.distance is None else 'in'} {duration_text(bout.duration)}"
-    known = [one for one in facts.all_measures if one.is_of_run is is_run]
-    pace = [one for one in known if one.kind.label in ("Speed", "Cadence")]
+    known = [one for one in facts.all_measures if one.running is is_run]
+    pace = [one for one in known if one.label in ("Speed", "Cadence")]
     if pace:
-        words = [f"{one.text} {one.kind.unit.replace('steps/min', 'steps a minute')}" for one in pace]
+        words = [f"{one.text} {one.unit.replace('steps/min', 'steps a minute')}" for one in pace]
         return f"{text}, in steady strides {'with' if len(pace) == 1 else 'at'} {' and '.join(words)}"
     taken = f" ({counted(bout.strides, 'stride')})" if bout.strides else ""
     return f"{text}{taken}, too short for steady strides"

@@ -29,17 +29,17 @@ def key_figures(parent: Element, facts: Facts, bands: Mapping[str, Band]) -> Non
     cards = add(parent, "<div class='cards'/>")
     sources: dict[str, list[str]] = {}
     for measure in facts.measures:
-        kind, text = measure.kind, measure.text
-        details = [kind.detail]
+        text = measure.text
+        details = [measure.detail]
         if measure.name == SWING_DIFFERENCE:
             text, details = text.lstrip("-"), [facts.difference_words]
         elif measure.spread is not None:
-            details.append(f"\N{PLUS-MINUS SIGN} {measure.spread:.{kind.digits}f} stride to stride")
-        card = add(cards, CARD, kind.label, text, kind.unit)
+            details.append(f"\N{PLUS-MINUS SIGN} {measure.spread:.{measure.digits}f} stride to stride")
+        card = add(cards, CARD, measure.label, text, measure.unit)
         notes(card, filter(None, ["; ".join(filter(None, details))]))
         if (band := bands.get(measure.name)) is not None:
             _draw(card, measure, band)
-            sources.setdefault(band.source, []).append(kind.label.lower())
+            sources.setdefault(band.source, []).append(measure.label.lower())
     notes(parent, [f"Reference of {', '.join(labels)}: {source}" for source, labels in sources.items()])
 
 
@@ -52,13 +52,13 @@ def position_words(size: float, band: Band) -> str:
 
 def _draw(card: Element, measure: Measure, band: Band) -> None:
     """Draw the band as a horizontal scale with a mark at the measure's value."""
-    kind, size, words = measure.kind, measure.size, position_words(measure.size, band)
+    size, words = measure.size, position_words(measure.size, band)
     margin = MEAN_MARGIN * abs(band.low) if band.is_mean else MARGIN_SHARE * (band.high - band.low)
     x = AxisScale(min(band.low - margin, size), max(band.high + margin, size), EDGE, WIDTH - EDGE)
     ends = dict.fromkeys([band.low, band.high])
     reference = " to ".join([f"{end:g}" for end in ends])
-    what = f"{kind.label} {measure.text} {kind.unit}, {words}; reference {reference} {kind.unit}."
-    title = f"{kind.label} against its reference"
+    what = f"{measure.label} {measure.text} {measure.unit}, {words}; reference {reference} {measure.unit}."
+    title = f"{measure.label} against its reference"
     svg = drawing(card, f"band-{measure.name}", title, what, HEIGHT, WIDTH)
     start, end = x(band.low), x(band.high)
     add(svg, "<path d='M{} 14H{}' class='scale'/>", x.start, x.end)

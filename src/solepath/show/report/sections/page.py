@@ -44,7 +44,7 @@ def page_of(report: ReportContent) -> Element:
     if len(report.track) >= 2 or report.plan is not None:
         _ways(section(main, "track-part", "Where the wearer went"), report)
     if walk.event_span is not None:
-        _course(section(main, "course", "Course of the recording"), report)
+        _course(section(main, "course", "Course of the recording"), report, facts)
     has_strides = any([cycles.count for cycles in walk.cycles.values()])
     details = add(main, "<div class='{}'/>", "second-page" if has_strides and report.before is None else "")
     if report.before is not None:
@@ -89,11 +89,11 @@ def _gait(parent: Element, report: ReportContent, facts: Facts) -> None:
     stride_figures(figures, [one for cycles in report.walk.cycles.values() for one in cycles], report.clock)
 
 
-def _course(parent: Element, report: ReportContent) -> None:
+def _course(parent: Element, report: ReportContent, facts: Facts) -> None:
     """Add the course of the recording: its sentences, and the activities."""
     walk, clock = report.walk, report.clock
     figures = add(parent, "<div class='figures'/>")
-    sentences(figures, overview(walk, clock))
+    sentences(figures, overview(walk, facts.duration, clock.end))
     activity_figure(figures, walk.timeline.spans(clock.end), clock)
     if walk.placed.count:
         track_figure(figures, report, wide=False)
