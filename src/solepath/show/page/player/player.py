@@ -28,9 +28,9 @@ from .packed_items import PackedItems
 from .playback import Playback
 
 STATE_SPACING = 10.0
-"""Time of the recording between two saved states at first, s; computing 10 s again takes some 0.2 s."""
+"""Least time of the recording between two saved states, s; computing 10 s again takes some 0.2 s."""
 MAX_SAVED_STATES = 60
-"""Largest number of saved states; with more, every second one is dropped and the spacing doubles."""
+"""Largest number of saved states; those of a long recording are farther apart."""
 MAX_ELAPSED = 0.25
 """Longest wall time that one call of `advance` counts, s: a recording does not jump after the computer slept."""
 
@@ -64,7 +64,7 @@ class Player:
     fault: str = ""
     on_events: OnEvents | None = None
     spacing: float = STATE_SPACING
-    """Time of the recording between two saved states, s; it doubles when there are MAX_SAVED_STATES."""
+    """Least time of the recording between two saved states, s."""
     playback: Playback = field(init=False)
     _next: int = field(default=0, init=False)
     """Index of the next item to feed."""
@@ -78,6 +78,7 @@ class Player:
     def __attrs_post_init__(self) -> None:
         start, end = self.items.start, self.items.end
         self._due = start
+        self.spacing = max(self.spacing, (end - start) / MAX_SAVED_STATES)
         self.playback = Playback(start, end, start, "playing")
         self._show_session()
         self._save(start)
@@ -203,9 +204,6 @@ class Player:
         scene.plan = scene.playback = scene.body = None  # `_restore` sets them again
         saved = pickle.dumps((self.session.snapshot(), scene), pickle.HIGHEST_PROTOCOL)  # only this process reads it
         self._saved.append(_SavedState(t, self._next, zlib.compress(saved, 1)))
-        if len(self._saved) > MAX_SAVED_STATES:
-            del self._saved[1::2]
-            self.spacing *= 2.0
 
     def _restore(self, saved: _SavedState) -> None:
         plan = self.scene.plan

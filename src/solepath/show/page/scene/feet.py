@@ -116,8 +116,8 @@ class FootScene:
         self.start_phase(t, None)
         self.pressed = None
 
-    def frame(self, rate: float, counts: FootCounts) -> dict[str, Any] | None:
-        """Return the foot's member of "feet" of a frame; None before it has data. `rate` is in samples a second."""
+    def frame(self, counts: FootCounts) -> dict[str, Any] | None:
+        """Return the foot's member of "feet" of a frame; None before it has data."""
         if not self.has_data:
             return None
         pressed = self.pressed
@@ -126,7 +126,6 @@ class FootScene:
             "cells": None if pressed is None else self._encode_cells(pressed.values),
             "force": None if pressed is None else plain(pressed.force, 1),
             "centre": None if pressed is None else plain(pressed.centre, 4),
-            "rate": rate,
             **members(counts, "strides", "distance", distance=2),
         }
 
@@ -145,5 +144,4 @@ class FootScene:
             "length": plain(layout.length, 4),
             "cells": [[round(cell.x, 4), round(cell.y, 4), round(cell.area, 7)] for cell in layout.cells],
             "unit": "N" if newtons or layout.scale is not None else "counts",
-            "full": None if newtons and layout.scale is None else plain(layout.full_scale),
         }

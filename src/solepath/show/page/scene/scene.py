@@ -207,10 +207,6 @@ class Scene:
         """Return the other members of a frame, whole."""
         now, walk = self.now, self.walk
         links = {site.words: link_frame(walk.links[site], now) for site in Site if site in walk.links}
-        feet: dict[str, Any] = {}
-        for foot, foot_scene in self.feet.items():
-            link = links.get(SITE_OF_FOOT[foot].words)
-            feet[foot.value] = foot_scene.frame(0.0 if link is None else link["rate"], walk.feet.get(foot, NO_COUNTS))
         silent_since, (since, activity) = feet_silent_since(walk.links, now), walk.timeline.last
         silent = frozenset(site for site, link in links.items() if link["state"] in ("silent", "lost"))
         left, right = [one.phase for one in self.feet.values()]
@@ -219,7 +215,7 @@ class Scene:
         if legs is None and down is not None and down.legs is not None:
             legs = body_frame(down.t, down.legs)
         return {
-            "feet": feet,
+            "feet": {foot.value: one.frame(walk.feet.get(foot, NO_COUNTS)) for foot, one in self.feet.items()},
             "wearer": self.wearer.wearer_frame(),
             "place": self.wearer.place_frame(walk.places.last),
             "activity": activity_frame(since, activity, silent_since),

@@ -80,7 +80,7 @@ def _place(place: Placed) -> dict[str, Any]:
         **{key: None if name is None else printable(name) for key, name in names.items()},
         "decided": len(place.candidates) <= 1 or place.candidates[0].weight >= DECIDED_WEIGHT,
         "candidates": [
-            members(one, "level", "heading", "weight", "origin") | dict(zip("xyz", plain(one.position), strict=True))
+            members(one, "level", "heading", "weight") | {"x": plain(one.position[0]), "y": plain(one.position[1])}
             for one in place.candidates[:MAX_CANDIDATES]
         ],
     }
