@@ -37,7 +37,7 @@ from ....walk.valid import has_valid_numbers
 from ....walk.walk import REJECTIONS, Walk
 from ..body import LiveBody, body_frame
 from ..guide import Guide, ShownPosture, ShownToeOut
-from ..messages import EncodedOnce, members, plain
+from ..messages import members, plain
 from ..player.playback import Playback
 from .bending import bend_of
 from .feet import NO_COUNTS, PHASE_OF_EVENT, FootScene
@@ -45,7 +45,7 @@ from .gait import SceneGaitMeans, ScenePace, activity_frame
 from .links import SceneFindings, feet_silent_since, link_frame
 from .lists import GrowingList
 from .log import SceneLog
-from .plan_drawing import draw_plan
+from .plan_drawing import PlanDrawing, draw_plan
 from .reports import SceneReports, report_words
 from .scales import Scales
 from .wearer import WearerScene
@@ -68,7 +68,7 @@ class Scene:
     title: str
     recipe: str
     source: str = "live"
-    plan: EncodedOnce | None = field(default=None, converter=draw_plan, metadata=NOT_SAVED)
+    plan: PlanDrawing | None = field(default=None, converter=draw_plan, metadata=NOT_SAVED)
     playback: Playback | None = field(default=None, metadata=NOT_SAVED)
     guide: Guide | None = field(default=None, metadata=NOT_SAVED)
     body: LiveBody | None = field(default=None, metadata=NOT_SAVED)
