@@ -15,7 +15,7 @@ from ....foot.phase import EVENT_OF_PHASE
 from ....types import Layout, Phase, Vec3
 from ....walk.walk import FootCounts
 from ..messages import members, plain
-from .bending import Bend
+from .bending import Bend, bent
 from .lists import GrowingList, TrackPoint, add_position, new_track
 
 PHASE_HISTORY = 20.0
@@ -92,7 +92,7 @@ class FootScene:
 
     def revise(self, bend: Bend, by: tuple[float, float]) -> None:
         """Bend the track, and move the foot by `by`, m, until it has that correction itself."""
-        self.track.replace(bend.apply(self.track.items))
+        self.track.replace(bent(self.track.items, bend))
         self.lag = (self.lag[0] + by[0], self.lag[1] + by[1])
         if self.position is not None:
             x, y, z = self.position

@@ -10,7 +10,7 @@ from ....events import Placed, TrackRevised, WearerMoved
 from ....recording import printable
 from ....types.attrs import NOT_SAVED
 from ..messages import members, plain
-from .bending import Bend
+from .bending import Bend, bent
 from .lists import GrowingList, TrackPoint, add_position, new_track
 
 MAX_CANDIDATES = 40
@@ -43,7 +43,7 @@ class WearerScene:
 
     def revise(self, event: TrackRevised, bend: Bend) -> None:
         """Bend the track, and go to the end of the revised path."""
-        self.track.replace(bend.apply(self.track.items))
+        self.track.replace(bent(self.track.items, bend))
         if self.moved is None or not event.nodes:
             return
         position = (event.nodes[-1].x, event.nodes[-1].y, self.moved.position[2])
