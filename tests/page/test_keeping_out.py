@@ -13,7 +13,7 @@ import pytest
 from aiohttp import ClientSession, TCPConnector
 from served import TOKEN, Connection, check_watching, close_code, handshake, rejection_status, scene_of, served
 
-from solepath.show.page.server.open_connections import MAX_CONNECTIONS, peer_of
+from solepath.show.page.server.connection import MAX_CONNECTIONS, peer_of
 from solepath.show.page.server.server import MAX_WATCHERS, Page
 
 PEERS = ("127.0.0.2", "127.0.0.3", "127.0.0.4", "127.0.0.5")

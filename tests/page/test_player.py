@@ -92,7 +92,7 @@ def state_without_commands(t: float) -> tuple[dict, dict]:
     """Return scene and snapshot at `t` of a run without commands."""
     player = make_player()
     if t > START:
-        player.set_speed(8.0)
+        player.playback.speed = 8.0
         play_until(player, t)
     else:
         player.feed_due(never)
@@ -156,7 +156,7 @@ def test_a_recording_plays_at_the_requested_speed_and_stops_at_its_end():
     player.feed_due(never)
     pass_by(player, 0.1)
     assert player.playback.t == pytest.approx(START + 0.1)
-    player.set_speed(10.0)
+    player.playback.speed = 10.0
     pass_by(player, 0.1)
     assert player.playback.t == pytest.approx(START + 1.1)
     player.pause()

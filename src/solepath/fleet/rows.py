@@ -41,14 +41,14 @@ class _RowFlaw(Exception):
 
 def sent_row(sent: Sent) -> dict[str, Any]:
     """Return an item that a phone sends as a row with the columns of SENT_COLUMNS."""
-    row = {"wearer": sent.wearer, "run": sent.run, "number": sent.number}
+    row = {**dict.fromkeys(SENT_COLUMNS), "wearer": sent.wearer, "run": sent.run, "number": sent.number}
     match sent.what:
         case Packet(t, site, channel, data, device):
             return row | {"t": t, "site": site.value, "channel": channel, "data": data, "device": device or None}
         case Tick(t):
-            return row | {"t": t, "site": None, "channel": "tick", "data": None, "device": None}
+            return row | {"t": t, "channel": "tick"}
         case End():
-            return row | {"t": None, "site": None, "channel": "end", "data": None, "device": None}
+            return row | {"channel": "end"}
 
 
 def read_sent(row: Any) -> Sent | Unreadable:

@@ -23,7 +23,7 @@ from attrs import define, field
 from solepath.emulate.walk import SampledWalk
 from solepath.events import PositionRejected, StrideTaken, TrackRevised
 from solepath.session import Session
-from solepath.show.page.scene.bending import bend_of
+from solepath.show.page.scene.bending import bend_of, bent
 from solepath.show.page.scene.lists import TrackPoint
 from solepath.validate.alignment import Floats
 
@@ -62,7 +62,7 @@ class Reported:
         events = self.session.here(place, REPORT_SIGMA)
         for event in events:
             if isinstance(event, TrackRevised):
-                self.points = bend_of(event, self.points).apply(self.points)
+                self.points = bent(self.points, bend_of(event, self.points))
         self.used.append(any(isinstance(event, TrackRevised) for event in events))
 
     def rejects(self, place: tuple[float, float]) -> float:

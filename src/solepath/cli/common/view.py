@@ -125,7 +125,7 @@ def play(player: Player, address: PageAddress, pace: float) -> None:
             await play_on(page, player, stop, once=once)
         return 0
 
-    player.set_speed(pace)
+    player.playback.speed = pace
     run_to_end(main)
 
 

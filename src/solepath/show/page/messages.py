@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from enum import Enum
-from functools import cached_property
 from math import isfinite
 from typing import Any
 
@@ -19,14 +18,16 @@ MAX_MESSAGE_SIZE = 4096
 """Size of the largest message from a page, bytes; chosen by hand."""
 
 
+NO_JSON = 1007
+"""Close code for text that is not JSON."""
+
+
 class CommandError(ValueError):
-    """A text that is not a command; the message says why.
+    """A text that is not a command; the message says why, and `code` is the close code of protocol/page.md."""
 
-    `is_json` says whether the text is JSON."""
-
-    def __init__(self, reason: str, *, is_json: bool = True) -> None:
+    def __init__(self, reason: str, code: int = 1008) -> None:
         super().__init__(reason)
-        self.is_json = is_json
+        self.code = code
 
 
 @frozen
@@ -48,7 +49,7 @@ def parse_command(text: str) -> Command:
     except CommandError:
         raise
     except (ValueError, RecursionError):
-        raise CommandError("a message is not JSON", is_json=False) from None
+        raise CommandError("a message is not JSON", NO_JSON) from None
     if not isinstance(message, dict):
         raise CommandError("a message is not a JSON object")
     match len(message), message:
@@ -76,37 +77,12 @@ def parse_command(text: str) -> Command:
 
 
 def encode(message: dict[str, Any]) -> str:
-    """Return a message of the server as text; raise ValueError for a number that is not finite.
-
-    A member of class EncodedOnce keeps its text: a floor plan may have megabytes, and goes to each watcher and again
-    after each seek."""
-    encoded_members = {key: value for key, value in message.items() if isinstance(value, EncodedOnce)}
-    text = _json(
-        {key: value for key, value in message.items() if key not in encoded_members} if encoded_members else message
-    )
-    for key, value in encoded_members.items():
-        text = f"{text[:-1]}{',' if len(text) > 2 else ''}{_json(key)}:{value.text}}}"
-    return text
-
-
-class EncodedOnce(dict[str, Any]):
-    """A member of messages that never changes and is sent often; it is encoded once, on first use."""
-
-    @cached_property
-    def text(self) -> str:
-        """The member as JSON."""
-        return _json(self)
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> EncodedOnce:
-        return self
-
-
-def _json(value: Any) -> str:
-    return json.dumps(value, allow_nan=False, separators=(",", ":"))
+    """Return a message of the server as text; raise ValueError for a number that is not finite."""
+    return json.dumps(message, allow_nan=False, separators=(",", ":"))
 
 
 def _no_number(text: str) -> None:
-    raise CommandError(f"a message holds {text}, which is not JSON", is_json=False)
+    raise CommandError(f"a message holds {text}, which is not JSON", NO_JSON)
 
 
 def _unique_members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -29,9 +29,9 @@ class LiveWalk:
     session: Session
     scene: Scene
     plan: IndexedPlan | None = None
+    finished: bool = False
     count: int = field(default=0, init=False)
     """Number of packets that the session was fed since this walk was started or restored."""
-    finished: bool = field(default=False, init=False)
     host: JsonHost = field(init=False)
     """The devices that feed the session."""
     _lines: list[bytes] = field(factory=list, init=False)
@@ -101,12 +101,12 @@ class LiveWalk:
         A clock that was set back meanwhile goes on from the newest packet: how long nothing came is then unknown."""
         newest = self.session.now
         if newest is not None and now < newest - CLOCK_TOLERANCE:
-            self._observe(None, self.session.restart_clock(newest))
+            self.host.host.restart_clock(newest)
             return newest
         self.advance(now)
         return now
 
     def finish(self) -> None:
         """End the session; its last events are shown."""
-        self._observe(None, self.session.finish())
+        self.host.host.finish()
         self.finished = True

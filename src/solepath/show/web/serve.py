@@ -28,10 +28,6 @@ HEADERS = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer"
 class _Handler(SimpleHTTPRequestHandler):
     extensions_map = CONTENT_TYPES
 
-    def guess_type(self, path: str | Path) -> str:  # type: ignore[override]
-        """Return the content type by the file's name alone, whatever this machine has set."""
-        return CONTENT_TYPES.get(Path(path).suffix, "application/octet-stream")
-
     def end_headers(self) -> None:
         """Add the headers of every answer."""
         for name, value in HEADERS.items():

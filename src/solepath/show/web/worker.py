@@ -60,29 +60,29 @@ class Worker:
     `version` is that of solepath, for the report."""
 
     version: str = ""
-    walk: LiveWalk | None = field(default=None, init=False)
+    walk: LiveWalk = field(init=False)
+    """Walk that is measured now, or was last; one without any packet that is over if there was none."""
     player: Player | None = field(default=None, init=False)
     recording: OpenedRecording | None = field(default=None, init=False)
     calibration: Calibration | None = field(default=None, init=False)
     plan: IndexedPlan | None = field(default=None, init=False)
     recipe: Recipe = field(default=DEFAULT, init=False)
-    _idle_scene: Scene = field(factory=lambda: Scene("", DEFAULT.name, "live"), init=False)
     _follower: Follower = field(factory=Follower, init=False)
     _task: Task | None = field(default=None, init=False)
+
+    def __attrs_post_init__(self) -> None:
+        self.walk = self._new_walk("", is_over=True)
 
     # --- messages for the page
 
     @property
     def scene(self) -> Scene:
         """Scene that the page shows."""
-        if self.player is not None:
-            return self.player.scene
-        return self._idle_scene if self.walk is None else self.walk.scene
+        return self.walk.scene if self.player is None else self.player.scene
 
     def message(self) -> str | None:
         """Return the next message for the page: the whole scene at first, then what has changed; None for no change."""
-        control = self.player is not None or (self.walk is not None and not self.walk.finished)
-        message = self._follower.message(self.scene, control)
+        message = self._follower.message(self.scene, self.player is not None or not self.walk.finished)
         return None if message is None else encode(message)
 
     def heartbeat(self) -> str:
@@ -106,15 +106,15 @@ class Worker:
     def start_walk(self, title: str) -> None:
         """Start a walk with what was opened and chosen (calibration, plan, recipe); any other walk is forgotten."""
         self.player = self.recording = None
-        self.walk = LiveWalk(self._session(), self._scene(title, "live"), self.plan)
+        self.walk = self._new_walk(title)
 
     def receive(self, text: str) -> str:
         """Return the answers to messages of the page on sensors (protocol/host.md); without a walk there are none."""
-        return "[]" if self.walk is None else self.walk.receive(text)
+        return self.walk.receive(text)
 
     def take_lines(self) -> bytes:
         """Return the lines of the recording of the walk since the last call."""
-        return b"" if self.walk is None else self.walk.take_lines()
+        return self.walk.take_lines()
 
     def sensor_filters(self) -> str:
         """Return the conditions under which a browser offers a device, as JSON."""
@@ -122,18 +122,16 @@ class Worker:
 
     def save(self) -> str | None:
         """Return the walk as JSON; None when there is nothing to save."""
-        return None if self.walk is None else self.walk.save()
+        return self.walk.save()
 
     def resume_walk(self, title: str, saved: str | None, tail: str, now: float) -> Task:
         """Continue a walk from its save, then from the packets of the recording `tail`, up to `now`, s from its start.
 
         Without a save `tail` is the whole recording. Returns the time of the walk from then on, s. If it raises, there
         is no walk."""
-        self.player = self.recording = self.walk = None
-        if saved is None:
-            walk = LiveWalk(self._session(), self._scene(title, "live"), self.plan)
-        else:
-            walk = LiveWalk.restore(saved, self.plan)
+        self.player = self.recording = None
+        self.walk = self._new_walk("", is_over=True)
+        walk = self._new_walk(title) if saved is None else LiveWalk.restore(saved, self.plan)
         for packet in read_packets(tail, report=lambda _: None) if tail else ():
             walk.replay(packet)
             if walk.count % ITEMS_PER_STEP == 0:
@@ -144,9 +142,8 @@ class Worker:
 
     def finish_walk(self) -> None:
         """End the walk; the page goes on to show the end of it."""
-        if self.walk is not None:
-            self.walk.finish()
-            self._follower.restart()  # the page learns that it has nothing to control any more
+        self.walk.finish()
+        self._follower.restart()  # the page learns that it has nothing to control any more
 
     # --- recordings and other files
 
@@ -165,7 +162,7 @@ class Worker:
         else:
             self._check_idle()
             self.recording = yield from open_recording(path)
-            self.walk, notes = None, self.recording.notes
+            notes = self.recording.notes
         self._use_choices()
         return {"kind": kind, "notes": list(notes[:NOTE_COUNT])}
 
@@ -173,18 +170,19 @@ class Worker:
         """Play the recording that comes with the site."""
         self._check_idle()
         opened = yield from open_recording(Path(name))
-        self.walk, self.recording = None, OpenedRecording(opened.items, title, "", ())
+        self.recording = OpenedRecording(opened.items, title, "", ())
         self._play(self.recording, "demo")
 
     def _check_idle(self) -> None:
-        if self.walk is not None and not self.walk.finished:
+        if not self.walk.finished:
             raise WalkRunning("a walk is measured now: end it first")
 
     def _use_choices(self) -> None:
         """Show the plan before a walk, and play a recording again with what was opened or chosen."""
-        if self.recording is not None and self.walk is None:
+        if self.recording is not None:
             self._play(self.recording, "recording")
-        self._idle_scene = self._scene("", "live")
+        elif self.walk.finished and self.walk.session.now is None:
+            self.walk = self._new_walk("", is_over=True)
 
     def _session(self) -> Session:
         """Return a new session with what was opened and chosen."""
@@ -198,7 +196,11 @@ class Worker:
     def _drawn_plan(self) -> FloorPlan | None:
         return None if self.plan is None else self.plan.plan
 
+    def _new_walk(self, title: str, is_over: bool = False) -> LiveWalk:
+        return LiveWalk(self._session(), self._scene(title, "live"), self.plan, finished=is_over)
+
     def _play(self, recording: OpenedRecording, source: str) -> None:
+        self.walk = self._new_walk("", is_over=True)
         self.player = Player(recording.items, self._session(), self._scene(recording.title, source), self.plan)
 
     def command(self, text: str) -> None:
@@ -207,7 +209,7 @@ class Worker:
         with suppress(CommandError):
             if self.player is not None:
                 self.player.command(command)
-            elif self.walk is not None:
+            else:
                 self.walk.report_position(position_of(command, None if self.walk.plan is None else self.walk.plan.plan))
 
     def play(self, seconds: float, budget: float) -> None:

@@ -22,15 +22,15 @@ from ....floorplan.index import IndexedPlan
 from ....session import Session
 from ....types import Packet, Sample
 from ..body import LiveBody
-from ..messages import MAX_SPEED, MIN_SPEED, Command, CommandError
+from ..messages import Command, CommandError
 from ..scene.scene import Scene
 from .packed_items import PackedItems
 from .playback import Playback
 
 STATE_SPACING = 10.0
-"""Time of the recording between two saved states at first, s; computing 10 s again takes some 0.2 s."""
+"""Least time of the recording between two saved states, s; computing 10 s again takes some 0.2 s."""
 MAX_SAVED_STATES = 60
-"""Largest number of saved states; with more, every second one is dropped and the spacing doubles."""
+"""Largest number of saved states; those of a long recording are farther apart."""
 MAX_ELAPSED = 0.25
 """Longest wall time that one call of `advance` counts, s: a recording does not jump after the computer slept."""
 
@@ -64,13 +64,12 @@ class Player:
     fault: str = ""
     on_events: OnEvents | None = None
     spacing: float = STATE_SPACING
-    """Time of the recording between two saved states, s; it doubles when there are MAX_SAVED_STATES."""
+    """Least time of the recording between two saved states, s."""
     playback: Playback = field(init=False)
     _next: int = field(default=0, init=False)
-    """Index of the next item to feed."""
+    """Index of the next item to feed; that of the end after the last one, and one more after the end."""
     _furthest: int = field(default=0, init=False)
     """Number of items that were ever fed; one more after `on_events` got the end."""
-    _finished: bool = field(default=False, init=False)
     _due: float = field(init=False)
     """Time of the recording up to which items are due, s."""
     _saved: list[_SavedState] = field(factory=list, init=False)
@@ -78,12 +77,13 @@ class Player:
     def __attrs_post_init__(self) -> None:
         start, end = self.items.start, self.items.end
         self._due = start
+        self.spacing = max(self.spacing, (end - start) / MAX_SAVED_STATES)
         self.playback = Playback(start, end, start, "playing")
         self._show_session()
         self._save(start)
 
     def command(self, command: Command) -> None:
-        """Execute a command of the page; a value out of range is replaced by the nearest in range.
+        """Execute a command of the page; a time beyond an end is replaced by that end.
 
         CommandError is raised for a position that a person reports: nothing is received while a recording plays."""
         match command:
@@ -92,7 +92,7 @@ class Player:
             case Command("pause"):
                 self.pause()
             case Command("speed", float(speed)):
-                self.set_speed(speed)
+                self.playback.speed = speed
             case Command("seek", float(t)):
                 self.seek(t)
             case _:
@@ -108,10 +108,6 @@ class Player:
         """Pause, unless the recording is paused or has ended."""
         if self.playback.state == "playing":
             self.playback.state = "paused"
-
-    def set_speed(self, speed: float) -> None:
-        """Set the speed in multiples of real time, limited to MIN_SPEED to MAX_SPEED."""
-        self.playback.speed = min(max(speed, MIN_SPEED), MAX_SPEED)
 
     def seek(self, t: float) -> None:
         """Go to the time `t` of the recording, s; `feed_due` then computes what lies before it.
@@ -137,7 +133,7 @@ class Player:
     def feed_due(self, should_stop: Callable[[], bool]) -> bool:
         """Feed the items that are due, checking `should_stop()` after each; return whether more are due."""
         playback = self.playback
-        while self._next < len(self.items) and self.items.t(self._next) <= self._due:
+        while self._is_behind:
             self._feed()
             if should_stop():
                 break
@@ -145,8 +141,10 @@ class Player:
             playback.t = max(playback.t, min(self._due, self.items.t(self._next - 1)))
             self.scene.tick(playback.t)
             return True
+        if self._next >= len(self.items):
+            playback.state = "ended"
         if self._next == len(self.items):
-            self._finish()
+            self._feed()
         playback.t, playback.seeking = self._due, None
         self.scene.tick(playback.t)
         return False
@@ -167,45 +165,29 @@ class Player:
 
     @property
     def _is_behind(self) -> bool:
-        if self._next == len(self.items):
-            return False
-        return self.items.t(self._next) <= self._due
+        return self._next < len(self.items) and self.items.t(self._next) <= self._due
 
     def _feed(self) -> None:
-        item = self.items[self._next]
-        events = self.session.feed(item)
+        """Feed the next item, and after the last one end the session."""
+        items, is_end = self.items, self._next == len(self.items)
+        item = None if is_end else items[self._next]
+        events = self.session.finish() if item is None else self.session.feed(item)
         self.scene.take(item, events)
-        t = self.items.t(self._next)
+        if is_end and self.fault:
+            self.scene.log.add(items.end, "link", self.fault)
         self._next += 1
         if self._next > self._furthest:
             self._furthest = self._next
             if self.on_events is not None:
                 self.on_events(item, events)
-            if t >= self._saved[-1].t + self.spacing:
-                self._save(t)
-
-    def _finish(self) -> None:
-        self.playback.state = "ended"
-        if self._finished:
-            return
-        self._finished = True
-        events = self.session.finish()
-        self.scene.take(None, events)
-        if self.fault:
-            self.scene.log.add(self.items.end, "link", self.fault)
-        if self._furthest <= len(self.items):
-            self._furthest = len(self.items) + 1
-            if self.on_events is not None:
-                self.on_events(None, events)
+            if not is_end and items.t(self._next - 1) >= self._saved[-1].t + self.spacing:
+                self._save(items.t(self._next - 1))
 
     def _save(self, t: float) -> None:
         scene = copy(self.scene)
         scene.plan = scene.playback = scene.body = None  # `_restore` sets them again
         saved = pickle.dumps((self.session.snapshot(), scene), pickle.HIGHEST_PROTOCOL)  # only this process reads it
         self._saved.append(_SavedState(t, self._next, zlib.compress(saved, 1)))
-        if len(self._saved) > MAX_SAVED_STATES:
-            del self._saved[1::2]
-            self.spacing *= 2.0
 
     def _restore(self, saved: _SavedState) -> None:
         plan = self.scene.plan
@@ -213,7 +195,7 @@ class Player:
         self.session = Session.restore(snapshot, floorplan=self.plan)
         self.scene.plan = plan
         self._show_session()
-        self._next, self._finished = saved.next, False
+        self._next = saved.next
 
     def _show_session(self) -> None:
         self.scene.playback, self.scene.body = self.playback, LiveBody(self.session)

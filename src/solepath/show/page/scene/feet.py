@@ -15,7 +15,7 @@ from ....foot.phase import EVENT_OF_PHASE
 from ....types import Layout, Phase, Vec3
 from ....walk.walk import FootCounts
 from ..messages import members, plain
-from .bending import Bend
+from .bending import Bend, bent
 from .lists import GrowingList, TrackPoint, add_position, new_track
 
 PHASE_HISTORY = 20.0
@@ -92,7 +92,7 @@ class FootScene:
 
     def revise(self, bend: Bend, by: tuple[float, float]) -> None:
         """Bend the track, and move the foot by `by`, m, until it has that correction itself."""
-        self.track.replace(bend.apply(self.track.items))
+        self.track.replace(bent(self.track.items, bend))
         self.lag = (self.lag[0] + by[0], self.lag[1] + by[1])
         if self.position is not None:
             x, y, z = self.position
@@ -116,8 +116,8 @@ class FootScene:
         self.start_phase(t, None)
         self.pressed = None
 
-    def frame(self, rate: float, counts: FootCounts) -> dict[str, Any] | None:
-        """Return the foot's member of "feet" of a frame; None before it has data. `rate` is in samples a second."""
+    def frame(self, counts: FootCounts) -> dict[str, Any] | None:
+        """Return the foot's member of "feet" of a frame; None before it has data."""
         if not self.has_data:
             return None
         pressed = self.pressed
@@ -126,7 +126,6 @@ class FootScene:
             "cells": None if pressed is None else self._encode_cells(pressed.values),
             "force": None if pressed is None else plain(pressed.force, 1),
             "centre": None if pressed is None else plain(pressed.centre, 4),
-            "rate": rate,
             **members(counts, "strides", "distance", distance=2),
         }
 
@@ -145,5 +144,4 @@ class FootScene:
             "length": plain(layout.length, 4),
             "cells": [[round(cell.x, 4), round(cell.y, 4), round(cell.area, 7)] for cell in layout.cells],
             "unit": "N" if newtons or layout.scale is not None else "counts",
-            "full": None if newtons and layout.scale is None else plain(layout.full_scale),
         }

@@ -5,10 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from ....floorplan.plan import Door, FloorPlan, Level, Wall
-from ..messages import EncodedOnce, members, plain
+from ..messages import members, plain
+
+PlanDrawing = dict[str, Any]
+"""Member "plan" of a scene."""
 
 
-def draw_plan(plan: FloorPlan | EncodedOnce | None) -> EncodedOnce | None:
+def draw_plan(plan: FloorPlan | PlanDrawing | None) -> PlanDrawing | None:
     """Return the member "plan" of a scene, in the plan frame, m; a drawing and None are returned as they are.
 
     It holds lines and outlines of each level, and the stops of stairs and elevators. Computing takes some 10 us a wall.
@@ -19,7 +22,7 @@ def draw_plan(plan: FloorPlan | EncodedOnce | None) -> EncodedOnce | None:
         members(one, "kind", "name") | {"stops": [members(stop, "level", "place", "outline") for stop in one.stops]}
         for one in plan.connectors
     ]
-    return EncodedOnce(name=plan.name, levels=[*map(_level, plan.levels)], connectors=connectors)
+    return {"name": plan.name, "levels": [*map(_level, plan.levels)], "connectors": connectors}
 
 
 def _level(level: Level) -> dict[str, Any]:

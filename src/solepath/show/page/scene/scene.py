@@ -37,7 +37,7 @@ from ....walk.valid import has_valid_numbers
 from ....walk.walk import REJECTIONS, Walk
 from ..body import LiveBody, body_frame
 from ..guide import Guide, ShownPosture, ShownToeOut
-from ..messages import EncodedOnce, members, plain
+from ..messages import members, plain
 from ..player.playback import Playback
 from .bending import bend_of
 from .feet import NO_COUNTS, PHASE_OF_EVENT, FootScene
@@ -45,7 +45,7 @@ from .gait import SceneGaitMeans, ScenePace, activity_frame
 from .links import SceneFindings, feet_silent_since, link_frame
 from .lists import GrowingList
 from .log import SceneLog
-from .plan_drawing import draw_plan
+from .plan_drawing import PlanDrawing, draw_plan
 from .reports import SceneReports, report_words
 from .scales import Scales
 from .wearer import WearerScene
@@ -68,7 +68,7 @@ class Scene:
     title: str
     recipe: str
     source: str = "live"
-    plan: EncodedOnce | None = field(default=None, converter=draw_plan, metadata=NOT_SAVED)
+    plan: PlanDrawing | None = field(default=None, converter=draw_plan, metadata=NOT_SAVED)
     playback: Playback | None = field(default=None, metadata=NOT_SAVED)
     guide: Guide | None = field(default=None, metadata=NOT_SAVED)
     body: LiveBody | None = field(default=None, metadata=NOT_SAVED)
@@ -207,10 +207,6 @@ class Scene:
         """Return the other members of a frame, whole."""
         now, walk = self.now, self.walk
         links = {site.words: link_frame(walk.links[site], now) for site in Site if site in walk.links}
-        feet: dict[str, Any] = {}
-        for foot, foot_scene in self.feet.items():
-            link = links.get(SITE_OF_FOOT[foot].words)
-            feet[foot.value] = foot_scene.frame(0.0 if link is None else link["rate"], walk.feet.get(foot, NO_COUNTS))
         silent_since, (since, activity) = feet_silent_since(walk.links, now), walk.timeline.last
         silent = frozenset(site for site, link in links.items() if link["state"] in ("silent", "lost"))
         left, right = [one.phase for one in self.feet.values()]
@@ -219,7 +215,7 @@ class Scene:
         if legs is None and down is not None and down.legs is not None:
             legs = body_frame(down.t, down.legs)
         return {
-            "feet": feet,
+            "feet": {foot.value: one.frame(walk.feet.get(foot, NO_COUNTS)) for foot, one in self.feet.items()},
             "wearer": self.wearer.wearer_frame(),
             "place": self.wearer.place_frame(walk.places.last),
             "activity": activity_frame(since, activity, silent_since),

@@ -10,7 +10,7 @@ from ....events import Placed, TrackRevised, WearerMoved
 from ....recording import printable
 from ....types.attrs import NOT_SAVED
 from ..messages import members, plain
-from .bending import Bend
+from .bending import Bend, bent
 from .lists import GrowingList, TrackPoint, add_position, new_track
 
 MAX_CANDIDATES = 40
@@ -41,7 +41,7 @@ class WearerScene:
 
     def revise(self, event: TrackRevised, bend: Bend) -> None:
         """Bend the track, and go to the end of the revised path."""
-        self.track.replace(bend.apply(self.track.items))
+        self.track.replace(bent(self.track.items, bend))
         if self.moved is None or not event.nodes:
             return
         position = (event.nodes[-1].x, event.nodes[-1].y, self.moved.position[2])
@@ -78,7 +78,7 @@ def _place(place: Placed) -> dict[str, Any]:
         **{key: None if name is None else printable(name) for key, name in names.items()},
         "decided": place.decided,
         "candidates": [
-            members(one, "level", "heading", "weight", "origin") | dict(zip("xyz", plain(one.position), strict=True))
+            members(one, "level", "heading", "weight") | {"x": plain(one.position[0]), "y": plain(one.position[1])}
             for one in place.candidates[:MAX_CANDIDATES]
         ],
     }

@@ -20,8 +20,16 @@ from ..messages import Command
 from ..scene.scene import Scene
 from .access import AccessDenied, PageAccess, listen, url_host
 from .client_errors import ClientErrors
-from .connection import HEADERS, IDLE_TIMEOUT, LOGGER, MAX_UNWATCHED_TIME, BrowserConnection
-from .open_connections import ACCEPTED_AT_ONCE, MAX_CONNECTIONS, OpenConnections
+from .connection import (
+    ACCEPTED_AT_ONCE,
+    HEADERS,
+    IDLE_TIMEOUT,
+    LOGGER,
+    MAX_CONNECTIONS,
+    MAX_UNWATCHED_TIME,
+    BrowserConnection,
+    OpenConnections,
+)
 from .watcher import Watcher
 
 MAX_WATCHERS = 8

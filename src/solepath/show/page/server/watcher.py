@@ -8,7 +8,7 @@ import asyncio
 from collections.abc import Callable
 from typing import Any, Protocol
 
-from aiohttp import WSCloseCode, WSMsgType, web
+from aiohttp import WSCloseCode, WSMessage, WSMsgType, web
 
 from ..messages import MAX_MESSAGE_SIZE, Command, CommandError, encode, parse_command
 from ..scene.scene import Follower, Scene
@@ -121,39 +121,29 @@ class Watcher:
             self._transport.abort()
 
     async def _listen(self) -> None:
-        client_errors = self._page.client_errors
         async for message in self._socket:
-            if message.type is WSMsgType.TEXT:
-                fault = self._take(message.data)
-            elif message.type is WSMsgType.BINARY:
-                fault = WSCloseCode.UNSUPPORTED_DATA, "a browser sent bytes instead of text"
-            else:
-                code = getattr(message.data, "code", None)  # the code with which the library has closed the connection
-                if code in CLOSED_BY_LIBRARY:
-                    client_errors.report(CLOSED_BY_LIBRARY[code])
-                return
-            if fault is not None:
-                code, reason = fault
-                client_errors.report(reason)
-                await self._socket.close(code=code, message=reason.encode()[:120])
+            try:
+                self._take(message)
+            except CommandError as error:
+                self._page.client_errors.report(f"{error}: its connection is closed")
+                await self._socket.close(code=error.code, message=str(error).encode()[:120])
                 return
 
-    def _take(self, text: str) -> tuple[int, str] | None:
-        """Execute a message of the page; return close code and reason if it is not allowed or malformed, else None."""
-        try:
-            command = parse_command(text)
-        except CommandError as error:
-            code = WSCloseCode.POLICY_VIOLATION if error.is_json else WSCloseCode.INVALID_TEXT
-            return code, f"{error}: its connection is closed"
+    def _take(self, message: WSMessage) -> None:
+        """Execute a message of the page; raise CommandError if it is not allowed or malformed."""
+        if message.type is WSMsgType.BINARY:
+            raise CommandError("a browser sent bytes instead of text", WSCloseCode.UNSUPPORTED_DATA)
+        if message.type is not WSMsgType.TEXT:
+            code = getattr(message.data, "code", None)  # the code with which the library has closed the connection
+            if code in CLOSED_BY_LIBRARY:
+                self._page.client_errors.report(CLOSED_BY_LIBRARY[code])
+            return
+        command = parse_command(message.data)
         if not self.may_control:
-            return WSCloseCode.POLICY_VIOLATION, f"a browser without the token requested to {command.do}"
+            raise CommandError(f"a browser without the token requested to {command.do}")
         if self._page.commands is None:
-            return WSCloseCode.POLICY_VIOLATION, f"a browser requested to {command.do}, and there is nothing to play"
-        try:
-            self._page.commands(command)
-        except CommandError as error:
-            return WSCloseCode.POLICY_VIOLATION, f"{error}: its connection is closed"
-        return None
+            raise CommandError(f"a browser requested to {command.do}, and there is nothing to play")
+        self._page.commands(command)
 
 
 CLOSED_BY_LIBRARY: dict[int | None, str] = {
