@@ -15,7 +15,7 @@ sys.path[:0] = [str(Path(__file__).parents[1] / "helpers" / folder) for folder i
 from browsers import Browser  # noqa: E402
 from web_pages import PATIENCE, measure_site, open_site, ready  # noqa: E402
 
-from solepath.cli.web import size_lines  # noqa: E402
+from solepath.cli.web import size_table  # noqa: E402
 from solepath.emulate import emulate  # noqa: E402
 from solepath.emulate.demo import SITE_ROUTE  # noqa: E402
 from solepath.show.web.serve import serving  # noqa: E402
@@ -34,7 +34,7 @@ COMPUTE = """async () => {
 
 async def measure(chromium: Browser, folder: Path) -> None:
     """Print the sizes of the site, open it in one window after the other, and print how long each step takes."""
-    print("\n".join(size_lines({path.name: path.read_bytes() for path in folder.iterdir()})))
+    print(size_table({path.name: path.read_bytes() for path in folder.iterdir()}))
     with ExitStack() as server:
         url = server.enter_context(serving(folder))
         started = monotonic()

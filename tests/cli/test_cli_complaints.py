@@ -29,7 +29,7 @@ def test_a_machine_without_bluetooth_is_named_as_such() -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--at", "knee=X"], "--at knee=X: that is not SITE=DEVICE"),
+        (["--at", "knee=X"], "'knee=X' is not SITE=DEVICE"),
         (["--left", "X", "--at", "left_foot=Y"], "two devices cannot be at one site"),
     ],
 )

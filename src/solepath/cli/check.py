@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Namespace
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any
+from itertools import chain
+from math import inf
+from typing import TYPE_CHECKING, Any
 
-from ..events import Defect, DefectFound, Event, Flaw, StrideTaken
+from ..events import Defect, DefectFound, Flaw
 from ..events.foot import LONGEST_HARMLESS_GAP
-from ..recording import RecordingError, open_source, printable
+from ..recording import RecordingError, printable
 from ..recording.errors import UnusableValues
 from ..recording.source import label_files
 from ..show.tables.table import counted
-from ..types import Foot, Packet, Sample
-from ..types.attrs import define, field
-from .common.failure import MAX_LENGTH, recipe_named
-from .common.inputs import add_calibration, add_recipe_name, assumed_foot, calibration_of
-from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
-from .common.tables import add_tables, axes_repair, feet_of, mapping_of
+from ..types import Foot
+from .common.failure import MAX_LENGTH
+from .common.inputs import Recording, add_calibration, add_recipe_name, assumed_foot, calibration_of
+from .common.own_devices import UnusedPackets, drivers_of
+from .common.parser import add_command
+from .common.tables import add_tables, axes_repair, source_named
+
+if TYPE_CHECKING:
+    from ..walk.walk import Walk
 
 UNSEEN = (
     "all three axes of an accelerometer reversed, which turns left into right",
@@ -45,68 +50,54 @@ FLAW_WORDS = {
 """What the sentence on degraded strides says of each flaw; strides that a defect spoils are not in it."""
 
 
-@define
-class DegradedStrides:
-    """The strides of one foot before a defect spoils its data, and their flaws."""
+def degraded_strides(walk: Walk, foot: Foot, found: Sequence[DefectFound]) -> str | None:
+    """Return how many strides of a foot are degraded and by what; None if they are few.
 
-    strides: int = 0
-    degraded: int = 0
-    flaws: Counter[Flaw] = field(factory=Counter)
-    is_spoilt: bool = False
-    """Flag: a defect spoils the data from now on."""
-
-    def add(self, event: DefectFound | StrideTaken) -> None:
-        """Add an event of this foot."""
-        if isinstance(event, DefectFound):
-            self.is_spoilt = self.is_spoilt or event.spoils
-        elif event.final and not self.is_spoilt:
-            self.strides += 1
-            self.degraded += event.degraded
-            self.flaws.update(event.flaws)
-
-    def sentence(self) -> str | None:
-        """Return how many strides are degraded and by what; None if they are few."""
-        if self.degraded < max(1.0, LARGE_SHARE * self.strides):
-            return None
-        reasons = [f"{words} in {self.flaws[flaw]}" for flaw, words in FLAW_WORDS.items() if self.flaws[flaw]]
-        return f"{self.degraded} of {counted(self.strides, 'stride')} degraded: {', '.join(reasons)}"
+    Strides after a defect that spoils its data do not count."""
+    spoilt = min([one.known_at for one in found if one.spoils and one.site.foot is foot], default=inf)
+    strides = [one for one in walk.strides[foot] if one.known_at < spoilt]
+    degraded = [one for one in strides if one.degraded]
+    if len(degraded) < max(1.0, LARGE_SHARE * len(strides)):
+        return None
+    flaws = Counter(flaw for one in strides for flaw in one.flaws)
+    reasons = [f"{words} in {flaws[flaw]}" for flaw, words in FLAW_WORDS.items() if flaws[flaw]]
+    return f"{foot} foot: {len(degraded)} of {counted(len(strides), 'stride')} degraded: {', '.join(reasons)}"
 
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
+    command = add_command(
+        commands,
         "check",
-        help="say what is wrong with a recording",
-        description="Say what is wrong with a recording of packets (JSON Lines) or of samples (text tables, Excel,"
+        "say what is wrong with a recording",
+        "Say what is wrong with a recording of packets (JSON Lines) or of samples (text tables, Excel,"
         " Parquet, .npz), in sentences. The exit status is 1 if something must be mended, also if the values are in"
         " another unit, and 2 if the file is no recording. Axes need about 20 s of walking, clocks 60 s.",
-        epilog="example: solepath check walk.csv",
+        "solepath check walk.csv",
+        run=run,
     )
     add_tables(command)
-    add_own_devices(command)
     add_recipe_name(command)
     add_calibration(command)
-    command.set_defaults(run=run)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: Namespace) -> int:
     """Check the recording and print the verdict; return 1 if something must be mended, else 0.
 
     RecordingError is raised for a file that cannot be read as a recording. One whose values are in another unit can be
     read, and gets a verdict. Rows and packets that cannot be read are left out and named."""
     from ..body.checks.axes import SETTLED_STRIDES
     from ..link.kinds import make_kinds
+    from ..recipes import by_name
     from ..session import Session
-    from ..show.tables.progress import progress_bar
     from ..show.tables.summary import link_health, wear_lines
     from ..walk.walk import Walk
 
-    recipe, calibration, drivers = recipe_named(options.recipe), calibration_of(options), drivers_of(options)
+    recipe, calibration, drivers = by_name(options.recipe), calibration_of(options), drivers_of(options)
     name, flaws = printable(label_files(options.files)), list[str]()
     is_one = len(options.files) == 1
     try:
-        with progress_bar(f"reading {name}"):
-            source = open_source(options.files, feet_of(options), mapping=mapping_of(options), report=flaws.append)
+        source = source_named(options, report=flaws.append)
     except RecordingError as error:
         if not all(isinstance(problem, UnusableValues) for problem in error.problems):
             raise
@@ -114,33 +105,19 @@ def run(options: argparse.Namespace) -> int:
         _print_list("must be mended", [_without_path(one) if is_one else str(one) for one in error.problems])
         print("nothing else was checked: mend this first")
         return 1
-    session = Session(recipe, calibration=calibration, poses=True, profiles=drivers)
-    walk, unused = Walk(), UnusedPackets(make_kinds(drivers))
+    session, recording = Session(recipe, calibration=calibration, poses=True, profiles=drivers), Recording(source)
+    walk, unused = Walk(limit=None), UnusedPackets(make_kinds(drivers))
     must, found = list[str](), list[DefectFound]()
     may = [*filter(None, [assumed_foot(source)])]
-    degraded = {foot: DegradedStrides() for foot in Foot}
-
-    def take(item: Packet | Sample | None, events: list[Event]) -> None:
+    for item in chain(recording, [None]):
+        if recording.failure is not None and not walk.item_count:
+            raise recording.failure
+        events = session.finish() if item is None else session.feed(item)
         walk.take(item, events)
         unused.take(item, events)
-        for event in events:
-            if isinstance(event, DefectFound):
-                found.append(event)
-                if event.site.foot is not None:
-                    degraded[event.site.foot].add(event)
-            elif isinstance(event, StrideTaken):
-                degraded[event.foot].add(event)
-
-    try:
-        with progress_bar(name, source.total) as show:
-            for item in source:
-                take(item, session.feed(item))
-                show(source.done)
-    except RecordingError as error:
-        if not walk.item_count:
-            raise
-        must.append(_without_path(error))
-    take(None, session.finish())
+        found += [event for event in events if isinstance(event, DefectFound)]
+    if recording.failure is not None:
+        must.append(_without_path(recording.failure))
     for defect in found:
         if (what := words_beside(defect, found)) is not None:
             sentence = f"{defect.site.words}: {what}{axes_repair(source, defect)}"
@@ -150,7 +127,7 @@ def run(options: argparse.Namespace) -> int:
     prefix = f"{printable(str(options.files[0]))}: " if is_one else ""
     (must if has_many else may).extend(flaw.removeprefix(prefix) for flaw in flaws)
     must += [*unused.sentences(), *wear_lines(walk), *walk.troubles]
-    may += [f"{foot} foot: {text}" for foot in Foot if (text := degraded[foot].sentence()) is not None]
+    may += [*filter(None, [degraded_strides(walk, foot, found) for foot in Foot])]
     may += [*walk.limitations, *link_health(walk)]
     strides = {foot: counts.strides for foot, counts in walk.feet.items() if counts.strides}
     walked = ", ".join(f"{foot} foot {counted(count, 'stride')}" for foot, count in strides.items()) or "no stride"

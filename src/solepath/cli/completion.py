@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Action, ArgumentParser, Namespace
 from collections.abc import Callable, Iterable
 from typing import Any
 
 from .common.failure import require
+from .common.parser import add_command
 
 COMPLETING = "_ARGCOMPLETE"
 """Environment variable that a shell sets when it runs the program to complete a word."""
@@ -15,20 +16,21 @@ SHELLS = ("bash", "zsh", "fish", "powershell")
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
+    command = add_command(
+        commands,
         "completion",
-        help="make the Tab key complete commands, options and recipes",
-        description="Print what makes a shell complete commands, options, recipes and files at the Tab key (extra "
+        "make the Tab key complete commands, options and recipes",
+        "Print what makes a shell complete commands, options, recipes and files at the Tab key (extra "
         "completion). One line in the file that the shell reads at its start is enough.",
-        epilog="""example: eval "$(solepath completion bash)"        in ~/.bashrc
+        """eval "$(solepath completion bash)"        in ~/.bashrc
 eval "$(solepath completion zsh)"         in ~/.zshrc
 solepath completion fish | source         in ~/.config/fish/config.fish""",
+        run=run,
     )
     command.add_argument("shell", metavar="SHELL", choices=SHELLS, help=", ".join(SHELLS))
-    command.set_defaults(run=run)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: Namespace) -> int:
     """Print the code for the shell; return the exit status."""
     require("completion needs", "completion", "argcomplete")
     from argcomplete.shell_integration import shellcode
@@ -37,7 +39,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def complete(parser: argparse.ArgumentParser) -> None:
+def complete(parser: ArgumentParser) -> None:
     """Print the completions of the word that a shell asks for, and end the program; without argcomplete, do nothing."""
     try:
         from argcomplete import autocomplete
@@ -46,6 +48,6 @@ def complete(parser: argparse.ArgumentParser) -> None:
     autocomplete(parser)
 
 
-def complete_with(action: argparse.Action, names: Callable[[], Iterable[str]]) -> None:
+def complete_with(action: Action, names: Callable[[], Iterable[str]]) -> None:
     """Complete the value of an option with the names that a function returns."""
     vars(action)["completer"] = lambda **_: names()

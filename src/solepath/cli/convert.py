@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import subprocess
 import sys
+from argparse import ArgumentTypeError, Namespace
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from itertools import chain
@@ -18,9 +18,10 @@ from .common.closest import unknown
 from .common.failure import Failure, note, parse_whole_number, require
 from .common.files import RECORDING as RECORDING_KIND
 from .common.files import OutputFile, add_force, check_outputs
-from .common.inputs import Recording, add_calibration, add_recipe, calibration_of, check_pressure, recipe_of, source_of
-from .common.own_devices import add_own_devices, drivers_of
-from .common.tables import add_tables, feet_of, mapping_of
+from .common.inputs import Recording, add_calibration, add_recipe, calibration_of, check_pressure, recipes_of
+from .common.own_devices import drivers_of
+from .common.parser import add_command
+from .common.tables import add_tables, source_named
 
 if TYPE_CHECKING:
     from ..events import Event
@@ -42,16 +43,17 @@ _Value = TypeVar("_Value")
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
+    command = add_command(
+        commands,
         "convert",
-        help="import a phone's btsnoop log; export to MCAP, OpenSim or Motion-BIDS",
-        description="Convert a btsnoop log (an Android phone's HCI snoop log, btmon) to a recording of packets, or "
+        "import a phone's btsnoop log; export to MCAP, OpenSim or Motion-BIDS",
+        "Convert a btsnoop log (an Android phone's HCI snoop log, btmon) to a recording of packets, or "
         "either to MCAP, which opens in Foxglove; or any recording to a storage file of OpenSim or, with --subject, "
         "into a Motion-BIDS dataset. The name of OUT chooses the format: .jsonl, .mcap or .sto.",
-        epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
+        "solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
+        run=run,
     )
     add_tables(command, "IN")
-    add_own_devices(command)
     command.add_argument(
         "out",
         metavar="OUT",
@@ -104,7 +106,6 @@ def add_to(commands: Any) -> None:
     add_recipe(command)
     add_calibration(command)
     add_force(command)
-    command.set_defaults(run=run)
 
 
 def _site(text: str) -> tuple[str, Site]:
@@ -114,7 +115,7 @@ def _site(text: str) -> tuple[str, Site]:
             raise ValueError
         return address.upper(), Site(name)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not ADDRESS=SITE") from None
+        raise ArgumentTypeError(f"{text!r} is not ADDRESS=SITE") from None
 
 
 def _handle(text: str) -> tuple[tuple[str, int], str]:
@@ -125,11 +126,11 @@ def _handle(text: str) -> tuple[tuple[str, int], str]:
     except ValueError:
         handle = 0
     if not 0 < handle <= 0xFFFF or not channel:
-        raise argparse.ArgumentTypeError(f"{text!r} is not [ADDRESS/]HANDLE=CHANNEL")
+        raise ArgumentTypeError(f"{text!r} is not [ADDRESS/]HANDLE=CHANNEL")
     return (device.upper(), handle), channel
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: Namespace) -> int:
     """Convert the file; return the exit status."""
     is_dataset, is_storage = options.subject is not None, options.out.suffix.lower() == STORAGE
     if not is_dataset and not is_storage:
@@ -142,7 +143,7 @@ def run(options: argparse.Namespace) -> int:
     return _to_dataset(options) if is_dataset else _to_storage(options)
 
 
-def _to_packets(options: argparse.Namespace) -> int:
+def _to_packets(options: Namespace) -> int:
     """Write a recording of packets, of a log, or MCAP, of either."""
     from ..recording import Source, open_source
     from ..recording.btsnoop import is_btsnoop
@@ -151,7 +152,7 @@ def _to_packets(options: argparse.Namespace) -> int:
     path, out, drivers = options.files[0], options.out, drivers_of(options)
     open_writer = _writer_class(out, drivers)
     if len(options.files) > 1:
-        raise Failure(f"{printable(str(out))}: is made of one log or recording, not of {len(options.files)}")
+        raise Failure(f"{out}: is made of one log or recording, not of {len(options.files)}")
     output = OutputFile(out, RECORDING_KIND)
     check_outputs(options, [output])
     source: Source | BtsnoopLog
@@ -161,11 +162,11 @@ def _to_packets(options: argparse.Namespace) -> int:
         raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
     elif out.suffix.lower() == RECORDING:
         reject_pipe(path)
-        raise Failure(f"{printable(str(path))}: is no btsnoop log; {TARGETS}")
+        raise Failure(f"{path}: is no btsnoop log; {TARGETS}")
     else:
         source = open_source(path, report=note)
         if source.samples is not None:
-            raise Failure(f"{printable(str(path))}: holds samples, and {MCAP} is made of packets")
+            raise Failure(f"{path}: holds samples, and {MCAP} is made of packets")
     recording = Recording(source)
 
     def write(temporary: Path) -> int:
@@ -176,7 +177,7 @@ def _to_packets(options: argparse.Namespace) -> int:
         except RecordingError as error:
             if isinstance(error.__cause__, OSError):
                 raise error.__cause__ from None
-            raise Failure(f"{printable(str(out))}: {error.what}") from None
+            raise Failure(f"{out}: {error.what}") from None
         if recording.failure is not None and not writer.count:
             raise recording.failure
         return writer.count
@@ -198,7 +199,7 @@ def _ended(recording: Recording, sentence: str) -> int:
     return 0
 
 
-def _open_log(options: argparse.Namespace, own: Iterable[Driver]) -> BtsnoopLog:
+def _open_log(options: Namespace, own: Iterable[Driver]) -> BtsnoopLog:
     from ..recording.btsnoop import open_btsnoop
     from ..recording.btsnoop.devices import known_devices
 
@@ -228,7 +229,7 @@ def _writer_class(out: Path, own: Iterable[Driver]) -> OpenWriter:
         return PacketWriter
     if suffix != MCAP:
         raise Failure(
-            f"{printable(str(out))}: ends neither in {RECORDING} nor in {MCAP} nor in {STORAGE}, which says "
+            f"{out}: ends neither in {RECORDING} nor in {MCAP} nor in {STORAGE}, which says "
             "what to write; --subject writes a Motion-BIDS dataset"
         )
     require("writing MCAP needs the package", "mcap", "mcap")
@@ -237,7 +238,7 @@ def _writer_class(out: Path, own: Iterable[Driver]) -> OpenWriter:
     return partial(McapWriter, profiles=own)
 
 
-def _to_storage(options: argparse.Namespace) -> int:
+def _to_storage(options: Namespace) -> int:
     from ..show.opensim import OpensimWriter, Quantity
 
     output = OutputFile(options.out, RECORDING_KIND)
@@ -248,12 +249,12 @@ def _to_storage(options: argparse.Namespace) -> int:
         for posed in samples:
             writer.add(posed)
 
-    recording = _run(options, source_of(options.files, feet_of(options), mapping_of(options)), add)
+    recording = _run(options, source_named(options), add)
     _ended(recording, f"{output.replace(writer.write)} rows written to {printable(str(options.out))}")
     return validate_storage(options.out, positions=options.positions) if options.validate else 0
 
 
-def _to_dataset(options: argparse.Namespace) -> int:
+def _to_dataset(options: Namespace) -> int:
     from ..recording.bids.names import Entities
     from ..recording.bids.writer import MotionWriter
 
@@ -261,7 +262,7 @@ def _to_dataset(options: argparse.Namespace) -> int:
         entities = Entities(options.subject, options.task, options.session, options.repetition)
     except ValueError as error:
         raise Failure(str(error)) from None
-    source = source_of(options.files, feet_of(options), mapping_of(options))
+    source = source_named(options)
     try:
         writer = MotionWriter(options.out, entities, source.header, replace=options.force)
     except RecordingError as error:
@@ -272,13 +273,13 @@ def _to_dataset(options: argparse.Namespace) -> int:
 
 
 def _run(
-    options: argparse.Namespace, source: Source, add: Callable[[Iterable[PosedSample], Iterable[Event]], None]
+    options: Namespace, source: Source, add: Callable[[Iterable[PosedSample], Iterable[Event]], None]
 ) -> Recording:
     """Run the recording up to its first fault, and pass samples and events to `add`; return it."""
     from ..recording.posed import PosedSession
     from ..session import Session
 
-    recipe, drivers = recipe_of(options), drivers_of(options)
+    (recipe,), drivers = recipes_of(options), drivers_of(options)
     check_pressure(recipe, source, drivers)
     recording = Recording(source)
     posed = PosedSession(Session(recipe, calibration=calibration_of(options), poses=True, profiles=drivers))

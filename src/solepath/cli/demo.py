@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..recording import PacketWriter, printable
+from ..recording import PacketWriter
 from ..types import Foot
 from ..types.extras import install_hint
-from .common.failure import Failure, is_installed, note, parse_positive, parse_seconds, parse_share, parse_whole_number
+from .common.failure import (
+    Failure,
+    is_installed,
+    note,
+    parse_positive,
+    parse_seconds,
+    parse_share,
+    parse_whole_number,
+    tell,
+)
 from .common.files import RECORDING, OutputFile, add_force, check_outputs
+from .common.parser import add_command
 from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
@@ -25,13 +35,15 @@ TERMINAL_SPEED = 2.0
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
+    command = add_command(
+        commands,
         "demo",
-        help="walk an emulated route and compare with the truth",
-        description="An emulated wearer walks a route with both insoles over a lossy radio. In a terminal it is shown "
+        "walk an emulated route and compare with the truth",
+        "An emulated wearer walks a route with both insoles over a lossy radio. In a terminal it is shown "
         "live, on a page in the browser where aiohttp is installed; without a terminal it is computed as fast as it "
         "can be.",
-        epilog="example: solepath demo\nsolepath demo --building --record walk.jsonl",
+        "solepath demo\nsolepath demo --building --record walk.jsonl",
+        run=run,
     )
     command.add_argument(
         "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
@@ -60,29 +72,24 @@ def add_to(commands: Any) -> None:
     add_speed(command, f"1 on the page, {TERMINAL_SPEED:g} in the terminal")
     command.add_argument("--record", metavar="FILE", type=Path, help="write the packets as a recording for `track`")
     add_force(command)
-    command.set_defaults(run=run)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: Namespace) -> int:
     """Run the demo; return the exit status."""
-    from ..emulate.demo import ROUTE, radio, straight
+    from ..emulate.demo import radio
     from ..show.tables.gait import gait_lines
     from ..show.tables.summary import latency
-    from .demo_walk import comparison_table, make_demo, make_indoors, place_table
+    from .demo_walk import make_demo
 
     if options.record is not None:
         check_outputs(options, [OutputFile(options.record, RECORDING)])
     address = _page_address(options)
     pace = 1.0 if address is None else speed_of(options, 1.0)
     emulated_radio = radio(options.loss, options.jitter)
-    if options.building:
-        demo = make_indoors(options.seed, emulated_radio, pressures=address is not None)
-    else:
-        route = ROUTE if options.distance is None else straight(options.distance)
-        demo = make_demo(options.seed, route, emulated_radio, pressures=address is not None)
+    demo = make_demo(options, emulated_radio, pressures=address is not None)
     distance = f"{demo.walk.walker.route.length:.0f} m{' through a building' if options.building else ''}"
     print(
-        f"An emulated wearer walks {distance} in {demo.duration:.0f} s with an insole in each shoe; "
+        f"An emulated wearer walks {distance} in {demo.walk.truth.duration:.0f} s with an insole in each shoe; "
         f"{100 * emulated_radio.loss:.3g} % of the packets get lost.",
         flush=True,
     )
@@ -97,14 +104,11 @@ def run(options: argparse.Namespace) -> int:
             note(f"the live view needs rich: {install_hint('live')}; plain text without it")
         _print_progress(demo)
     print()
-    lines = [*gait_lines(demo.found.gait), comparison_table(demo.comparison()), ""]
-    if (place := demo.place()) is not None:
-        lines += [place_table(place), ""]
-    print("\n".join([*lines, *latency(demo.found)]))
+    print("\n".join([*gait_lines(demo.found.gait), *[f"{one}\n" for one in demo.tables()], *latency(demo.found)]))
     return 0
 
 
-def _page_address(options: argparse.Namespace) -> PageAddress | None:
+def _page_address(options: Namespace) -> PageAddress | None:
     """Return the address of the page; None for a demo without a page."""
     if options.terminal and options.no_browser:
         raise Failure("--no-browser is for the page, and --terminal shows none")
@@ -135,7 +139,7 @@ def _record(demo: Demo, path: Path, force: bool) -> None:
     with PacketWriter(path, replace=force) as writer:
         for packet in demo.walk.packets:
             writer.write(packet)
-    print(f"{len(demo.walk.packets)} packets recorded in {printable(str(path))}", flush=True)
+    tell(f"{len(demo.walk.packets)} packets recorded in {path}")
 
 
 def _draw(demo: Demo, speed: float) -> None:
@@ -147,7 +151,7 @@ def _draw(demo: Demo, speed: float) -> None:
     from ..show.tables.terminal import FRAME_RATE, picture, screen
 
     def title() -> str:
-        return f"{demo.found.now:5.1f} of {demo.duration:.1f} s, {speed:g} times real time"
+        return f"{demo.found.now:5.1f} of {demo.walk.truth.duration:.1f} s, {speed:g} times real time"
 
     console, started = Console(), monotonic()
     with screen(console) as display:

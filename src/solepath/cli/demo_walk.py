@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from argparse import Namespace
+from collections.abc import Iterator
 from statistics import median
 
 from attrs import define, field
 
-from ..emulate.demo import BUILDING_WALK_SEED, RADIO, ROUTE
+from ..emulate.demo import BUILDING_WALK_SEED, ROUTE, straight
 from ..emulate.radio import Radio
 from ..emulate.routes.building import BUILDING
-from ..emulate.routes.route import Route
 from ..emulate.routes.ways import BuildingWalk, wandering
 from ..emulate.walk import EmulatedWalk, emulate
 from ..events import Event, Placed, PlaceLost, TurnMade
@@ -41,11 +41,6 @@ class Demo:
     """What the session found."""
     _place_events: list[Event] = field(factory=list)
 
-    @property
-    def duration(self) -> float:
-        """Duration of the walk, s."""
-        return self.walk.truth.duration
-
     def play(self) -> Iterator[Packet]:
         """Yield each packet after the session has processed it."""
         for packet in self.walk.packets:
@@ -60,47 +55,44 @@ class Demo:
             if isinstance(event, Placed | PlaceLost | TurnMade):
                 self._place_events.append(event)
 
-    def comparison(self) -> list[FootComparison]:
-        """Return the comparison of both feet with the truth. Call it after `play` has finished."""
-        return compare(self.walk.truth, {foot: FootRun.of(self.found, foot) for foot in Foot})
-
-    def place(self) -> PlaceScore | None:
-        """Return the score of the position on the floor plan; None without a plan."""
-        return None if self.way is None else score(self.way, self.walk.walker, self.walk.truth, self._place_events)
-
-
-def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
-    """Return the walk of this seed, not yet played. With `pressures` the session emits FootPressed."""
-    return Demo(emulate(route, radio=radio, seed=seed), Session(poses=True, pressures=pressures))
+    def tables(self) -> list[str]:
+        """Return the comparison with the truth, and the score on a floor plan. Call it after `play` has finished."""
+        compared = compare(self.walk.truth, {foot: FootRun.of(self.found, foot) for foot in Foot})
+        rows = list(zip(COMPARED, *map(_column, compared), strict=True))
+        tables = [table(["against the truth", *[one.foot.value for one in compared]], rows)]
+        if self.way is not None:
+            tables.append(place_table(score(self.way, self.walk.walker, self.walk.truth, self._place_events)))
+        return tables
 
 
-def make_indoors(seed: int, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
-    """Return the walk of this seed in the emulated building, not yet played.
+def make_demo(options: Namespace, radio: Radio, *, pressures: bool) -> Demo:
+    """Return the walk that the options describe, not yet played. With `pressures` the session emits FootPressed.
 
-    The session has the floor plan, but not the position from which the wearer starts. With `pressures` it emits
-    FootPressed."""
-    way, plan = wandering(BUILDING_WALK_SEED), IndexedPlan(BUILDING)
+    In the emulated building the session has the floor plan, but not the position from which the wearer starts."""
+    route, way, plan = ROUTE if options.distance is None else straight(options.distance), None, None
+    if options.building:
+        way, plan = wandering(BUILDING_WALK_SEED), IndexedPlan(BUILDING)
+        route = way.route
     session = Session(poses=True, pressures=pressures, floorplan=plan)
-    return Demo(emulate(way.route, radio=radio, seed=seed), session, way, plan)
+    return Demo(emulate(route, radio=radio, seed=options.seed), session, way, plan)
 
 
 COMPARED_EVENTS = {"heel_strike": "heel-strike", "foot_flat": "foot-flat", "heel_off": "heel-off", "toe_off": "toe-off"}
+COMPARED = (
+    "strides walked", "strides found", "strides invented", "stride length, mean error %", "end position, error m",
+    *[label for name in COMPARED_EVENTS.values() for label in (f"{name}s found", f"{name}, median offset ms")],
+)  # fmt: skip
+"""Labels of the table that compares the strides and events of both feet with the truth."""
 
 
-def comparison_table(comparisons: Sequence[FootComparison]) -> str:
-    """Return the table that compares the strides and events of both feet with the truth."""
-    rows = [
-        ["strides walked", *(str(c.strides_true) for c in comparisons)],
-        ["strides found", *(str(c.strides_found) for c in comparisons)],
-        ["strides invented", *(str(c.strides_invented) for c in comparisons)],
-        ["stride length, mean error %", *(percent(c.length_errors.mean) for c in comparisons)],
-        ["end position, error m", *(number(c.end_error) for c in comparisons)],
-    ]
-    for kind, name in COMPARED_EVENTS.items():
-        matchings = [c.events[kind] for c in comparisons]
-        rows.append([f"{name}s found", *(f"{len(m.offsets)} of {m.n_true}" for m in matchings)])
-        rows.append([f"{name}, median offset ms", *(milliseconds(m.bias) for m in matchings)])
-    return table(["against the truth", *(c.foot.value for c in comparisons)], rows)
+def _column(foot: FootComparison) -> list[str]:
+    """Return the figures of a foot, in the order of COMPARED."""
+    cells = [str(count) for count in (foot.strides_true, foot.strides_found, foot.strides_invented)]
+    cells += [percent(foot.length_errors.mean), number(foot.end_error)]
+    for kind in COMPARED_EVENTS:
+        matching = foot.events[kind]
+        cells += [f"{len(matching.offsets)} of {matching.n_true}", milliseconds(matching.bias)]
+    return cells
 
 
 def place_table(score: PlaceScore) -> str:

@@ -4,40 +4,44 @@ The durations below were chosen by hand; other values were not tried."""
 
 from __future__ import annotations
 
-import argparse
 import os
 import shutil
+from argparse import Namespace
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from attrs import asdict
+from attrs.filters import exclude
+
 from ..recording import printable
-from ..types.extras import install_hint
-from .common.failure import Failure, is_installed, parse_count, parse_positive, parse_whole_number, recipe_named
+from .common.failure import Failure, parse_count, parse_number, parse_whole_number, require, tell
 from .common.files import FLEET_FIGURES, OutputFile, add_force, check_outputs, write_json
 from .common.inputs import add_recipe_name
+from .common.parser import add_command
 
 if TYPE_CHECKING:
     from ..fleet.demo.run import DemoStage
 
 DIFFERENCE_STATUS = 1
 """Exit status when the events of two runs differ."""
-MAX_WALK_TIME = 3600.0
-"""Longest walk that an option may request, s."""
 DEFAULT_TOTAL_TIME, MIN_DEFAULT_TIME, MAX_DEFAULT_TIME = 1200.0, 6.0, 20.0
 """Default walking time of all wearers together, and the least and the greatest default of each wearer, s."""
 
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
+    command = add_command(
+        commands,
         "fleet-demo",
-        help="many emulated wearers through a stream engine that is killed",
-        description="Emulated wearers, whose packets come late, twice and out of order, walk through Spark Structured "
+        "many emulated wearers through a stream engine that is killed",
+        "Emulated wearers, whose packets come late, twice and out of order, walk through Spark Structured "
         "Streaming on this machine, which keeps the state of their sessions. Its processes are killed at random "
         "moments (kill -9) and started again. The events must equal those of an uninterrupted run, and those of "
         "sessions without an engine. Exit status 1 when they do not.",
-        epilog="example: solepath fleet-demo --wearers 40 --kills 3 --out fleet",
+        "solepath fleet-demo --wearers 40 --kills 3 --out fleet",
+        run=run,
     )
     command.add_argument(
         "--wearers", metavar="N", type=parse_count, default=100, help="how many wearers (default: 100)"
@@ -46,7 +50,7 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--seconds",
         metavar="S",
-        type=parse_positive,
+        type=partial(parse_number, "a number of seconds from 1 to 3600", 1.0, 3600.0),
         help=f"how long each wearer walks, s (default: {MIN_DEFAULT_TIME:g} for "
         f"{DEFAULT_TOTAL_TIME / MIN_DEFAULT_TIME:.0f} wearers and more, up to {MAX_DEFAULT_TIME:g} for fewer)",
     )
@@ -64,26 +68,21 @@ def add_to(commands: Any) -> None:
     command.add_argument("--out", metavar="DIR", type=Path, help="leave the events there, as Parquet in DIR/events")
     command.add_argument("--json", metavar="FILE", type=Path, help="write the figures as JSON too")
     add_force(command)
-    command.set_defaults(run=run)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: Namespace) -> int:
     """Run the demo; return the exit status."""
     result_file = None if options.json is None else OutputFile(options.json, FLEET_FIGURES)
     _check(options, result_file)
-    from ..fleet.demo.run import DemoStage, RunFailed
+    from ..fleet.demo.run import DemoStage
     from ..fleet.demo.wearers import DemoPlan
     from .common.loop import stop_signals_raise
-    from .fleet_table import figures, result_table
 
     seconds = options.seconds or min(max(DEFAULT_TOTAL_TIME / options.wearers, MIN_DEFAULT_TIME), MAX_DEFAULT_TIME)
     plan = DemoPlan(options.wearers, seconds, options.seed, options.recipe, options.processes)
     with stop_signals_raise(), TemporaryDirectory(prefix="solepath-fleet-") as directory:
         stage = DemoStage(Path(directory).resolve(), plan)
-        try:
-            differences = run_all(stage, options.kills)
-        except RunFailed as error:
-            raise Failure(str(error)) from None
+        differences = run_all(stage, options.kills)
         print(f"\n{result_table(stage)}")
         if result_file is not None:
             write_json(result_file, {**figures(stage), "differences": differences})
@@ -96,8 +95,6 @@ def run(options: argparse.Namespace) -> int:
 
 def run_all(stage: DemoStage, kills: int) -> list[str]:
     """Do all runs, print each as it ends, and return how their events differ."""
-    from .fleet_table import kill_line
-
     plan = stage.plan
     stage.prepare()
     print(f"{plan.wearers} wearers, each walks {plan.seconds:g} s: {stage.samples} samples", flush=True)
@@ -112,27 +109,22 @@ def run_all(stage: DemoStage, kills: int) -> list[str]:
     if kills:
         killed = stage.killed(kills)
         for number, (kill, down) in enumerate(stage.kills, 1):
-            print(kill_line(stage, number, kill, down))
+            rest = ", in the middle of the next, which runs again" if kill.is_in_batch else ""
+            print(
+                f"kill {number}: after {kill.batches} of {len(stage.times)} batches{rest}; the next batch ends "
+                f"{down:.1f} s later"
+            )
         print(f"killed {len(stage.kills)} times: {'other' if killed else 'the same'} events", flush=True)
         differences += [f"killed run: {line}" for line in killed]
     return differences
 
 
-def _check(options: argparse.Namespace, result_file: OutputFile | None) -> None:
+def _check(options: Namespace, result_file: OutputFile | None) -> None:
     """Raise Failure for options that would otherwise fail only later."""
-    recipe_named(options.recipe)
-    if options.seconds is not None and options.seconds > MAX_WALK_TIME:
-        raise Failure(f"--seconds {options.seconds:g}: {MAX_WALK_TIME:g} is the most")
-    if options.seconds is not None and options.seconds < 1.0:
-        raise Failure(f"--seconds {options.seconds:g}: a walk takes at least 1")
-    if not is_installed("pyspark"):
-        raise Failure(f"the fleet needs Spark: {install_hint('spark')}")
-    from ..fleet.jvm import NoJava, java_environment
+    require("the fleet needs", "spark", "pyspark")
+    from ..fleet.jvm import java_environment
 
-    try:
-        java_environment()
-    except NoJava as error:
-        raise Failure(str(error)) from None
+    java_environment()
     if not hasattr(os, "killpg"):
         raise Failure("fleet-demo kills groups of processes, which this system does not have: use Linux or macOS")
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
@@ -153,5 +145,49 @@ def _copy_events(stage: DemoStage, out: Path) -> None:
         shutil.copy(path, events_directory)
     files = f"{events_directory}/*.parquet".replace("'", "''")
     query = f"FROM '{files}' SELECT event, count(*) AS count GROUP BY event ORDER BY count DESC"
-    print(f"\nThe events are in {printable(str(events_directory))}. To look at them (pip install duckdb):")
+    print()
+    tell(f"The events are in {events_directory}. To look at them (pip install duckdb):")
     print(printable(f"python -c {quote(f'import duckdb; print(duckdb.sql({query!r}))')}", max_length=5000))
+
+
+def result_table(stage: DemoStage) -> str:
+    """Return the table of the figures of all runs, with a dash for a missing figure."""
+    from ..show.tables.table import number, percent, table
+
+    values = figures(stage)
+    engine, kills = values["engine"], values["kills"]
+    downs = [kill["down"] for kill in kills]
+    rows = [
+        ["wearers", str(values["wearers"])],
+        ["samples", str(values["samples"])],
+        [f"samples/s through Spark, {values['processes']} processes", number(engine["rate"], 0)],
+        ["samples/s by one process of sessions without an engine", number(values["sessions"]["rate"], 0)],
+        ["the one by the other, %", percent(values["ratio"], 0)],
+        ["batches", str(engine["batches"])],
+        ["s a batch", number(engine["batch"], 2)],
+        ["events", str(engine["events"])],
+        ["kills", str(len(kills))],
+        ["of them in the middle of a batch", str(sum(kill["is_in_batch"] for kill in kills))],
+        ["s until the next batch was done: mean", number(sum(downs) / len(downs) if downs else None, 1)],
+        ["s until the next batch was done: most", number(max(downs, default=None), 1)],
+    ]
+    return table(["a fleet on Spark", ""], rows)
+
+
+def figures(stage: DemoStage) -> dict[str, Any]:
+    """Return the figures of all runs for programs, in s, bytes and samples/s."""
+    rate = stage.samples / stage.session_seconds
+    return {
+        **asdict(stage.plan, filter=exclude("walks")),
+        "samples": stage.samples,
+        "engine": {
+            "rate": stage.rate,
+            "whole": stage.whole,
+            "batches": len(stage.times),
+            "batch": stage.batch,
+            "events": len(stage.events),
+        },
+        "sessions": {"seconds": stage.session_seconds, "rate": rate},
+        "ratio": stage.rate / rate,
+        "kills": [{**asdict(kill), "down": down} for kill, down in stage.kills],
+    }

@@ -12,13 +12,12 @@ from collections.abc import Callable, Sequence
 from importlib.machinery import ExtensionFileLoader
 from importlib.util import find_spec
 
-from ..calibration import CalibrationError
 from ..recording import RecordingError
 from ..types.extras import install_hint
 from . import check, completion, convert, demo, fleet_demo, track, web
 from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
-from .common.failure import Failure, note
+from .common.failure import note
 from .common.os_errors import file_error_text, in_words
 from .common.own_devices import own_fault
 from .common.parser import Parser
@@ -53,12 +52,16 @@ first steps:
 """Three commands for a newcomer, with which the help starts."""
 
 
+OURS = ("solepath", "solepath_lab")
+"""Packages whose errors are sentences for a person."""
+
+
 class _TopParser(Parser):
     """The parser of the program, whose help shows the first steps and the commands by their purpose."""
 
     def format_help(self) -> str:
         """Return the help of the program."""
-        lines = {} if self.commands is None else self.commands.lines
+        lines = {one.dest: one.help for one in self.commands._choices_actions}
         parts = ["solepath: gait events and indoor tracks from foot-worn sensors", FIRST]
         for title, names in GROUPS:
             parts.append("\n".join([f"{title}:", *(f"  {name:12}{lines[name]}" for name in names)]))
@@ -118,8 +121,6 @@ def guarded(run: Callable[[Sequence[str] | None], int], arguments: Sequence[str]
     except RecordingError as error:
         for problem in error.problems:
             note(in_words(problem))
-    except (Failure, CalibrationError) as error:
-        note(in_words(error))
     except ModuleNotFoundError as error:
         if error.name != "numpy":
             raise
@@ -133,7 +134,8 @@ def guarded(run: Callable[[Sequence[str] | None], int], arguments: Sequence[str]
     except OSError as error:
         note(file_error_text(error) if error.filename else f"the output cannot be written: {file_error_text(error)}")
     except Exception as error:
-        if (fault := own_fault(error)) is None:
+        is_sentence = type(error).__module__.partition(".")[0] in OURS
+        if (fault := in_words(error) if is_sentence else own_fault(error)) is None:
             raise
         note(fault)
     return 2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Namespace
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -27,9 +27,10 @@ from .common.inputs import (
     undo_clocks,
 )
 from .common.outcomes import add_outcomes, band_files_of, has_outcomes, outcomes_of
-from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
+from .common.own_devices import UnusedPackets, drivers_of
+from .common.parser import add_command
 from .common.report import add_report, check_report_options, report_of
-from .common.tables import add_tables, feet_of, mapping_of
+from .common.tables import add_tables, feet_of, mapping_of, source_named
 from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
@@ -41,26 +42,31 @@ if TYPE_CHECKING:
 
 
 OF_ONE_RECIPE = (
-    "report", "title", "subject", "date", "device", "compare", "reference", "view", "no_browser", "speed", "outcomes",
-    "six_minute_walk", "timed_up_and_go",
+    "report", "title", "subject", "date", "device", "compare", "reference", "view", "no_browser", "speed",
 )  # fmt: skip
-"""Options of the report, of the page and of clinical outcomes, which are of one walk and go with one recipe."""
+"""Options of the report and of the page, which show one walk, so that they go with one recipe."""
 
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
+    command = add_command(
+        commands,
         "track",
-        help="run a recording and print a summary",
-        description="Run a recording of packets (JSON Lines) or of samples (text tables, Excel, Parquet, .npz) and"
+        "run a recording and print a summary",
+        "Run a recording of packets (JSON Lines) or of samples (text tables, Excel, Parquet, .npz) and"
         " print a summary.",
-        epilog="example: solepath track walk.csv --report walk.html\n"
+        "solepath track walk.csv --report walk.html\n"
         "solepath track left.csv right.csv --units g,deg/s,ms --out walk\n"
         "solepath track walk.jsonl --recipe default --recipe kupt-dfpc",
+        run=run,
     )
     add_tables(command)
-    add_own_devices(command)
-    add_recipe(command, several=True)
+    add_recipe(
+        command,
+        action="append",
+        default=None,
+        help="how to compute (default: default); given again, one table with a column for each recipe",
+    )
     add_calibration(command)
     add_floorplan(command)
     add_clocks(command)
@@ -76,10 +82,9 @@ def add_to(commands: Any) -> None:
     add_force(command)
     add_view(command, command, "play it")
     add_speed(command, "1, on the page")
-    command.set_defaults(run=run)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: Namespace) -> int:
     """Run the recording, with several recipes through a session for each at once; return the exit status."""
     from ..link.kinds import make_kinds
     from ..session import Session
@@ -96,7 +101,7 @@ def run(options: argparse.Namespace) -> int:
     calibration, drivers = calibration_of(options), drivers_of(options)
     address = page_address_of(options)
     pace = speed_of(options, 1.0)
-    source = source_of(options.files, feet_of(options), mapping_of(options))
+    source = source_named(options)
     undo_clocks(source, options)
     for recipe in recipes:
         check_pressure(recipe, source, drivers)
@@ -161,23 +166,25 @@ def run(options: argparse.Namespace) -> int:
     raise recording.failure
 
 
-def _folder(options: argparse.Namespace, recipe: Recipe) -> Path | None:
+def _folder(options: Namespace, recipe: Recipe) -> Path | None:
     """Return the folder of the files of one of several recipes."""
     return None if options.out is None else Path(options.out, recipe.name)
 
 
-def _check_comparison(options: argparse.Namespace, recipes: Sequence[Recipe]) -> None:
+def _check_comparison(options: Namespace, recipes: Sequence[Recipe]) -> None:
     """Raise Failure for a recipe that is given twice, and for options that go with one recipe."""
     names = [recipe.name for recipe in recipes]
     if twice := [name for name in names if names.count(name) > 1]:
         raise Failure(f"--recipe {twice[0]} was given twice")
     for option in OF_ONE_RECIPE:
-        if getattr(options, option) not in (None, False):
+        if getattr(options, option) not in (None, False, []):
             name = option.replace("_", "-")
             raise Failure(f"--{name} is for one walk: give one --recipe with it, or leave it out to compare recipes")
+    if has_outcomes(options):
+        raise Failure("clinical outcomes are of one walk: give one --recipe with them")
 
 
-def _outputs(options: argparse.Namespace, recipes: Sequence[Recipe]) -> list[OutputFile]:
+def _outputs(options: Namespace, recipes: Sequence[Recipe]) -> list[OutputFile]:
     """Return the files of --out and --report; raise Failure or OSError when one must not, or cannot, be written."""
     has_plan, outcomes = options.floorplan is not None, has_outcomes(options)
     outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=outcomes, run=True)
@@ -200,7 +207,7 @@ def _run(runs: Sequence[Results], recording: Recording) -> None:
             run.feed(None)
 
 
-def _comparison(options: argparse.Namespace, name: str, runs: Sequence[Results]) -> list[str]:
+def _comparison(options: Namespace, name: str, runs: Sequence[Results]) -> list[str]:
     """Return the table of several recipes."""
     from ..show.tables.recipes import RecipeRun, recipe_lines
 

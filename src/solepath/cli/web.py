@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
+from argparse import Namespace
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
@@ -11,9 +11,10 @@ from tempfile import TemporaryDirectory
 from time import sleep
 from typing import Any
 
-from ..recording import printable
-from .common.failure import Failure, note, parse_whole_number
+from ..show.tables.table import number, table
+from .common.failure import Failure, note, parse_whole_number, tell
 from .common.os_errors import address_error_text
+from .common.parser import add_command
 from .common.view import open_browser
 
 DEFAULT_PORT = 8766
@@ -25,13 +26,15 @@ LISTED = 5
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
+    command = add_command(
+        commands,
         "web",
-        help="write the page as a site that needs no server",
-        description="Write the page as a folder of static files. Python runs in the browser (Pyodide, fetched once "
+        "write the page as a site that needs no server",
+        "Write the page as a folder of static files. Python runs in the browser (Pyodide, fetched once "
         "from the npm registry and checked), so that any web server with https can serve it, and a phone can use it "
         "offline.",
-        epilog="example: solepath web site --serve",
+        "solepath web site --serve",
+        run=run,
     )
     command.add_argument(
         "out", metavar="OUT", type=Path, nargs="?", help="folder of the site; files of an earlier one are replaced"
@@ -41,15 +44,13 @@ def add_to(commands: Any) -> None:
         "--port", metavar="N", type=parse_whole_number, help=f"port of --serve (default: {DEFAULT_PORT}; 0: any)"
     )
     command.add_argument("--no-browser", action="store_true", help="open no browser: only say where the site is")
-    command.set_defaults(run=run)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: Namespace) -> int:
     """Write the site, and show it; return the exit status."""
     from ..emulate import emulate
     from ..emulate.demo import SITE_ROUTE
     from ..show.tables.progress import progress_bar
-    from ..show.web.pyodide import BuildError
     from ..show.web.site import build_site
 
     if not options.serve and (options.port is not None or options.no_browser):
@@ -59,40 +60,32 @@ def run(options: argparse.Namespace) -> int:
     if options.port is not None and options.port > 65535:
         raise Failure(f"--port {options.port}: there is no such port: ports are 0 to 65535")
     if options.out is not None and options.out.exists() and not options.out.is_dir():
-        raise Failure(f"{printable(str(options.out))}: is a file; the site needs a folder")
+        raise Failure(f"{options.out}: is a file; the site needs a folder")
     with ExitStack() as stack:
         out = options.out or Path(stack.enter_context(TemporaryDirectory()), "site")
         print("building the site: about half a minute ...", flush=True)
-        try:
-            with progress_bar("building"):
-                files = build_site(out, emulate(SITE_ROUTE).packets)
-        except BuildError as error:
-            raise Failure(str(error)) from None
-        print("\n".join(size_lines(files)), flush=True)
+        with progress_bar("building"):
+            files = build_site(out, emulate(SITE_ROUTE).packets)
+        print(size_table(files), flush=True)
         if options.out is not None:
-            print(f"the site is in {printable(str(out))}")
+            tell(f"the site is in {out}")
         if options.serve:
             _serve(out, options)
     return 0
 
 
-def size_lines(files: Mapping[str, bytes]) -> list[str]:
+def size_table(files: Mapping[str, bytes]) -> str:
     """Return a table of the largest files of a site and of all together: raw, and as a server sends them."""
     from ..show.web.site import compressed_size
 
     sizes = {name: (len(data), compressed_size(data)) for name, data in files.items()}
     largest = sorted(sizes, key=lambda name: -sizes[name][1])[:LISTED]
-    rows = [(name, *sizes[name]) for name in largest]
-    rows.append(
-        (f"all {len(sizes)} files", sum(raw for raw, _ in sizes.values()), sum(sent for _, sent in sizes.values()))
-    )
-    return [
-        f"{'file':24}{'MB':>8}{'gzip MB':>10}",
-        *(f"{name:24}{raw / 1e6:8.2f}{sent / 1e6:10.2f}" for name, raw, sent in rows),
-    ]
+    totals = [sum(column) for column in zip(*sizes.values(), strict=True)]
+    rows = [*[(name, sizes[name]) for name in largest], (f"all {len(sizes)} files", totals)]
+    return table(["file", "MB", "gzip MB"], [[name, *[number(size / 1e6) for size in both]] for name, both in rows])
 
 
-def _serve(folder: Path, options: argparse.Namespace) -> None:
+def _serve(folder: Path, options: Namespace) -> None:
     from ..show.web.serve import serving
     from .common.loop import stop_flag
 

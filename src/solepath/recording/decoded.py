@@ -8,7 +8,7 @@ from attrs import frozen
 
 from ..events import Event, LayoutKnown
 from ..link.decoder import Decoder
-from ..link.kinds import DeviceKinds
+from ..link.kinds import BUILT_IN_KINDS, DeviceKinds
 from ..types import Foot, Layout, Packet, Sample, Site
 
 
@@ -24,7 +24,7 @@ def decode_recording(items: Iterable[Packet | Sample]) -> DecodedRecording:
     """Return the samples decoded from packets, or given as samples; packets that cannot be used are skipped."""
     samples: list[Sample] = []
     layouts: dict[Foot, Layout] = {}
-    for item in _decode(items, lambda packet: True, None):
+    for item in decode(items):
         if isinstance(item, Sample):
             samples.append(item)
         elif isinstance(item, LayoutKnown):
@@ -37,13 +37,15 @@ def decode_own(items: Iterable[Packet | Sample], kinds: DeviceKinds) -> Iterator
 
     Packets that cannot be used are skipped."""
     own = {driver.name for driver in kinds.drivers}
-    for item in _decode(items, lambda packet: packet.channel.partition("/")[0] in own, kinds):
+    for item in decode(items, kinds, lambda packet: packet.channel.partition("/")[0] in own):
         if isinstance(item, Packet | Sample):
             yield item
 
 
-def _decode(
-    items: Iterable[Packet | Sample], is_decoded: Callable[[Packet], bool], kinds: DeviceKinds | None
+def decode(
+    items: Iterable[Packet | Sample],
+    kinds: DeviceKinds = BUILT_IN_KINDS,
+    is_decoded: Callable[[Packet], bool] = lambda packet: True,
 ) -> Iterator[Packet | Sample | Event]:
     """Yield what the packets say for which `is_decoded` is true, in their place, and all other items."""
     decoders: dict[Site, Decoder] = {}
@@ -52,6 +54,6 @@ def _decode(
             yield item
         else:
             decoder = decoders.setdefault(item.site, Decoder(item.site))
-            yield from decoder.feed(item) if kinds is None else decoder.feed(item, kinds)
+            yield from decoder.feed(item, kinds)
     for decoder in decoders.values():
         yield from decoder.finish()

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from solepath.cli.common.closest import unknown
-from solepath.cli.common.failure import Failure, note, recipe_named
+from solepath.cli.common.failure import Failure, note
 from solepath.cli.common.files import SCORES, OutputFile, add_force, check_outputs, write_json
 from solepath.cli.common.inputs import add_calibration, add_recipe_name, calibration_of
 from solepath.recipes import DEFAULT, NAMES, by_name
@@ -82,7 +82,7 @@ def run(options: argparse.Namespace) -> int:
         data_sets = folder.glob("*/") if folder is not None else ()
         check_outputs(options, [scores], *data_sets)
     all_recipes = [by_name(name) for name in NAMES]
-    chosen = [recipe_named(name) for name in options.recipe]
+    chosen = [by_name(name) for name in options.recipe]
     if options.ablation:
         if chosen:
             raise Failure("--ablation chooses the recipes itself, so it goes without --recipe")

@@ -19,18 +19,18 @@ NAMES = [
     ("track walk.jsonl --xyzzy", "there is no option --xyzzy (solepath track --help)"),
     ("track walk.jsonl --recipe cake", RECIPES),
     ("track walk.jsonl --recipe default --recipe default", "--recipe default was given twice"),
-    ("track walk.jsonl --foot 2", "--foot 2: each foot is left or right"),
+    ("track walk.jsonl --foot 2", "--foot: '2': each foot is left or right"),
     ("calibrate nosie walk.jsonl --out me.json", "there is no kind 'nosie': did you mean noise?"),
     ("live --left X --profile insoel", "there is no profile 'insoel': did you mean insole?"),
 ]
 MISSING = [
     ("track", "FILE is missing, as in: solepath track walk.csv --report walk.html"),
     ("track walk.jsonl --recipe", "--recipe: needs a value"),
-    ("track walk.jsonl --start -1,2,3", "--start: a value that starts with a dash is written --start=-1,2,3"),
+    ("track walk.jsonl --start -1,2,3", "--start is a place on a floor plan: give --floorplan, too"),
     ("track a.csv --compare b.csv c.csv", "too much on the command line: c.csv: give --compare again for the second"),
     ("demo --distance far", "--distance: 'far' is not a positive number"),
     ("demo --loss 5", "--loss: '5' is not a number from 0 to 1"),
-    ("track walk.jsonl --view 8765", "--view 8765: that is not HOST:PORT, as in 127.0.0.1:8765"),
+    ("track walk.jsonl --view 8765", "--view: '8765' is not HOST:PORT, as in 127.0.0.1:8765"),
     ("track walk.jsonl --speed 2", "--speed is for the page: it goes with --view"),
     ("track walk.jsonl --recipe default --recipe zupt --report r.html", "--report is for one walk: give one --recipe"),
 ]

@@ -2,23 +2,12 @@
 
 from __future__ import annotations
 
-import asyncio
-from collections.abc import AsyncIterator, Callable, Coroutine
+from collections.abc import AsyncIterator
 from contextlib import AsyncExitStack, asynccontextmanager
-from typing import Any
 
-from ...ble import NATIVE, Backend, BluetoothError
+from ...ble import NATIVE, Backend
 from ...types.extras import install_hint
 from ..common.failure import Failure
-from ..common.loop import run_to_end
-
-
-def listen_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int:
-    """Run `main` as run_to_end does; raise Failure for an error of Bluetooth."""
-    try:
-        return run_to_end(main)
-    except BluetoothError as error:
-        raise Failure(str(error)) from None
 
 
 @asynccontextmanager

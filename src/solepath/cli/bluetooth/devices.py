@@ -4,7 +4,7 @@ The times below were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-import argparse
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
@@ -27,7 +27,7 @@ SERVE_TIME = 600.0
 """Time for which emulated devices are served without a terminal and without --duration, s."""
 
 
-def add_via(command: argparse.ArgumentParser) -> None:
+def add_via(command: ArgumentParser) -> None:
     """Add --via, the Bluetooth to use, to a command."""
     command.add_argument(
         "--via",
@@ -36,7 +36,7 @@ def add_via(command: argparse.ArgumentParser) -> None:
     )
 
 
-def add_feet(command: argparse.ArgumentParser) -> None:
+def add_feet(command: ArgumentParser) -> None:
     """Add the options of the devices on the feet to a command."""
     add_via(command)
     command.add_argument("--left", metavar="DEVICE", help="address or name of the device on the left foot")
@@ -55,17 +55,22 @@ def _profile_names() -> Iterable[str]:
     return BY_NAME
 
 
-def add_devices(command: argparse.ArgumentParser) -> None:
+def add_devices(command: ArgumentParser) -> None:
     """Add the options of the devices and of the time to a command."""
     add_feet(command)
     add_own_devices(command)
     command.add_argument(
-        "--at", metavar="SITE=DEVICE", action="append", default=[], help="a device elsewhere, for instance pelvis=NAME"
+        "--at",
+        metavar="SITE=DEVICE",
+        type=parse_at,
+        action="append",
+        default=[],
+        help="a device elsewhere, for instance pelvis=NAME",
     )
     add_duration(command, LISTEN_TIME)
 
 
-def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
+def add_duration(command: ArgumentParser, unattended: float) -> None:
     """Add --duration to a command; `unattended` is the time without a terminal, s."""
     command.add_argument(
         "--duration",
@@ -73,6 +78,15 @@ def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
         type=parse_positive,
         help=f"end by itself after so many seconds (default: at Ctrl-C; {unattended:g} s without a terminal)",
     )
+
+
+def parse_at(text: str) -> tuple[Site, str]:
+    """Parse a value of --at: a site, and the device there."""
+    site, _, device = text.partition("=")
+    sites = [one.value for one in Site]
+    if site not in sites or not device:
+        raise ArgumentTypeError(f"{text!r} is not SITE=DEVICE: {unknown('site', site, sites)}")
+    return Site(site), device
 
 
 def profile_named(name: str | None, own: Iterable[Driver] = ()) -> Profile | None:
@@ -85,21 +99,14 @@ def profile_named(name: str | None, own: Iterable[Driver] = ()) -> Profile | Non
     return None if name is None else profiles[name]
 
 
-def named_devices(options: argparse.Namespace, own: Iterable[Driver] = ()) -> list[DeviceConfig]:
+def named_devices(options: Namespace, own: Iterable[Driver] = ()) -> list[DeviceConfig]:
     """Return the devices that the options name; raise Failure for a site or profile that does not exist.
 
     `own` are the drivers of devices of one's own."""
     from ...ble import DeviceConfig
     from ...link.setup.config import check_configs
 
-    named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
-    sites = {site.value: site for site in Site}
-    for text in options.at:
-        site, _, device = text.partition("=")
-        if site not in sites or not device:
-            meant = f"SITE one of {', '.join(sites)}" if not device else unknown("site", site, sites)
-            raise Failure(f"--at {text}: that is not SITE=DEVICE, {meant}")
-        named.append((sites[site], device))
+    named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right), *options.at]
     profile = profile_named(options.profile, own)
     devices = [DeviceConfig(site, device, profile) for site, device in named if device]
     try:
@@ -148,7 +155,7 @@ def need_bleak() -> None:
     require("Bluetooth needs", "ble", "bleak", "bleak_retry_connector")
 
 
-def listening_time(options: argparse.Namespace) -> float | None:
+def listening_time(options: Namespace) -> float | None:
     """Return --duration or its default, s; None to listen until Ctrl-C."""
     if options.duration is not None:
         return float(options.duration)

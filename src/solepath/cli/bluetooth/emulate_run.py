@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import argparse
 import asyncio
-import sys
-from contextlib import AsyncExitStack
+from argparse import Namespace
+from contextlib import AsyncExitStack, suppress
+from itertools import count
 
 from ...emulate.controllers import serve
 from ...emulate.demo import straight
 from ...emulate.devices.bench import Bench
 from ...emulate.devices.faults import parse_faults
-from ...emulate.devices.peripheral import Peripheral
 from ...emulate.routes.postures import PITCHES, held_shoe, held_time
 from ...emulate.routes.route import Route
 from ...emulate.sensors import insole_device, sensortags
@@ -20,20 +19,16 @@ from ...link.devices import cc2541, cc2650, insole
 from ...recording import printable
 from ...saving.files import read_bounded
 from ...types import Foot, Site
-from ..common.failure import Failure, has_terminal, host_and_port
+from ..common.failure import Failure, has_terminal
 from ..common.os_errors import address_error_text
 from .devices import SERVE_TIME
 
 MAX_FAULTS = 1_000_000
 """Largest size of a script of faults, bytes: some 30,000 lines."""
-MAX_DISTANCE = 5000.0
-"""Longest walk, m; a longer one would take minutes and gigabytes to compute."""
-MAX_HOLD = 600.0
-"""Longest time for which emulated shoes are held in one posture, s."""
 RESTART_DELAY = 10.0
 """Time without a connection after which the next connection starts the walk again, s."""
-REPORT_INTERVAL, REDRAW_INTERVAL = 10.0, 1.0
-"""Time between two lines on the state, s: without a terminal, and in a terminal."""
+REPORT_INTERVAL = 10.0
+"""Time between two lines on the state, s."""
 POLL_INTERVAL = 0.01
 """Time between two checks of the connections, s."""
 SLOW_DISTANCE = 500.0
@@ -42,15 +37,8 @@ WALK_DELAY = 1.0
 """Time from the first connection to the start of the walk, s; the wearer stands at first."""
 
 
-def prepare_bench(options: argparse.Namespace) -> Bench:
+def prepare_bench(options: Namespace) -> Bench:
     """Return the devices on a wearer whose walk is computed; raise Failure for options that cannot be emulated."""
-    if options.distance > MAX_DISTANCE:
-        raise Failure(f"--distance {options.distance:g}: {MAX_DISTANCE:g} m is as far as emulated wearers walk")
-    if options.postures is not None and options.postures > MAX_HOLD:
-        raise Failure(f"--postures {options.postures:g}: each of them is held for {MAX_HOLD:g} s at the most")
-    if not 23 <= options.mtu <= 517:
-        raise Failure(f"--mtu {options.mtu}: an MTU is from 23 to 517")
-    host_and_port("--listen", options.listen)
     kinds: dict[str, Device] = {
         insole.PROFILE.name: insole_device.Insole(),
         cc2650.PROFILE.name: sensortags.CC2650(),
@@ -78,15 +66,15 @@ def prepare_bench(options: argparse.Namespace) -> Bench:
     return bench
 
 
-async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio.Event) -> int:
+async def serve_devices(options: Namespace, bench: Bench, stop: asyncio.Event) -> int:
     """Serve the devices until `stop` is set or the time is over; return the exit status."""
     bench.walk_from(asyncio.get_running_loop().time() + 1e6)  # the wearer stands until a device is connected
     async with AsyncExitStack() as stack:
         try:
-            address = host_and_port("--listen", options.listen)
-            host, port = await stack.enter_async_context(serve(bench.peripherals, *address))
+            host, port = await stack.enter_async_context(serve(bench.peripherals, *options.listen))
         except OSError as error:
-            raise Failure(f"--listen {options.listen}: {address_error_text(error)}") from None
+            host, port = options.listen
+            raise Failure(f"--listen {host}:{port}: {address_error_text(error)}") from None
         print(f"serving at tcp:{host}:{port}", flush=True)
         for peripheral in bench.peripherals:
             print(f"  {peripheral.address}  {peripheral.site.words}  {printable(peripheral.name)}", flush=True)
@@ -95,10 +83,8 @@ async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio
             seconds = SERVE_TIME
         tasks = [asyncio.create_task(work) for work in (_walk_when_connected(bench), _print_status(bench))]
         try:
-            async with asyncio.timeout(seconds):
-                await stop.wait()
-        except TimeoutError:
-            pass
+            with suppress(TimeoutError):
+                await asyncio.wait_for(stop.wait(), seconds)
         finally:
             for task in tasks:
                 task.cancel()
@@ -107,23 +93,15 @@ async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio
 
 
 async def _print_status(bench: Bench) -> None:
-    """Print the state: in a terminal on one line that changes, else on a new line every REPORT_INTERVAL s."""
-    loop = asyncio.get_running_loop()
-    started, live = loop.time(), sys.stdout.isatty()
-    try:
-        while True:
-            await asyncio.sleep(REDRAW_INTERVAL if live else REPORT_INTERVAL)
-            line = f"{loop.time() - started:6.0f} s  {'; '.join(map(_state, bench.peripherals))}"
-            print(f"\r{line}\x1b[K" if live else line, end="" if live else "\n", flush=True)
-    finally:
-        if live:
-            print()
-
-
-def _state(peripheral: Peripheral) -> str:
-    link = "connected" if peripheral.is_connected else "not connected"
-    faults = f", {peripheral.faults.count} faults" if peripheral.faults.count else ""
-    return f"{peripheral.site.words} {link}, {sum(peripheral.sent.values())} sent{faults}"
+    """Print the state every REPORT_INTERVAL s."""
+    for number in count(1):
+        await asyncio.sleep(REPORT_INTERVAL)
+        states = []
+        for peripheral in bench.peripherals:
+            link = "connected" if peripheral.is_connected else "not connected"
+            faults = f", {peripheral.faults.count} faults" if peripheral.faults.count else ""
+            states.append(f"{peripheral.site.words} {link}, {sum(peripheral.sent.values())} sent{faults}")
+        print(f"{number * REPORT_INTERVAL:6.0f} s  {'; '.join(states)}", flush=True)
 
 
 async def _walk_when_connected(bench: Bench) -> None:

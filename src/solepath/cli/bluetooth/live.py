@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Namespace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from ..common.files import RECORDING, OutputFile, add_force, check_outputs, files_of_track
-from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibration_of, floorplan_of, recipe_of
+from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibration_of, floorplan_of, recipes_of
+from ..common.parser import add_command
 from ..common.view import add_view, page_address_of
 from .devices import add_devices, need_bleak
 from .live_streams import need_lsl, stream_names_of
@@ -16,12 +17,14 @@ from .live_streams import need_lsl, stream_names_of
 
 def add_to(commands: Any) -> None:
     """Add both commands to the parser."""
-    live: argparse.ArgumentParser = commands.add_parser(
+    live = add_command(
+        commands,
         "live",
-        help="listen to sensors and show what they say",
-        description="Connect to sensors on the feet and show gait, track and links as they are worn. Without "
+        "listen to sensors and show what they say",
+        "Connect to sensors on the feet and show gait, track and links as they are worn. Without "
         "--left and --right it takes two insoles when any are in range, which know their feet.",
-        epilog="example: solepath live --left F0:5E:00:00:00:01 --right F0:5E:00:00:00:02 --record walk.jsonl",
+        "solepath live --left F0:5E:00:00:00:01 --right F0:5E:00:00:00:02 --record walk.jsonl",
+        run=run,
     )
     add_devices(live)
     add_view(live, live, "show it")
@@ -54,14 +57,14 @@ def add_to(commands: Any) -> None:
         "--units", metavar="ACC,GYRO", help="the units of acc and gyro of such streams, where they do not say: g,deg/s"
     )
     add_force(live)
-    live.set_defaults(run=run)
 
-    record: argparse.ArgumentParser = commands.add_parser(
+    record = add_command(
+        commands,
         "record",
-        help="write what sensors send into a file",
-        description="Connect to sensors and write every packet as it arrives; a file for `solepath track`. Whatever "
+        "write what sensors send into a file",
+        "Connect to sensors and write every packet as it arrives; a file for `solepath track`. Whatever "
         "happens to this program, what came until 200 ms before can be read.",
-        epilog="example: solepath record --out walk.jsonl --duration 120",
+        "solepath record --out walk.jsonl --duration 120",
     )
     add_devices(record)
     record.add_argument("--out", metavar="FILE", dest="record", type=Path, required=True, help="the recording")
@@ -79,9 +82,9 @@ def add_to(commands: Any) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: Namespace) -> int:
     """Receive from the devices; return the exit status."""
-    recipe = recipe_of(options)
+    (recipe,) = recipes_of(options)
     recording = [] if options.record is None else [OutputFile(options.record, RECORDING)]
     check_outputs(options, [*recording, *files_of_track(options.out, places=options.floorplan is not None)])
     calibration = calibration_of(options)
@@ -93,7 +96,7 @@ def run(options: argparse.Namespace) -> int:
         need_bleak()
         if options.lsl is not None:
             need_lsl("--lsl needs")
-    from .backend import listen_to_end
+    from ..common.loop import run_to_end
     from .live_run import listen
 
-    return listen_to_end(partial(listen, options, recipe, calibration, plan, start, address))
+    return run_to_end(partial(listen, options, recipe, calibration, plan, start, address))

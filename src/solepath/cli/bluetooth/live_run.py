@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import argparse
 import asyncio
 import sys
+from argparse import Namespace
 from collections import deque
 from collections.abc import AsyncIterable, AsyncIterator, Callable, Iterator
 from contextlib import AsyncExitStack, asynccontextmanager, contextmanager
@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING
 
 from attrs import define, field
 
-from ...ble import Devices, scan
+from ...ble import DeviceConfig, Devices, scan
 from ...ble.record import start_keys
 from ...calibration import Calibration
 from ...events import Event
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
+from ...link.driver import Driver
 from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, printable
 from ...session import Session
@@ -31,7 +32,7 @@ from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet, Sample
 from ...walk.walk import Walk
-from ..common.failure import Failure, is_installed, note
+from ..common.failure import Failure, is_installed, note, tell
 from ..common.loop import unless_stopped
 from ..common.os_errors import file_error_text, in_words
 from ..common.own_devices import drivers_of
@@ -53,7 +54,7 @@ REPORT_INTERVAL = 5.0
 
 
 async def listen(
-    options: argparse.Namespace,
+    options: Namespace,
     recipe: Recipe,
     calibration: Calibration | None,
     plan: IndexedPlan | None,
@@ -62,12 +63,14 @@ async def listen(
     stop: asyncio.Event,
 ) -> int:
     """Receive until `stop` is set or the time is over; return the exit status."""
+    drivers = drivers_of(options)
+    configs = named_devices(options, drivers)
     session = Session(
         recipe,
         calibration=calibration,
         poses=True,
         pressures=address is not None,
-        profiles=drivers_of(options),
+        profiles=drivers,
         floorplan=plan,
         start=start,
     )
@@ -83,7 +86,7 @@ async def listen(
             if stream_names_of(options):
                 offset, items = await stack.enter_async_context(_stream_items(options))
             else:
-                offset, items = None, await _connect(options, stack)
+                offset, items = None, await _connect(options, configs, drivers, stack)
         outlets = None if options.lsl is None else _outlets(options.lsl, offset)
         publish = _publisher_of(outlets, session)
         if address is not None:
@@ -128,16 +131,16 @@ async def listen(
     if names and not files.is_started:
         raise Failure(f"no sensor sent anything: {' and '.join(names)} {'is' if len(names) == 1 else 'are'} unchanged")
     if options.record:
-        print(f"recorded in {printable(str(options.record))}")
+        tell(f"recorded in {options.record}")
     if options.out:
-        print(f"written to {printable(str(options.out))}")
+        tell(f"written to {options.out}")
     return 0
 
 
-async def _connect(options: argparse.Namespace, stack: AsyncExitStack) -> Devices:
-    """Return the connections to the devices that the options name, or to those that are in range."""
-    drivers = drivers_of(options)
-    configs = named_devices(options, drivers)
+async def _connect(
+    options: Namespace, configs: list[DeviceConfig], drivers: tuple[Driver, ...], stack: AsyncExitStack
+) -> Devices:
+    """Return the connections to these devices, or without any to those that are in range."""
     backend = await stack.enter_async_context(backend_of(options.via))
     if not configs:
         print(f"looking for sensors for {SCAN_TIME:g} s ...", flush=True)
@@ -146,11 +149,11 @@ async def _connect(options: argparse.Namespace, stack: AsyncExitStack) -> Device
 
 
 @asynccontextmanager
-async def _stream_items(options: argparse.Namespace) -> AsyncIterator[tuple[float, AsyncIterator[Sample | None]]]:
+async def _stream_items(options: Namespace) -> AsyncIterator[tuple[float, AsyncIterator[Sample | None]]]:
     """Yield the time of LSL at which all streams are open, and their samples, with None while none comes."""
     from pylsl import local_clock
 
-    from ...recording.lsl.inlet import LslError, LslInlet
+    from ...recording.lsl.inlet import LslInlet
 
     inlets: list[LslInlet] = []
 
@@ -162,16 +165,13 @@ async def _stream_items(options: argparse.Namespace) -> AsyncIterator[tuple[floa
             await asyncio.sleep(POLL_INTERVAL)
 
     channels, units = stated(options)
-    try:
-        for site, name in stream_names_of(options).items():
-            inlets.append(await asyncio.to_thread(partial(LslInlet, site, name, channels=channels, units=units)))
-        start = local_clock()  # times of the session count from here
-        for inlet in inlets:
-            inlet.pull()
-            inlet.offset = start
-        yield start, samples()
-    except LslError as error:
-        raise Failure(str(error)) from None
+    for site, name in stream_names_of(options).items():
+        inlets.append(await asyncio.to_thread(partial(LslInlet, site, name, channels=channels, units=units)))
+    start = local_clock()  # times of the session count from here
+    for inlet in inlets:
+        inlet.pull()
+        inlet.offset = start
+    yield start, samples()
     for inlet in inlets:
         if not inlet.received:
             note(f"the stream {inlet.name!r} sent nothing")
@@ -220,12 +220,9 @@ class LiveFiles:
     """What was not written, because no sensor has sent anything."""
 
     def __attrs_post_init__(self) -> None:
-        """Open and lock the recording; raise Failure when it cannot be opened."""
+        """Open and lock the recording; raise RecordingError when it cannot be opened."""
         if self.record is not None:
-            try:
-                self._packets = PacketWriter(self.record, start_keys(), replace=self.replace)
-            except RecordingError as error:
-                raise Failure(in_words(error)) from None
+            self._packets = PacketWriter(self.record, start_keys(), replace=self.replace)
 
     def take(self, item: Packet | Sample | None, events: list[Event]) -> None:
         """Write an item and its events."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Namespace
 
 from ...types import Site
 from ..common.failure import Failure, require
@@ -11,7 +11,7 @@ PREFIX = "lsl:"
 """Start of the name of a device that stands for a stream."""
 
 
-def stream_names_of(options: argparse.Namespace) -> dict[Site, str]:
+def stream_names_of(options: Namespace) -> dict[Site, str]:
     """Return the names of the streams of --left and --right, by site; raise Failure for a stream beside a device."""
     given = {Site.LEFT_FOOT: options.left, Site.RIGHT_FOOT: options.right}
     names = {site: text.removeprefix(PREFIX) for site, text in given.items() if text and text.startswith(PREFIX)}
@@ -33,7 +33,7 @@ def need_lsl(what: str) -> None:
         raise Failure(f"{what} liblsl, which pylsl does not find: install it, or name its file in PYLSL_LIB") from None
 
 
-def stated(options: argparse.Namespace) -> tuple[list[str] | None, dict[str, str] | None]:
+def stated(options: Namespace) -> tuple[list[str] | None, dict[str, str] | None]:
     """Return what --channels and --units say; None for what is not given."""
     channels = None if options.channels is None else [name.strip() for name in options.channels.split(",")]
     if options.units is None:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Namespace
 from typing import TYPE_CHECKING, Any
 
 from ...recording import printable
 from ...show.tables.table import table
 from ..common.failure import parse_positive
+from ..common.parser import add_command
 from .devices import SCAN_TIME, add_via, need_bleak
 from .live_streams import need_lsl
 
@@ -17,11 +18,13 @@ if TYPE_CHECKING:
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
+    command = add_command(
+        commands,
         "scan",
-        help="list the sensors in range",
-        description="List the sensors that advertise, the nearest first.",
-        epilog="example: solepath scan --seconds 8",
+        "list the sensors in range",
+        "List the sensors that advertise, the nearest first.",
+        "solepath scan --seconds 8",
+        run=run,
     )
     command.add_argument(
         "--seconds",
@@ -35,10 +38,9 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("--all", action="store_true", help="devices of kinds that are not known here too")
     add_via(command)
-    command.set_defaults(run=run)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: Namespace) -> int:
     """Scan and print the devices; return the exit status."""
     if options.lsl:
         return _print_streams()
@@ -46,8 +48,8 @@ def run(options: argparse.Namespace) -> int:
     import asyncio
 
     from ...ble import scan
-    from ..common.loop import unless_stopped
-    from .backend import backend_of, listen_to_end
+    from ..common.loop import run_to_end, unless_stopped
+    from .backend import backend_of
 
     async def listen(stop: asyncio.Event) -> int:
         async with unless_stopped(stop), backend_of(options.via) as backend:
@@ -55,7 +57,7 @@ def run(options: argparse.Namespace) -> int:
         _print_devices(found, options.all)
         return 0
 
-    return listen_to_end(listen)
+    return run_to_end(listen)
 
 
 def _print_streams() -> int:

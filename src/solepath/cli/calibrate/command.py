@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Namespace
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ from ...recording import printable
 from ...saving.files import identity
 from ..common.failure import Failure
 from ..common.files import CALIBRATION, OutputFile, check_outputs
+from ..common.parser import add_command
 from .kinds import KINDS
 
 MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stays."
@@ -21,11 +22,12 @@ MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stay
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
+    command = add_command(
+        commands,
         "calibrate",
-        help="learn about a wearer, shoes and insoles",
-        description=f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGE_NOTE}",
-        epilog="example: solepath calibrate walk corridor.jsonl --out me.json\nsolepath calibrate walk --help",
+        "learn about a wearer, shoes and insoles",
+        f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGE_NOTE}",
+        "solepath calibrate walk corridor.jsonl --out me.json\nsolepath calibrate walk --help",
     )
     kinds = command.add_subparsers(metavar="KIND", dest="kind", required=True)
     for add in KINDS:
@@ -35,7 +37,7 @@ def add_to(commands: Any) -> None:
         kind.set_defaults(run=run)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: Namespace) -> int:
     """Make the calibration and write it; return the exit status."""
     from ...show.tables.progress import progress_bar
 

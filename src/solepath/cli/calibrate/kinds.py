@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Namespace
 from math import degrees
 from pathlib import Path
 from typing import Any
@@ -10,9 +10,11 @@ from typing import Any
 from ...calibration import Calibration, InsoleCalibration
 from ...show.tables.table import number, table
 from ...types import Foot
-from ..common.failure import Failure, parse_count, parse_degrees, parse_share, recipe_named
-from ..common.inputs import add_foot, check_pressure, foot_of, source_of
+from ..common.failure import Failure, parse_count, parse_degrees, parse_share
+from ..common.inputs import add_recipe_name, check_pressure, source_of
 from ..common.own_devices import add_own_devices, drivers_of
+from ..common.parser import add_command
+from ..common.tables import add_tables, source_named
 from .limbs import add_limbs
 from .sensor import add_sensor
 from .shoe import add_shoe
@@ -22,21 +24,16 @@ LearntCalibration = tuple[Calibration, list[str]]
 """A calibration that was learnt, and the lines that report it."""
 
 
-def _add_recording(command: argparse.ArgumentParser) -> None:
-    command.add_argument("file", metavar="RECORDING", type=Path, help="packets (.jsonl) or samples (.npz, .csv)")
-    add_foot(command)
-    add_own_devices(command)
-
-
 def _add_noise(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
+    command = add_command(
+        kinds,
         "noise",
-        help="what pressure cells show in the air, from a walk",
-        description="From some 20 s of walking: what every cell shows while the foot swings, which is taken off later.",
-        epilog="example: solepath calibrate noise walk.jsonl --out me.json",
+        "what pressure cells show in the air, from a walk",
+        "From some 20 s of walking: what every cell shows while the foot swings, which is taken off later.",
+        "solepath calibrate noise walk.jsonl --out me.json",
+        learn=_noise,
     )
-    command.set_defaults(learn=_noise)
-    _add_recording(command)
+    add_tables(command, "RECORDING")
     command.add_argument(
         "--share",
         metavar="SHARE",
@@ -46,17 +43,14 @@ def _add_noise(kinds: Any) -> None:
     )
 
 
-def _noise(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
+def _noise(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.kupt_dfpc.noise import pressure_noise
     from ...recording.decoded import decode_recording
 
     if options.share == 0.0:
         raise Failure("--share 0: of no samples at all nothing is learnt")
-    learnt = pressure_noise(
-        decode_recording(source_of(options.file, foot_of(options), own=drivers_of(options))).samples,
-        options.share,
-        known,
-    )
+    samples = decode_recording(source_named(options, drivers_of(options))).samples
+    learnt = pressure_noise(samples, options.share, known)
     rows = [
         [foot.value, str(len(insole.noise)), number(sum(insole.noise) / len(insole.noise)), number(max(insole.noise))]
         for foot, insole in learnt.insoles.items()
@@ -65,15 +59,16 @@ def _noise(options: argparse.Namespace, known: Calibration) -> LearntCalibration
 
 
 def _add_square(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
+    command = add_command(
+        kinds,
         "square",
-        help="which way positions drift, from laps of a square over marks",
-        description="From four to six laps of a square on whose edges every stride of one foot is marked, the same "
+        "which way positions drift, from laps of a square over marks",
+        "From four to six laps of a square on whose edges every stride of one foot is marked, the same "
         "marks in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
-        epilog="example: solepath calibrate square laps.jsonl --out me.json",
+        "solepath calibrate square laps.jsonl --out me.json",
+        learn=_square,
     )
-    command.set_defaults(learn=_square)
-    _add_recording(command)
+    add_tables(command, "RECORDING")
     command.add_argument(
         "--marks",
         metavar="MARKS",
@@ -83,27 +78,26 @@ def _add_square(kinds: Any) -> None:
     command.add_argument(
         "--steps", metavar="N", type=parse_count, default=40, help="marks around the square (default: 40)"
     )
-    command.add_argument(
-        "--recipe",
-        metavar="NAME",
-        default="pressure-contour",
-        help="whose positions (default: pressure-contour; or gyroscope)",
+    add_recipe_name(
+        command, default="pressure-contour", help="whose positions (default: pressure-contour; or gyroscope)"
     )
     command.add_argument(
         "--whole", action="store_true", help="keep a drift that the laps do not agree on, as the paper"
     )
 
 
-def _square(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
+def _square(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.pressure_contour.square import read_marks, square_drift
+    from ...recipes import by_name
 
-    recipe = recipe_named(options.recipe)
-    foot = foot_of(options)
+    recipe = by_name(options.recipe)
     marks = read_marks(options.marks) if options.marks else None
     drivers = drivers_of(options)
-    source = source_of(options.file, foot, own=drivers)
+    source = source_named(options, drivers)
     check_pressure(recipe, source, drivers)
-    drift = square_drift(source, foot=foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known)
+    drift = square_drift(
+        source, foot=source.foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known
+    )
     x, y = drift.slope
     if drift.agreed:
         verdict = "the laps agree on it, and it is taken off later"
@@ -118,23 +112,23 @@ def _square(options: argparse.Namespace, known: Calibration) -> LearntCalibratio
 
 
 def _add_newton(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
+    command = add_command(
+        kinds,
         "newton",
-        help="from an insole's counts to newtons, from what a gauge pressed",
-        description="A cubic through what a gauge pressed and what the insole said: a csv file with the columns counts "
+        "from an insole's counts to newtons, from what a gauge pressed",
+        "A cubic through what a gauge pressed and what the insole said: a csv file with the columns counts "
         "and newtons.",
-        epilog="example: solepath calibrate newton gauge.csv --foot left --out me.json",
+        "solepath calibrate newton gauge.csv --foot left --out me.json",
+        learn=_newton,
     )
-    command.set_defaults(learn=_newton)
     command.add_argument("file", metavar="GAUGE", type=Path, help="the csv file")
     command.add_argument("--foot", choices=["left", "right"], help="whose insole it is (default: both are alike)")
 
 
-def _newton(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
+def _newton(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.walking_modes.newton import fit_gauge
 
-    foot = foot_of(options)
-    feet = list(Foot) if foot is None else [foot]
+    feet = [foot for foot in Foot if options.foot in (None, foot.value)]
     fit = fit_gauge(options.file)
     a, b, c, d = fit.newtons.coefficients
     insole = InsoleCalibration(newtons=fit.newtons)
@@ -145,15 +139,16 @@ def _newton(options: argparse.Namespace, known: Calibration) -> LearntCalibratio
 
 
 def _add_modes(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
+    command = add_command(
+        kinds,
         "modes",
-        help="a wearer's own compensation of touchdowns, from walks over marks",
-        description="From walks on marked points, straight on and along bends: what touchdowns are off by in each "
+        "a wearer's own compensation of touchdowns, from walks over marks",
+        "From walks on marked points, straight on and along bends: what touchdowns are off by in each "
         "walking mode. Each recording comes with a csv file of its marks: foot, x, y (m), mode, and t (s) or step. "
         "Limbs and insoles that FILE knows already are used.",
-        epilog="example: solepath calibrate modes straight.jsonl straight.csv bend.jsonl bend.csv --out me.json",
+        "solepath calibrate modes straight.jsonl straight.csv bend.jsonl bend.csv --out me.json",
+        learn=_modes,
     )
-    command.set_defaults(learn=_modes)
     command.add_argument("files", metavar="RECORDING MARKS", nargs="+", type=Path, help="two files for each walk")
     add_own_devices(command)
     command.add_argument(
@@ -165,7 +160,7 @@ def _add_modes(kinds: Any) -> None:
     )
 
 
-def _modes(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
+def _modes(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.walking_modes.calibrate import fit_modes
     from ...recording.decoded import decode_recording
 
@@ -186,22 +181,23 @@ def _modes(options: argparse.Namespace, known: Calibration) -> LearntCalibration
 
 
 def _add_walk(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
+    command = add_command(
+        kinds,
         "walk",
-        help="how the heading of each foot drifts, from a walk there and back",
-        description="From two minutes to and fro along one straight line of 10 m and more, for instance a corridor: by "
+        "how the heading of each foot drifts, from a walk there and back",
+        "From two minutes to and fro along one straight line of 10 m and more, for instance a corridor: by "
         "how much the track of each foot turns in every stride and for every turn, which is taken off later. Stand for "
         "fifteen seconds before and after it, walk as usual, and turn now to the left and now to the right.",
-        epilog="example: solepath calibrate walk corridor.jsonl --out me.json",
+        "solepath calibrate walk corridor.jsonl --out me.json",
+        learn=_walk,
     )
-    command.set_defaults(learn=_walk)
-    _add_recording(command)
+    add_tables(command, "RECORDING")
 
 
-def _walk(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
+def _walk(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...session.heading_walk import heading_calibration, heading_walk
 
-    fits = heading_walk(source_of(options.file, foot_of(options), own=drivers_of(options)), known)
+    fits = heading_walk(source_named(options, drivers_of(options)), known)
     rows = [
         [
             fit.foot.value, str(fit.legs), number(fit.duration, 0), number(degrees(fit.heading.drift), 3),
@@ -217,23 +213,24 @@ def _walk(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
 
 
 def _add_rest(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
+    command = add_command(
+        kinds,
         "rest",
-        help="the noise of a sensor, from a recording at rest",
-        description="From a sensor that lies still for two minutes or more, best an hour: the noise of its "
+        "the noise of a sensor, from a recording at rest",
+        "From a sensor that lies still for two minutes or more, best an hour: the noise of its "
         "accelerometer and gyroscope, and how fast their biases change. pressure-contour and gyroscope use it.",
-        epilog="example: solepath calibrate rest still.jsonl --out me.json",
+        "solepath calibrate rest still.jsonl --out me.json",
+        learn=_rest,
     )
-    command.set_defaults(learn=_rest)
-    _add_recording(command)
+    add_tables(command, "RECORDING")
 
 
-def _rest(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
+def _rest(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.pressure_contour.rest import rest_calibration, rest_noise
     from ...recording.decoded import decode_recording
 
-    foot = foot_of(options)
-    fits = rest_noise(decode_recording(source_of(options.file, foot, own=drivers_of(options))).samples, foot)
+    source = source_named(options, drivers_of(options))
+    fits = rest_noise(decode_recording(source).samples, source.foot)
     lines = [
         f"{fit.foot} foot, {fit.duration:.0f} s: accelerometer {1e3 * fit.noise.acc_density:.3g} mm/s^2/sqrt(Hz), bias "
         f"steady within {1e3 * fit.acc_instability:.3g} mm/s^2; gyroscope {degrees(fit.noise.gyro_density):.2g} "

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Namespace
 from math import degrees
-from pathlib import Path
 from typing import Any
 
 from ...calibration import Calibration
 from ...show.tables.table import number, table
 from ..common.failure import parse_positive
-from ..common.inputs import source_of
-from ..common.own_devices import add_own_devices, drivers_of
+from ..common.own_devices import drivers_of
+from ..common.parser import add_command
+from ..common.tables import add_tables, source_named
 
 STEEPEST_TILT = 35.0
 """Tilt from which a sensor is hardly strapped on as intended, degrees; between two axes of a box it is 45."""
@@ -19,16 +19,16 @@ STEEPEST_TILT = 35.0
 
 def add_limbs(kinds: Any) -> None:
     """Add the kind to the parser."""
-    command: argparse.ArgumentParser = kinds.add_parser(
+    command = add_command(
+        kinds,
         "limbs",
-        help="lengths of the limbs, and whether seven body sensors stood still, from a standing pose",
-        description="From some seconds of standing upright, feet level and side by side, with all seven sensors worn "
+        "lengths of the limbs, and whether seven body sensors stood still, from a standing pose",
+        "From some seconds of standing upright, feet level and side by side, with all seven sensors worn "
         "(docs/body-sensors.md): whether a walk can begin so. Lengths are shares of the stature, or as measured.",
-        epilog="example: solepath calibrate limbs standing.jsonl --stature 1.72 --spines 0.235 --out me.json",
+        "solepath calibrate limbs standing.jsonl --stature 1.72 --spines 0.235 --out me.json",
+        learn=_limbs,
     )
-    command.set_defaults(learn=_limbs)
-    command.add_argument("file", metavar="RECORDING", type=Path, help="packets (.jsonl) or samples (.npz, .csv)")
-    add_own_devices(command)
+    add_tables(command, "RECORDING")
     command.add_argument("--stature", metavar="M", type=parse_positive, required=True, help="of the wearer, m")
     for name, what in (
         ("spines", "distance of the bony points at the front of the hips (anterior iliac spines), m"),
@@ -38,11 +38,11 @@ def add_limbs(kinds: Any) -> None:
         command.add_argument(f"--{name}", metavar="M", type=parse_positive, help=f"{what} (default: by the stature)")
 
 
-def _limbs(options: argparse.Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
+def _limbs(options: Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
     from ...papers.walking_modes.limbs.standing import check_standing, limbs_of
     from ...recording.decoded import decode_recording
 
-    stood = check_standing(decode_recording(source_of(options.file, own=drivers_of(options))).samples)
+    stood = check_standing(decode_recording(source_named(options, drivers_of(options))).samples)
     limbs = limbs_of(options.stature, options.spines, options.thigh, options.shank)
     rows = [
         [

@@ -2,40 +2,52 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
-from collections.abc import Callable, Coroutine, Iterable
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Coroutine
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..bluetooth.devices import need_bleak
+from ..bluetooth.devices import add_feet, need_bleak
 from ..common.failure import Failure
-from ..common.files import Kind, OutputFile, check_outputs
+from ..common.files import Kind, OutputFile, add_force, check_outputs
+from ..common.view import PageAddress, add_view, page_address_of
 
 if TYPE_CHECKING:
     import asyncio
 
-
-def reject_live_options(options: argparse.Namespace, names: Iterable[str]) -> None:
-    """Raise Failure if an option of these names is given: only --live uses them."""
-    given = [name.replace("_", "-") for name in names if getattr(options, name) not in (None, False)]
-    if given:
-        raise Failure(f"--{given[0]} is an option of --live: without it nothing is measured now")
+OF_LIVE = ("height", "heel", "via", "left", "right", "profile", "pair", "view", "no_browser")
+"""Options that only --live uses."""
+Measure = Callable[[Namespace, PageAddress | None, "asyncio.Event"], Coroutine[Any, Any, int]]
+"""Function that makes the file with a person at the terminal."""
 
 
-def check_live(options: argparse.Namespace, kind: Kind, purpose: str) -> None:
-    """Raise Failure if there is no terminal, no Bluetooth, or no way to write the file.
+def add_live(command: ArgumentParser, what: str, shown: str) -> None:
+    """Add --live, and the options that go with it, to a command; `shown` says what the page shows."""
+    command.add_argument("--live", action="store_true", help=what)
+    add_feet(command)
+    add_view(command, command, f"with --live: show {shown}")
+    add_force(command)
 
-    `kind` is that of the file, and `purpose` the command with what it needs a person for."""
+
+def measure_live(options: Namespace, kind: Kind, purpose: str, measure: Callable[[], Measure]) -> None:
+    """Make the file, of this `kind`, with a person at the terminal, if --live is given.
+
+    `purpose` is the command with what it needs a person for; `measure` imports the function. Failure is raised for an
+    option of --live without it, or if there is no terminal, no Bluetooth, or no way to write the file; SystemExit when
+    the person stopped."""
+    if not options.live:
+        for name in OF_LIVE:
+            if getattr(options, name, None) not in (None, False):
+                raise Failure(f"--{name.replace('_', '-')} is an option of --live: without it nothing is measured now")
+        return
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise Failure(f"{purpose}: it needs a terminal")
-    check_outputs(options, [OutputFile(options.file, kind)], options.out)
+    check_outputs(options, [OutputFile(options.files[0], kind)], options.out)
     need_bleak()
+    address = page_address_of(options)
+    from ..common.loop import run_to_end
 
-
-def run_live(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> None:
-    """Run `main`, which writes the file; raise SystemExit when it was stopped."""
-    from ..bluetooth.backend import listen_to_end
-
-    status = listen_to_end(main)
+    status = run_to_end(partial(measure(), options, address))
     if status != 0:
         raise SystemExit(status)

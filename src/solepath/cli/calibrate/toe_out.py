@@ -2,65 +2,45 @@
 
 from __future__ import annotations
 
-import argparse
-from functools import partial
+from argparse import Namespace
 from math import degrees
-from pathlib import Path
 from typing import Any
 
 from ...calibration import Calibration
 from ...show.tables.table import number, table
-from ..bluetooth.devices import add_feet
 from ..common.failure import Failure, parse_positive
-from ..common.files import RECORDING, add_force
-from ..common.inputs import add_foot, foot_of, source_of
-from ..common.own_devices import add_own_devices, drivers_of
-from ..common.view import add_view, page_address_of
-from .live import check_live, reject_live_options, run_live
-
-OF_LIVE = ("via", "left", "right", "profile", "pair", "view", "no_browser")
-"""Options that only --live uses."""
+from ..common.files import RECORDING
+from ..common.own_devices import drivers_of
+from ..common.parser import add_command
+from ..common.tables import add_tables, source_named
+from .live import Measure, add_live, measure_live
 
 
 def add_toe_out(kinds: Any) -> None:
     """Add the kind to the parser."""
-    command: argparse.ArgumentParser = kinds.add_parser(
+    command = add_command(
+        kinds,
         "toe-out",
-        help="how far feet point beside their way, from a straight walk",
-        description="From a straight walk: how far each foot points outwards of its way, which the recipe "
+        "how far feet point beside their way, from a straight walk",
+        "From a straight walk: how far each foot points outwards of its way, which the recipe "
         "footstep-tracker takes into account. With the length of the walk, the paper's angle is shown too. With "
         "--live, the command says how to walk, shows strides and angles as they come, and writes the recording.",
-        epilog="example: solepath calibrate toe-out corridor.jsonl --distance 20 --out me.json",
+        "solepath calibrate toe-out corridor.jsonl --distance 20 --out me.json",
+        learn=_toe_out,
     )
-    command.set_defaults(learn=_toe_out)
-    command.add_argument(
-        "file",
-        metavar="RECORDING",
-        type=Path,
-        help="packets (.jsonl) or samples (.npz, .csv); with --live, to be written",
-    )
-    add_foot(command)
-    add_own_devices(command)
+    add_tables(command, "RECORDING")
     command.add_argument("--distance", metavar="M", type=parse_positive, help="length of the walk, m")
-    command.add_argument("--live", action="store_true", help="walk now, with the sensors in the shoes")
-    add_feet(command)
-    add_view(command, command, "with --live: show what to do, strides and angles")
-    add_force(command)
+    add_live(command, "walk now, with the sensors in the shoes, and write RECORDING", "what to do, strides and angles")
 
 
-def _toe_out(options: argparse.Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
+def _toe_out(options: Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
     from ...papers.footstep_tracker.toe_out import ERRORS, ToeOut, printed_angle, toe_out, toe_out_calibration
 
     if options.live and options.driver_files:
         raise Failure("--driver is for a recording here: make it with `solepath record`, and give it without --live")
-    if options.live:
-        _measure(options)
-    else:
-        reject_live_options(options, OF_LIVE)
-    feet, distance = (
-        toe_out(source_of(options.file, foot_of(options), own=drivers_of(options)), options.distance),
-        options.distance,
-    )
+    measure_live(options, RECORDING, "calibrate toe-out --live shows a person how to walk", _measure)
+    distance = options.distance
+    feet = toe_out(source_named(options, drivers_of(options)), distance)
 
     def by_length(one: ToeOut) -> str:
         printed = printed_angle(one.along, distance)
@@ -83,10 +63,7 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> tuple[Calibrati
     return toe_out_calibration(feet), lines
 
 
-def _measure(options: argparse.Namespace) -> None:
-    """Write the recording, walked by a person at the terminal; raise SystemExit when that was stopped."""
-    check_live(options, RECORDING, "calibrate toe-out --live shows a person how to walk")
-    address = page_address_of(options)
+def _measure() -> Measure:
     from .toe_out_live import measure
 
-    run_live(partial(measure, options, address))
+    return measure

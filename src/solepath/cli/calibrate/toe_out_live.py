@@ -4,31 +4,24 @@ Numbers were chosen by hand."""
 
 from __future__ import annotations
 
-import argparse
 import asyncio
+from argparse import Namespace
 from collections.abc import AsyncIterable, Sequence
-from contextlib import AsyncExitStack
 from math import degrees, fsum
 
 from attrs import define, evolve, field
 
-from ...ble import Devices
 from ...ble.record import start_keys
 from ...calibration import CalibrationError
 from ...papers.footstep_tracker.toe_out import ERRORS, FEWEST_STRIDES, ToeOutWalk
-from ...recording import PacketWriter, RecordingError
+from ...recording import PacketWriter
 from ...show.page.guide import ShownFoot, ShownToeOut
 from ...show.page.scene.scene import Scene
 from ...types import Foot, Packet
-from ..bluetooth.backend import backend_of
-from ..bluetooth.devices import named_devices
 from ..common.failure import Failure
-from ..common.loop import unless_stopped
-from ..common.view import PageAddress, serve_page
-from .terminal import Dialogue, meanwhile
+from ..common.view import PageAddress
+from .guide import Dialogue, guide
 
-REDRAW_INTERVAL = 0.2
-"""Time between two pictures of the strides, s."""
 STANDING_TIME = 3.0
 """Time for which each sensor must have sent before the walk, s: while the feet stand still, they show its bias."""
 STAND = "Stand still with both shoes on, and press Enter after three seconds (q and Enter end)."
@@ -36,34 +29,18 @@ WALK = "Walk straight ahead at an even pace, {length}, stand still, and press En
 UNKNOWN_LENGTH = "20 m or as far as there is room"
 
 
-async def measure(options: argparse.Namespace, address: PageAddress | None, stop: asyncio.Event) -> int:
-    """Record until the person has walked; return 0. Raise StoppedEarly at a signal.
-
-    With an `address`, a page there shows tasks, strides and angles as well."""
-    devices = named_devices(options)
-    if not devices:
+async def measure(options: Namespace, address: PageAddress | None, stop: asyncio.Event) -> int:
+    """Record until the person has walked; return 0."""
+    feet = [foot for foot, device in ((Foot.LEFT, options.left), (Foot.RIGHT, options.right)) if device]
+    if not feet:
         raise Failure("say which sensors are in the shoes: --left and --right")
-    async with AsyncExitStack() as stack:
-        await stack.enter_async_context(unless_stopped(stop))
-        backend = await stack.enter_async_context(backend_of(options.via))
-        packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
-        try:
-            writer = PacketWriter(options.file, start_keys(), replace=options.force)
-        except RecordingError as error:
-            raise Failure(str(error)) from None
-        named = ((Foot.LEFT, options.left), (Foot.RIGHT, options.right))
-        walk = GuidedWalk(writer, [foot for foot, device in named if device], ShownToeOut(distance=options.distance))
-        try:
-            if address is not None:
-                await stack.enter_async_context(serve_page(walk.scene, address))
-            async with meanwhile(walk.receive(packets)) as receiving:
-                await walk.lead(Dialogue(), receiving)
-        except EOFError:
-            writer.discard()
-            raise Failure("nobody walked, so that nothing is learnt") from None
-        finally:
-            writer.close()
-    return 0
+    writer = PacketWriter(options.files[0], start_keys(), replace=options.force)
+    try:
+        return await guide(options, address, GuidedWalk(writer, feet, ShownToeOut(distance=options.distance)), stop)
+    except EOFError:
+        raise Failure("nobody walked, so that nothing is learnt") from None
+    finally:
+        writer.discard()
 
 
 @define
@@ -95,21 +72,18 @@ class GuidedWalk:
             for foot in self.walk.session.feet:
                 self.first_t.setdefault(foot, packet.t)
 
-    async def lead(self, talk: Dialogue, receiving: asyncio.Task[None]) -> None:
+    async def lead(self, talk: Dialogue) -> None:
         """Say what to do and wait for it; raise EOFError when the person ends before the walk."""
         distance = self.shown.distance
         length = UNKNOWN_LENGTH if distance is None else f"exactly {distance:g} m"
         for instruction in (STAND, WALK.format(length=length)):
             talk.print_line(instruction)
-            talk.forget_typed()
             self.shown.task = instruction
             is_due = False
-            while not (is_due and self.has_stood):
-                if receiving.done():
-                    receiving.result()
-                is_due = talk.typed() is not None or is_due
-                talk.show(self.line())
-                await asyncio.sleep(REDRAW_INTERVAL)
+            async for typed in talk.turns(self.line):
+                is_due = is_due or typed is not None
+                if is_due and self.has_stood:
+                    break
 
     @property
     def has_stood(self) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import islice
 from pathlib import Path
 
 from ...recording import printable
@@ -11,8 +12,6 @@ MIN_SIMILARITY = 0.6
 """Least similarity (Ratcliff and Obershelp's, 0 to 1) of a name that is suggested: the default of difflib."""
 MIN_FILE_SIMILARITY = 0.75
 """The same for names of files, which often share their ending; chosen by hand."""
-MIN_OPTION_SIMILARITY = 0.7
-"""The same for options, which are short, and of which a command has many; chosen by hand."""
 MAX_NAMES = 20
 """Largest number of names that are listed where none is similar; chosen by hand."""
 MAX_FILES = 2000
@@ -24,32 +23,27 @@ def closest(name: str, names: Iterable[str], min_similarity: float = MIN_SIMILAR
     from difflib import get_close_matches
 
     by_text = {one.lower(): one for one in names}
-    if len(name) >= 3 and len(starts := [one for text, one in by_text.items() if text.startswith(name.lower())]) == 1:
-        return starts[0]
-    found = get_close_matches(name.lower(), by_text, n=1, cutoff=min_similarity)
+    starts = [text for text in by_text if len(name) >= 3 and text.startswith(name.lower())]
+    found = starts if len(starts) == 1 else get_close_matches(name.lower(), by_text, n=1, cutoff=min_similarity)
     return by_text[found[0]] if found else None
 
 
-def suggestion(name: str, names: Iterable[str]) -> str:
-    """Return what comes after "there is no ...": the similar name as a question, or all names."""
+def unknown(what: str, name: str, names: Iterable[str]) -> str:
+    """Return the sentence about a name that does not exist; `what` says of what, such as "recipe".
+
+    It ends with the similar name as a question, or with all names."""
     listed = list(names)
     meant = closest(name, listed)
-    if meant is not None:
-        return f": did you mean {meant}?"
     more = f" and {len(listed) - MAX_NAMES} more" if len(listed) > MAX_NAMES else ""
-    return f"; there are: {', '.join(listed[:MAX_NAMES])}{more}" if listed else ""
-
-
-def unknown(what: str, name: str, names: Iterable[str]) -> str:
-    """Return the sentence about a name that does not exist; `what` says of what, such as "recipe"."""
-    return f"there is no {what} {printable(repr(name), 80)}{suggestion(name, names)}"
+    end = f"; there are: {', '.join(listed[:MAX_NAMES])}{more}" if meant is None else f": did you mean {meant}?"
+    return f"there is no {what} {printable(repr(name), 80)}{end}"
 
 
 def closest_file(path: Path) -> str:
     """Return the question for a similar name beside a path that does not exist; "" if there is none."""
     try:
-        names = [entry.name for _, entry in zip(range(MAX_FILES), path.parent.iterdir(), strict=False)]
+        names = [entry.name for entry in islice(path.parent.iterdir(), MAX_FILES)]
     except OSError:
         return ""
     meant = closest(path.name, names, MIN_FILE_SIMILARITY)
-    return "" if meant is None else f": did you mean {printable(str(path.parent / meant))}?"
+    return "" if meant is None else f": did you mean {path.parent / meant}?"

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
-from collections.abc import Callable
+from argparse import ArgumentTypeError
+from contextlib import suppress
+from functools import partial
 from importlib.util import find_spec
-from math import isfinite, nan, radians
-from typing import TYPE_CHECKING
+from math import inf, isfinite, nan, radians
 
 from ...recording import printable
 from ...types.extras import install_hint
-from .closest import unknown
 
-if TYPE_CHECKING:
-    from ...recipes import Recipe
-
+PAGE_ADDRESS = "127.0.0.1:8765"
+"""Address of the page where none is named."""
 MAX_LENGTH = 2000
 """Largest number of characters of a sentence that are shown; chosen by hand."""
 
@@ -23,13 +21,18 @@ MAX_LENGTH = 2000
 class Failure(Exception):
     """An error after which the command cannot go on: one sentence for stderr, exit status 2.
 
-    A RecordingError or CalibrationError that nobody catches has the same effect."""
+    Any other error of solepath that nobody catches, such as a RecordingError, has the same effect."""
 
 
 def note(sentence: str) -> None:
     """Print one line on stderr and go on."""
     sys.stdout.flush()
     print(f"solepath: {printable(sentence, MAX_LENGTH)}", file=sys.stderr)
+
+
+def tell(sentence: str) -> None:
+    """Print one line on stdout at once, without control codes of a name in it."""
+    print(printable(sentence, MAX_LENGTH), flush=True)
 
 
 def has_terminal() -> bool:
@@ -51,69 +54,54 @@ def require(what: str, extra: str, *packages: str) -> None:
             raise Failure(f"{what} {package}: {install_hint(extra)}")
 
 
-def host_and_port(option: str, text: str, hint: str = "") -> tuple[str, int]:
-    """Return host and port of HOST:PORT, where an IPv6 host may have brackets; raise Failure for other text."""
-    host, colon, port = text.rpartition(":")
-    if not colon or not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
-        raise Failure(f"{option} {printable(text, 80)}: that is not HOST:PORT{hint}")
-    return host.removeprefix("[").removesuffix("]"), int(port)
-
-
-def _number(text: str, what: str, is_valid: Callable[[float], bool]) -> float:
-    """Return the finite number in `text`; raise ArgumentTypeError with "is not `what`" for any other."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = nan
-    if not (isfinite(value) and is_valid(value)):
-        raise argparse.ArgumentTypeError(f"{text!r} is not {what}")
+def finite(text: str) -> float:
+    """Return the finite number in `text`; raise ValueError for any other text."""
+    value = nan if "_" in text else float(text)  # Python reads 1_0 as ten
+    if not isfinite(value):
+        raise ValueError(f"{text!r} is no number")
     return value
 
 
-def parse_positive(text: str) -> float:
-    """Parse an option of argparse: a finite number above 0."""
-    return _number(text, "a positive number", lambda value: value > 0.0)
+def parse_number(what: str, least: float, most: float, text: str) -> float:
+    """Parse an option of argparse: a number from `least` to `most`; other text "is not `what`"."""
+    with suppress(ValueError):
+        if least <= (value := finite(text)) <= most:
+            return value
+    raise ArgumentTypeError(f"{text[:40]!r} is not {what}")
 
 
-def parse_offset(text: str) -> float:
-    """Parse an option of argparse: an offset of a clock of at most an hour, s."""
-    return _number(text, "a number of seconds from -3600 to 3600", lambda value: abs(value) <= 3600.0)
+def _whole(what: str, least: int, text: str) -> int:
+    """Parse an option of argparse: a whole number from `least` on; other text "is not `what`"."""
+    if text.isdecimal() and len(text) <= 18 and int(text) >= least:
+        return int(text)
+    raise ArgumentTypeError(f"{text[:40]!r} is not {what}")
 
 
-def parse_count(text: str) -> int:
-    """Parse an option of argparse: a whole number above 0."""
-    value = int(text) if text.isdecimal() and len(text) < 10 else 0
-    if value <= 0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of 1 or more")
-    return value
-
-
-def parse_whole_number(text: str) -> int:
-    """Parse an option of argparse: a whole number of 0 or more."""
-    if not text.isdecimal() or len(text) > 18:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number of 0 or more")
-    return int(text)
-
-
-def parse_share(text: str) -> float:
-    """Parse an option of argparse: a number from 0 to 1."""
-    return _number(text, "a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
-
-
-def parse_seconds(text: str) -> float:
-    """Parse an option of argparse: a finite number of seconds, 0 or more."""
-    return _number(text, "a number of seconds", lambda value: value >= 0.0)
+parse_positive = partial(parse_number, "a positive number", 5e-324, inf)
+parse_offset = partial(parse_number, "a number of seconds from -3600 to 3600", -3600.0, 3600.0)
+parse_share = partial(parse_number, "a number from 0 to 1", 0.0, 1.0)
+parse_seconds = partial(parse_number, "a number of seconds", 0.0, inf)
+parse_count = partial(_whole, "a number of 1 or more", 1)
+parse_whole_number = partial(_whole, "a whole number of 0 or more", 0)
 
 
 def parse_degrees(text: str) -> float:
     """Parse an option of argparse: a finite angle in degrees, returned in rad."""
-    return radians(_number(text, "a number of degrees", lambda _: True))
+    return radians(parse_number("a number of degrees", -inf, inf, text))
 
 
-def recipe_named(name: str) -> Recipe:
-    """Return the recipe of this name; raise Failure when there is none."""
-    from ...recipes import NAMES, by_name
+def parse_span(what: str, text: str) -> tuple[float, float]:
+    """Parse an option of argparse: two times in s, the earlier one first; other text "is not `what`"."""
+    with suppress(ValueError):
+        start, stop = map(finite, text.split(","))
+        if start < stop:
+            return start, stop
+    raise ArgumentTypeError(f"{printable(text, 80)} is not {what}, as in 12.5,24.1")
 
-    if name not in NAMES:
-        raise Failure(unknown("recipe", name, NAMES))
-    return by_name(name)
+
+def parse_address(text: str) -> tuple[str, int]:
+    """Parse an option of argparse: HOST:PORT, where an IPv6 host may have brackets."""
+    host, _, port = text.rpartition(":")
+    if not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
+        raise ArgumentTypeError(f"{text[:80]!r} is not HOST:PORT, as in {PAGE_ADDRESS}")
+    return host.removeprefix("[").removesuffix("]"), int(port)

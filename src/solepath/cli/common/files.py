@@ -7,10 +7,10 @@ the end, it is checked again: --force is for the file that was there at the star
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import re
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from itertools import combinations
@@ -19,7 +19,6 @@ from typing import Any, TypeVar
 
 from attrs import field, frozen
 
-from ...recording import printable
 from ...saving.files import FileReplacements, identity, replace_whole
 from ...saving.lock import LOCKED, locked
 from ...show.output import (
@@ -116,7 +115,7 @@ class OutputFile:
     def check_again(self) -> None:
         """Raise Failure when another program has written the file since then, unless it is of the same kind."""
         if identity(self.path) != self._found and self.path.is_file() and not self.kind.is_own(self.path):
-            raise Failure(f"{printable(str(self.path))}: another program wrote it meanwhile, so that it stays")
+            raise Failure(f"{self.path}: another program wrote it meanwhile, so that it stays")
 
     def replace(self, write: Callable[[Path], T]) -> T:
         """Replace the file by what `write` writes to the path that it is given, once that is whole; return its result.
@@ -133,7 +132,7 @@ def replacements(outputs: Iterable[OutputFile]) -> FileReplacements:
     return FileReplacements(lambda path: by_path[path].check_again())
 
 
-def add_force(command: argparse.ArgumentParser) -> None:
+def add_force(command: ArgumentParser) -> None:
     """Add --force to a command."""
     command.add_argument(
         "--force", action="store_true", help="replace recordings and files of other programs under the names given, too"
@@ -149,7 +148,7 @@ def files_of_track(
     if out is None:
         return []
     if out.exists() and not out.is_dir():
-        raise Failure(f"{printable(str(out))}: is a file; --out needs a folder, which is made when there is none")
+        raise Failure(f"{out}: is a file; --out needs a folder, which is made when there is none")
     kinds = TRACK_KINDS | (RUN_KINDS if run else {}) | (PLACE_KINDS if places else {}) | (PLAN_KINDS if plan else {})
     if outcomes:
         from ...show.outcomes.files import BOUT_COLUMNS, BOUTS_FILE, OUTCOME_COLUMNS, OUTCOMES_FILE
@@ -158,21 +157,21 @@ def files_of_track(
     return [OutputFile(out / name, kind) for name, kind in kinds.items()]
 
 
-def check_outputs(options: argparse.Namespace, outputs: Sequence[OutputFile], *inputs: Path) -> None:
+def check_outputs(options: Namespace, outputs: Sequence[OutputFile], *inputs: Path) -> None:
     """Check that no output is an input, another output, being recorded, not writable, or replaced with --force only.
 
     Inputs are all paths among the options, but those of options that name outputs, and `inputs`; a directory stands for
     the files in it. No file is changed. Raise Failure, with one sentence, or OSError."""
-    written = {*WRITTEN, "file"} if getattr(options, "live", False) else WRITTEN
+    written = {*WRITTEN, "files"} if getattr(options, "live", False) else WRITTEN
     given = [value for name, value in vars(options).items() if name not in written]
     given += [one for value in given if isinstance(value, list) for one in value]
     read = [path for one in (*given, *inputs) if isinstance(one, Path) for path in _files_in(one)]
     for output in outputs:
         if any(_is_same(output.path, path) for path in read):
-            raise Failure(f"{printable(str(output.path))}: is what this command reads; write to another file")
+            raise Failure(f"{output.path}: is what this command reads; write to another file")
     for one, other in combinations(outputs, 2):
         if _is_same(one.path, other.path):
-            raise Failure(f"{printable(str(other.path))}: two outputs cannot be one file")
+            raise Failure(f"{other.path}: two outputs cannot be one file")
     for output in outputs:
         path, kind = output.path, output.kind
         if path.is_file():
@@ -180,10 +179,10 @@ def check_outputs(options: argparse.Namespace, outputs: Sequence[OutputFile], *i
                 with locked(path):
                     pass
             except BlockingIOError:
-                raise Failure(f"{printable(str(path))}: {LOCKED}") from None
+                raise Failure(f"{path}: {LOCKED}") from None
             if not getattr(options, "force", False) and not kind.is_own(path):
                 why = "exists" if kind.start is None else "exists and is no such file that solepath wrote"
-                raise Failure(f"{printable(str(path))}: {why}; --force replaces it")
+                raise Failure(f"{path}: {why}; --force replaces it")
     for output in outputs:
         _check_writable(output.path, getattr(options, "out", None))
 

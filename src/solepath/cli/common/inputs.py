@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator, Sequence
-from math import isfinite, nan, radians
+from contextlib import suppress
+from functools import partial
+from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...calibration import Calibration
-from ...link.decoder import Decoder
 from ...link.kinds import DeviceKinds, make_kinds
 from ...recording import RecordingError, Source, TableMapping, open_source, printable
-from ...types import Foot, Sample, Site
-from ..completion import complete_with
-from .failure import Failure, note, parse_degrees, parse_offset, recipe_named
+from ...types import Foot, Sample
+from ...types.registry import TABLE
+from .failure import Failure, finite, note, parse_degrees, parse_offset, parse_span
 
 if TYPE_CHECKING:
     from ...floorplan.index import IndexedPlan
@@ -22,42 +23,18 @@ if TYPE_CHECKING:
     from ...link.driver import Driver
     from ...recipes import Recipe
     from ...recording.btsnoop import BtsnoopLog
+    from ...recording.errors import Report
 
 
-def add_foot(command: argparse.ArgumentParser) -> None:
-    """Add --foot to a command."""
-    command.add_argument(
-        "--foot",
-        choices=["left", "right"],
-        help="whose the samples of a recording of one foot are (default: right); of other recordings, the foot to use",
-    )
-
-
-def _recipe_names() -> Sequence[str]:
-    from ...recipes import NAMES
-
-    return NAMES
-
-
-def add_recipe_name(command: argparse.ArgumentParser, what: str = "how to compute", **more: Any) -> None:
+def add_recipe_name(command: ArgumentParser, what: str = "how to compute", **more: Any) -> None:
     """Add --recipe to a command; `what` says what the recipe is for."""
-    action = command.add_argument(
-        "--recipe", metavar="NAME", **{"default": "default", "help": f"{what} (default: default)"} | more
-    )
-    complete_with(action, _recipe_names)
+    given = {"default": "default", "help": f"{what} (default: default)"} | more
+    command.add_argument("--recipe", metavar="NAME", choices=list(TABLE["recipe"]), **given)
 
 
-def add_recipe(command: argparse.ArgumentParser, *, several: bool = False) -> None:
-    """Add --recipe and --heading to a command; `several` lets --recipe be given again."""
-    if several:
-        add_recipe_name(
-            command,
-            action="append",
-            default=None,
-            help="how to compute (default: default); given again, one table with a column for each recipe",
-        )
-    else:
-        add_recipe_name(command)
+def add_recipe(command: ArgumentParser, **more: Any) -> None:
+    """Add --recipe and --heading to a command."""
+    add_recipe_name(command, **more)
     command.add_argument(
         "--heading",
         metavar="DEGREES",
@@ -67,31 +44,21 @@ def add_recipe(command: argparse.ArgumentParser, *, several: bool = False) -> No
     )
 
 
-def recipe_of(options: argparse.Namespace) -> Recipe:
-    """Return the recipe of --recipe and --heading; raise Failure when there is none, or when it takes no heading."""
-    return _headed(recipe_named(options.recipe), options)
+def recipes_of(options: Namespace) -> list[Recipe]:
+    """Return the recipes of --recipe, with --heading; raise Failure for one that takes no heading."""
+    from ...recipes import by_name
 
-
-def recipes_of(options: argparse.Namespace) -> list[Recipe]:
-    """Return the recipes of a command whose --recipe may be given again; raise Failure as `recipe_of` does."""
-    return [_headed(recipe_named(name), options) for name in options.recipe or ["default"]]
-
-
-def _headed(recipe: Recipe, options: argparse.Namespace) -> Recipe:
+    names = [options.recipe] if isinstance(options.recipe, str) else options.recipe or ["default"]
+    recipes = [by_name(name) for name in names]
     if options.heading is None:
-        return recipe
+        return recipes
     try:
-        return recipe.with_heading(options.heading)
+        return [recipe.with_heading(options.heading) for recipe in recipes]
     except (LookupError, ValueError) as error:
         raise Failure(f"--heading: {error}") from None
 
 
-def foot_of(options: argparse.Namespace) -> Foot | None:
-    """Return the foot of --foot; None without it."""
-    return Foot(options.foot) if options.foot else None
-
-
-def add_clocks(command: argparse.ArgumentParser) -> None:
+def add_clocks(command: ArgumentParser) -> None:
     """Add --clock-offset and --shared-event to a command."""
     one = command.add_mutually_exclusive_group()
     one.add_argument(
@@ -103,26 +70,24 @@ def add_clocks(command: argparse.ArgumentParser) -> None:
     one.add_argument(
         "--shared-event",
         metavar="START,END",
+        type=partial(parse_span, "START,END"),
         help="the same, with the offset from a lift ride or a jump from both feet between these times, s; the recording"
         " must be of samples",
     )
 
 
-def undo_clocks(source: Source, options: argparse.Namespace) -> None:
+def undo_clocks(source: Source, options: Namespace) -> None:
     """Correct the times of the right foot by --clock-offset or --shared-event.
 
     The offset of a shared event is printed. Failure and RecordingError are raised when it cannot be found."""
     source.clock_offset = options.clock_offset or 0.0
     if options.shared_event is None:
         return
-    bounds = [_finite(text) for text in options.shared_event.split(",")]
-    if len(bounds) != 2 or bounds[0] is None or bounds[1] is None or not bounds[0] < bounds[1]:
-        raise Failure(f"--shared-event {printable(options.shared_event, 80)} is not START,END, as in 12.5,20")
     if source.samples is None:
-        raise Failure(f"--shared-event: {printable(str(source.path))} holds packets, not samples")
+        raise Failure(f"--shared-event: {source.path} holds packets, not samples")
     from ...recording.samples.shared_event import shared_offset
 
-    source.clock_offset, sigma = shared_offset(source.samples, bounds[0], bounds[1])
+    source.clock_offset, sigma = shared_offset(source.samples, *options.shared_event)
     note(f"{1000.0 * source.clock_offset:+.0f} ms (+-{1000.0 * sigma:.0f}) are added to the times of the right foot")
 
 
@@ -131,15 +96,16 @@ def source_of(
     foot: Foot | Sequence[Foot] | None = None,
     mapping: TableMapping | None = None,
     own: Iterable[Driver] = (),
+    report: Report = note,
 ) -> Source:
-    """Open a recording and print its flaws on stderr; raise RecordingError when it cannot be used.
+    """Open a recording and `report` its flaws; raise RecordingError when it cannot be used.
 
     Packets of devices of one's `own` become samples, for what computes with the built-in devices only."""
     from ...show.tables.progress import progress_bar
 
     names = [Path(file).name for file in ([files] if isinstance(files, Path) else files)]
     with progress_bar(f"reading {printable(names[0])}"):
-        source = open_source(files, foot, mapping=mapping, report=note)
+        source = open_source(files, foot, mapping=mapping, report=report)
     source.own_kinds = make_kinds(own)
     return source
 
@@ -178,26 +144,25 @@ def check_pressure(recipe: Recipe, source: Source, own: Iterable[Driver] = ()) -
 
     `own` are the drivers of devices of one's own."""
     if recipe.needs_pressure and not _has_pressure(source, make_kinds(own)):
-        raise Failure(f"recipe {recipe.name} needs pressure cells; {printable(str(source.path))} has none")
+        raise Failure(f"recipe {recipe.name} needs pressure cells; {source.path} has none")
 
 
 def _has_pressure(source: Source, kinds: DeviceKinds) -> bool:
     """Return whether the recording has pressure; True if it cannot be read."""
+    from ...recording.decoded import decode
+
     if source.samples is not None:
         return any("pressure" in table.columns for table in source.samples.tables)
-    decoders: dict[Site, Decoder] = {}
     try:
-        for packet in source.look_ahead():
-            if source.foot is None or packet.site.foot in (None, source.foot):
-                records = decoders.setdefault(packet.site, Decoder(packet.site)).feed(packet, kinds)
-                if any(isinstance(record, Sample) and record.pressure for record in records):
-                    return True
+        for one in decode(source.look_ahead(), kinds):
+            if isinstance(one, Sample) and one.pressure and source.foot in (None, one.site.foot):
+                return True
     except RecordingError:
         return True  # the run itself reports what is wrong with it
     return False
 
 
-def add_calibration(command: argparse.ArgumentParser) -> None:
+def add_calibration(command: ArgumentParser) -> None:
     """Add --calibration to a command."""
     command.add_argument(
         "--calibration",
@@ -207,14 +172,14 @@ def add_calibration(command: argparse.ArgumentParser) -> None:
     )
 
 
-def calibration_of(options: argparse.Namespace) -> Calibration | None:
+def calibration_of(options: Namespace) -> Calibration | None:
     """Return the calibration of --calibration, None without it; raise CalibrationError when the file is malformed."""
     from ...calibration.file import read_calibration
 
     return None if options.calibration is None else read_calibration(options.calibration)
 
 
-def add_floorplan(command: argparse.ArgumentParser) -> None:
+def add_floorplan(command: ArgumentParser) -> None:
     """Add --floorplan and --start to a command."""
     command.add_argument(
         "--floorplan",
@@ -225,31 +190,28 @@ def add_floorplan(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--start",
         metavar="LEVEL,X,Y[,HEADING]|heading=DEGREES",
+        type=start_of,
         help="where on it the wearer sets out: m in the plan's frame, and the first heading in degrees, anticlockwise"
         " from the plan's x axis, or that heading alone; without a place it is known after stairs or a lift",
     )
 
 
-def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start | None]:
+def floorplan_of(options: Namespace) -> tuple[IndexedPlan | None, Start | None]:
     """Return the plan of --floorplan and the start of --start; print warnings about the plan on stderr.
 
     Failure is raised when the plan cannot be used, or when a walk cannot start at --start."""
     from ...floorplan.checks import find_warnings
     from ...floorplan.importers.reading import read_floorplan
     from ...floorplan.index import IndexedPlan
-    from ...floorplan.plan import FloorPlanError
     from ...place.placing import start_error
 
-    start = None if options.start is None else start_of(options.start)
+    start = options.start
     if options.floorplan is None:
         if start is not None:
             raise Failure("--start is a place on a floor plan: give --floorplan, too")
         return None, None
-    try:
-        plan = read_floorplan(options.floorplan)
-        indexed = IndexedPlan(plan)
-    except FloorPlanError as error:
-        raise Failure(str(error)) from None
+    plan = read_floorplan(options.floorplan)
+    indexed = IndexedPlan(plan)
     for sentence in find_warnings(plan, has_start=start is not None and start.place is not None):
         note(f"{options.floorplan}: {sentence}")
     if start is not None and (problem := start_error(indexed, start)) is not None:
@@ -266,19 +228,17 @@ def start_of(text: str) -> Start:
     from ...floorplan.plan import Start
     from ...types.checking import find_fault
 
-    only = _finite(text.removeprefix("heading=")) if text.startswith("heading=") else None
-    if only is not None and abs(only) <= 360.0:
-        return Start(heading=radians(only))
+    with suppress(ValueError):
+        if text.startswith("heading="):
+            return Start(heading=_heading(text.removeprefix("heading=")))
     for count in (3, 2):
-        level, *numbers = text.rsplit(",", count)
-        values = [_finite(number) for number in numbers]
-        if len(values) == count and level.strip() and None not in values:
-            x, y, *heading = [value for value in values if value is not None]
-            if heading and not abs(heading[0]) <= 360.0:
-                raise Failure(f"--start {printable(text, 80)}: a heading can be -360 to 360 degrees")
-            start = Start(level.strip(), (x, y), radians(heading[0]) if heading else None)
-            problem = find_fault(start, Start)
-            if problem is not None:
+        with suppress(ValueError):
+            level, *numbers = text.rsplit(",", count)
+            x, y, *heading = numbers
+            if not level.strip():
+                break
+            start = Start(level.strip(), (finite(x), finite(y)), _heading(*heading) if heading else None)
+            if (problem := find_fault(start, Start)) is not None:
                 raise Failure(f"--start {printable(text, 80)}: {problem}")
             return start
     raise Failure(
@@ -286,9 +246,8 @@ def start_of(text: str) -> Start:
     )
 
 
-def _finite(text: str) -> float | None:
-    try:
-        value = nan if "_" in text else float(text)  # Python reads 1_0 as ten
-    except ValueError:
-        return None
-    return value if isfinite(value) else None
+def _heading(text: str) -> float:
+    """Return a heading in rad, of text in degrees; raise ValueError for other text, and Failure beyond a turn."""
+    if abs(finite(text)) > 360.0:
+        raise Failure(f"--start: a heading can be -360 to 360 degrees, not {text}")
+    return radians(finite(text))

@@ -29,20 +29,12 @@ def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int
     No such signal, however often it comes, ends the program before everything that was started is closed."""
     with asyncio.Runner() as runner:
         loop, stop = runner.get_loop(), asyncio.Event()
-
-        def stop_main(number: int, frame: object) -> None:
-            loop.call_soon_threadsafe(stop.set)
-
-        previous = _handle_signals(stop_main)
-        try:
-            return runner.run(main(stop))
-        except StoppedEarly:
-            return STOPPED_STATUS
-        finally:
-            for number, handler in previous.items():
-                # after a stop, further signals are ignored
-                signal.signal(number, _ignore_signal if stop.is_set() else handler)
+        with _handled(lambda: loop.call_soon_threadsafe(stop.set), is_over=stop.is_set):
             atexit.register(_ignore_at_exit)
+            try:
+                return runner.run(main(stop))
+            except StoppedEarly:
+                return STOPPED_STATUS
 
 
 @contextmanager
@@ -51,35 +43,48 @@ def stop_signals_raise() -> Iterator[None]:
 
     Further signals are ignored, so that they do not disturb the cleaning up."""
 
-    def stop(number: int, frame: object) -> None:
-        for previous_number in previous:
-            signal.signal(previous_number, _ignore_signal)
+    def stop() -> None:
+        for number in STOP_SIGNALS:
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                signal.signal(number, _ignore_signal)
         raise KeyboardInterrupt
 
-    if threading.current_thread() is not threading.main_thread():
-        yield  # only the main thread gets signals
-        return
-    previous = _handle_signals(stop)
+    with _handled(stop):
+        yield
+
+
+@contextmanager
+def stop_flag() -> Iterator[Callable[[], bool]]:
+    """Yield a function that returns whether a signal of STOP_SIGNALS came, for work that chooses when to end."""
+    stopped = threading.Event()
+    with _handled(stopped.set):
+        yield stopped.is_set
+
+
+@contextmanager
+def _handled(stop: Callable[[], object], is_over: Callable[[], bool] = lambda: False) -> Iterator[None]:
+    """Call `stop` at the signals of STOP_SIGNALS within the context; only the main thread gets any.
+
+    They have their previous handlers again afterwards, or are ignored if `is_over()`. A signal that is ignored already
+    (nohup) stays ignored. After SIGHUP nothing more is written to the terminal."""
+    terminals = [number for number in (1, 2) if os.isatty(number)]
+
+    def handle(number: int, frame: object) -> None:
+        if number not in (signal.SIGINT, signal.SIGTERM):
+            devnull = os.open(os.devnull, os.O_WRONLY)
+            for terminal in terminals:  # so that no failed write ends the work
+                os.dup2(devnull, terminal)
+            os.close(devnull)
+        stop()
+
+    is_main = threading.current_thread() is threading.main_thread()
+    handled = [one for one in STOP_SIGNALS if is_main and signal.getsignal(one) is not signal.SIG_IGN]
+    previous = {number: signal.signal(number, handle) for number in handled}
     try:
         yield
     finally:
         for number, handler in previous.items():
-            signal.signal(number, handler)
-
-
-def _handle_signals(handler: Callable[[int, object], None]) -> dict[signal.Signals, Any]:
-    """Let `handler` handle the signals of STOP_SIGNALS from now on; return the previous handlers.
-
-    A signal that is ignored already (nohup) stays ignored. After SIGHUP nothing more is written to the terminal."""
-    terminals = [number for number in (1, 2) if os.isatty(number)]
-
-    def handle(number: int, frame: object) -> None:
-        if number != signal.SIGINT and number != signal.SIGTERM:
-            _discard_output(terminals)
-        handler(number, frame)
-
-    handled = [number for number in STOP_SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]
-    return {number: signal.signal(number, handle) for number in handled}
+            signal.signal(number, _ignore_signal if is_over() else handler)
 
 
 def _ignore_signal(number: int, frame: object) -> None:
@@ -91,31 +96,6 @@ def _ignore_at_exit() -> None:
     for number in STOP_SIGNALS:
         if signal.getsignal(number) is _ignore_signal:
             signal.signal(number, signal.SIG_IGN)
-
-
-def _discard_output(terminals: list[int]) -> None:
-    """Discard what is written to these terminals from now on, so that no failed write ends the work."""
-    devnull = os.open(os.devnull, os.O_WRONLY)
-    for number in terminals:
-        os.dup2(devnull, number)
-    os.close(devnull)
-
-
-@contextmanager
-def stop_flag() -> Iterator[Callable[[], bool]]:
-    """Yield a function that returns whether a signal of STOP_SIGNALS came, for work that chooses when to end."""
-    stopped = False
-
-    def handle(number: int, frame: object) -> None:
-        nonlocal stopped
-        stopped = True
-
-    previous = _handle_signals(handle)
-    try:
-        yield lambda: stopped
-    finally:
-        for number, handler in previous.items():
-            signal.signal(number, handler)
 
 
 @asynccontextmanager

@@ -6,7 +6,7 @@ import errno
 import os
 from pathlib import Path
 
-from ...recording import os_error_text, printable
+from ...recording import os_error_text
 from .closest import closest_file
 
 WORDS = {
@@ -43,7 +43,7 @@ def file_error_text(error: OSError, path: Path | str | None = None) -> str:
         return WORDS.get(error.errno or 0, os_error_text(error))
     given = Path(os.fsdecode(name))
     found = _find_fault(error.errno or 0, given)
-    return f"{printable(str(found[0]))}: {found[1]}" if found else f"{printable(str(given))}: {os_error_text(error)}"
+    return f"{found[0]}: {found[1]}" if found else f"{given}: {os_error_text(error)}"
 
 
 def in_words(error: Exception) -> str:
@@ -74,7 +74,7 @@ def address_error_text(error: OSError) -> str:
 
 def _find_fault(number: int, path: Path) -> tuple[Path, str] | None:
     """Return the file or folder that is to blame, and what is wrong with it; None for an error without words."""
-    above = _existing_parent(path)
+    above = next((one for one in path.parents if os.path.exists(one)), path.parent)
     if number in (errno.ENOENT, errno.ENOTDIR) and above.is_file():
         return above, "is a file, not a folder"
     if number == errno.ENOENT:
@@ -82,22 +82,11 @@ def _find_fault(number: int, path: Path) -> tuple[Path, str] | None:
             is_link = path.is_symlink()
             return path, "is a link to nothing" if is_link else f"there is no such file{closest_file(path)}"
         missing = above / path.relative_to(above).parts[0]
-        return path, f"there is no folder {printable(str(missing))}{closest_file(missing) or ': make it first'}"
+        return path, f"there is no folder {missing}{closest_file(missing) or ': make it first'}"
     if number in (errno.EACCES, errno.EPERM):
         if path.exists() and not os.access(path, os.R_OK):
             return path, "you have no permission to read it"
         if path.exists() and not os.access(path, os.W_OK):
             return path, "you have no permission to write it"
-        return path, f"you have no permission for the folder {printable(str(above))}"
+        return path, f"you have no permission for the folder {above}"
     return (path, WORDS[number]) if number in WORDS else None
-
-
-def _existing_parent(path: Path) -> Path:
-    """Return the nearest folder, or file, above a path that exists."""
-    for above in path.parents:
-        try:
-            if above.exists():
-                return above
-        except OSError:
-            continue
-    return path.parent

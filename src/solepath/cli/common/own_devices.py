@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import argparse
-import os
 import sys
-import traceback
+from argparse import ArgumentParser, Namespace
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from contextlib import redirect_stdout
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from typing import TYPE_CHECKING
+from runpy import run_path
+from traceback import extract_tb
+from typing import TYPE_CHECKING, Any
 
 from attrs import define, field
 
@@ -38,8 +37,8 @@ MAX_CHANNELS = 100
 """Largest number of unknown channels of a site that are remembered by name; chosen by hand."""
 NO_DEVICE = ("device", "receiver")
 """Prefixes of channels that belong to no kind of device."""
-MODULE = "solepath_device_"
-"""Start of the names of the modules that hold devices of one's own."""
+_RUN: set[str] = set()
+"""Files of devices of one's own that were run."""
 CAUSES = {
     Rejection.TRUNCATED: "shorter than the layout of its channel: the layout (of a driver, its Struct) does not fit "
     "these bytes, they are cut on the way (by a small MTU), or a fragment of an insole's frame got lost or came too "
@@ -64,7 +63,7 @@ CAUSES = {
 ADVICE = "a device of your own needs its driver: --driver FILE.py (docs/device.md)"
 
 
-def add_own_devices(command: argparse.ArgumentParser) -> None:
+def add_own_devices(command: ArgumentParser) -> None:
     """Add --driver to a command."""
     command.add_argument(
         "--driver",
@@ -78,7 +77,7 @@ def add_own_devices(command: argparse.ArgumentParser) -> None:
     )
 
 
-def drivers_of(options: argparse.Namespace) -> tuple[Driver, ...]:
+def drivers_of(options: Namespace) -> tuple[Driver, ...]:
     """Return the drivers of all files of --driver; raise Failure for a file without one, or that cannot be run."""
     drivers: list[Driver] = []
     for path in getattr(options, "driver_files", []):
@@ -86,7 +85,7 @@ def drivers_of(options: argparse.Namespace) -> tuple[Driver, ...]:
         try:
             make_kinds(drivers)
         except ValueError as error:
-            raise Failure(f"--driver {printable(str(path))}: {error}") from None
+            raise Failure(f"--driver {path}: {error}") from None
     return tuple(drivers)
 
 
@@ -97,57 +96,43 @@ def load_drivers(path: Path) -> list[Driver]:
     from ...link.catalogue import DECLARED
     from ...link.driver import Driver
 
-    name = f"--driver {printable(str(path))}"
-    whole = path.absolute()  # as Python names the file in errors
-    spec = spec_from_file_location(f"{MODULE}{path.stem}", whole) if path.suffix == ".py" else None
-    if spec is None or spec.loader is None:
-        raise Failure(f"{name}: is no Python file (.py)")
-    module, fault = module_from_spec(spec), ""
-    sys.modules[spec.name] = module
+    file = str(path.absolute())  # as Python names the file in errors
+    if path.suffix != ".py":
+        raise Failure(f"--driver {path}: is no Python file (.py)")
+    _RUN.add(file)
+    values, fault = dict[str, Any](), ""
     try:
         with redirect_stdout(sys.stderr):
-            spec.loader.exec_module(module)
+            values = run_path(file)
     except (Exception, SystemExit) as error:
-        if isinstance(error, OSError) and error.filename == os.path.abspath(path):
+        fault = f"{path}: {_describe(error, file)}"
+        if isinstance(error, OSError) and error.filename == file:
             fault = file_error_text(error, path)
-        else:
-            fault = f"{printable(str(path))}: {_describe(error, whole)}"
     if fault:  # raised here, so that no error of the system in the file takes the place of this sentence
         raise Failure(f"--driver {fault}")
-    found = {id(value): value for value in vars(module).values() if isinstance(value, Driver)}
+    found = {id(value): value for value in values.values() if isinstance(value, Driver)}
     drivers = [driver for driver in found.values() if not any(driver is one for one in DECLARED)]
     if not drivers:
-        raise Failure(f"{name}: no variable of it holds a Driver (docs/device.md)")
+        raise Failure(f"--driver {path}: no variable of it holds a Driver (docs/device.md)")
     return drivers
 
 
 def own_fault(error: BaseException) -> str | None:
     """Return file, line and text of an error that a function of a device of one's own raised; None for any other."""
-    files = {name: module.__file__ for name, module in sys.modules.items() if name.startswith(MODULE)}
-    for file in filter(None, files.values()):
-        if any(_is_of(frame, Path(file)) for frame, _ in traceback.walk_tb(error.__traceback__)):
-            return f"--driver {printable(Path(file).name)}: {_describe(error, Path(file))}"
-    return None
+    files = _RUN.intersection(frame.filename for frame in extract_tb(error.__traceback__))
+    return next((f"--driver {printable(Path(file).name)}: {_describe(error, file)}" for file in files), None)
 
 
-def _describe(error: BaseException, path: Path) -> str:
+def _describe(error: BaseException, file: str) -> str:
     """Return the line of the file that led to the error, type and text, and the place where other code raised it."""
-    raised = ""
-    if isinstance(error, SyntaxError) and error.filename == os.path.abspath(path):
-        line: int | None = error.lineno
-    else:
-        calls = list(traceback.walk_tb(error.__traceback__))
-        lines = [number for frame, number in calls if _is_of(frame, path)]
-        line = lines[-1] if lines else None
-        if calls and lines and not _is_of(calls[-1][0], path):
-            raised = f" (raised at {calls[-1][0].f_code.co_filename}:{calls[-1][1]})"
-    where = "" if line is None else f"line {line}: "
-    text = error.msg if isinstance(error, SyntaxError) else str(error)
+    frames = [(frame.filename, frame.lineno) for frame in extract_tb(error.__traceback__)]
+    text = str(error)
+    if isinstance(error, SyntaxError):
+        frames, text = [*frames, (error.filename or "", error.lineno)], error.msg
+    lines = [number for name, number in frames if name == file]
+    where = f"line {lines[-1]}: " if lines else ""
+    raised = f" (raised at {frames[-1][0]}:{frames[-1][1]})" if lines and frames[-1][0] != file else ""
     return f"{where}{type(error).__name__}{f': {text}' if text else ''}{raised}"
-
-
-def _is_of(frame: object, path: Path) -> bool:
-    return getattr(getattr(frame, "f_code", None), "co_filename", "") == os.path.abspath(path)
 
 
 @define
@@ -168,18 +153,17 @@ class UnusedPackets:
         """Add an item that the session was fed, and the events that it returned."""
         if not isinstance(item, Packet) or item.channel.partition("/")[0] in NO_DEVICE:
             return
-        self.count[item.site] += 1
-        kind, is_used = self.kinds.get(item.channel.partition("/")[0]), True
+        site, kind = item.site, self.kinds.get(item.channel.partition("/")[0])
+        self.count[site] += 1
         is_known = kind is not None and item.channel in kind.profile.channel_by_name
-        for event in events:
-            if isinstance(event, PacketRejected):
-                is_used = False
-                if event.reason is Rejection.UNKNOWN_CHANNEL and not is_known:
-                    channels = self.unknown.setdefault(item.site, Counter())
-                    channels[item.channel if item.channel in channels or len(channels) < MAX_CHANNELS else ""] += 1
-                else:
-                    self.rejected.setdefault(item.site, Counter())[event.reason] += 1
-        self.has_used |= is_used and kind is not None and item.channel in kind.profile.streams
+        reasons = [event.reason for event in events if isinstance(event, PacketRejected)]
+        for reason in reasons:
+            if reason is Rejection.UNKNOWN_CHANNEL and not is_known:
+                channels = self.unknown.setdefault(site, Counter())
+                channels[item.channel if item.channel in channels or len(channels) < MAX_CHANNELS else ""] += 1
+            else:
+                self.rejected.setdefault(site, Counter())[reason] += 1
+        self.has_used |= not reasons and kind is not None and item.channel in kind.profile.streams
 
     def sentences(self) -> list[str]:
         """Return a sentence for each site of which no packet or many packets were not used, with the likely cause."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,7 +23,7 @@ DETAILS = {
 """Options that only the report shows, with their help."""
 
 
-def add_report(command: argparse.ArgumentParser) -> None:
+def add_report(command: ArgumentParser) -> None:
     """Add --report and the options that go with it to a command."""
     command.add_argument(
         "--report", metavar="FILE", type=Path, help="write figures and the gait table into one HTML file, to be mailed"
@@ -41,7 +41,7 @@ def add_report(command: argparse.ArgumentParser) -> None:
     )
 
 
-def check_report_options(options: argparse.Namespace) -> None:
+def check_report_options(options: Namespace) -> None:
     """Raise Failure if an option goes with a report and there is none."""
     given = [name for name in (*DETAILS, "compare") if getattr(options, name) is not None]
     if given and options.report is None:
@@ -49,20 +49,17 @@ def check_report_options(options: argparse.Namespace) -> None:
 
 
 def report_of(
-    options: argparse.Namespace, source: Source, *, recipe: str, plan: FloorPlan | None = None, before: Report | None
+    options: Namespace, source: Source, *, recipe: str, plan: FloorPlan | None = None, before: Report | None
 ) -> Report | None:
     """Return the report that the options describe, before anything was measured; None without --report."""
     if options.report is None:
         return None
     from ...show.report import Report, ReportDetails
-    from ...show.report.bands import BandError, mean_bands, read_bands
+    from ...show.report.bands import mean_bands, read_bands
 
     bands = mean_bands(person_of(options))
     for path in band_files_of(options):
-        try:
-            bands |= read_bands(path)
-        except BandError as error:
-            raise Failure(str(error)) from None
+        bands |= read_bands(path)
     return Report(
         printable(source.name),
         plan,

@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ...events import DefectFound
-from ...recording import Source, TableMapping, printable, read_mapping
+from ...recording import Source, TableMapping, read_mapping
 from ...recording.mapping.mapping import FORMATS
 from ...types import Foot
-from ..completion import complete_with
-from .closest import closest, unknown
-from .failure import Failure, parse_positive
+from .failure import Failure, note, parse_positive
+from .inputs import source_of
+from .own_devices import add_own_devices
+
+if TYPE_CHECKING:
+    from ...link.driver import Driver
+    from ...recording.errors import Report
 
 MAPPING_OPTIONS = ("columns", "units", "mapping", "format", "rate")
 """Options from which a mapping is made."""
 
 
-def add_tables(command: argparse.ArgumentParser, metavar: str = "FILE") -> None:
-    """Add FILE... under this name, and the options for tables of samples, to a command."""
+def add_tables(command: ArgumentParser, metavar: str = "FILE") -> None:
+    """Add FILE... under this name, and the options for tables of samples and for own devices, to a command."""
+    add_own_devices(command)
     command.add_argument(
         "files",
         metavar=metavar,
@@ -29,6 +36,7 @@ def add_tables(command: argparse.ArgumentParser, metavar: str = "FILE") -> None:
     command.add_argument(
         "--foot",
         metavar="FOOT[,FOOT...]",
+        type=parse_feet,
         help="left or right: whose the samples of one foot are (default: by the name of the file, else right); of other"
         " recordings, the foot to use; for several files, that of each in their order",
     )
@@ -38,41 +46,43 @@ def add_tables(command: argparse.ArgumentParser, metavar: str = "FILE") -> None:
     )
     tables.add_argument("--units", metavar="UNITS", help="units that are not SI, as in g,deg/s,ms")
     tables.add_argument("--rate", metavar="HZ", type=parse_positive, help="samples a second, without a column of times")
-    known = tables.add_argument("--format", metavar="NAME", help="name of a known format that has lost its first lines")
-    complete_with(known, lambda: FORMATS)
+    tables.add_argument(
+        "--format", metavar="NAME", choices=FORMATS, help="name of a known format that has lost its first lines"
+    )
     tables.add_argument("--mapping", metavar="FILE", type=Path, help="all of this from a TOML file")
 
 
-def feet_of(options: argparse.Namespace) -> Foot | tuple[Foot, ...] | None:
+def source_named(options: Namespace, own: Iterable[Driver] = (), report: Report = note) -> Source:
+    """Open the recording of FILE... as the options of tables and --foot say; the errors are those of `source_of`."""
+    return source_of(options.files, feet_of(options), mapping_of(options), own, report)
+
+
+def parse_feet(text: str) -> tuple[Foot, ...]:
+    """Parse a value of --foot: feet with commas between them."""
+    try:
+        return tuple(Foot(word.strip().lower()) for word in text.split(","))
+    except ValueError:
+        raise ArgumentTypeError(f"{text[:80]!r}: each foot is left or right, with commas between them") from None
+
+
+def feet_of(options: Namespace) -> Foot | tuple[Foot, ...] | None:
     """Return the foot of --foot, or those of several files; None without it.
 
-    Failure is raised when it names anything else, or another number of feet than of files."""
-    if options.foot is None:
-        return None
-    words = [word.strip().lower() for word in options.foot.split(",")]
-    if not set(words) <= {"left", "right"}:
-        wrong = next(word for word in words if word not in ("left", "right"))
-        meant = closest(wrong, ("left", "right"))
-        hint = f"did you mean {meant}?" if meant else "each foot is left or right, with commas between them"
-        raise Failure(f"--foot {printable(options.foot, 80)}: {hint}")
-    feet = tuple(map(Foot, words))
-    if len(feet) == 1:
-        return feet[0]
-    if len(feet) != len(options.files):
-        raise Failure(f"--foot {printable(options.foot, 80)}: that is {len(feet)} feet for {len(options.files)} files")
-    return feet
+    Failure is raised when it names another number of feet than of files."""
+    feet: tuple[Foot, ...] = options.foot or ()
+    if len(feet) > 1 and len(feet) != len(options.files):
+        raise Failure(f"--foot: that is {len(feet)} feet for {len(options.files)} files")
+    return feet if len(feet) > 1 else next(iter(feet), None)
 
 
-def mapping_of(options: argparse.Namespace) -> TableMapping | None:
+def mapping_of(options: Namespace) -> TableMapping | None:
     """Return the mapping of --columns, --units, --format, --rate and --mapping; None without any of them.
 
     What options say goes before what the file says. Failure or RecordingError is raised for a malformed one."""
     if all(getattr(options, name) is None for name in MAPPING_OPTIONS):
         return None
-    if options.format is not None and options.format not in FORMATS:
-        raise Failure(f"--format: {unknown('format', options.format, FORMATS)}")
     if options.mapping is not None and options.mapping.is_dir():
-        raise Failure(f"{printable(str(options.mapping))}: is a folder, not a file")
+        raise Failure(f"{options.mapping}: is a folder, not a file")
     saved = TableMapping() if options.mapping is None else read_mapping(options.mapping)
     try:
         given = TableMapping.parse(options.columns or "", options.units or "", rate=options.rate)

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
+from argparse import ArgumentParser, Namespace
 from collections.abc import AsyncIterator, Callable
 from contextlib import AsyncExitStack, asynccontextmanager
 from itertools import count
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from attrs import frozen
 
 from ...recording import printable
-from .failure import Failure, has_terminal, host_and_port, note, parse_positive, require
+from .failure import PAGE_ADDRESS, Failure, has_terminal, note, parse_address, parse_positive, require
 from .os_errors import address_error_text
 
 if TYPE_CHECKING:
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from ...show.page.scene.scene import Scene
     from ...show.page.server.server import Page
 
-DEFAULT_ADDRESS = "127.0.0.1:8765"
+DEFAULT_PAGE = ("127.0.0.1", None)
+"""Host of the page where none is named, and its port: None for the usual one, or another when that is taken."""
 ITEMS_PER_UPDATE = 1000
 """Number of items (packets or samples) between two updates of the progress."""
 
@@ -36,25 +37,26 @@ class PageAddress:
     browser: bool = False
 
 
-def add_view(command: argparse.ArgumentParser, group: argparse._ActionsContainer, what: str) -> None:
+def add_view(command: ArgumentParser, group: Any, what: str) -> None:
     """Add --view to `group` and --no-browser to `command`; `what` says what --view does, such as "play it"."""
     group.add_argument(
         "--view",
         metavar="HOST:PORT",
         nargs="?",
-        const="",
-        help=f"{what} on a page in the browser, served there (default: {DEFAULT_ADDRESS}, or another port when that is "
+        const=(),
+        type=parse_address,
+        help=f"{what} on a page in the browser, served there (default: {PAGE_ADDRESS}, or another port when that is "
         "taken; port 0: any that is free)",
     )
     command.add_argument("--no-browser", action="store_true", help="open no browser: only say where the page is")
 
 
-def add_speed(command: argparse.ArgumentParser, default: str) -> None:
+def add_speed(command: ArgumentParser, default: str) -> None:
     """Add --speed to a command."""
     command.add_argument("--speed", metavar="X", type=parse_positive, help=f"times real time (default: {default})")
 
 
-def page_address_of(options: argparse.Namespace) -> PageAddress | None:
+def page_address_of(options: Namespace) -> PageAddress | None:
     """Return the address of --view, None without it.
 
     Failure is raised when it is malformed or in use, when aiohttp is not installed, or for an option of the page
@@ -65,16 +67,14 @@ def page_address_of(options: argparse.Namespace) -> PageAddress | None:
                 raise Failure(f"--{name.replace('_', '-')} is for the page: it goes with --view")
         return None
     browser = sys.stdout.isatty() and not options.no_browser
-    if options.view == "":
-        address = PageAddress(browser=browser)
-    else:
-        address = PageAddress(*host_and_port("--view", options.view, f", as in {DEFAULT_ADDRESS}"), browser)
+    host, port = options.view or DEFAULT_PAGE
+    address = PageAddress(host, port, browser)
     require("--view needs", "view", "aiohttp")
     _check_free(address)
     return address
 
 
-def speed_of(options: argparse.Namespace, default: float) -> float:
+def speed_of(options: Namespace, default: float) -> float:
     """Return --speed for the page, in multiples of real time; raise Failure when it is out of the player's range."""
     from ...show.page.messages import MAX_SPEED, MIN_SPEED
 
