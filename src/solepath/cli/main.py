@@ -46,6 +46,8 @@ GROUPS = (
     ("this shell", ("completion",)),
 )
 """Commands by their purpose, in the order of the help."""
+LABORATORY = {"evaluate", "reproduce"}
+"""Commands of `solepath-lab`, which people may look for here."""
 FIRST = """\
 first steps:
   solepath demo                watch an emulated walk: no sensor is needed
@@ -82,6 +84,8 @@ def run(arguments: Sequence[str] | None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words[:1] == ["help"]:
         words = [*words[1:], "--help"]
+    if LABORATORY.intersection(words[:1]):
+        raise Failure(f"there is no command {words[0]!r} here: it is one of solepath-lab")
     top = parser()
     if COMPLETING in os.environ:
         completion.complete(top)
@@ -90,12 +94,11 @@ def run(arguments: Sequence[str] | None) -> int:
         from importlib.metadata import version
 
         print(f"solepath {version('solepath')}, {form()}")
-        return 0
-    if options.command is None:
+    elif options.command is None:
         top.print_help()
-        return 0
-    status: int = options.run(options)
-    return status
+    else:
+        return int(options.run(options))
+    return 0
 
 
 def form() -> str:

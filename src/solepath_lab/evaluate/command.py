@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 from collections.abc import Iterator
 from functools import partial
 from itertools import chain
@@ -12,7 +13,7 @@ from typing import Any
 
 from solepath.cli.common.closest import unknown
 from solepath.cli.common.failure import Failure, note, recipe_named
-from solepath.cli.common.files import SCORES, OutputFile, add_force, check_outputs, check_writable, write_json
+from solepath.cli.common.files import Kind, OutputFile, add_force, check_outputs, check_writable, write_json
 from solepath.cli.common.inputs import add_calibration, add_recipe_name, calibration_of
 from solepath.recipes import DEFAULT, NAMES, by_name
 from solepath.show.tables.progress import progress_bar
@@ -30,6 +31,8 @@ ENVIRONMENT = "SOLEPATH_DATA"
 """Environment variable that names the data directory."""
 
 
+SCORES = Kind(re.compile(rb'\{\}\n|\{\n "[^"\n]*": \{\n  "[^"\n]*": \{\n   "recordings": \{'))
+"""JSON of `evaluate`."""
 OPTIONS = (
     option("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})"),
     ONLY,

@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from functools import partial
 from pathlib import Path
 
 from solepath.cli.common.closest import unknown
 from solepath.cli.common.failure import Failure, parse_count, parse_whole_number, require
-from solepath.cli.common.files import (
-    EXPERIMENT,
-    FIGURE,
-    OutputFile,
-    add_force,
-    check_outputs,
-    check_writable,
-    write_json,
-)
+from solepath.cli.common.files import Kind, OutputFile, add_force, check_outputs, check_writable, write_json
 from solepath.cli.completion import complete_with
 from solepath.recording import printable
 from solepath.saving.files import replace_whole
@@ -38,6 +31,17 @@ EXPERIMENTS: dict[str, Experiment] = {
     "shoe-sensing": shoe_sensing.reproduce,
 }
 """Function that repeats the experiment of each paper."""
+EXPERIMENT = Kind(re.compile(rb'\{\n "name": "[^"\n]*",\n "emulated": true,\n "table": \{'))
+"""JSON of `reproduce`."""
+FIGURE = Kind(
+    re.compile(
+        rb"\A\x89PNG.{0,60}tEXtSoftware\0solepath|\A%!PS-Adobe[^\n]*\n(?:%%[^\n]*\n)*%%Creator: solepath\n"
+        rb"|/Creator \(solepath\) /Producer \(Matplotlib |<dc:creator>\s*<cc:Agent>\s*<dc:title>solepath</dc:title>",
+        re.DOTALL,
+    ),
+    is_elsewhere=True,
+)
+"""A figure of `reproduce` (.png, .eps, .ps, .pdf, .svg), whose metadata name the program that drew it."""
 NAMES = tuple(EXPERIMENTS)
 """Names of the experiments."""
 
