@@ -12,6 +12,7 @@ from solepath.papers.pressure_contour.printed import printed_contours
 from solepath.types import Foot, Layout
 from solepath.types.vector import GRAVITY
 
+from ...measures.consistency import yaws
 from ..tables import DrawStyle, PictureTrack, Plot
 from ..walks import thin_out
 from .runs import ContourRun
@@ -39,8 +40,7 @@ def stance_curves(walked: SampledWalk, layout: Layout, foot: Foot, after: float)
     samples = [one for one in walked.samples if landing.t_heel_strike <= one.t <= leaving.t_toe_off]
     t = np.array([one.t for one in samples])
     kinematics = walked.truth.pose(foot, t)
-    w, x, y, z = kinematics.attitude.T
-    heading = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    heading = yaws(kinematics.attitude)
     forward = kinematics.velocity[:, 0] * np.cos(heading) + kinematics.velocity[:, 1] * np.sin(heading)
     since = (1e3 * (t - landing.t_end)).tolist()
     speeds: dict[str, list[tuple[float, float]]] = {name: [] for name in contours}
