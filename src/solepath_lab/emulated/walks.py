@@ -86,7 +86,7 @@ def score_floors(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         strides += StrideScore(foot.strides_true, foot.strides_found, foot.strides_invented, foot.length_errors)
     return Scored(
         path.stem,
-        figures={} if track is None else place_figures(track.t, track.positions, mean_position(truth, track.t)),
+        figures=place_figures(track.t, track.positions, mean_position(truth, track.t)),
         events={"heel_strike": heel_strike, "toe_off": toe_off},
         strides=strides,
         samples=len(walk.samples),

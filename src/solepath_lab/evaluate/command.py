@@ -68,24 +68,22 @@ EXAMPLE = "example: solepath-lab evaluate --emulated --walks 1"
 
 def run(options: argparse.Namespace) -> int:
     """Evaluate and print the tables; return the exit status."""
-    emulated_names = [data_set.name for data_set in EMULATED]
-    known_names = [*emulated_names, *(data_set.name for data_set in DATASETS)]
-    if wrong := [name for name in options.only if name not in known_names]:
-        raise Failure(f"--only: {unknown('data set', wrong[0], known_names)}")
-    recorded, walked = (
-        [name for name in options.only if (name in emulated_names) is is_emulated] for is_emulated in (False, True)
-    )
+    names = {one.name: one in EMULATED for one in (*EMULATED, *DATASETS)}
+    if wrong := [name for name in options.only if name not in names]:
+        raise Failure(f"--only: {unknown('data set', wrong[0], names)}")
+    recorded, walked = ([name for name in options.only if names[name] is which] for which in (False, True))
     emulated = bool(walked) or options.emulated and not options.only
-    default_folder = os.environ.get(ENVIRONMENT)
-    folder = options.dir or (Path(default_folder) if default_folder and (recorded or not emulated) else None)
-    if folder is None and (recorded or not emulated):
-        raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
+    needs_folder = bool(recorded) or not emulated
+    folder: Path | None = options.dir
+    if needs_folder and folder is None:
+        if not os.environ.get(ENVIRONMENT):
+            raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
+        folder = Path(os.environ[ENVIRONMENT])
     scores = None if options.json is None else OutputFile(options.json, SCORES)
     if scores is not None:
         data_sets = folder.glob("*/") if folder is not None else ()
         check_outputs([scores], [options.compare, options.calibration, *data_sets], force=options.force)
         check_writable(options.json)
-    all_recipes = [by_name(name) for name in NAMES]
     chosen = [recipe_named(name) for name in options.recipe]
     if options.ablation:
         if chosen:
@@ -94,19 +92,19 @@ def run(options: argparse.Namespace) -> int:
     results = []
     old_scores = read_scores(options.compare) if options.compare else None
     with progress_bar("recordings", 100) as show:
-
-        def percent(done: int, total: int) -> None:
-            show(100 * done // total)
-
         common_options: dict[str, Any] = {
-            "calibration": calibration_of(options), "processes": options.processes, "progress": percent,
-        }  # fmt: skip
+            "calibration": calibration_of(options),
+            "processes": options.processes,
+            "progress": lambda done, total: show(100 * done // total),
+        }
         evaluations: list[Iterator[Result]] = []
         if options.ablation and folder is not None and not options.only:
             main_sets = {column.data_set for column in ablation.COLUMNS}
             recorded = [data_set.name for data_set in find_data_sets(folder) if data_set.name in main_sets]
         if folder is not None and (recorded or not options.only):
-            evaluations.append(evaluate(folder, chosen or all_recipes, only=recorded, **common_options))
+            evaluations.append(
+                evaluate(folder, chosen or [by_name(name) for name in NAMES], only=recorded, **common_options)
+            )
         if emulated:
             numbers = range(options.seed, options.seed + options.walks)
             evaluations.append(evaluate_emulated(chosen or [DEFAULT], numbers, only=walked, **common_options))

@@ -11,7 +11,7 @@ from typing import Any
 
 import attrs
 import numpy as np
-from attrs import frozen
+from attrs import field, frozen
 
 from solepath.body.part import ActivityPart, Position
 from solepath.calibration import Calibration
@@ -40,14 +40,12 @@ class RunSettings:
 
 
 @frozen(eq=False)
-class ScoredTrack:
-    """The wearer's positions at successive times."""
+class BodyRun(FootRun):
+    """The wearer's positions at successive times, which are empty when they were not requested."""
 
-    t: Floats
-    """Times, (n,), s."""
-    positions: Floats
-    """Positions in the world frame, (n,3), m."""
-    covariances: Floats
+    t: Floats = field(factory=lambda: np.zeros(0))
+    positions: Floats = field(factory=lambda: np.zeros((0, 3)))
+    covariances: Floats = field(factory=lambda: np.zeros((0, 3)))
     """Covariances of the horizontal positions, (n,3): xx, xy, yy, m^2."""
 
 
@@ -61,8 +59,8 @@ class RecordingRun:
     """Number of samples."""
     seconds: float
     """Wall time that the session took, s."""
-    body: ScoredTrack | None = None
-    """The wearer's position after every sample; None when it was not requested."""
+    body: BodyRun
+    """The wearer's position after every sample, if that was requested."""
 
 
 def run(
@@ -92,9 +90,7 @@ def run(
     return RecordingRun(feet, walk, len(samples), seconds, wearer)
 
 
-def run_timed(
-    session: Session, samples: Iterable[Sample], interval: float | None
-) -> tuple[Walk, ScoredTrack | None, float]:
+def run_timed(session: Session, samples: Iterable[Sample], interval: float | None) -> tuple[Walk, BodyRun, float]:
     """Return the session's events for the samples, the wearer's track and the wall time, s.
 
     The track has a position every `interval` s, or after every sample when that is 0. With None there is no track."""
@@ -108,12 +104,12 @@ def run_timed(
             positions.append(position)
     outputs.append(session.finish())
     seconds = perf_counter() - started_at
-    covariances = [(one.covariance[0], one.covariance[1], one.covariance[3]) for one in positions]
-    track = ScoredTrack(
-        np.array([one.t for one in positions]), np.array([one.position for one in positions]).reshape(-1, 3),
-        np.array(covariances).reshape(-1, 3),
-    )  # fmt: skip
-    return Walk.of(event for events in outputs for event in events), track if positions else None, seconds
+    track = BodyRun()
+    if positions:
+        t, places = np.array([one.t for one in positions]), np.array([one.position for one in positions])
+        covariances = np.array([one.covariance for one in positions])[:, [0, 1, 3]]
+        track = BodyRun(t=t, positions=places, covariances=covariances)
+    return Walk.of(event for events in outputs for event in events), track, seconds
 
 
 Meta = dict[str, Any]

@@ -38,7 +38,7 @@ def score_optitrack(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     in_both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
     t, places, foot = truth["gt_t"][in_both], truth["gt_pos"][in_both], result.feet[Foot.RIGHT]
     times, stances = marker_stances(t, places)
-    strides = surveyed_score(times, stances, foot.t, foot.positions, foot.stride_lengths)
+    strides = surveyed_score(times, stances, foot)
     return scored(path, result, figures=_track_figures(foot, t, places), strides=strides)
 
 
@@ -117,18 +117,15 @@ def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
             "path": surveyed,
             "relative": float(np.mean(errors)) / surveyed,
         }
-        if body is not None:
-            k = np.minimum(np.searchsorted(body.t, times), len(body.t) - 1)
-            places = body.positions[k, :2], body.covariances[k], truth["gt_stride_xy"][:, :2].astype(np.float64)
-            figures |= consistency_at_end(*places)
+        k = np.minimum(np.searchsorted(body.t, times), len(body.t) - 1)
+        places = body.positions[k, :2], body.covariances[k], truth["gt_stride_xy"][:, :2].astype(np.float64)
+        figures |= consistency_at_end(*places)
     return scored(path, result, figures=figures, strides=_survey_score(truth, foot))
 
 
 def _survey_score(truth: Arrays, foot: FootRun) -> StrideScore:
     times, places = truth["t"][truth["gt_stride_index"]], truth["gt_stride_xy"]
-    if not len(foot.t):
-        return StrideScore(n_true=len(times) - 1)
-    return surveyed_score(times, places, foot.t, foot.positions, foot.stride_lengths)
+    return surveyed_score(times, places, foot)
 
 
 def score_counted(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -145,8 +142,8 @@ def score_counted(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     ends, corners = truth["t"][truth["gt_stride_index"]], truth["gt_corner_xy"].astype(np.float64)
     legs, figures = Errors(), Figures()
     if meta["n_detected_strides"] == true:
-        times = ends[truth["gt_corner_stride"]].tolist()
-        legs = leg_errors(times, np.linalg.norm(np.diff(corners, axis=0), axis=1).tolist(), foot.t, foot.positions)
+        times = ends[truth["gt_corner_stride"]]
+        legs = leg_errors(times, np.linalg.norm(np.diff(corners, axis=0), axis=1), foot)
     if float(np.linalg.norm(corners[-1] - corners[0])) == 0.0:
         first, last = at_times(foot.t, foot.positions, ends[[0, -1]])
         figures = _closing_errors(first, last)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from attrs import evolve, frozen
+from attrs import astuple, evolve, frozen
 
 from solepath.calibration import Calibration, InsoleCalibration, Limbs
 from solepath.calibration.records import merged
@@ -41,8 +41,8 @@ RATE = 50.0
 CELL_COUNT = 99
 LOAD_VARIATION = 0.004
 """Standard deviation of the load's lateral position under a foot between steps, m (assumed)."""
-HIP_ERROR, BONE_ERROR, FOOT_ERROR = 0.010, 0.010, 0.005
-"""Standard deviations of measured lengths, m: distance of the hip joints, thigh and shank, foot and ankle's height.
+LENGTH_ERRORS = (0.010, 0.010, 0.010, 0.005, 0.005)
+"""Standard deviations of measured `Limbs`, m: distance of the hip joints, thigh, shank, foot and ankle's height.
 
 A joint found by regression is 12.3 mm off in space, with images as the truth (Mantovani et al. 2016, Gait & Posture
 44): 7 mm on one axis, and 10 mm for the distance of two. The others are assumed for a tape over the skin."""
@@ -105,15 +105,9 @@ def measured_limbs(wearer: Wearer) -> Limbs:
     """Return the lengths of the wearer's limbs as somebody measures them from outside, m: not as the joints have them.
 
     Errors are normal, the same in every walk, and drawn from the wearer's number."""
-    limbs, rng = wearer.limbs, np.random.default_rng([wearer.number, 10])
-    hips, thigh, shank, foot, ankle = (float(value) for value in rng.standard_normal(5))
-    return Limbs(
-        hip_width=limbs.hip_width + HIP_ERROR * hips,
-        thigh=limbs.thigh + BONE_ERROR * thigh,
-        shank=limbs.shank + BONE_ERROR * shank,
-        foot=limbs.foot + FOOT_ERROR * foot,
-        ankle_height=limbs.ankle_height + FOOT_ERROR * ankle,
-    )
+    drawn = np.random.default_rng([wearer.number, 10]).standard_normal(len(LENGTH_ERRORS)).tolist()
+    off = zip(astuple(wearer.limbs), LENGTH_ERRORS, drawn, strict=True)
+    return Limbs(*[length + sigma * value for length, sigma, value in off])
 
 
 @frozen
