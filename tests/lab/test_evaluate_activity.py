@@ -1,5 +1,7 @@
 """Activity scores of labels and events worked out by hand, the folds, and the sources that each part learns from."""
 
+from collections import Counter
+
 import pytest
 
 from solepath import recipes
@@ -72,10 +74,10 @@ def test_windows_of_two_seconds_lie_within_one_activity():
 
 def test_shares_of_stairs_and_of_level_ways_by_hand():
     score = ActivityScore(
-        {
+        Counter({
             (STAIRS_UP, STAIRS_UP): 6, (STAIRS_UP, Activity.STAIRS_DOWN): 2, (STAIRS_UP, WALKING): 2,
             (WALKING, WALKING): 9, (WALKING, STAIRS_UP): 1,
-        }
+        })
     )  # fmt: skip
     assert stairs_figures(score) == {"stairs_called": 0.8, "stairs_direction": 0.6, "level_called": 0.1}
 

@@ -201,7 +201,7 @@ def cells(name: str, outcome: WalkOutcome, walks: int, placed: bool = True) -> l
         down = activity.reported_for(Activity.STAIRS_DOWN)
         found = [
             f"{100.0 * (activity.accuracy or 0.0):.1f} %",
-            f"{down.get(Activity.STAIRS_DOWN, 0)} of {sum(down.values())}",
+            f"{down[Activity.STAIRS_DOWN]} of {down.total()}",
             f"{activity.rides_found} of {activity.rides_true}, {activity.rides_invented}",
             f"{outcome.flights_right} of {walks}",
         ]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
+from itertools import pairwise
 from math import degrees, fsum, sqrt
 
 import numpy as np
@@ -64,7 +65,7 @@ def true_cycles(walker: Walker) -> dict[tuple[Foot, float], Running]:
     found: dict[tuple[Foot, float], Running] = {}
     for foot in Foot:
         strides, others = walker.plan.strides[foot], walker.plan.strides[OTHER[foot]]
-        for before, after in zip(strides, strides[1:], strict=False):
+        for before, after in pairwise(strides):
             between = [one for one in others if before.heel_strike < one.heel_strike < after.heel_strike]
             if len(between) != 1 or {before.kind, between[0].kind, after.kind} != {StrideKind.RUN}:
                 continue

@@ -126,11 +126,9 @@ def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:
 
 def stairs_figures(score: ActivityScore) -> Figures:
     """Return the shares of stairs time reported as stairs and as stairs up, and of level time reported as stairs."""
-    stairs = score.reported_for(Activity.STAIRS_UP)
-    level = score.reported_for(Activity.WALKING)
-    n_stairs, n_level = sum(stairs.values()), sum(level.values())
+    stairs, level = score.reported_for(Activity.STAIRS_UP), score.reported_for(Activity.WALKING)
     return {
-        "stairs_called": sum(stairs.get(reported, 0) for reported in STAIRS) / n_stairs if n_stairs else None,
-        "stairs_direction": stairs.get(Activity.STAIRS_UP, 0) / n_stairs if n_stairs else None,
-        "level_called": sum(level.get(reported, 0) for reported in STAIRS) / n_level if n_level else None,
+        "stairs_called": sum([stairs[one] for one in STAIRS]) / stairs.total() if stairs else None,
+        "stairs_direction": stairs[Activity.STAIRS_UP] / stairs.total() if stairs else None,
+        "level_called": sum([level[one] for one in STAIRS]) / level.total() if level else None,
     }

@@ -8,6 +8,7 @@ foot-flat may be found a little after the survey's end of stance. END_TOLERANCE 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import attrs
@@ -127,7 +128,7 @@ def marker_stances(t: NDArray[Any], places: NDArray[Any]) -> tuple[Floats, Float
     edges = [0, *(np.flatnonzero(still[1:] != still[:-1]) + 1).tolist(), len(still)]
     ends: list[float] = []
     stances: list[Floats] = []
-    for a, b in zip(edges, edges[1:], strict=False):
+    for a, b in pairwise(edges):
         if not still[a] or times[b - 1] - times[a] < SHORTEST_STANCE:
             continue
         place = positions[a:b].mean(axis=0)

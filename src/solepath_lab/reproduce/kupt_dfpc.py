@@ -215,9 +215,7 @@ def _fused_distance(events: list[Event]) -> float:
     return next((event.distance for event in reversed(events) if isinstance(event, StrideFused)), 0.0)
 
 
-def _tracks(
-    truth: Truth, t_halt: float, zupt: list[Event], known: list[Event]
-) -> tuple[tuple[PictureTrack, ...], Values]:
+def _tracks(truth: Truth, t_halt: float, zupt: list[Event], known: list[Event]) -> tuple[list[PictureTrack], Values]:
     """Return tracks of stride ends, aligned with the truth over two metres, and distances from start to end, m."""
     ends = {
         f"ZUPT-{letter}": [(stride.t_end, foot, stride.position) for stride in final_strides(zupt, foot)]
@@ -239,7 +237,7 @@ def _tracks(
         )
         tracks.append(PictureTrack(name, thin_out(align_track(track, true) - start), DrawStyle.DOTS))
         distances[f"end: {name}"] = (float(np.linalg.norm(track[-1] - track[0])),)
-    return tuple(tracks), distances
+    return tracks, distances
 
 
 def _true_places(truth: Truth, foot: Foot, t: float | Floats) -> Floats:

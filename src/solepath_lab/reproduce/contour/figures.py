@@ -55,8 +55,8 @@ def stance_curves(walked: SampledWalk, layout: Layout, foot: Foot, after: float)
     true_velocity = tuple(zip(since, (1e3 * forward).tolist(), strict=True))
     tracks = (
         PictureTrack("v_x of the heel, true, mm/s", true_velocity, DrawStyle.TRUTH),
-        PictureTrack("pitch rate by the gyroscope, mrad/s", tuple(rates)),
-        *[PictureTrack(f"speed of the contours, {name}, mm/s", tuple(points)) for name, points in speeds.items()],
+        PictureTrack("pitch rate by the gyroscope, mrad/s", rates),
+        *[PictureTrack(f"speed of the contours, {name}, mm/s", points) for name, points in speeds.items()],
     )
     return (Plot("a stance (fig. 7)", tracks, "ms since foot-flat", "mm/s or mrad/s", (-50.0, 50.0)),)
 
@@ -66,4 +66,4 @@ def bias_curves(run: ContourRun) -> tuple[Plot, ...]:
     minutes = (run.t - run.t[0]) / 60.0
     points = [np.stack([minutes, run.bias[:, k] / GRAVITY * 1e3], axis=1) for k in range(3)]
     tracks = [PictureTrack(f"bias of {axis}", thin_out(of, 600)) for axis, of in zip("xyz", points, strict=True)]
-    return (Plot("bias filter (fig. 9)", tuple(tracks), "min", "mg"),)
+    return (Plot("bias filter (fig. 9)", tracks, "min", "mg"),)

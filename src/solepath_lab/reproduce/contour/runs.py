@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from math import erfc, sqrt
 
 import numpy as np
@@ -82,7 +83,7 @@ def stance_velocities(run: ContourRun, truth: Truth, foot: Foot, after: float = 
     middles = np.array([0.5 * (one.t_toe_off + one.t_heel_strike) for one in strides])
     middles = middles[middles >= max(after, float(run.t[0]))]
     biases = []
-    for start, end in zip(middles, middles[1:], strict=False):
+    for start, end in pairwise(middles):
         rows = slice(*np.searchsorted(run.t, (start, end)).tolist())
         rest = run.at_rest[rows]
         biases.append(float(np.linalg.norm(velocity[rows][rest].mean(axis=0))) if rest.any() else float("nan"))

@@ -150,13 +150,13 @@ def _track(run: ContourRun) -> Floats:
     return np.array([(0.0, 0.0), *((x, y) for x, y, _ in (stride.position for stride in run.strides))])
 
 
-def _tracks(walked: SampledWalk, t_halt: float, runs: Mapping[str, ContourRun]) -> tuple[PictureTrack, ...]:
+def _tracks(walked: SampledWalk, t_halt: float, runs: Mapping[str, ContourRun]) -> list[PictureTrack]:
     ends = [one.t_end for one in walked.truth.strides(FOOT) if one.t_end > t_halt]
     tracks = [PictureTrack("true path", thin_out(_true_positions(walked, [t_halt, *ends])), DrawStyle.TRUTH)]
     for name, run in runs.items():
         true = _true_positions(walked, [t_halt, *(stride.t_end for stride in run.strides)])
         tracks.append(PictureTrack(name.lower(), thin_out(align_track(_track(run), true, over=10.0))))
-    return tuple(tracks)
+    return tracks
 
 
 def _true_positions(walked: SampledWalk, t: list[float]) -> Floats:
