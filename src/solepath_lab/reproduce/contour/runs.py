@@ -53,28 +53,11 @@ def run_foot(recipe: Recipe, foot: Foot, samples: Sequence[Sample], calibration:
     return ContourRun(strides, t, np.array(at_rest), np.array(biases))
 
 
-@frozen(eq=False)
-class StanceVelocities:
-    """The true velocity of the heel while a recipe took it to be at rest, in each true stance of a foot."""
+def stance_velocities(run: ContourRun, truth: Truth, foot: Foot, after: float = 0.0) -> Floats:
+    """Return the true velocities of the heel while a recipe took it to be at rest, in stances from `after`, s, on, m/s.
 
-    bias: Floats
-    """Length of the mean horizontal velocity over the samples of a stance that were taken for rest, m/s, (stances).
-
-    It is nan for a stance without such a sample. An update with zero velocity makes an error of this size."""
-
-    @property
-    def found_share(self) -> float:
-        """Share of the stances that have a sample taken for rest."""
-        return float(np.mean(~np.isnan(self.bias))) if len(self.bias) else 0.0
-
-    @property
-    def mean(self) -> float:
-        """Mean over the stances that were found, m/s; nan when none was."""
-        return float(np.nanmean(self.bias)) if self.found_share > 0.0 else float("nan")
-
-
-def stance_velocities(run: ContourRun, truth: Truth, foot: Foot, after: float = 0.0) -> StanceVelocities:
-    """Return the velocities of the heel in the stances that begin after `after`, s.
+    A velocity is the length of the mean horizontal one over the samples of a stance that were taken for rest: an update
+    with zero velocity makes an error of this size. It is nan for a stance without such a sample.
 
     A stance here lasts from the middle of one swing to the middle of the next: what is taken for rest in a swing counts
     to the nearer stance."""
@@ -87,7 +70,12 @@ def stance_velocities(run: ContourRun, truth: Truth, foot: Foot, after: float = 
         rows = slice(*np.searchsorted(run.t, (start, end)).tolist())
         rest = run.at_rest[rows]
         biases.append(float(np.linalg.norm(velocity[rows][rest].mean(axis=0))) if rest.any() else float("nan"))
-    return StanceVelocities(np.array(biases))
+    return np.array(biases)
+
+
+def found_share(velocities: Floats) -> float:
+    """Return the share of stances that have a sample taken for rest."""
+    return float(np.mean(~np.isnan(velocities))) if len(velocities) else 0.0
 
 
 @frozen
