@@ -97,7 +97,7 @@ def table(strides: Sequence[ScoredStride]) -> list[str]:
         sound = [error for error, stride in of_loss if not stride.flaws]
         known: list[list[float]] = [
             [stride.missing for _, stride in of_loss],
-            *[[error <= factor * one.length_sigma for error, one in of_loss] for factor in (1.0, 2.0)],
+            *[[float(error <= factor * one.length_sigma) for error, one in of_loss] for factor in (1.0, 2.0)],
             [bool(stride.flaws) for _, stride in of_loss],
         ]
         percents = [f"{100.0 * np.mean(values):.1f}" for values in known]
