@@ -21,7 +21,7 @@ from . import footstep_tracker, kupt_dfpc, pressure_contour, shoe_sensing, walki
 from .done_jobs import DoneJobs, DoneJobsError
 from .runner import Runner
 from .seeds import Experiment, reproduce_seeds
-from .tables import as_json
+from .tables import Reproduction, as_json
 
 EXPERIMENTS: dict[str, Experiment] = {
     "kupt-dfpc": kupt_dfpc.reproduce,
@@ -79,9 +79,8 @@ def run(options: argparse.Namespace) -> int:
     if options.name not in NAMES:
         raise Failure(unknown("experiment", options.name, NAMES))
     figure = _figure(options)
-    table = None if options.json is None else OutputFile(options.json, EXPERIMENT)
-    picture = None if figure is None else OutputFile(figure, FIGURE)
-    outputs = [output for output in (table, picture) if output is not None]
+    kinds = ((options.json, EXPERIMENT), (figure, FIGURE))
+    outputs = [OutputFile(path, kind) for path, kind in kinds if path is not None]
     check_outputs(outputs, [], force=options.force)
     for output in outputs:
         check_writable(output.path)
@@ -99,17 +98,21 @@ def run(options: argparse.Namespace) -> int:
     except DoneJobsError as error:
         raise Failure(f"{printable(str(options.resume))}: {error}") from None
     print(comparison_with_paper(experiment))
-    if table is not None:
-        write_json(table, as_json(experiment))
-    if picture is not None:
-        from ..tables.figures import draw
-
-        file = picture.path
-        replace_whole(
-            file, lambda path: draw(experiment, path, file.suffix[1:].lower()), lambda _: picture.check_again()
-        )
-        print(f"figure drawn in {printable(str(file))}")
+    for output in outputs:
+        if output.kind is EXPERIMENT:
+            write_json(output, as_json(experiment))
+        else:
+            _draw(experiment, output)
     return 0
+
+
+def _draw(experiment: Reproduction, output: OutputFile) -> None:
+    """Draw the figure of an experiment."""
+    from ..tables.figures import draw
+
+    form = output.path.suffix[1:].lower()
+    replace_whole(output.path, lambda path: draw(experiment, path, form), lambda _: output.check_again())
+    print(f"figure drawn in {printable(str(output.path))}")
 
 
 def _figure(options: argparse.Namespace) -> Path | None:

@@ -7,6 +7,7 @@ by the law of the literature and by chance, not by that of the rules of table 2.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from attrs import astuple, evolve, frozen
@@ -23,7 +24,6 @@ from solepath.emulate.wearers.soles.contact import RIGID, GroundContact
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import TouchedDown
 from solepath.papers.walking_modes.calibrate import MODES, ModeMark, StepError, mean_errors, step_errors, touchdowns
-from solepath.papers.walking_modes.compensation import Compensation
 from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import WALKING_MODES
 from solepath.papers.walking_modes.settings import ModeRule, ModesSettings
@@ -177,18 +177,15 @@ def deviations(walks: Iterable[WalkResults], point: str, method: str) -> Floats:
     return np.array([pooled(walks, corner_row(point, method, axis)) for axis in "xy"]).T
 
 
-def with_compensation(recipe: Recipe, compensation: Compensation) -> Recipe:
-    """Return the recipe with this compensation, which a wearer's own does not replace."""
+def with_settings(recipe: Recipe, **changes: Any) -> Recipe:
+    """Return the recipe with other settings of its part for walking modes."""
     modes = next(part for part in recipe.parts if isinstance(part, Modes))
-    settings = evolve(modes.settings, compensation=compensation, own_compensation=False)
-    return recipe.replace_part(Modes, evolve(modes, settings=settings))
+    return recipe.replace_part(Modes, evolve(modes, settings=evolve(modes.settings, **changes)))
 
 
 def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
     """Return the final touchdowns by foot of a session that knows the direction of the rectangle's first side."""
-    modes = next(part for part in recipe.parts if isinstance(part, Modes))
-    with_heading = evolve(modes, settings=evolve(modes.settings, heading=0.0))
-    events = run_session(recipe.replace_part(Modes, with_heading), samples, calibration)
+    events = run_session(with_settings(recipe, heading=0.0), samples, calibration)
     return {foot: [e for e in events if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 
