@@ -1,6 +1,7 @@
 """Activity scores of labels and events worked out by hand, the folds, and the sources that each part learns from."""
 
 from collections import Counter
+from functools import partial
 
 import pytest
 
@@ -94,10 +95,10 @@ def test_a_part_scored_on_a_wearer_is_trained_without_that_wearer(monkeypatch):
     class FakePart:
         """Stands for a part; its features are the wearers that it is trained on."""
 
-    monkeypatch.setitem(learning.LEARNERS, FakePart, Learner(lambda folder: [], str, tuple))
+    monkeypatch.setitem(learning.LEARNERS, FakePart, Learner(lambda folder: [], tuple))
     wearers = sorted(wearer for fold in FOLDS for wearer in fold)
-    sources = [TrainingSource(FakePart, wearer, wearer) for wearer in wearers] + [
-        TrainingSource(FakePart, "emulated", None)
+    sources = [TrainingSource(FakePart, partial(str, wearer), wearer) for wearer in wearers] + [
+        TrainingSource(FakePart, partial(str, "emulated"), None)
     ]
     parts = train_parts(sources, [source.features() for source in sources])
     for number, fold in enumerate(FOLDS):
