@@ -141,7 +141,7 @@ def score_heading(
         calibration = merged(calibration, heading_calibration(heading_walk(calibration_samples(seed))))
     session = Session(settings.recipe, calibration=calibration)
     track = follow(session, walk)
-    return Scored(path.stem, figures=heading_figures(track, walk.truth, kind in ONE_SIDED), samples=len(walk.samples))
+    return Scored(path.stem, figures=heading_figures(track, walk.truth, kind in ONE_SIDED))
 
 
 def emulated_walk(kind: str, is_complete: IsComplete, seed: int, disturbance: float | None = None) -> SampledWalk:

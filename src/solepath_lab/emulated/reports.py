@@ -116,7 +116,7 @@ def score_reports(
     places.report(place(places.points[-1][0] or second))
     here = back.session.position
     if here is None:
-        return Scored(path.stem, samples=len(walk.samples))
+        return Scored(path.stem)
     xx, xy, _, yy, _, _ = here.covariance
     nees, held = consistency(errors(back)[-1], matrix((xx, xy, yy)))
     figures: Figures = {
@@ -129,4 +129,4 @@ def score_reports(
         "rejected_later": rejected_later,
         "used": float(np.mean(back.used + places.used)),
     }
-    return Scored(path.stem, figures=figures, samples=len(walk.samples))
+    return Scored(path.stem, figures=figures)

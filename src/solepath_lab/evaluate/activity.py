@@ -18,7 +18,7 @@ from ..descriptions import KNOWN
 from ..measures.confusion import DELAYS, ActivityScore
 from ..measures.score import Figures, Scored
 from ..train.hugadb import FOLDS, Span, fold_of, known_spans, labels, spans
-from .run import Meta, RunSettings, run, scored
+from .run import Meta, RunSettings, run
 
 ELEVATOR_IS_UP = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
 """True for the elevator ride up, False for the ride down."""
@@ -104,7 +104,7 @@ def score_labelled(path: Path, meta: Meta, settings: RunSettings, corrected: boo
     score += score_inside(t, true, result.walk.timeline)
     score += score_delays(t, true, result.walk.activities)
     wearers = ", ".join(map(str, sorted(FOLDS[fold_of(int(meta["subject"]))])))
-    return scored(path, result, activity=score, groups=("all", f"of wearers {wearers}"))
+    return Scored(path.stem, activity=score, groups=("all", f"of wearers {wearers}"))
 
 
 STAIR_SPANS = known_spans(KNOWN["stairs"])
@@ -121,7 +121,7 @@ def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         t += times
         true += [activity] * len(times)
     score = score_samples(t, true, result.walk.timeline)
-    return scored(path, result, figures=stairs_figures(score))
+    return Scored(path.stem, figures=stairs_figures(score))
 
 
 def stairs_figures(score: ActivityScore) -> Figures:

@@ -21,7 +21,7 @@ from ..measures.legs import leg_errors, turn_times
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, stride_score
 from .insoles import force_sensors, switches
-from .run import Meta, RecordingRun, RunSettings, run, scored, truth_of
+from .run import Meta, RecordingRun, RunSettings, run, truth_of
 
 LEG_LENGTH = 10.0
 """Length of a leg in ipol_10m_uturn and gaitmap_examples, m."""
@@ -42,9 +42,8 @@ def score_swings(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     heel_strikes = {foot: labels[:, 1].tolist() for foot, labels in swings.items()}
     t_start, t_end = truth["gt_trial"].tolist()
     times, lengths = [t_start, float(truth["gt_uturn"].mean()), t_end], [LEG_LENGTH, LEG_LENGTH]
-    return scored(
-        path,
-        result,
+    return Scored(
+        path.stem,
         figures=_turn_figures(truth["gt_uturn"].tolist(), result) | _closing_figures(result, t_start, t_end),
         events=_contact_matches(result, heel_strikes, {foot: labels[:, 0].tolist() for foot, labels in swings.items()}),
         errors={
@@ -119,7 +118,7 @@ def score_borders(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         figures |= _closing_figures(result, float(result.body.t[0]), float(result.body.t[-1]))
         body_legs = _turned_legs(result.body)
     errors = {"leg": sum(feet, Errors()), "body_leg": body_legs, "stride_time": stride_times}
-    return scored(path, result, figures=figures, events={"heel_strike": heel_strike}, errors=errors)
+    return Scored(path.stem, figures=figures, events={"heel_strike": heel_strike}, errors=errors)
 
 
 def _turned_legs(track: FootRun) -> Errors:
@@ -151,7 +150,7 @@ def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         figures[name] = float(np.mean(known)) if known else None
     figures |= {f"drift_{foot.value}": one["drift"] for foot, one in feet.items()}
     events = _contact_matches(result, heel_strikes, toe_offs)
-    return scored(path, result, figures=figures, events=events, strides=strides, errors=times)
+    return Scored(path.stem, figures=figures, events=events, strides=strides, errors=times)
 
 
 def _drift_on_belt(run: FootRun) -> Figures:
@@ -185,7 +184,7 @@ def score_switches(path: Path, meta: Meta, settings: RunSettings, pressed: bool 
         if "straight_path_m" in meta and len(foot_run.t):
             legs += leg_errors(foot_run.t[[0, -1]], [float(meta["straight_path_m"])], foot_run)
     errors = {"leg": legs} if legs.values else {}
-    return scored(path, result, events=_contact_matches(result, heel_strikes, toe_offs), errors=errors)
+    return Scored(path.stem, events=_contact_matches(result, heel_strikes, toe_offs), errors=errors)
 
 
 def score_force(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -195,7 +194,7 @@ def score_force(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     spans = {foot: force_contacts(truth["t"], force) for foot, force in forces.items()}
     heel_strikes = {foot: [start for start, _ in contacts] for foot, contacts in spans.items()}
     toe_offs = {foot: [end for _, end in contacts] for foot, contacts in spans.items()}
-    return scored(path, result, events=_contact_matches(result, heel_strikes, toe_offs))
+    return Scored(path.stem, events=_contact_matches(result, heel_strikes, toe_offs))
 
 
 def score_insoles(path: Path, meta: Meta, settings: RunSettings, pressed: bool = False) -> Scored:
@@ -213,4 +212,4 @@ def score_insoles(path: Path, meta: Meta, settings: RunSettings, pressed: bool =
             np.array(heel_strikes[foot]), lengths, foot_run.stride_lengths, end_tolerance=-TOLERANCE
         )
     times = {"stride_time": _stride_time_errors(result, heel_strikes)}
-    return scored(path, result, events=_contact_matches(result, heel_strikes, toe_offs), strides=strides, errors=times)
+    return Scored(path.stem, events=_contact_matches(result, heel_strikes, toe_offs), strides=strides, errors=times)
