@@ -54,9 +54,7 @@ GROUPS: dict[str, tuple[str, dict[str, Command]]] = {
             "reliability": (
                 "weights of candidates and how often they are true", reliability, (options.seeds(25, 5001),)
             ),
-            "north": (
-                "worth of a compass on a plan that knows its north", north, (options.seeds(24, 7001), *north.OPTIONS)
-            ),
+            "north": ("worth of a compass on a plan that knows its north", north, (options.seeds(24, 7001),)),
             "runs": ("measures of runners against the truth", runs, (options.seeds(12, 1, "runs"),)),
             "by-hand": ("worth of a calibration by hand", by_hand, (*by_hand.OPTIONS, PROCESSES)),
         },

@@ -15,21 +15,13 @@ Progress = Callable[[int, int], None]
 
 
 def run_jobs(
-    work: Callable[[Job], JobResult],
-    jobs: Sequence[Job],
-    *,
-    processes: int = 1,
-    progress: Progress | None = None,
-    jobs_before: int = 0,
-    jobs_after: int = 0,
+    work: Callable[[Job], JobResult], jobs: Sequence[Job], *, processes: int = 1, progress: Progress | None = None
 ) -> Iterator[JobResult]:
-    """Yield the result of the module-level function `work` for every job, in the order of the jobs.
-
-    `jobs_before` and `jobs_after` are numbers of jobs done before and after these, which `progress` counts as well."""
+    """Yield the result of the module-level function `work` for every job, in the order of the jobs."""
     with ExitStack() as stack:
         parallel = processes > 1 and len(jobs) > 1
         pool = stack.enter_context(ProcessPoolExecutor(min(processes, len(jobs)))) if parallel else None
-        for job_number, outcome in enumerate((map if pool is None else pool.map)(work, jobs), jobs_before + 1):
+        for job_number, outcome in enumerate((map if pool is None else pool.map)(work, jobs), 1):
             if progress is not None:
-                progress(job_number, jobs_before + len(jobs) + jobs_after)
+                progress(job_number, len(jobs))
             yield outcome

@@ -26,11 +26,11 @@ def test_the_oscillation_is_that_of_a_mass_on_half_a_sine_wave(contact: float, f
 
 @pytest.mark.parametrize("speed", [3.4])
 def test_insoles_measure_emulated_runs(speed: float) -> None:
-    score = score_run(run_of(51, speed), with_cells=True)
-    assert len(score.measured) > 15
+    cycles = score_run(run_of(51, speed), with_cells=True)
+    assert len(cycles) > 15
     for name, limit in (("contact_time", 0.01), ("flight_time", 0.01), ("vertical_oscillation", 0.005)):
-        errors, _ = errors_of([score], name)
-        assert len(errors) == len(score.measured)
+        errors, _ = errors_of(cycles, name)
+        assert len(errors) == len(cycles)
         assert abs(np.mean(errors)) < limit, name
-    angles, _ = errors_of([score], "strike_angle")
+    angles, _ = errors_of(cycles, "strike_angle")
     assert abs(np.mean(angles)) < radians(3.0)

@@ -15,6 +15,7 @@ from recordings import PACKETS, into, recorded, written
 from solepath.calibration import Calibration
 from solepath.calibration.file import write_calibration
 from solepath.cli.common import files
+from solepath_lab.reproduce.command import FIGURE
 
 READ = "is what this command reads; write to another file"
 GAUGE = "counts,newtons\n" + "".join(f"{counts},{0.1 * counts:.1f}\n" for counts in (60, 100, 400, 800, 1200, 1900))
@@ -97,8 +98,8 @@ def test_what_a_command_wrote_itself_and_what_is_empty_is_replaced(recording: Pa
     ("kind", "content"),
     [
         (files.TRACK_KINDS["events.jsonl"], '{"event": "Login", "t": 12, "user": "ann"}\n'),
-        (files.FIGURE, '<svg inkscape:export-filename="/home/ann/solepath/poster.png"/>\n'),
-        (files.FIGURE, "%!PS-Adobe-3.0\n%%Title: solepath\n%%Creator: poster\n"),
+        (FIGURE, '<svg inkscape:export-filename="/home/ann/solepath/poster.png"/>\n'),
+        (FIGURE, "%!PS-Adobe-3.0\n%%Title: solepath\n%%Creator: poster\n"),
     ],
 )
 def test_a_file_that_looks_like_one_of_solepath_is_of_another_program(

@@ -10,6 +10,7 @@ from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose
 
 from solepath.validate.alignment import position_errors, track_error
+from solepath.validate.foot_run import FootRun
 from solepath.validate.matching import Errors, Matching, interval_errors, match
 from solepath_lab.measures.legs import leg_errors, leg_lengths
 from solepath_lab.measures.score import Scored, summarise
@@ -129,8 +130,8 @@ def test_errors_of_stride_times_are_of_events_that_follow_each_other():
 def test_a_leg_is_the_distance_between_the_places_of_two_stances():
     t = np.arange(0.0, 24.0, 0.01)
     along = np.interp(t, [2.0, 11.0, 13.0, 21.0], [0.0, 9.0, 9.0, 1.0])
-    track = np.outer(along, [0.8, 0.6, 0.0])
-    assert_allclose(leg_lengths([1.0, 12.0, 22.0], t, track), [9.0, 8.0], atol=1e-9)
-    errors = leg_errors([1.0, 12.0, 22.0], [10.0, 10.0], t, track)
+    track = FootRun(t, np.outer(along, [0.8, 0.6, 0.0]))
+    assert_allclose(leg_lengths([1.0, 12.0, 22.0], track), [9.0, 8.0], atol=1e-9)
+    errors = leg_errors([1.0, 12.0, 22.0], [10.0, 10.0], track)
     assert_allclose(errors.values, [-0.1, -0.2])
     assert (errors.mean, errors.median, errors.bias) == pytest.approx((0.15, 0.15, -0.15))

@@ -1,5 +1,8 @@
 """Activity scores of labels and events worked out by hand, the folds, and the sources that each part learns from."""
 
+from collections import Counter
+from functools import partial
+
 import pytest
 
 from solepath import recipes
@@ -72,10 +75,10 @@ def test_windows_of_two_seconds_lie_within_one_activity():
 
 def test_shares_of_stairs_and_of_level_ways_by_hand():
     score = ActivityScore(
-        {
+        Counter({
             (STAIRS_UP, STAIRS_UP): 6, (STAIRS_UP, Activity.STAIRS_DOWN): 2, (STAIRS_UP, WALKING): 2,
             (WALKING, WALKING): 9, (WALKING, STAIRS_UP): 1,
-        }
+        })
     )  # fmt: skip
     assert stairs_figures(score) == {"stairs_called": 0.8, "stairs_direction": 0.6, "level_called": 0.1}
 
@@ -92,10 +95,10 @@ def test_a_part_scored_on_a_wearer_is_trained_without_that_wearer(monkeypatch):
     class FakePart:
         """Stands for a part; its features are the wearers that it is trained on."""
 
-    monkeypatch.setitem(learning.LEARNERS, FakePart, Learner(lambda folder: [], str, tuple))
+    monkeypatch.setitem(learning.LEARNERS, FakePart, Learner(lambda folder: [], tuple))
     wearers = sorted(wearer for fold in FOLDS for wearer in fold)
-    sources = [TrainingSource(FakePart, wearer, wearer) for wearer in wearers] + [
-        TrainingSource(FakePart, "emulated", None)
+    sources = [TrainingSource(FakePart, partial(str, wearer), wearer) for wearer in wearers] + [
+        TrainingSource(FakePart, partial(str, "emulated"), None)
     ]
     parts = train_parts(sources, [source.features() for source in sources])
     for number, fold in enumerate(FOLDS):

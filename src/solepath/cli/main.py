@@ -17,7 +17,7 @@ from ..types.extras import install_hint
 from . import check, completion, convert, demo, fleet_demo, track, web
 from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
-from .common.failure import note
+from .common.failure import Failure, note
 from .common.os_errors import file_error_text, in_words
 from .common.own_devices import own_fault
 from .common.parser import Parser
@@ -44,6 +44,8 @@ GROUPS = (
     ("this shell", ("completion",)),
 )
 """Commands by their purpose, in the order of the help."""
+LABORATORY = {"evaluate", "reproduce"}
+"""Commands of `solepath-lab`, which people may look for here."""
 FIRST = """\
 first steps:
   solepath demo                watch an emulated walk: no sensor is needed
@@ -84,6 +86,8 @@ def run(arguments: Sequence[str] | None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words[:1] == ["help"]:
         words = [*words[1:], "--help"]
+    if LABORATORY.intersection(words[:1]):
+        raise Failure(f"there is no command {words[0]!r} here: it is one of solepath-lab")
     top = parser()
     if COMPLETING in os.environ:
         completion.complete(top)
@@ -92,12 +96,11 @@ def run(arguments: Sequence[str] | None) -> int:
         from importlib.metadata import version
 
         print(f"solepath {version('solepath')}, {form()}")
-        return 0
-    if options.command is None:
+    elif options.command is None:
         top.print_help()
-        return 0
-    status: int = options.run(options)
-    return status
+    else:
+        return int(options.run(options))
+    return 0
 
 
 def form() -> str:

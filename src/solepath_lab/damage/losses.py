@@ -18,9 +18,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
-from attrs import frozen
 
-from solepath import Flaw, Sample, Session, StrideTaken
+from solepath import Sample, Session, StrideTaken
 from solepath.cli.common.failure import Failure
 from solepath.recording.samples import load_samples
 from solepath.validate.alignment import Floats, at_times
@@ -44,17 +43,8 @@ HEADER = (
 )  # fmt: skip
 
 
-@frozen
-class ScoredStride:
-    """One stride of a damaged recording; lengths are in m."""
-
-    loss: str
-    """What was lost, in words."""
-    missing: float
-    error: float
-    """Magnitude of the error of its length."""
-    sigma: float
-    flaws: tuple[Flaw, ...]
+ScoredStride = tuple[str, float, StrideTaken]
+"""What was lost, in words, magnitude of the error of a stride's length, m, and the stride."""
 
 
 def damaged(samples: Sequence[Sample], seed: str) -> Iterator[tuple[str, list[Sample]]]:
@@ -94,20 +84,23 @@ def examine(path: Path) -> list[ScoredStride]:
                 ends = np.array([stride.t_start, stride.t_end])
                 start, end = true_places(truth, ends)
                 error = abs(stride.length - float(np.linalg.norm(end - start)))
-                scored.append(ScoredStride(loss, stride.missing, error, stride.length_sigma, stride.flaws))
+                scored.append((loss, error, stride))
     return scored
 
 
 def table(strides: Sequence[ScoredStride]) -> list[str]:
     """Return the lines of the table: a row for each kind of loss, and one for all."""
     rows = []
-    for loss in [*dict.fromkeys(one.loss for one in strides), "all"]:
-        of_loss = [one for one in strides if loss in (one.loss, "all")]
-        flawed = [one.error for one in of_loss if one.flaws]
-        sound = [one.error for one in of_loss if not one.flaws]
-        missing = float(np.mean([one.missing for one in of_loss]))
-        within = [float(np.mean([one.error <= factor * one.sigma for one in of_loss])) for factor in (1.0, 2.0)]
-        percents = [f"{100.0 * share:.1f}" for share in (missing, *within, len(flawed) / len(of_loss))]
+    for loss in [*dict.fromkeys(loss for loss, _, _ in strides), "all"]:
+        of_loss = [(error, stride) for name, error, stride in strides if loss in (name, "all")]
+        flawed = [error for error, stride in of_loss if stride.flaws]
+        sound = [error for error, stride in of_loss if not stride.flaws]
+        known: list[list[float]] = [
+            [stride.missing for _, stride in of_loss],
+            *[[float(error <= factor * one.length_sigma) for error, one in of_loss] for factor in (1.0, 2.0)],
+            [bool(stride.flaws) for _, stride in of_loss],
+        ]
+        percents = [f"{100.0 * np.mean(values):.1f}" for values in known]
         means = [f"{np.mean(errors):.3f}" if errors else "-" for errors in ([*flawed, *sound], flawed, sound)]
         rows.append((loss, len(of_loss), percents[0], means[0], *percents[1:], *means[1:]))
     return markdown.table(HEADER, rows)

@@ -174,13 +174,8 @@ class WalkJob:
     seed: int
 
 
-@frozen
-class WalkErrors:
-    """Error at the end of a walk as a share of its path, and of the heading, rad, without and with a calibration."""
-
-    job: WalkJob
-    end: tuple[float, float]
-    heading: tuple[float, float]
+WalkErrors = tuple[WalkJob, Floats]
+"""A walk, and without and with a calibration the error at its end as a share of the path, and of the heading, rad."""
 
 
 def walk_errors(job: WalkJob) -> WalkErrors:
@@ -197,9 +192,7 @@ def walk_errors(job: WalkJob) -> WalkErrors:
         heading_figures(follow(Session(recipes.by_name(job.recipe), calibration=calibration), walk), walk.truth)
         for calibration in (None, Calibration(sensors=sensors))
     ]
-    end, end_with = (one.get("end_relative") or np.nan for one in figures)
-    heading, heading_with = (one.get("heading_end") or np.nan for one in figures)
-    return WalkErrors(job, (end, end_with), (heading, heading_with))
+    return job, np.array([[one.get(name) or np.nan for name in ("end_relative", "heading_end")] for one in figures])
 
 
 def walk_table(results: Sequence[WalkErrors]) -> list[str]:
@@ -209,9 +202,9 @@ def walk_table(results: Sequence[WalkErrors]) -> list[str]:
         "heading at the end, degrees", "with it", "better in",
     )  # fmt: skip
     table = []
-    for chip, recipe in dict.fromkeys((one.job.chip, one.job.recipe) for one in results):
-        rows = [one for one in results if (one.job.chip, one.job.recipe) == (chip, recipe)]
-        end, heading = np.array([one.end for one in rows]), np.array([one.heading for one in rows])
+    for chip, recipe in dict.fromkeys((job.chip, job.recipe) for job, _ in results):
+        rows = np.array([errors for job, errors in results if (job.chip, job.recipe) == (chip, recipe)])
+        end, heading = rows[:, :, 0], rows[:, :, 1]
         spreads = map(_both, [*(100.0 * end.T), *np.degrees(heading.T)])
         better = int((end[:, 1] < end[:, 0]).sum())
         table.append((chip, f"`{recipe}`", len(rows), *spreads, f"{better} of {len(rows)}"))

@@ -12,10 +12,11 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Callable, Iterable
 from functools import partial
+from operator import add
 from typing import Any
 
 import numpy as np
-from attrs import evolve, field, frozen
+from attrs import astuple, evolve, field, frozen
 
 from solepath import recipes
 from solepath.emulate.routes.building import BUILDING
@@ -102,13 +103,7 @@ class WalkOutcome:
     """Errors of the place after each scored stride (place.py), m."""
 
     def __add__(self, other: WalkOutcome) -> WalkOutcome:
-        return WalkOutcome(
-            self.activity + other.activity,
-            self.flights_right + other.flights_right,
-            self.levels_right + other.levels_right,
-            self.kept + other.kept,
-            self.off + other.off,
-        )
+        return WalkOutcome(*map(add, astuple(self, recurse=False), astuple(other, recurse=False)))
 
 
 EVERYTHING, NO_GYROSCOPE = Evidence("everything"), Evidence("no gyroscope", "gyro", "cc2541/gyroscope")
@@ -206,7 +201,7 @@ def cells(name: str, outcome: WalkOutcome, walks: int, placed: bool = True) -> l
         down = activity.reported_for(Activity.STAIRS_DOWN)
         found = [
             f"{100.0 * (activity.accuracy or 0.0):.1f} %",
-            f"{down.get(Activity.STAIRS_DOWN, 0)} of {sum(down.values())}",
+            f"{down[Activity.STAIRS_DOWN]} of {down.total()}",
             f"{activity.rides_found} of {activity.rides_true}, {activity.rides_invented}",
             f"{outcome.flights_right} of {walks}",
         ]

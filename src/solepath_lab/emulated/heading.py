@@ -14,7 +14,7 @@ figures are
 
 from __future__ import annotations
 
-from math import atan2, cos, inf, pi, radians, sin
+from math import inf, pi, radians
 from pathlib import Path
 
 import numpy as np
@@ -29,11 +29,11 @@ from solepath.emulate.wearers.truth import Truth
 from solepath.events import StrideTaken
 from solepath.session import Session
 from solepath.session.heading_walk import heading_calibration, heading_walk
-from solepath.types import Foot, Quat
+from solepath.types import Foot
 from solepath.validate.alignment import Floats, distances
 
 from ..evaluate.run import Meta, RunSettings
-from ..measures.consistency import consistency
+from ..measures.consistency import consistency, matrix, rotation, yaws
 from ..measures.score import Figures, Scored
 from .heading_walks import IsComplete, calibration_samples, heading_route, insoles_of, wearer_of
 from .magnetic_field import DisturbedField
@@ -50,17 +50,10 @@ HALF_HOUR = 1800.0
 """Shortest duration of the longer walks, s."""
 
 
-def is_500_m(length: float, seconds: float) -> bool:
-    """Return whether a route of this length, m, and duration, s, is long enough for the shorter walks."""
-    return length >= LONG_WALK
-
-
-def is_half_hour(length: float, seconds: float) -> bool:
-    """Return whether a route of this length, m, and duration, s, is long enough for the longer walks."""
-    return seconds >= HALF_HOUR
-
-
-LENGTHS: dict[str, IsComplete] = {"500m": is_500_m, "30min": is_half_hour}
+LENGTHS: dict[str, IsComplete] = {
+    "500m": lambda length, seconds: length >= LONG_WALK,
+    "30min": lambda length, seconds: seconds >= HALF_HOUR,
+}
 """Lengths of walks by name."""
 
 
@@ -102,12 +95,6 @@ class HeadingTrack:
     """Standard deviations of the headings, rad; 0 if the recipe does not know them."""
 
 
-def yaw_of(q: Quat) -> float:
-    """Return the angle of an attitude about the vertical, rad."""
-    w, x, y, z = q
-    return atan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z))
-
-
 def follow(session: Session, walk: SampledWalk, until: float = inf) -> HeadingTrack:
     """Return the wearer's track in a session that receives the samples of a walk before `until`, s."""
     track, truth, errors = HeadingTrack(), walk.truth, dict.fromkeys(Foot, 0.0)
@@ -120,8 +107,9 @@ def follow(session: Session, walk: SampledWalk, until: float = inf) -> HeadingTr
                 continue
             foot = event.foot
             counts[foot] += 1
-            w, x, y, z = truth.pose(foot, event.t_end).attitude[0].tolist()
-            error = yaw_of((w, x, y, z)) - yaw_of(session.feet[foot].attitude) - _placement(session, foot)
+            attitudes = np.array([truth.pose(foot, event.t_end).attitude[0], session.feet[foot].attitude])
+            true, ours = yaws(attitudes).tolist()
+            error = true - ours - _placement(session, foot)
             errors[foot] += (error - errors[foot] + pi) % (2.0 * pi) - pi
             here = session.position
             if here is None or min(counts.values()) < 2:
@@ -154,7 +142,7 @@ def score_heading(
         calibration = merged(calibration, heading_calibration(heading_walk(calibration_samples(seed))))
     session = Session(settings.recipe, calibration=calibration)
     track = follow(session, walk)
-    return Scored(path.stem, figures=heading_figures(track, walk.truth, kind in ONE_SIDED), samples=len(walk.samples))
+    return Scored(path.stem, figures=heading_figures(track, walk.truth, kind in ONE_SIDED))
 
 
 def emulated_walk(kind: str, is_complete: IsComplete, seed: int, disturbance: float | None = None) -> SampledWalk:
@@ -177,9 +165,8 @@ def heading_figures(track: HeadingTrack, truth: Truth, one_sided: bool = False) 
         return {}
     t, headings = np.array(track.t), np.array(track.headings)
     turn = float(headings[0])
-    c, s = cos(turn), sin(turn)
-    rotation = np.array([[c, -s], [s, c]])
-    errors = np.array(track.places) @ rotation.T - middle(truth, t) + middle(truth, np.zeros(1))
+    to_truth = rotation(turn)
+    errors = np.array(track.places) @ to_truth.T - middle(truth, t) + middle(truth, np.zeros(1))
     whole = middle(truth, np.arange(0.0, truth.duration, 0.5))
     path, end = float(distances(whole)[-1]), float(np.hypot(*errors[-1]))
     figures: Figures = {
@@ -189,24 +176,17 @@ def heading_figures(track: HeadingTrack, truth: Truth, one_sided: bool = False) 
         "path": path,
     }
     if one_sided:
-        turned = float(np.ptp(np.unwrap(yaws(truth, t))))
+        turned = float(np.ptp(np.unwrap(yaws(truth.pose(Foot.LEFT, t).attitude))))
         figures["radius_error"] = abs(float(headings[-1] - turn)) / turned
     for checked in CHECKED_TIMES:
         if checked > t[-1] + END_TOLERANCE:
             continue
         k = min(int(np.searchsorted(t, checked)), len(t) - 1)
-        xx, xy, yy = track.covariances[k]
-        covariance = rotation @ np.array([[xx, xy], [xy, yy]]) @ rotation.T
+        covariance = to_truth @ matrix(track.covariances[k]) @ to_truth.T
         figures[f"nees_{checked}"], figures[f"held_{checked}"] = consistency(errors[k], covariance)
         if track.heading_sigmas[k] > 0.0:
             figures[f"heading_nees_{checked}"] = (float(headings[k] - turn) / track.heading_sigmas[k]) ** 2
     return figures
-
-
-def yaws(truth: Truth, t: Floats) -> Floats:
-    """Return the true angle of the left foot about the vertical at times `t`, s, rad, from -pi to pi."""
-    w, x, y, z = truth.pose(Foot.LEFT, t).attitude.T
-    return np.asarray(np.arctan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z)))
 
 
 def middle(truth: Truth, t: Floats) -> Floats:

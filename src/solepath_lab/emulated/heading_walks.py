@@ -7,18 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import pi, radians
-from operator import attrgetter
 
 import numpy as np
 from attrs import define, evolve
 
 from solepath.emulate.routes.route import TIGHT_TURN_SPEED, Route
-from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import LSM6DSOX, Imu
+from solepath.emulate.walk import sampled
 from solepath.emulate.wearers.curves import Rng
 from solepath.emulate.wearers.gait import Wearer
-from solepath.emulate.wearers.walker import Walker
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 from solepath.types.vector import GRAVITY
 
@@ -87,13 +85,10 @@ def calibration_samples(seed: int) -> list[Sample]:
             route = route.turn(side * pi, CALIBRATION_TURN_RADIUS)
             side = -side if leg % 2 else side
         route = route.walk(CALIBRATION_LEG, CALIBRATION_SPEED)
-    walker = Walker(route.stop(CALIBRATION_STAND), wearer_of(seed), OTHER_DAY + seed)
-    samples = [
-        sample
-        for site, insole in insoles_of(seed).items()
-        for sample in insole.samples(walker, site, device_rng(OTHER_DAY + seed, site))
-    ]
-    return sorted(samples, key=attrgetter("t"))
+    walk = sampled(
+        route.stop(CALIBRATION_STAND), wearer=wearer_of(seed), insoles=insoles_of(seed), seed=OTHER_DAY + seed
+    )
+    return list(walk.samples)
 
 
 @define

@@ -1,6 +1,6 @@
 """Worth of a compass in the feet on a plan that knows its north, in the building whose halves are alike.
 
-    solepath-lab emulated north [--walks N] [--seed S] [--disturbance DEGREES] [--recipe NAME]
+    solepath-lab emulated north [--walks N] [--seed S]
 
 prints a table of docs/compass.md as Markdown: walks without a start in `HALF_TURN`, with insoles that have a
 magnetometer, on a plan without a north, on one with the right north, and on one whose north is wrong. Magnetic north is
@@ -10,14 +10,11 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
-from functools import partial
 from math import cos, fsum, hypot, pi, radians, sin
 
 import numpy as np
 from attrs import evolve
 
-from solepath import recipes
-from solepath.cli.common.inputs import add_recipe_name
 from solepath.emulate.routes.ways import BuildingWalk, wandering
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.magnetic_field import EARTH
@@ -31,14 +28,13 @@ from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import NEAR_DISTANCE, PlaceScore, score
 
 from .. import markdown
-from ..options import option
 from .buildings import HALF_TURN
 from .magnetic_field import DisturbedField
 
 DECLINATION = radians(4.0)
 """Angle from true to magnetic north, clockwise, rad: that of Central Europe (WMM2025)."""
-DISTURBANCE = 20.0
-"""Disturbance of the field by the building, degrees (magnetic_field.py)."""
+DISTURBANCE = radians(20.0)
+"""Disturbance of the field by the building, rad (magnetic_field.py)."""
 BEARINGS: dict[str, float | None] = {
     "no north": None,
     "right north": 0.0,
@@ -48,14 +44,14 @@ BEARINGS: dict[str, float | None] = {
 """Bearing of the plan, rad, by the name of a row; the true one is 0."""
 
 
-def walk_with_compass(way: BuildingWalk, disturbance: float, seed: int) -> SampledWalk:
+def walk_with_compass(way: BuildingWalk, seed: int) -> SampledWalk:
     """Return the samples of a way, with magnetometers in the insoles and magnetic north as `DECLINATION` says.
 
-    `disturbance` is that of the field, rad. The field of the emulator has the frame of the wearer's first heading."""
+    The field of the emulator has the frame of the wearer's first heading."""
     horizontal, direction = hypot(EARTH[0], EARTH[1]), 0.5 * pi - DECLINATION - (way.start.heading or 0.0)
     earth = (horizontal * cos(direction), horizontal * sin(direction), EARTH[2])
     insoles = {SITE_OF_FOOT[foot]: Insole(cells=8, mag=AK8963) for foot in Foot}
-    return sampled(way.route, insoles=insoles, field=DisturbedField(disturbance, seed, earth), seed=seed)
+    return sampled(way.route, insoles=insoles, field=DisturbedField(DISTURBANCE, seed, earth), seed=seed)
 
 
 def plan_with(bearing: float | None, way: BuildingWalk) -> IndexedPlan:
@@ -64,9 +60,9 @@ def plan_with(bearing: float | None, way: BuildingWalk) -> IndexedPlan:
     return IndexedPlan(evolve(way.building.plan, anchor=anchor))
 
 
-def score_north(way: BuildingWalk, walk: SampledWalk, bearing: float | None, recipe: str) -> tuple[PlaceScore, bool]:
+def score_north(way: BuildingWalk, walk: SampledWalk, bearing: float | None) -> tuple[PlaceScore, bool]:
     """Return the score of a walk on a plan with this bearing, and whether the walls contradicted the compass."""
-    session = Session(recipes.by_name(recipe), floorplan=plan_with(bearing, way))
+    session = Session(floorplan=plan_with(bearing, way))
     events = session.feed(walk.samples) + session.finish()
     contradicted = any(isinstance(event, PlanContradicted) for event in events)
     return score(way, walk.walker, walk.truth, events), contradicted
@@ -85,20 +81,14 @@ def cells(name: str, scores: Sequence[tuple[PlaceScore, bool]]) -> list[str]:
             f"{fsum(off) / max(len(off), 1):.2f} m", f"{quantile:.2f} m", str(contradicted)]  # fmt: skip
 
 
-OPTIONS = (
-    option("--disturbance", metavar="DEGREES", type=float, default=DISTURBANCE, help="of the field"),
-    partial(add_recipe_name, default="default", help="recipe of the sessions"),
-)
-
-
 def run(options: Namespace) -> int:
     """Print the table; return the exit status."""
     scores: dict[str, list[tuple[PlaceScore, bool]]] = {name: [] for name in BEARINGS}
     for seed in range(options.seed, options.seed + options.walks):
         way = wandering(seed, HALF_TURN)
-        walk = walk_with_compass(way, radians(options.disturbance), seed)
+        walk = walk_with_compass(way, seed)
         for name, bearing in BEARINGS.items():
-            scores[name].append(score_north(way, walk, bearing, options.recipe))
+            scores[name].append(score_north(way, walk, bearing))
     header = ("plan", "true place kept", "right at the end", "strides within 3 m", "mean error", "95 %", "contradicted")
     print("\n".join(markdown.table(header, [cells(name, found) for name, found in scores.items()])))
     return 0

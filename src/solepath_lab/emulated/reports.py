@@ -28,7 +28,7 @@ from solepath.show.page.scene.lists import TrackPoint
 from solepath.validate.alignment import Floats
 
 from ..evaluate.run import Meta, RunSettings
-from ..measures.consistency import consistency
+from ..measures.consistency import consistency, matrix, rotation
 from ..measures.score import Figures, Scored
 from .heading import emulated_walk, follow, middle
 from .heading_walks import IsComplete
@@ -85,12 +85,11 @@ def score_reports(
     first, once, second = times
     end = walk.truth.duration + 1.0
     turn = follow(Session(settings.recipe), walk, FIRST_STRIDES).headings[0]
-    c, s = cos(turn), sin(turn)
-    to_session = np.array([[c, s], [-s, c]])
+    to_truth = rotation(turn)
 
     def truth_at(t: Floats) -> Floats:
         """Return where the wearer is at times `t`, s, in the session's world frame, (N, 2), m."""
-        return np.asarray((middle(walk.truth, t) - middle(walk.truth, np.zeros(1))) @ to_session.T)
+        return np.asarray((middle(walk.truth, t) - middle(walk.truth, np.zeros(1))) @ to_truth)
 
     def place(t: float, off: float = 0.0) -> tuple[float, float]:
         angle = rng.uniform(0.0, 2.0 * pi)
@@ -117,9 +116,9 @@ def score_reports(
     places.report(place(places.points[-1][0] or second))
     here = back.session.position
     if here is None:
-        return Scored(path.stem, samples=len(walk.samples))
+        return Scored(path.stem)
     xx, xy, _, yy, _, _ = here.covariance
-    nees, held = consistency(errors(back)[-1], np.array([[xx, xy], [xy, yy]]))
+    nees, held = consistency(errors(back)[-1], matrix((xx, xy, yy)))
     figures: Figures = {
         "end_without": float(np.hypot(*errors(plain)[-1])),
         "end_return": float(np.hypot(*errors(back)[-1])),
@@ -130,4 +129,4 @@ def score_reports(
         "rejected_later": rejected_later,
         "used": float(np.mean(back.used + places.used)),
     }
-    return Scored(path.stem, figures=figures, samples=len(walk.samples))
+    return Scored(path.stem, figures=figures)

@@ -10,15 +10,15 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
+from itertools import pairwise
 from math import degrees, fsum, sqrt
-from operator import attrgetter
 
 import numpy as np
-from attrs import evolve, frozen
+from attrs import evolve
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.routes.styles import StrideKind
-from solepath.emulate.sensors.device import device_rng
+from solepath.emulate.walk import SampledWalk, sampled
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import GaitCycleMeasured
 from solepath.session import Session
@@ -39,21 +39,14 @@ STEP = 0.001
 """Interval by which the force is integrated, s."""
 
 
-@frozen
-class RunScore:
-    """The gait cycles of one run, measured and true."""
-
-    measured: tuple[Running, ...]
-    """Measures of the steady cycles of running."""
-    true: tuple[Running, ...]
-    """True values of the same cycles."""
+Cycle = tuple[Running, Running]
+"""Measures of a steady cycle of running, and their true values."""
 
 
-def run_of(seed: int, speed: float) -> Walker:
+def run_of(seed: int, speed: float) -> SampledWalk:
     """Return a run on the level by the wearer of a seed, with a few walked metres before and after it."""
-    return Walker(
-        Route().stand(3.0).walk(5.0, 1.3).jog(DISTANCE, speed).walk(5.0, 1.3).stop(2.0), wearer_of(seed), seed
-    )
+    route = Route().stand(3.0).walk(5.0, 1.3).jog(DISTANCE, speed).walk(5.0, 1.3).stop(2.0)
+    return sampled(route, wearer=wearer_of(seed), insoles=insoles_of(seed), seed=seed)
 
 
 def oscillation_of(walker: Walker, contact: float, next_contact: float) -> float:
@@ -72,7 +65,7 @@ def true_cycles(walker: Walker) -> dict[tuple[Foot, float], Running]:
     found: dict[tuple[Foot, float], Running] = {}
     for foot in Foot:
         strides, others = walker.plan.strides[foot], walker.plan.strides[OTHER[foot]]
-        for before, after in zip(strides, strides[1:], strict=False):
+        for before, after in pairwise(strides):
             between = [one for one in others if before.heel_strike < one.heel_strike < after.heel_strike]
             if len(between) != 1 or {before.kind, between[0].kind, after.kind} != {StrideKind.RUN}:
                 continue
@@ -85,29 +78,19 @@ def true_cycles(walker: Walker) -> dict[tuple[Foot, float], Running]:
     return found
 
 
-def score_run(walker: Walker, with_cells: bool) -> RunScore:
+def score_run(walk: SampledWalk, with_cells: bool) -> list[Cycle]:
     """Return the steady cycles of running by the default recipe, with the true ones.
 
     The pressure cells of the insoles are used or, without `with_cells`, their inertial sensors only."""
-    samples = [
-        sample
-        for site, insole in insoles_of(walker.seed).items()
-        for sample in insole.samples(walker, site, device_rng(walker.seed, site))
-    ]
-    if not with_cells:
-        samples = [evolve(sample, pressure=None) for sample in samples]
-    session, truth = Session(), true_cycles(walker)
-    measured: list[Running] = []
-    true: list[Running] = []
-    for event in session.feed(sorted(samples, key=attrgetter("t"))) + session.finish():
-        if not isinstance(event, GaitCycleMeasured) or not event.steady:
-            continue
-        run = running_cycle(event)
-        times = [t for foot, t in truth if foot is event.foot and abs(t - event.t_start) < MATCH_TIME]
-        if run is not None and times:
-            measured.append(run)
-            true.append(truth[event.foot, times[0]])
-    return RunScore(tuple(measured), tuple(true))
+    samples = walk.samples if with_cells else [evolve(sample, pressure=None) for sample in walk.samples]
+    session, truth, cycles = Session(), true_cycles(walk.walker), list[Cycle]()
+    for event in session.feed(samples) + session.finish():
+        if isinstance(event, GaitCycleMeasured) and event.steady and (run := running_cycle(event)) is not None:
+            near = [
+                one for (foot, t), one in truth.items() if foot is event.foot and abs(t - event.t_start) < MATCH_TIME
+            ]
+            cycles += [(run, one) for one in near[:1]]
+    return cycles
 
 
 ROWS: tuple[tuple[str, str, str, float, int], ...] = (
@@ -119,41 +102,34 @@ ROWS: tuple[tuple[str, str, str, float, int], ...] = (
 """Label, field, unit, factor from the SI unit, and digits of each row."""
 
 
-def errors_of(scores: Sequence[RunScore], name: str) -> tuple[list[float], list[float]]:
+def errors_of(cycles: Sequence[Cycle], name: str) -> tuple[list[float], list[float]]:
     """Return the errors of a measure in all cycles that have it, and its true values there, in SI units."""
-    errors: list[float] = []
-    values: list[float] = []
-    for score in scores:
-        for measured, true in zip(score.measured, score.true, strict=True):
-            value, true_value = getattr(measured, name), getattr(true, name)
-            if value is not None:
-                errors.append(value - true_value)
-                values.append(true_value)
-    return errors, values
+    pairs = [(getattr(measured, name), getattr(true, name)) for measured, true in cycles]
+    known = [(value, true) for value, true in pairs if value is not None]
+    return [value - true for value, true in known], [true for _, true in known]
 
 
 def cells(
-    sensors: str, scores: Sequence[RunScore], label: str, name: str, unit: str, factor: float, digits: int
+    sensors: str, cycles: Sequence[Cycle], label: str, name: str, unit: str, factor: float, digits: int
 ) -> list[str]:
     """Return the cells of a row of the table."""
-    errors, values = errors_of(scores, name)
+    errors, values = errors_of(cycles, name)
     figures = ["-"] * 3
     if errors:
         bias = fsum(errors) / len(errors)
         spread = sqrt(fsum([(error - bias) ** 2 for error in errors]) / len(errors))
         figures = [f"{factor * one:.{digits}f}" for one in (fsum(values) / len(values), bias, spread)]
-    cycles = sum([len(score.measured) for score in scores])
-    return [sensors, f"{label}, {unit}", f"{len(errors)} of {cycles}", *figures]
+    return [sensors, f"{label}, {unit}", f"{len(errors)} of {len(cycles)}", *figures]
 
 
 def run(options: Namespace) -> int:
     """Print the table; return the exit status."""
     speeds = np.linspace(SLOWEST, FASTEST, options.runs).tolist()
-    walkers = [run_of(options.seed + number, speed) for number, speed in enumerate(speeds)]
+    walks = [run_of(options.seed + number, speed) for number, speed in enumerate(speeds)]
     rows = []
     for sensors, with_cells in (("insoles", True), ("inertial only", False)):
-        scores = [score_run(walker, with_cells) for walker in walkers]
-        rows += [cells(sensors, scores, *one) for one in ROWS]
+        cycles = [cycle for walk in walks for cycle in score_run(walk, with_cells)]
+        rows += [cells(sensors, cycles, *one) for one in ROWS]
     header = ("sensors", "measure", "cycles", "true mean", "mean error", "SD of the errors")
     print("\n".join(markdown.table(header, rows, left=2)))
     return 0

@@ -33,7 +33,7 @@ from solepath.validate.comparison import compare
 from solepath.validate.foot_run import FootRun
 from solepath.validate.matching import Matching
 
-from ..evaluate.run import Meta, RunSettings, run_timed
+from ..evaluate.run import Meta, RunSettings, run_session
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore
 
@@ -78,7 +78,7 @@ def score_floors(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     seed: int = meta["seed"]
     walk = sampled(four_floors(seed), wearer=Wearer(), insoles=insoles_of(seed), seed=seed)
     session, truth = Session(settings.recipe, calibration=settings.calibration), walk.truth
-    found, track, seconds = run_timed(session, walk.samples, POSITION_INTERVAL)
+    found, track = run_session(session, walk.samples, POSITION_INTERVAL)
     heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
     for foot in compare(truth, {foot: FootRun.of(found, foot) for foot in Foot}):
         heel_strike += foot.events["heel_strike"]
@@ -86,11 +86,9 @@ def score_floors(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         strides += StrideScore(foot.strides_true, foot.strides_found, foot.strides_invented, foot.length_errors)
     return Scored(
         path.stem,
-        figures={} if track is None else place_figures(track.t, track.positions, mean_position(truth, track.t)),
+        figures=place_figures(track.t, track.positions, mean_position(truth, track.t)),
         events={"heel_strike": heel_strike, "toe_off": toe_off},
         strides=strides,
-        samples=len(walk.samples),
-        seconds=seconds,
     )
 
 

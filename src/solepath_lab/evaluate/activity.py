@@ -18,7 +18,7 @@ from ..descriptions import KNOWN
 from ..measures.confusion import DELAYS, ActivityScore
 from ..measures.score import Figures, Scored
 from ..train.hugadb import FOLDS, Span, fold_of, known_spans, labels, spans
-from .run import Meta, RunSettings, run, scored
+from .run import Meta, RunSettings, run
 
 ELEVATOR_IS_UP = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
 """True for the elevator ride up, False for the ride down."""
@@ -104,7 +104,7 @@ def score_labelled(path: Path, meta: Meta, settings: RunSettings, corrected: boo
     score += score_inside(t, true, result.walk.timeline)
     score += score_delays(t, true, result.walk.activities)
     wearers = ", ".join(map(str, sorted(FOLDS[fold_of(int(meta["subject"]))])))
-    return scored(path, result, activity=score, groups=("all", f"of wearers {wearers}"))
+    return Scored(path.stem, activity=score, groups=("all", f"of wearers {wearers}"))
 
 
 STAIR_SPANS = known_spans(KNOWN["stairs"])
@@ -121,16 +121,14 @@ def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         t += times
         true += [activity] * len(times)
     score = score_samples(t, true, result.walk.timeline)
-    return scored(path, result, figures=stairs_figures(score))
+    return Scored(path.stem, figures=stairs_figures(score))
 
 
 def stairs_figures(score: ActivityScore) -> Figures:
     """Return the shares of stairs time reported as stairs and as stairs up, and of level time reported as stairs."""
-    stairs = score.reported_for(Activity.STAIRS_UP)
-    level = score.reported_for(Activity.WALKING)
-    n_stairs, n_level = sum(stairs.values()), sum(level.values())
+    stairs, level = score.reported_for(Activity.STAIRS_UP), score.reported_for(Activity.WALKING)
     return {
-        "stairs_called": sum(stairs.get(reported, 0) for reported in STAIRS) / n_stairs if n_stairs else None,
-        "stairs_direction": stairs.get(Activity.STAIRS_UP, 0) / n_stairs if n_stairs else None,
-        "level_called": sum(level.get(reported, 0) for reported in STAIRS) / n_level if n_level else None,
+        "stairs_called": sum([stairs[one] for one in STAIRS]) / stairs.total() if stairs else None,
+        "stairs_direction": stairs[Activity.STAIRS_UP] / stairs.total() if stairs else None,
+        "level_called": sum([level[one] for one in STAIRS]) / level.total() if level else None,
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 from collections.abc import Iterator
 from functools import partial
 from itertools import chain
@@ -12,7 +13,7 @@ from typing import Any
 
 from solepath.cli.common.closest import unknown
 from solepath.cli.common.failure import Failure, note
-from solepath.cli.common.files import SCORES, OutputFile, add_force, check_outputs, write_json
+from solepath.cli.common.files import Kind, OutputFile, add_force, check_outputs, write_json
 from solepath.cli.common.inputs import add_calibration, add_recipe_name, calibration_of
 from solepath.recipes import DEFAULT, NAMES, by_name
 from solepath.show.tables.progress import progress_bar
@@ -30,6 +31,8 @@ ENVIRONMENT = "SOLEPATH_DATA"
 """Environment variable that names the data directory."""
 
 
+SCORES = Kind(re.compile(rb'\{\}\n|\{\n "[^"\n]*": \{\n  "[^"\n]*": \{\n   "recordings": \{'))
+"""JSON of `evaluate`."""
 OPTIONS = (
     option("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})"),
     ONLY,
@@ -65,23 +68,21 @@ EXAMPLE = "example: solepath-lab evaluate --emulated --walks 1"
 
 def run(options: argparse.Namespace) -> int:
     """Evaluate and print the tables; return the exit status."""
-    emulated_names = [data_set.name for data_set in EMULATED]
-    known_names = [*emulated_names, *(data_set.name for data_set in DATASETS)]
-    if wrong := [name for name in options.only if name not in known_names]:
-        raise Failure(f"--only: {unknown('data set', wrong[0], known_names)}")
-    recorded, walked = (
-        [name for name in options.only if (name in emulated_names) is is_emulated] for is_emulated in (False, True)
-    )
+    names = {one.name: one in EMULATED for one in (*EMULATED, *DATASETS)}
+    if wrong := [name for name in options.only if name not in names]:
+        raise Failure(f"--only: {unknown('data set', wrong[0], names)}")
+    recorded, walked = ([name for name in options.only if names[name] is which] for which in (False, True))
     emulated = bool(walked) or options.emulated and not options.only
-    default_folder = os.environ.get(ENVIRONMENT)
-    folder = options.dir or (Path(default_folder) if default_folder and (recorded or not emulated) else None)
-    if folder is None and (recorded or not emulated):
-        raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
+    needs_folder = bool(recorded) or not emulated
+    folder: Path | None = options.dir
+    if needs_folder and folder is None:
+        if not os.environ.get(ENVIRONMENT):
+            raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
+        folder = Path(os.environ[ENVIRONMENT])
     scores = None if options.json is None else OutputFile(options.json, SCORES)
     if scores is not None:
         data_sets = folder.glob("*/") if folder is not None else ()
         check_outputs(options, [scores], *data_sets)
-    all_recipes = [by_name(name) for name in NAMES]
     chosen = [by_name(name) for name in options.recipe]
     if options.ablation:
         if chosen:
@@ -90,19 +91,19 @@ def run(options: argparse.Namespace) -> int:
     results = []
     old_scores = read_scores(options.compare) if options.compare else None
     with progress_bar("recordings", 100) as show:
-
-        def percent(done: int, total: int) -> None:
-            show(100 * done // total)
-
         common_options: dict[str, Any] = {
-            "calibration": calibration_of(options), "processes": options.processes, "progress": percent,
-        }  # fmt: skip
+            "calibration": calibration_of(options),
+            "processes": options.processes,
+            "progress": lambda done, total: show(100 * done // total),
+        }
         evaluations: list[Iterator[Result]] = []
         if options.ablation and folder is not None and not options.only:
             main_sets = {column.data_set for column in ablation.COLUMNS}
             recorded = [data_set.name for data_set in find_data_sets(folder) if data_set.name in main_sets]
         if folder is not None and (recorded or not options.only):
-            evaluations.append(evaluate(folder, chosen or all_recipes, only=recorded, **common_options))
+            evaluations.append(
+                evaluate(folder, chosen or [by_name(name) for name in NAMES], only=recorded, **common_options)
+            )
         if emulated:
             numbers = range(options.seed, options.seed + options.walks)
             evaluations.append(evaluate_emulated(chosen or [DEFAULT], numbers, only=walked, **common_options))

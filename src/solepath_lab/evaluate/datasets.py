@@ -20,16 +20,7 @@ from ..emulated.walks import score_floors
 from ..measures.score import Scored
 from .activity import STAIR_SPANS, score_labelled, score_stairs
 from .run import Meta, RunSettings
-from .timing import (
-    score_borders,
-    score_force,
-    score_insoles,
-    score_pressed,
-    score_pressed_insoles,
-    score_swings,
-    score_switches,
-    score_treadmill,
-)
+from .timing import score_borders, score_force, score_insoles, score_swings, score_switches, score_treadmill
 from .tracking import (
     EIGHT_STRIDES,
     score_counted,
@@ -103,7 +94,8 @@ DATASETS = (
     ),
     DataSet("marpino_heel_toe", "heel and toe switches, both feet, inertial samples only", score_switches),
     DataSet(
-        "marpino_pressed", "heel and toe switches as an insole of two cells, both feet", score_pressed,
+        "marpino_pressed", "heel and toe switches as an insole of two cells, both feet",
+        partial(score_switches, pressed=True),
         ("marpino_heel_toe",), has_pressure=True,
     ),
     DataSet(
@@ -111,7 +103,8 @@ DATASETS = (
         has_truth=_has_contacts,
     ),
     DataSet(
-        "moticon_pressed", "the vendor's contacts and strides, both insoles with their 16 cells", score_pressed_insoles,
+        "moticon_pressed", "the vendor's contacts and strides, both insoles with their 16 cells",
+        partial(score_insoles, pressed=True),
         ("moticon_opengo",), _has_contacts, has_pressure=True,
     ),
     DataSet(

@@ -121,8 +121,7 @@ def _scored(
     progress: Progress | None,
 ) -> Iterator[Result]:
     calibration = Calibration() if calibration is None else calibration
-    count = sum(len(recorded) for _, _, recorded in plan)
-    features = run_jobs(TrainingSource.features, sources, processes=processes, progress=progress, jobs_after=count)
+    features = run_jobs(TrainingSource.features, sources, processes=processes, progress=progress)
     parts = train_parts(sources, list(features))
     jobs = [
         EvaluationJob(
@@ -131,7 +130,7 @@ def _scored(
         for d, recipe, recorded in plan
         for path, meta in recorded
     ]
-    outcomes = run_jobs(EvaluationJob.run, jobs, processes=processes, progress=progress, jobs_before=len(sources))
+    outcomes = run_jobs(EvaluationJob.run, jobs, processes=processes, progress=progress)
     for data_set, recipe, recorded in plan:
         outcomes_of_set = list(islice(outcomes, len(recorded)))
         scores = tuple([one for one in outcomes_of_set if isinstance(one, Scored)])

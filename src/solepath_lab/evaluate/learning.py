@@ -5,7 +5,8 @@ trains one part for each fold, on the features of all sources without the wearer
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -21,8 +22,10 @@ from ..train import activities, footstep_activity
 from ..train.hugadb import FOLDS, fold_of, recordings
 from .run import Meta
 
-Sources = Sequence[tuple[Any, int | None]]
-"""Pairs of a source of training data and its wearer in hugadb. Other data have None and are used in every fold."""
+Source = Callable[[], Any]
+"""Function that returns the features of a source of training data, or raises RecordingError; run in another process."""
+Sources = Sequence[tuple[Source, int | None]]
+"""Pairs of a source and its wearer in hugadb. Other data have None and are used in every fold."""
 
 
 @frozen
@@ -31,8 +34,6 @@ class Learner:
 
     sources: Callable[[Path], Sources]
     """Function that returns the sources in the data directory."""
-    features: Callable[[Any], Any]
-    """Module-level function, run in another process, that returns a source's features or raises RecordingError."""
     train: Callable[[Sequence[Any]], ActivityPart]
     """Function that returns the part trained on the features of several sources."""
 
@@ -40,32 +41,29 @@ class Learner:
 WEARERS = frozenset().union(*FOLDS)
 
 
+def _blocks(make: Callable[..., Iterable[activities.Blocks]], *given: Any) -> list[activities.Blocks]:
+    return list(make(*given))
+
+
 def _activity_sources(folder: Path) -> Sources:
     """Return the sources of train/activities.py: the wearers of hugadb, level walks and emulated wearers."""
-    wearers = [(("wearer", folder, wearer), wearer) for wearer in sorted(WEARERS)]
-    emulated = [(("emulated", folder, seed), None) for seed in activities.EMULATED]
-    return [*wearers, (("level", folder, 0), None), *emulated]
-
-
-def _blocks(source: tuple[str, Path, int]) -> list[activities.Blocks]:
-    """Return the blocks of one source of `_activity_sources`."""
-    source_kind, folder, number = source
-    if source_kind == "wearer":
-        return list(activities.hugadb(folder / "hugadb", WEARERS - {number}))
-    return list(activities.level_walks(folder) if source_kind == "level" else activities.emulated_walks([number]))
+    hugadb = folder / "hugadb"
+    wearers = [(partial(_blocks, activities.hugadb, hugadb, WEARERS - {one}), one) for one in sorted(WEARERS)]
+    emulated = [(partial(_blocks, activities.emulated_walks, [seed]), None) for seed in activities.EMULATED]
+    return [*wearers, (partial(_blocks, activities.level_walks, folder), None), *emulated]
 
 
 LEARNERS: dict[type, Learner] = {
     Activities: Learner(
         _activity_sources,
-        _blocks,
         lambda features: Activities(
             ActivitiesSettings(activities.fit_model([one for blocks in features for one in blocks], "the other folds"))
         ),
     ),
     TwoSecondWindows: Learner(
-        lambda folder: [(one.path, one.subject) for one in recordings(folder / "hugadb")],
-        footstep_activity.of_recording,
+        lambda folder: [
+            (partial(footstep_activity.of_recording, one.path), one.subject) for one in recordings(folder / "hugadb")
+        ],
         lambda features: TwoSecondWindows(TwoSecondSettings(footstep_activity.train(features, "the other folds"))),
     ),
 }
@@ -77,14 +75,14 @@ class TrainingSource:
 
     kind: type
     """Class of the part."""
-    source: Any
+    source: Source
     subject: int | None
     """Number of the wearer in hugadb; None for other data."""
 
     def features(self) -> Any:
         """Return the source's features; None when it cannot be read, which its scorer reports."""
         try:
-            return LEARNERS[self.kind].features(self.source)
+            return self.source()
         except RecordingError:
             return None
 

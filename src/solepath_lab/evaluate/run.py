@@ -6,12 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from time import perf_counter
 from typing import Any
 
 import attrs
 import numpy as np
-from attrs import frozen
+from attrs import field, frozen
 
 from solepath.body.part import ActivityPart, Position
 from solepath.calibration import Calibration
@@ -26,8 +25,6 @@ from solepath.validate.alignment import Floats
 from solepath.validate.foot_run import FootRun
 from solepath.walk.walk import Walk
 
-from ..measures.score import Scored
-
 
 @frozen
 class RunSettings:
@@ -40,29 +37,23 @@ class RunSettings:
 
 
 @frozen(eq=False)
-class ScoredTrack:
-    """The wearer's positions at successive times."""
+class BodyRun(FootRun):
+    """The wearer's positions at successive times, which are empty when they were not requested."""
 
-    t: Floats
-    """Times, (n,), s."""
-    positions: Floats
-    """Positions in the world frame, (n,3), m."""
-    covariances: Floats
+    t: Floats = field(factory=lambda: np.zeros(0))
+    positions: Floats = field(factory=lambda: np.zeros((0, 3)))
+    covariances: Floats = field(factory=lambda: np.zeros((0, 3)))
     """Covariances of the horizontal positions, (n,3): xx, xy, yy, m^2."""
 
 
 @frozen(eq=False)
 class RecordingRun:
-    """The events of the session that processed a recording, and the time that it took."""
+    """The events of the session that processed a recording."""
 
     feet: dict[Foot, FootRun]
     walk: Walk
-    samples: int
-    """Number of samples."""
-    seconds: float
-    """Wall time that the session took, s."""
-    body: ScoredTrack | None = None
-    """The wearer's position after every sample; None when it was not requested."""
+    body: BodyRun
+    """The wearer's position after every sample, if that was requested."""
 
 
 def run(
@@ -87,33 +78,28 @@ def run(
     samples = list(recording)
     if without_pressure:
         samples = [attrs.evolve(sample, pressure=None) for sample in samples]
-    walk, wearer, seconds = run_timed(session, samples, 0.0 if body else None)
+    walk, wearer = run_session(session, samples, 0.0 if body else None)
     feet = {table.foot: FootRun.of(walk, table.foot) for table in recording.tables}
-    return RecordingRun(feet, walk, len(samples), seconds, wearer)
+    return RecordingRun(feet, walk, wearer)
 
 
-def run_timed(
-    session: Session, samples: Iterable[Sample], interval: float | None
-) -> tuple[Walk, ScoredTrack | None, float]:
-    """Return the session's events for the samples, the wearer's track and the wall time, s.
+def run_session(session: Session, samples: Iterable[Sample], interval: float | None) -> tuple[Walk, BodyRun]:
+    """Return the session's events for the samples, and the wearer's track.
 
     The track has a position every `interval` s, or after every sample when that is 0. With None there is no track."""
-    outputs: list[list[Event]] = []
+    events: list[Event] = []
     positions: list[Position] = []
-    started_at = perf_counter()
     for sample in samples:
-        outputs.append(session.feed(sample))
+        events += session.feed(sample)
         due = interval is not None and (interval == 0.0 or sample.t >= len(positions) * interval)
         if due and (position := session.position) is not None:
             positions.append(position)
-    outputs.append(session.finish())
-    seconds = perf_counter() - started_at
-    covariances = [(one.covariance[0], one.covariance[1], one.covariance[3]) for one in positions]
-    track = ScoredTrack(
-        np.array([one.t for one in positions]), np.array([one.position for one in positions]).reshape(-1, 3),
-        np.array(covariances).reshape(-1, 3),
-    )  # fmt: skip
-    return Walk.of(event for events in outputs for event in events), track if positions else None, seconds
+    track = BodyRun()
+    if positions:
+        t, places = np.array([one.t for one in positions]), np.array([one.position for one in positions])
+        covariances = np.array([one.covariance for one in positions])[:, [0, 1, 3]]
+        track = BodyRun(t=t, positions=places, covariances=covariances)
+    return Walk.of(events + session.finish()), track
 
 
 Meta = dict[str, Any]
@@ -125,8 +111,3 @@ Arrays = dict[str, Any]
 def truth_of(path: Path) -> Arrays:
     """Return the arrays of the truth (names with gt_), the times and the pressure in a recording's file."""
     return read_arrays(path, lambda key: key == "t" or key.startswith(("t_", "gt_", "pressure")))
-
-
-def scored(path: Path, result: RecordingRun, **scores: Any) -> Scored:
-    """Return the scores of a run with its name, number of samples and wall time."""
-    return Scored(path.stem, samples=result.samples, seconds=result.seconds, **scores)

@@ -13,7 +13,7 @@ import ast
 import inspect
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
-from itertools import islice
+from itertools import islice, pairwise
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -80,7 +80,7 @@ def _meanings(module: ModuleType, cls: type | None = None) -> dict[str, str]:
     if cls is not None:
         (body,) = [node.body for node in body if isinstance(node, ast.ClassDef) and node.name == cls.__name__]
     meanings: dict[str, str] = {}
-    for assignment, node in zip(body, body[1:], strict=False):
+    for assignment, node in pairwise(body):
         target = assignment.targets[0] if isinstance(assignment, ast.Assign) else getattr(assignment, "target", None)
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(target, ast.Name):
             meanings[target.id] = " ".join(str(node.value.value).split("\n\n")[0].split())

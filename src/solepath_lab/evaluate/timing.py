@@ -21,7 +21,7 @@ from ..measures.legs import leg_errors, turn_times
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, stride_score
 from .insoles import force_sensors, switches
-from .run import Meta, RecordingRun, RunSettings, run, scored, truth_of
+from .run import Meta, RecordingRun, RunSettings, run, truth_of
 
 LEG_LENGTH = 10.0
 """Length of a leg in ipol_10m_uturn and gaitmap_examples, m."""
@@ -41,19 +41,14 @@ def score_swings(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     swings = {foot: truth[f"gt_{foot.value}"] for foot in result.feet}
     heel_strikes = {foot: labels[:, 1].tolist() for foot, labels in swings.items()}
     t_start, t_end = truth["gt_trial"].tolist()
-    times, body = [t_start, float(truth["gt_uturn"].mean()), t_end], result.body
-    legs = [
-        leg_errors(times, [LEG_LENGTH, LEG_LENGTH], foot_run.t, foot_run.positions) for foot_run in result.feet.values()
-    ]
-    of_body = Errors() if body is None else leg_errors(times, [LEG_LENGTH, LEG_LENGTH], body.t, body.positions)
-    return scored(
-        path,
-        result,
+    times, lengths = [t_start, float(truth["gt_uturn"].mean()), t_end], [LEG_LENGTH, LEG_LENGTH]
+    return Scored(
+        path.stem,
         figures=_turn_figures(truth["gt_uturn"].tolist(), result) | _closing_figures(result, t_start, t_end),
         events=_contact_matches(result, heel_strikes, {foot: labels[:, 0].tolist() for foot, labels in swings.items()}),
         errors={
-            "leg": sum(legs, Errors()),
-            "body_leg": of_body,
+            "leg": sum([leg_errors(times, lengths, foot_run) for foot_run in result.feet.values()], Errors()),
+            "body_leg": leg_errors(times, lengths, result.body),
             "stride_time": _stride_time_errors(result, heel_strikes),
         },
     )
@@ -76,7 +71,7 @@ def _stride_time_errors(result: RecordingRun, heel_strikes: EventTimes) -> Error
 
 def _closing_figures(result: RecordingRun, t_start: float, t_end: float) -> Figures:
     """Return the distance between the wearer's positions at `t_start` and `t_end` s, horizontal and in height, m."""
-    if result.body is None:
+    if not len(result.body.t):
         return {}
     first, last = at_times(result.body.t, result.body.positions, np.array([t_start, t_end]))
     return {"end_error_2d": hypot(last[0] - first[0], last[1] - first[1]), "end_height": abs(float(last[2] - first[2]))}
@@ -115,18 +110,20 @@ def score_borders(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         heel_strikes = [at for at, _ in merged([(at, at) for border in borders for at in border])]
         heel_strike += match(heel_strikes, foot_run.times[HeelStrike], windows=visible)
         stride_times += interval_errors(heel_strikes, foot_run.times[HeelStrike], longest=LONGEST_STRIDE_TIME)
-    tracks = [track for track in (*result.feet.values(), result.body) if track is not None and len(track.t)]
-    legs = [
-        leg_errors(turn_times(one.t, one.positions, LEG_COUNT), [LEG_LENGTH] * LEG_COUNT, one.t, one.positions)
-        for one in tracks
-    ]
-    foot_legs, body_legs = (legs, Errors()) if result.body is None else (legs[:-1], legs[-1])
-    spreads = [pstdev(errors.values) / (1.0 + fmean(errors.values)) for errors in foot_legs]
+    feet = [_turned_legs(foot_run) for foot_run in result.feet.values() if len(foot_run.t)]
+    spreads = [pstdev(errors.values) / (1.0 + fmean(errors.values)) for errors in feet]
     figures: Figures = {"leg_spread": fmean(spreads) if spreads else None}
-    if result.body is not None:
+    body_legs = Errors()
+    if len(result.body.t):
         figures |= _closing_figures(result, float(result.body.t[0]), float(result.body.t[-1]))
-    errors = {"leg": sum(foot_legs, Errors()), "body_leg": body_legs, "stride_time": stride_times}
-    return scored(path, result, figures=figures, events={"heel_strike": heel_strike}, errors=errors)
+        body_legs = _turned_legs(result.body)
+    errors = {"leg": sum(feet, Errors()), "body_leg": body_legs, "stride_time": stride_times}
+    return Scored(path.stem, figures=figures, events={"heel_strike": heel_strike}, errors=errors)
+
+
+def _turned_legs(track: FootRun) -> Errors:
+    """Return the relative errors of the legs between the turns of a track."""
+    return leg_errors(turn_times(track, LEG_COUNT), [LEG_LENGTH] * LEG_COUNT, track)
 
 
 def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -153,7 +150,7 @@ def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         figures[name] = float(np.mean(known)) if known else None
     figures |= {f"drift_{foot.value}": one["drift"] for foot, one in feet.items()}
     events = _contact_matches(result, heel_strikes, toe_offs)
-    return scored(path, result, figures=figures, events=events, strides=strides, errors=times)
+    return Scored(path.stem, figures=figures, events=events, strides=strides, errors=times)
 
 
 def _drift_on_belt(run: FootRun) -> Figures:
@@ -165,25 +162,18 @@ def _drift_on_belt(run: FootRun) -> Figures:
     return drift_figures(drift_of_strides(ends, at_times(run.t, run.positions, ends), straight), ends)
 
 
-def score_switches(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score a session that receives only inertial samples, against the heel and toe switches under the foot."""
-    return _against_switches(path, meta, run(path, settings, without_pressure=True))
-
-
-def score_pressed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score a session that receives the switches as an insole of two cells, against the same switches."""
-    return _against_switches(path, meta, run(path, settings, calibration=switches()))
-
-
-def _against_switches(path: Path, meta: Meta, result: RecordingRun) -> Scored:
+def score_switches(path: Path, meta: Meta, settings: RunSettings, pressed: bool = False) -> Scored:
     """Score against the switches and, on a straight walk, against its length.
 
     A toe-off is the opening of the toe switch while the heel switch bears no load. A foot whose heel is on the ground
     does not leave it: so a standing wearer opens the toe switch, whose gyroscopes show no motion.
 
     The leg of a foot goes from its first to its last position. The wearer stood at both ends of the walk, but nobody
-    recorded how near to the ends of the measured way."""
+    recorded how near to the ends of the measured way.
+
+    With `pressed`, the session receives the switches as an insole of two cells, otherwise inertial samples only."""
     truth = truth_of(path)
+    result = run(path, settings, calibration=switches()) if pressed else run(path, settings, without_pressure=True)
     heel_strikes, toe_offs, legs = dict[Foot, list[float]](), dict[Foot, list[float]](), Errors()
     for foot, foot_run in result.feet.items():
         t, counts = truth[f"t_{foot.value}"], truth[f"pressure_{foot.value}"]
@@ -192,10 +182,9 @@ def _against_switches(path: Path, meta: Meta, result: RecordingRun) -> Scored:
         if toe := switch_contacts(t, counts[:, 0]):
             toe_offs[foot] = [end for _, end in toe if not is_loaded(t, counts[:, 1], end)]
         if "straight_path_m" in meta and len(foot_run.t):
-            ends = [float(foot_run.t[0]), float(foot_run.t[-1])]
-            legs += leg_errors(ends, [float(meta["straight_path_m"])], foot_run.t, foot_run.positions)
+            legs += leg_errors(foot_run.t[[0, -1]], [float(meta["straight_path_m"])], foot_run)
     errors = {"leg": legs} if legs.values else {}
-    return scored(path, result, events=_contact_matches(result, heel_strikes, toe_offs), errors=errors)
+    return Scored(path.stem, events=_contact_matches(result, heel_strikes, toe_offs), errors=errors)
 
 
 def score_force(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -205,21 +194,15 @@ def score_force(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     spans = {foot: force_contacts(truth["t"], force) for foot, force in forces.items()}
     heel_strikes = {foot: [start for start, _ in contacts] for foot, contacts in spans.items()}
     toe_offs = {foot: [end for _, end in contacts] for foot, contacts in spans.items()}
-    return scored(path, result, events=_contact_matches(result, heel_strikes, toe_offs))
+    return Scored(path.stem, events=_contact_matches(result, heel_strikes, toe_offs))
 
 
-def score_insoles(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score a session that receives only inertial samples, against the contacts and strides of the vendor."""
-    return _against_vendor(path, run(path, settings, without_pressure=True))
+def score_insoles(path: Path, meta: Meta, settings: RunSettings, pressed: bool = False) -> Scored:
+    """Score against the contacts and strides of the vendor.
 
-
-def score_pressed_insoles(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score a session that receives the pressure too. It has to learn the layout of the cells, which is not known."""
-    return _against_vendor(path, run(path, settings))
-
-
-def _against_vendor(path: Path, result: RecordingRun) -> Scored:
-    truth, strides = truth_of(path), StrideScore()
+    With `pressed`, the session receives the pressure too. It has to learn the layout of the cells, which is not
+    known."""
+    truth, strides, result = truth_of(path), StrideScore(), run(path, settings, without_pressure=not pressed)
     heel_strikes = {foot: truth[f"gt_ic_{foot.value}"].tolist() for foot in result.feet}
     toe_offs = {foot: truth[f"gt_to_{foot.value}"].tolist() for foot in result.feet}
     for foot, foot_run in result.feet.items():
@@ -229,4 +212,4 @@ def _against_vendor(path: Path, result: RecordingRun) -> Scored:
             np.array(heel_strikes[foot]), lengths, foot_run.stride_lengths, end_tolerance=-TOLERANCE
         )
     times = {"stride_time": _stride_time_errors(result, heel_strikes)}
-    return scored(path, result, events=_contact_matches(result, heel_strikes, toe_offs), strides=strides, errors=times)
+    return Scored(path.stem, events=_contact_matches(result, heel_strikes, toe_offs), strides=strides, errors=times)

@@ -19,7 +19,7 @@ from ..measures.legs import leg_errors
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, counted_score, marker_stances, surveyed_score
 from .insoles import smart_insole
-from .run import Arrays, Meta, RecordingRun, RunSettings, run, scored, truth_of
+from .run import Arrays, Meta, RecordingRun, RunSettings, run, truth_of
 
 
 def score_vicon(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -29,7 +29,7 @@ def score_vicon(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     bipedal = meta.get("llio_tag") == 1
     strides = _survey_score(truth, foot) if bipedal and "gt_stride_xy" in truth else None
     figures = _track_figures(foot, truth["t"], truth["gt_pos"])
-    return scored(path, result, figures=figures, strides=strides, groups=("all", "bipedal") if bipedal else ("all",))
+    return Scored(path.stem, figures=figures, strides=strides, groups=("all", "bipedal") if bipedal else ("all",))
 
 
 def score_optitrack(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -38,8 +38,8 @@ def score_optitrack(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     in_both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
     t, places, foot = truth["gt_t"][in_both], truth["gt_pos"][in_both], result.feet[Foot.RIGHT]
     times, stances = marker_stances(t, places)
-    strides = surveyed_score(times, stances, foot.t, foot.positions, foot.stride_lengths)
-    return scored(path, result, figures=_track_figures(foot, t, places), strides=strides)
+    strides = surveyed_score(times, stances, foot)
+    return Scored(path.stem, figures=_track_figures(foot, t, places), strides=strides)
 
 
 def _track_figures(foot: FootRun, t: Any, truth: Any) -> Figures:
@@ -59,7 +59,7 @@ def _track_figures(foot: FootRun, t: Any, truth: Any) -> Figures:
 def score_loop(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score the distance between the first and the last live position of a foot that ends where it started."""
     result = run(path, settings)
-    return scored(path, result, figures=_loop_figures(result, float(meta["path_m_about"])))
+    return Scored(path.stem, figures=_loop_figures(result, float(meta["path_m_about"])))
 
 
 EIGHT_LENGTH = 78.0
@@ -72,7 +72,7 @@ def score_eight(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score a figure of eight like a loop, and the number of its strides against the count by eye."""
     result = run(path, settings)
     strides = counted_score(EIGHT_STRIDES[path.stem], [stride.length for stride in result.feet[Foot.RIGHT].strides])
-    return scored(path, result, figures=_loop_figures(result, EIGHT_LENGTH), strides=strides)
+    return Scored(path.stem, figures=_loop_figures(result, EIGHT_LENGTH), strides=strides)
 
 
 def _loop_figures(result: RecordingRun, length: float) -> Figures:
@@ -117,18 +117,15 @@ def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
             "path": surveyed,
             "relative": float(np.mean(errors)) / surveyed,
         }
-        if body is not None:
-            k = np.minimum(np.searchsorted(body.t, times), len(body.t) - 1)
-            places = body.positions[k, :2], body.covariances[k], truth["gt_stride_xy"][:, :2].astype(np.float64)
-            figures |= consistency_at_end(*places)
-    return scored(path, result, figures=figures, strides=_survey_score(truth, foot))
+        k = np.minimum(np.searchsorted(body.t, times), len(body.t) - 1)
+        places = body.positions[k, :2], body.covariances[k], truth["gt_stride_xy"][:, :2].astype(np.float64)
+        figures |= consistency_at_end(*places)
+    return Scored(path.stem, figures=figures, strides=_survey_score(truth, foot))
 
 
 def _survey_score(truth: Arrays, foot: FootRun) -> StrideScore:
     times, places = truth["t"][truth["gt_stride_index"]], truth["gt_stride_xy"]
-    if not len(foot.t):
-        return StrideScore(n_true=len(times) - 1)
-    return surveyed_score(times, places, foot.t, foot.positions, foot.stride_lengths)
+    return surveyed_score(times, places, foot)
 
 
 def score_counted(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -141,13 +138,13 @@ def score_counted(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     true = int(meta["n_true_strides"])
     strides = counted_score(true, [stride.length for stride in foot.strides])
     if not meta["corner_points_valid"] or not len(foot.t):
-        return scored(path, result, strides=strides)
+        return Scored(path.stem, strides=strides)
     ends, corners = truth["t"][truth["gt_stride_index"]], truth["gt_corner_xy"].astype(np.float64)
     legs, figures = Errors(), Figures()
     if meta["n_detected_strides"] == true:
-        times = ends[truth["gt_corner_stride"]].tolist()
-        legs = leg_errors(times, np.linalg.norm(np.diff(corners, axis=0), axis=1).tolist(), foot.t, foot.positions)
+        times = ends[truth["gt_corner_stride"]]
+        legs = leg_errors(times, np.linalg.norm(np.diff(corners, axis=0), axis=1), foot)
     if float(np.linalg.norm(corners[-1] - corners[0])) == 0.0:
         first, last = at_times(foot.t, foot.positions, ends[[0, -1]])
         figures = _closing_errors(first, last)
-    return scored(path, result, figures=figures, strides=strides, errors={"leg": legs})
+    return Scored(path.stem, figures=figures, strides=strides, errors={"leg": legs})

@@ -35,9 +35,9 @@ class ActivityScore:
     def __add__(self, other: ActivityScore) -> ActivityScore:
         return ActivityScore(*map(add, astuple(self, recurse=False), astuple(other, recurse=False)))
 
-    def reported_for(self, true: Activity) -> dict[Activity, int]:
+    def reported_for(self, true: Activity) -> Counter[Activity]:
         """Return the number of samples by reported activity, for the samples of one true activity."""
-        return {reported: count for (was, reported), count in self.samples.items() if was is true}
+        return Counter({reported: count for (was, reported), count in self.samples.items() if was is true})
 
     def f1(self, activity: Activity) -> float | None:
         """Return 2 x right / (true + reported); None when the activity is neither true nor reported."""
@@ -81,7 +81,7 @@ class ActivityScore:
         Activities that never occur are left out."""
         reported = [activity for activity in Activity if any(answer is activity for _, answer in self.samples)]
         return {
-            was.value: {answer.value: self.samples.get((was, answer), 0) for answer in reported}
+            was.value: {answer.value: self.samples[was, answer] for answer in reported}
             for was in CLASSES
             if self.reported_for(was)
         }

@@ -7,6 +7,7 @@ error of that turn besides: the covariance across the way at the end of these me
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import atan2, cos, sin
 
 import numpy as np
@@ -21,6 +22,23 @@ START_DISTANCE = 10.0
 """Length of the first metres, which show the heading, m."""
 SURVEY_ERROR = 0.01
 """Standard deviation of a surveyed footprint, m: the width of a mark (assumed)."""
+
+
+def rotation(angle: float) -> Floats:
+    """Return the matrix (2,2) of a rotation to the left by an angle, rad."""
+    return np.array([[cos(angle), -sin(angle)], [sin(angle), cos(angle)]])
+
+
+def matrix(covariance: Sequence[float] | Floats) -> Floats:
+    """Return the covariance (2,2), m^2, of its xx, xy and yy."""
+    xx, xy, yy = covariance
+    return np.array([[xx, xy], [xy, yy]])
+
+
+def yaws(attitudes: Floats) -> Floats:
+    """Return the angles of attitudes (n,4), or of one (4,), about the vertical, rad, from -pi to pi."""
+    w, x, y, z = attitudes.T
+    return np.asarray(np.arctan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z)))
 
 
 def consistency(error: Floats, covariance: Floats) -> tuple[float, float]:
@@ -40,15 +58,10 @@ def consistency_at_end(places: Floats, covariances: Floats, surveyed: Floats) ->
     (x, y), (u, v) = places[k] - places[0], surveyed[k] - surveyed[0]
     yaw, length = atan2(v, u) - atan2(y, x), float(np.hypot(x, y))
     across = np.array([-y, x]) / length
-    rotation = np.array([[cos(yaw), -sin(yaw)], [sin(yaw), cos(yaw)]])
-    yaw_variance = (across @ _matrix(covariances[k]) @ across + 2.0 * SURVEY_ERROR**2) / length**2
-    end = rotation @ (places[-1] - places[0])
+    turn = rotation(yaw)
+    yaw_variance = (across @ matrix(covariances[k]) @ across + 2.0 * SURVEY_ERROR**2) / length**2
+    end = turn @ (places[-1] - places[0])
     turned = np.array([-end[1], end[0]])
-    covariance = rotation @ _matrix(covariances[-1]) @ rotation.T + yaw_variance * np.outer(turned, turned)
+    covariance = turn @ matrix(covariances[-1]) @ turn.T + yaw_variance * np.outer(turned, turned)
     nees, held = consistency(end - (surveyed[-1] - surveyed[0]), covariance)
     return {"nees_end": nees, "held_end": held}
-
-
-def _matrix(covariance: Floats) -> Floats:
-    xx, xy, yy = covariance
-    return np.array([[xx, xy], [xy, yy]])

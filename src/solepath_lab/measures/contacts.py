@@ -5,6 +5,7 @@ The thresholds were chosen by hand; no sweep of them is recorded."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -36,8 +37,7 @@ def switch_contacts(t: NDArray[Any], counts: NDArray[Any]) -> list[tuple[float, 
         if closed and count < opening_level or not closed and count > closing_level:
             closed = not closed
             edges.append((at, closed))
-    edges = remove_bounces(edges)
-    return [(a, b) for (a, on), (b, _) in zip(edges, edges[1:], strict=False) if on]
+    return _contacts(edges)
 
 
 def is_loaded(t: NDArray[Any], counts: NDArray[Any], at: float) -> bool:
@@ -53,8 +53,11 @@ def force_contacts(t: NDArray[Any], force: NDArray[Any]) -> list[tuple[float, fl
     Spans that are cut off at an end of the recording are left out."""
     closed = force > CONTACT_FORCE
     changes = np.flatnonzero(closed[1:] != closed[:-1]) + 1
-    edges = remove_bounces([(float(t[k]), bool(closed[k])) for k in changes])
-    return [(a, b) for (a, on), (b, _) in zip(edges, edges[1:], strict=False) if on]
+    return _contacts([(float(t[k]), bool(closed[k])) for k in changes])
+
+
+def _contacts(edges: Sequence[tuple[float, bool]]) -> list[tuple[float, float]]:
+    return [(a, b) for (a, on), (b, _) in pairwise(remove_bounces(edges)) if on]
 
 
 def remove_bounces(edges: Sequence[tuple[float, bool]]) -> list[tuple[float, bool]]:

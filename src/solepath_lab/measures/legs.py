@@ -12,35 +12,33 @@ from math import inf
 import numpy as np
 
 from solepath.validate.alignment import Floats, at_times
+from solepath.validate.foot_run import FootRun
 from solepath.validate.matching import Errors
 
 SEARCH_INTERVAL = 0.05
 """Time between the instants among which a U-turn is searched, s; a foot pivots for longer."""
 
 
-def leg_lengths(times: Sequence[float] | Floats, t: Floats, positions: Floats) -> Floats:
+def leg_lengths(times: Sequence[float] | Floats, track: FootRun) -> Floats:
     """Return the horizontal distances (n,), m, between the positions of a track at consecutive `times` (n+1,), s."""
-    places = at_times(t, positions[:, :2], np.asarray(times, np.float64))
+    places = at_times(track.t, track.positions[:, :2], np.asarray(times, np.float64))
     return np.asarray(np.linalg.norm(np.diff(places, axis=0), axis=1), dtype=np.float64)
 
 
-def leg_errors(times: Sequence[float], true: Sequence[float], t: Floats, positions: Floats) -> Errors:
+def leg_errors(times: Sequence[float] | Floats, true: Sequence[float] | Floats, track: FootRun) -> Errors:
     """Return the relative errors of the legs between `times` (n+1,), s, whose lengths are `true` (n,), m.
 
     A foot without a track has no errors."""
-    if not len(t):
-        return Errors()
-    found = leg_lengths(times, t, positions)
-    return Errors(tuple([float(ours) / length - 1.0 for ours, length in zip(found, true, strict=True)]))
+    return Errors(tuple((leg_lengths(times, track) / true - 1.0).tolist()) if len(track.t) else ())
 
 
-def turn_times(t: Floats, positions: Floats, legs: int) -> list[float]:
+def turn_times(track: FootRun, legs: int) -> list[float]:
     """Return the times (legs + 1,), s, of the start, the U-turns and the end of a track of `legs` legs to and fro.
 
     The track is projected on its first principal axis. The times are those between which the projection goes furthest,
     alternately forth and back. No threshold is needed."""
-    times = np.arange(t[0], t[-1] + SEARCH_INTERVAL, SEARCH_INTERVAL)
-    places = at_times(t, positions[:, :2], times)
+    times = np.arange(track.t[0], track.t[-1] + SEARCH_INTERVAL, SEARCH_INTERVAL)
+    places = at_times(track.t, track.positions[:, :2], times)
     places = places - places.mean(axis=0)
     along = places @ np.linalg.eigh(places.T @ places)[1][:, -1]
     return max([_zigzag(along, times, legs, sign) for sign in (1.0, -1.0)])[1]

@@ -40,10 +40,6 @@ class Scored:
     """Errors by kind: leg of the feet and body_leg of the wearer (relative), stride_time (s)."""
     groups: tuple[str, ...] = ("all",)
     """Names of the groups that this recording belongs to."""
-    samples: int = 0
-    """Number of samples."""
-    seconds: float = 0.0
-    """Wall time that the session took, s."""
 
     def flat(self) -> Figures:
         """Return every figure of this recording by its name in tables and JSON."""

@@ -8,6 +8,7 @@ foot-flat may be found a little after the survey's end of stance. END_TOLERANCE 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import attrs
@@ -16,6 +17,7 @@ from attrs import frozen
 from numpy.typing import NDArray
 
 from solepath.validate.alignment import Floats, at_times
+from solepath.validate.foot_run import FootRun
 from solepath.validate.matching import Errors
 
 from .legs import leg_lengths
@@ -104,16 +106,14 @@ def counted_score(n_true: int, lengths: Sequence[float]) -> StrideScore:
     return StrideScore(n_true, min(n_true, found), max(0, found - n_true), longest=max(lengths, default=None))
 
 
-def surveyed_score(
-    times: NDArray[Any], places: NDArray[Any], track_t: Floats, track: Floats, strides: Sequence[tuple[float, float]]
-) -> StrideScore:
-    """Score `strides` and the live `track` (m,3) at `track_t` against surveyed `places` (n+1,2) at `times` (n+1,).
-
-    `strides` are pairs of end (s) and length (m)."""
+def surveyed_score(times: NDArray[Any], places: NDArray[Any], foot: FootRun) -> StrideScore:
+    """Score the strides and the live track of a foot against surveyed `places` (n+1,2) at `times` (n+1,)."""
+    if not len(foot.t):
+        return StrideScore(n_true=len(times) - 1)
     lengths = np.linalg.norm(np.diff(np.asarray(places, np.float64)[:, :2], axis=0), axis=1)
     known = lengths > 0.0
-    errors = leg_lengths(times, track_t, track)[known] / lengths[known] - 1.0
-    return attrs.evolve(stride_score(times, lengths, strides), track_errors=Errors(tuple(errors.tolist())))
+    errors = leg_lengths(times, foot)[known] / lengths[known] - 1.0
+    return attrs.evolve(stride_score(times, lengths, foot.stride_lengths), track_errors=Errors(tuple(errors.tolist())))
 
 
 def marker_stances(t: NDArray[Any], places: NDArray[Any]) -> tuple[Floats, Floats]:
@@ -128,7 +128,7 @@ def marker_stances(t: NDArray[Any], places: NDArray[Any]) -> tuple[Floats, Float
     edges = [0, *(np.flatnonzero(still[1:] != still[:-1]) + 1).tolist(), len(still)]
     ends: list[float] = []
     stances: list[Floats] = []
-    for a, b in zip(edges, edges[1:], strict=False):
+    for a, b in pairwise(edges):
         if not still[a] or times[b - 1] - times[a] < SHORTEST_STANCE:
             continue
         place = positions[a:b].mean(axis=0)

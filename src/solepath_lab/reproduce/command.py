@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from functools import partial
 from pathlib import Path
 
 from solepath.cli.common.closest import unknown
 from solepath.cli.common.failure import Failure, parse_count, parse_whole_number, require
-from solepath.cli.common.files import EXPERIMENT, FIGURE, OutputFile, add_force, check_outputs, write_json
+from solepath.cli.common.files import Kind, OutputFile, add_force, check_outputs, write_json
 from solepath.cli.completion import complete_with
 from solepath.recording import printable
 from solepath.saving.files import replace_whole
@@ -20,7 +21,7 @@ from . import footstep_tracker, kupt_dfpc, pressure_contour, shoe_sensing, walki
 from .done_jobs import DoneJobs, DoneJobsError
 from .runner import Runner
 from .seeds import Experiment, reproduce_seeds
-from .tables import as_json
+from .tables import Reproduction, as_json
 
 EXPERIMENTS: dict[str, Experiment] = {
     "kupt-dfpc": kupt_dfpc.reproduce,
@@ -30,6 +31,17 @@ EXPERIMENTS: dict[str, Experiment] = {
     "shoe-sensing": shoe_sensing.reproduce,
 }
 """Function that repeats the experiment of each paper."""
+EXPERIMENT = Kind(re.compile(rb'\{\n "name": "[^"\n]*",\n "emulated": true,\n "table": \{'))
+"""JSON of `reproduce`."""
+FIGURE = Kind(
+    re.compile(
+        rb"\A\x89PNG.{0,60}tEXtSoftware\0solepath|\A%!PS-Adobe[^\n]*\n(?:%%[^\n]*\n)*%%Creator: solepath\n"
+        rb"|/Creator \(solepath\) /Producer \(Matplotlib |<dc:creator>\s*<cc:Agent>\s*<dc:title>solepath</dc:title>",
+        re.DOTALL,
+    ),
+    is_elsewhere=True,
+)
+"""A figure of `reproduce` (.png, .eps, .ps, .pdf, .svg), whose metadata name the program that drew it."""
 NAMES = tuple(EXPERIMENTS)
 """Names of the experiments."""
 
@@ -67,9 +79,8 @@ def run(options: argparse.Namespace) -> int:
     if options.name not in NAMES:
         raise Failure(unknown("experiment", options.name, NAMES))
     figure = _figure(options)
-    table = None if options.json is None else OutputFile(options.json, EXPERIMENT)
-    picture = None if figure is None else OutputFile(figure, FIGURE)
-    outputs = [output for output in (table, picture) if output is not None]
+    kinds = ((options.json, EXPERIMENT), (figure, FIGURE))
+    outputs = [OutputFile(path, kind) for path, kind in kinds if path is not None]
     check_outputs(options, outputs)
 
     if options.resume is not None and options.resume.resolve() in [output.path.resolve() for output in outputs]:
@@ -85,17 +96,21 @@ def run(options: argparse.Namespace) -> int:
     except DoneJobsError as error:
         raise Failure(f"{printable(str(options.resume))}: {error}") from None
     print(comparison_with_paper(experiment))
-    if table is not None:
-        write_json(table, as_json(experiment))
-    if picture is not None:
-        from ..tables.figures import draw
-
-        file = picture.path
-        replace_whole(
-            file, lambda path: draw(experiment, path, file.suffix[1:].lower()), lambda _: picture.check_again()
-        )
-        print(f"figure drawn in {printable(str(file))}")
+    for output in outputs:
+        if output.kind is EXPERIMENT:
+            write_json(output, as_json(experiment))
+        else:
+            _draw(experiment, output)
     return 0
+
+
+def _draw(experiment: Reproduction, output: OutputFile) -> None:
+    """Draw the figure of an experiment."""
+    from ..tables.figures import draw
+
+    form = output.path.suffix[1:].lower()
+    replace_whole(output.path, lambda path: draw(experiment, path, form), lambda _: output.check_again())
+    print(f"figure drawn in {printable(str(output.path))}")
 
 
 def _figure(options: argparse.Namespace) -> Path | None:

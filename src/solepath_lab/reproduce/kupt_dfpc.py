@@ -171,9 +171,9 @@ def walk(job: KuptJob) -> WalkResults:
     prepared = prepare(job.seed, job.setting, job.corridor)
     zupt, known = _run(ZUPT, prepared), _run(KUPT_DFPC, prepared)
     distances: Values = {
-        f"{name}-{letter}": (_distance(events, foot),)
+        f"{name}-{letter}": (distance,)
         for name, events in (("ZUPT", zupt), ("KUPT", known))
-        for foot, letter in FOOT_LETTERS.items()
+        for letter, distance in zip("LR", _distances(events), strict=True)
     }
     distances["KUPT+DFPC"] = (_fused_distance(known),)
     distances |= {name: (prepared.true_distance(foot),) for foot, name in TRUE.items()}
@@ -182,23 +182,22 @@ def walk(job: KuptJob) -> WalkResults:
         title = f"{CORRIDOR_LENGTH:g} m of corridors (fig. 13)"
         return WalkResults(distances | ends, (Plot(title, tracks, marks=(("start", 0.0, 0.0),)),))
     same = _run(SAME_ADDITIONS, prepared)
-    distances[SAME_ROW] = tuple([_distance(same, foot) for foot in Foot])
+    distances[SAME_ROW] = _distances(same)
     distances[SAME_FUSED_ROW] = (_fused_distance(same),)
     if not job.setting.with_additions:
         return WalkResults(distances)
     printed = _run(KUPT_DFPC_PRINTED, prepared)
-    values = (*(_distance(printed, foot) for foot in Foot), _fused_distance(printed))
-    distances.update({name: (value,) for name, value in zip(PRINTED_ROWS, values, strict=True)})
+    for name, distance in zip(PRINTED_ROWS, (*_distances(printed), _fused_distance(printed)), strict=True):
+        distances[name] = (distance,)
     for name, recipe in ABLATIONS.items():
-        events = known if recipe is KUPT else _run(recipe, prepared)
-        distances[name] = tuple([_distance(events, foot) for foot in Foot])
+        distances[name] = _distances(known if recipe is KUPT else _run(recipe, prepared))
     by_index = _run(BY_ERROR_INDEX, prepared)
     distances[BY_ERROR_INDEX.name] = (_fused_distance(by_index),)
     if job.setting != STANDARD:
         return WalkResults(distances)
     seen = watch(prepared.parts.after, prepared.calibration)
-    shares = [coverage(seen[foot]) for foot in Foot]
-    distances.update({name: tuple([share[k] for share in shares]) for k, name in enumerate(COVERAGE_ROWS)})
+    for name, shares in zip(COVERAGE_ROWS, zip(*[coverage(seen[foot]) for foot in Foot], strict=True), strict=True):
+        distances[name] = shares
     drawn = panels(seen, {"ZUPT": zupt, "KUPT+DFPC": known}, by_index) if job.drawn else ()
     return WalkResults(distances, drawn)
 
@@ -207,17 +206,16 @@ def _run(recipe: Recipe, prepared: PreparedWalk) -> list[Event]:
     return run_session(recipe, prepared.parts.after, prepared.calibration)
 
 
-def _distance(events: list[Event], foot: Foot) -> float:
-    return sum(stride.length for stride in final_strides(events, foot))
+def _distances(events: list[Event]) -> tuple[float, ...]:
+    """Return the sums of the stride lengths of both feet, m."""
+    return tuple([sum([stride.length for stride in final_strides(events, foot)]) for foot in Foot])
 
 
 def _fused_distance(events: list[Event]) -> float:
     return next((event.distance for event in reversed(events) if isinstance(event, StrideFused)), 0.0)
 
 
-def _tracks(
-    truth: Truth, t_halt: float, zupt: list[Event], known: list[Event]
-) -> tuple[tuple[PictureTrack, ...], Values]:
+def _tracks(truth: Truth, t_halt: float, zupt: list[Event], known: list[Event]) -> tuple[list[PictureTrack], Values]:
     """Return tracks of stride ends, aligned with the truth over two metres, and distances from start to end, m."""
     ends = {
         f"ZUPT-{letter}": [(stride.t_end, foot, stride.position) for stride in final_strides(zupt, foot)]
@@ -239,7 +237,7 @@ def _tracks(
         )
         tracks.append(PictureTrack(name, thin_out(align_track(track, true) - start), DrawStyle.DOTS))
         distances[f"end: {name}"] = (float(np.linalg.norm(track[-1] - track[0])),)
-    return tuple(tracks), distances
+    return tracks, distances
 
 
 def _true_places(truth: Truth, foot: Foot, t: float | Floats) -> Floats:

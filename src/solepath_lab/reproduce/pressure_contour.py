@@ -147,7 +147,7 @@ def _mean_bias(result: WalkResults, name: str) -> float:
 def _panels(loops: Sequence[WalkResults], shorts: Sequence[WalkResults]) -> tuple[Plot, ...]:
     drawn = [evolve(one.panels[0], title=FIGURE_TITLES[int(one.values["number"][0])]) for one in loops[:2]]
     compared = ("true path", PRESSURE_PRINTED_ROW.lower(), WITHOUT_BIAS_ROW.lower())
-    tracks = tuple([track for track in shorts[0].panels[0].tracks if track.name in compared])
+    tracks = [track for track in shorts[0].panels[0].tracks if track.name in compared]
     title = "with and without the bias filter (fig. 10)"
     return (*drawn, *loops[0].panels[1:], evolve(shorts[0].panels[0], title=title, tracks=tracks))
 

@@ -21,9 +21,9 @@ from .published import PUBLISHED, rows_of
 from .runner import Runner
 from .shoe.notes import Results, figures, notes, walk_of
 from .shoe.scores import relative_error
-from .shoe.variants import BEFORE, BY_ANGLE, DEFAULT_ROW, LEVEL, MAGNITUDE, METHODS, OURS, SETUPS, SHORT, STAIRS, STATES
-from .shoe.walks import SLOPES, ShoeJob, ShoeResults, walk
-from .tables import FigureRow, Panel, Plot, Reproduction, row_of
+from .shoe.variants import BEFORE, BY_ANGLE, DEFAULT_ROW, LEVEL, MAGNITUDE, METHODS, SETUPS, SHORT, STAIRS, STATES
+from .shoe.walks import SLOPES, TITLES, ShoeJob, walk
+from .tables import FigureRow, Panel, Reproduction, WalkResults, row_of
 
 NAME = SHOE_SENSING.name
 WALKS = 10
@@ -66,15 +66,11 @@ def jobs_of(count: int, seed: int) -> list[ShoeJob]:
     return jobs
 
 
-def _describe(one: ShoeResults) -> str:
-    scores = [(name, one.scores[name]) for name in METHODS]
-    found = [
-        f"{state} {', '.join(f'{of[name][0]:.1f} % {method}' for method, of in scores)}"
-        for state in STATES
-        if (name := f"{state} steps") in one.scores[OURS]
-    ]
-    ends = ", ".join(f"{of['end'][0]:.2f} m {method}" for method, of in scores)
-    return f"steps found: {'; '.join(found)}; end off by {ends}"
+def _describe(one: WalkResults) -> str:
+    names = [f"{method}: {state} steps" for state in STATES for method in METHODS]
+    steps = [f"{name} {one.values[name][0]:.1f} %" for name in names if name in one.values]
+    ends = [f"{one.values[f'{name}: end'][0]:.2f} m {name}" for name in METHODS]
+    return f"{', '.join(steps)}; end off by {', '.join(ends)}"
 
 
 def _rows(results: Results) -> Iterator[FigureRow]:
@@ -86,7 +82,7 @@ def _rows(results: Results) -> Iterator[FigureRow]:
             walks = results["short" if method == MAGNITUDE else walk_of(state)]
             yield _row(f"{state}, steps, {method} %", figures(walks, method, f"{state} steps"), digits=1)
     for state, method, walks in of_state:
-        right = [one.scores[method][f"{state} right"] for one in walks]
+        right = [one.values[f"{method}: {state} right"] for one in walks]
         yield _row(f"{state}, state, {method} %", [100.0 * sum(one) / max(1, len(one)) for one in right], digits=1)
     for method in METHODS:  # table 1, without height correction, as the paper's strides must have been
         for name, states in (("plane", LEVEL), *((state, (state,)) for state in STAIRS)):
@@ -116,7 +112,7 @@ def _rows(results: Results) -> Iterator[FigureRow]:
         yield _row(f"{state}, course, {method} deg", _sizes(walks, method, "courses"), digits=2)
     for k, name in enumerate((*(f"slope {100.0 * slope:g} %" for slope in SLOPES), "kerb 0.1 m")):
         for recipe in (*[one for method in METHODS for one in (method, BEFORE[method])], BY_ANGLE, DEFAULT_ROW):
-            rises = [abs(rise) for one in results["ramps"] for rise in one.scores[recipe]["rises"][2 * k :][:2]]
+            rises = [abs(rise) for one in results["ramps"] for rise in one.values[f"{recipe}: rises"][2 * k :][:2]]
             yield _row(f"{name}, height off, {recipe} m", rises, digits=2)
     for recipe in (*METHODS, DEFAULT_ROW):
         walks = results["five minutes"]
@@ -135,14 +131,11 @@ def _rows(results: Results) -> Iterator[FigureRow]:
 _row = partial(row_of, rows_of(NAME), digits=3)
 
 
-def _sizes(walks: Sequence[ShoeResults], recipe: str, *names: str) -> list[float]:
+def _sizes(walks: Sequence[WalkResults], recipe: str, *names: str) -> list[float]:
     """Return figures without their signs."""
     return [abs(value) for value in figures(walks, recipe, *names)]
 
 
 def _panels(results: Results) -> tuple[Panel, ...]:
     """Return figs. 3, 7 and 20, and tracks in space of figs. 25, 28 and 35, for the first wearer."""
-    titles = {"walking": "there and back (fig. 25a)", "rectangle": "rectangle (fig. 25b)", "stairs": "stairs (fig. 28)"}
-    titles["five minutes"] = "five minutes (fig. 35)"
-    spaces = [Plot(title, results[name][0].tracks) for name, title in titles.items()]
-    return (*results["short"][0].curves, *spaces)
+    return tuple([panel for name in ("short", *TITLES) for panel in results[name][0].panels])

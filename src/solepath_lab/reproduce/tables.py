@@ -23,13 +23,23 @@ class DrawStyle(Enum):
 Points = tuple[tuple[float, ...], ...]
 
 
+def to_points(points: Iterable[tuple[float, ...]]) -> Points:
+    """Return points as a track has them."""
+    return tuple(points)
+
+
 @frozen
 class PictureTrack:
     """A track, a curve or a cloud of points to draw, with its name; points are (x, y), or (x, y, z) with z up."""
 
     name: str
-    points: Points
+    points: Points = field(converter=to_points)
     style: DrawStyle = DrawStyle.LINE
+
+
+def to_tracks(tracks: Iterable[PictureTrack]) -> tuple[PictureTrack, ...]:
+    """Return tracks as a panel has them."""
+    return tuple(tracks)
 
 
 @frozen
@@ -39,7 +49,7 @@ class Plot:
     `marks` are named places (name, x, y); `limits` are those of the y axis, None: all of the tracks."""
 
     title: str
-    tracks: tuple[PictureTrack, ...]
+    tracks: tuple[PictureTrack, ...] = field(converter=to_tracks)
     x_label: str = "x, m"
     y_label: str = "y, m"
     limits: tuple[float, float] | None = None

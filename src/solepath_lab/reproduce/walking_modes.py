@@ -25,7 +25,6 @@ from solepath.emulate.wearers.gait import LoadLaw
 from solepath.emulate.wearers.soles.contact import SLIPPING, WORN
 from solepath.papers.walking_modes.calibrate import MODES
 from solepath.papers.walking_modes.compensation import TABLE_1, Compensation
-from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import (
     TOUCHDOWN_ACCELERATION,
     TOUCHDOWN_HEIGHT,
@@ -53,7 +52,7 @@ from .modes.walks import (
     learn,
     recognise,
     walk,
-    with_compensation,
+    with_settings,
 )
 from .published import PUBLISHED, rows_of
 from .runner import Runner
@@ -173,21 +172,20 @@ def _lengths(results: Sequence[WalkResults], method: str) -> list[float]:
 def _methods(calibration: Calibration, ours: Compensation) -> dict[str, tuple[Recipe, Calibration]]:
     """Return the methods and the variants for a wearer with this calibration; `ours` is the mean of all wearers."""
     own = calibration.modes or {}
-    modes = next(part for part in WALKING_MODES.parts if isinstance(part, Modes))
-    by_table_2 = evolve(modes, settings=evolve(modes.settings, rule=ModeRule.TABLE_2))
     one: Compensation = {foot: {mode: _mean(list(row.values())) for mode in MODES} for foot, row in own.items()}
     recipes = {
         **METHODS,
         "IV printed": WALKING_MODES_PRINTED,
-        "IV our table 1": with_compensation(WALKING_MODES_PRINTED, ours),
-        "IV table 2": WALKING_MODES.replace_part(Modes, by_table_2),
-        "IV one value": with_compensation(WALKING_MODES, one),
+        "IV our table 1": with_settings(WALKING_MODES_PRINTED, compensation=ours, own_compensation=False),
+        "IV table 2": with_settings(WALKING_MODES, rule=ModeRule.TABLE_2),
+        "IV one value": with_settings(WALKING_MODES, compensation=one, own_compensation=False),
     }
     return {name: (recipe, calibration) for name, recipe in recipes.items()}
 
 
 def _mean(pairs: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    return float(np.mean([x for x, _ in pairs])), float(np.mean([y for _, y in pairs]))
+    x, y = np.mean(pairs, axis=0).tolist()
+    return x, y
 
 
 def _mean_table(calibrations: Sequence[Calibration]) -> Compensation:

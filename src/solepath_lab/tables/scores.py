@@ -37,11 +37,7 @@ def score_table(result: Result) -> str:
             rows.append(_row("median", summary.median, keys))
         else:
             rows.append(_row(f"pooled {summary.count}{name}", summary.together, keys))
-    wall_time, samples = sum(s.seconds for s in result.scores), sum(s.samples for s in result.scores)
-    speed = f"{samples} samples" if samples else "no samples"
-    if samples and wall_time > 0.0:
-        speed = f"{speed}, {1e6 * wall_time / samples:.1f} us each"
-    title = f"{data_set.name}: {data_set.title} ({result.recipe}; {speed})"
+    title = f"{data_set.name}: {data_set.title} ({result.recipe})"
     lines = [title, table(header, rows)]
     lines += [_confusion(summary) for summary in result.summaries if summary.group == "all" and summary.confusion]
     return "\n".join([*lines, *(f"failed: {sentence}" for sentence in result.failures)])

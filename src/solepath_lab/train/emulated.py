@@ -5,7 +5,7 @@ elevator". Seeds from `FIRST_TRAINING_SEED` to 999 are for training. Scored walk
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 from math import pi
 
 import numpy as np
@@ -29,15 +29,13 @@ FIRST_TRAINING_SEED = 101
 REPEATS = 2
 """Number of times that each of stairs up, stairs down, elevator up and elevator down is in a route."""
 
-RouteAddition = Callable[[Route, np.random.Generator], Route]
-
 
 def draw_route(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
     """Return a route of four or five minutes through a house, and its wearer. With `jogging` some of it is run."""
     rng = np.random.default_rng([seed, 5])
     wearer, _ = random_wearer(rng)
     route = Route(speed=float(rng.uniform(0.9, 1.5))).stand(_uniform(rng, 3.0, 8.0))
-    levels = [_make_stairs(True), _make_stairs(False), _make_elevator(True), _make_elevator(False)]
+    levels = [partial(add, up=up) for add in (_add_stairs, _add_elevator) for up in (True, False)]
     additions = [*levels * REPEATS, _add_corridor, _add_corridor, _add_corridor, *[_add_jog] * jogging]
     for k in rng.permutation(len(additions)):
         route = additions[k](route, rng)
@@ -72,31 +70,25 @@ def _add_jog(route: Route, rng: np.random.Generator) -> Route:
     return route.stand(2.0).jog(_uniform(rng, 25.0, 40.0), _uniform(rng, 2.3, 3.2)).stand(2.0)
 
 
-def _make_stairs(up: bool) -> RouteAddition:
-    def add_stairs(route: Route, rng: np.random.Generator) -> Route:
-        """Add two flights and the landing between them, from corridor to corridor."""
-        rise, going = _uniform(rng, 0.14, 0.18), _uniform(rng, 0.27, 0.32)
-        for flight in range(2):
-            route = route.walk(_uniform(rng, 2.0, 4.0) if flight == 0 else 1.2)
-            route = route.stairs(int(rng.integers(9, 14)), up, rise, going).walk(1.2)
-            if flight == 0:
-                route = route.turn(pi, 0.6)
-        return route.walk(_uniform(rng, 3.0, 6.0))
-
-    return add_stairs
+def _add_stairs(route: Route, rng: np.random.Generator, up: bool) -> Route:
+    """Add two flights and the landing between them, from corridor to corridor."""
+    rise, going = _uniform(rng, 0.14, 0.18), _uniform(rng, 0.27, 0.32)
+    for flight in range(2):
+        route = route.walk(_uniform(rng, 2.0, 4.0) if flight == 0 else 1.2)
+        route = route.stairs(int(rng.integers(9, 14)), up, rise, going).walk(1.2)
+        if flight == 0:
+            route = route.turn(pi, 0.6)
+    return route.walk(_uniform(rng, 3.0, 6.0))
 
 
-def _make_elevator(up: bool) -> RouteAddition:
-    def add_elevator(route: Route, rng: np.random.Generator) -> Route:
-        """Add an elevator ride: in, turn round, up or down one to four storeys, and out."""
-        height = 3.4 * float(rng.integers(1, 5))
-        entered = route.walk(_uniform(rng, 3.0, 6.0)).turn(pi)
-        ridden = entered.lift(
-            height if up else -height,
-            speed=_uniform(rng, 0.9, 1.8),
-            acceleration=_uniform(rng, 0.6, 1.1),
-            doors=_uniform(rng, 2.0, 4.0),
-        )
-        return ridden.walk(_uniform(rng, 3.0, 6.0))
-
-    return add_elevator
+def _add_elevator(route: Route, rng: np.random.Generator, up: bool) -> Route:
+    """Add an elevator ride: in, turn round, up or down one to four storeys, and out."""
+    height = 3.4 * float(rng.integers(1, 5))
+    entered = route.walk(_uniform(rng, 3.0, 6.0)).turn(pi)
+    ridden = entered.lift(
+        height if up else -height,
+        speed=_uniform(rng, 0.9, 1.8),
+        acceleration=_uniform(rng, 0.6, 1.1),
+        doors=_uniform(rng, 2.0, 4.0),
+    )
+    return ridden.walk(_uniform(rng, 3.0, 6.0))

@@ -16,7 +16,7 @@ from __future__ import annotations
 import json
 from argparse import Namespace
 from collections.abc import Iterable, Sequence
-from itertools import groupby
+from itertools import groupby, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -213,7 +213,7 @@ def _transitions(examples: Sequence[RecordingWindows]) -> tuple[tuple[float, ...
     """Return the transition probabilities from one window to the next: counts plus one, over their sum."""
     counts = np.ones((3, 3))
     for one in examples:
-        for before, after in zip(one.windows, one.windows[1:], strict=False):
+        for before, after in pairwise(one.windows):
             if before.middle in MOVING_ACTIVITIES and after.middle in MOVING_ACTIVITIES:
                 counts[MOVING_ACTIVITIES.index(before.middle), MOVING_ACTIVITIES.index(after.middle)] += 1.0
     rows = counts / counts.sum(axis=1, keepdims=True)

@@ -72,21 +72,8 @@ RECORDING = Kind(None)
 REPORT = Kind(
     re.compile(rb'<!DOCTYPE html>\n<html lang="en"><head>[^\n]{0,80}<meta name="generator" content="solepath">')
 )
-EXPERIMENT = Kind(re.compile(rb'\{\n "name": "[^"\n]*",\n "emulated": true,\n "table": \{'))
-"""JSON of `reproduce`."""
-SCORES = Kind(re.compile(rb'\{\}\n|\{\n "[^"\n]*": \{\n  "[^"\n]*": \{\n   "recordings": \{'))
-"""JSON of `evaluate`."""
 FLEET_FIGURES = Kind(re.compile(rb'\{\n "wearers": \d+,\n "seconds": '))
 """JSON of `fleet-demo`."""
-FIGURE = Kind(
-    re.compile(
-        rb"\A\x89PNG.{0,60}tEXtSoftware\0solepath|\A%!PS-Adobe[^\n]*\n(?:%%[^\n]*\n)*%%Creator: solepath\n"
-        rb"|/Creator \(solepath\) /Producer \(Matplotlib |<dc:creator>\s*<cc:Agent>\s*<dc:title>solepath</dc:title>",
-        re.DOTALL,
-    ),
-    is_elsewhere=True,
-)
-"""A figure of `reproduce` (.png, .eps, .ps, .pdf, .svg), whose metadata name the program that drew it."""
 CALIBRATION = Kind(re.compile(rb""))
 """A calibration, which is read, checked and completed: what is none stays as it is."""
 TRACK_KINDS = {

@@ -12,6 +12,7 @@ from solepath.papers.pressure_contour.printed import printed_contours
 from solepath.types import Foot, Layout
 from solepath.types.vector import GRAVITY
 
+from ...measures.consistency import yaws
 from ..tables import DrawStyle, PictureTrack, Plot
 from ..walks import thin_out
 from .runs import ContourRun
@@ -39,8 +40,7 @@ def stance_curves(walked: SampledWalk, layout: Layout, foot: Foot, after: float)
     samples = [one for one in walked.samples if landing.t_heel_strike <= one.t <= leaving.t_toe_off]
     t = np.array([one.t for one in samples])
     kinematics = walked.truth.pose(foot, t)
-    w, x, y, z = kinematics.attitude.T
-    heading = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    heading = yaws(kinematics.attitude)
     forward = kinematics.velocity[:, 0] * np.cos(heading) + kinematics.velocity[:, 1] * np.sin(heading)
     since = (1e3 * (t - landing.t_end)).tolist()
     speeds: dict[str, list[tuple[float, float]]] = {name: [] for name in contours}
@@ -55,8 +55,8 @@ def stance_curves(walked: SampledWalk, layout: Layout, foot: Foot, after: float)
     true_velocity = tuple(zip(since, (1e3 * forward).tolist(), strict=True))
     tracks = (
         PictureTrack("v_x of the heel, true, mm/s", true_velocity, DrawStyle.TRUTH),
-        PictureTrack("pitch rate by the gyroscope, mrad/s", tuple(rates)),
-        *[PictureTrack(f"speed of the contours, {name}, mm/s", tuple(points)) for name, points in speeds.items()],
+        PictureTrack("pitch rate by the gyroscope, mrad/s", rates),
+        *[PictureTrack(f"speed of the contours, {name}, mm/s", points) for name, points in speeds.items()],
     )
     return (Plot("a stance (fig. 7)", tracks, "ms since foot-flat", "mm/s or mrad/s", (-50.0, 50.0)),)
 
@@ -66,4 +66,4 @@ def bias_curves(run: ContourRun) -> tuple[Plot, ...]:
     minutes = (run.t - run.t[0]) / 60.0
     points = [np.stack([minutes, run.bias[:, k] / GRAVITY * 1e3], axis=1) for k in range(3)]
     tracks = [PictureTrack(f"bias of {axis}", thin_out(of, 600)) for axis, of in zip("xyz", points, strict=True)]
-    return (Plot("bias filter (fig. 9)", tuple(tracks), "min", "mg"),)
+    return (Plot("bias filter (fig. 9)", tracks, "min", "mg"),)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from math import erfc, sqrt
 
 import numpy as np
@@ -52,28 +53,11 @@ def run_foot(recipe: Recipe, foot: Foot, samples: Sequence[Sample], calibration:
     return ContourRun(strides, t, np.array(at_rest), np.array(biases))
 
 
-@frozen(eq=False)
-class StanceVelocities:
-    """The true velocity of the heel while a recipe took it to be at rest, in each true stance of a foot."""
+def stance_velocities(run: ContourRun, truth: Truth, foot: Foot, after: float = 0.0) -> Floats:
+    """Return the true velocities of the heel while a recipe took it to be at rest, in stances from `after`, s, on, m/s.
 
-    bias: Floats
-    """Length of the mean horizontal velocity over the samples of a stance that were taken for rest, m/s, (stances).
-
-    It is nan for a stance without such a sample. An update with zero velocity makes an error of this size."""
-
-    @property
-    def found_share(self) -> float:
-        """Share of the stances that have a sample taken for rest."""
-        return float(np.mean(~np.isnan(self.bias))) if len(self.bias) else 0.0
-
-    @property
-    def mean(self) -> float:
-        """Mean over the stances that were found, m/s; nan when none was."""
-        return float(np.nanmean(self.bias)) if self.found_share > 0.0 else float("nan")
-
-
-def stance_velocities(run: ContourRun, truth: Truth, foot: Foot, after: float = 0.0) -> StanceVelocities:
-    """Return the velocities of the heel in the stances that begin after `after`, s.
+    A velocity is the length of the mean horizontal one over the samples of a stance that were taken for rest: an update
+    with zero velocity makes an error of this size. It is nan for a stance without such a sample.
 
     A stance here lasts from the middle of one swing to the middle of the next: what is taken for rest in a swing counts
     to the nearer stance."""
@@ -82,11 +66,16 @@ def stance_velocities(run: ContourRun, truth: Truth, foot: Foot, after: float = 
     middles = np.array([0.5 * (one.t_toe_off + one.t_heel_strike) for one in strides])
     middles = middles[middles >= max(after, float(run.t[0]))]
     biases = []
-    for start, end in zip(middles, middles[1:], strict=False):
+    for start, end in pairwise(middles):
         rows = slice(*np.searchsorted(run.t, (start, end)).tolist())
         rest = run.at_rest[rows]
         biases.append(float(np.linalg.norm(velocity[rows][rest].mean(axis=0))) if rest.any() else float("nan"))
-    return StanceVelocities(np.array(biases))
+    return np.array(biases)
+
+
+def found_share(velocities: Floats) -> float:
+    """Return the share of stances that have a sample taken for rest."""
+    return float(np.mean(~np.isnan(velocities))) if len(velocities) else 0.0
 
 
 @frozen

@@ -6,13 +6,14 @@
 from __future__ import annotations
 
 from math import inf, radians
+from typing import Any
 
 from attrs import evolve, frozen
 
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.wearers.gait import LoadLaw, Wearer
 from solepath.emulate.wearers.shoe import Shoe
-from solepath.emulate.wearers.soles.contact import SLIPPING, WORN, GroundContact
+from solepath.emulate.wearers.soles.contact import SLIPPING, WORN
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from solepath.papers.pressure_contour.contour import PAPER_LEVELS, Contours, ContourSettings
 from solepath.papers.pressure_contour.contour_stance import (
@@ -93,20 +94,6 @@ class Setup:
     """Walking speed of the laps, m/s. If it is another one than PACE, the whole walk has it."""
 
 
-def _attitude_source(tilt_degrees: float, memory: float) -> Insole:
-    return evolve(
-        TABLE.device, attitude=evolve(TILTED_INERTIACUBE3, steady_tilt=radians(tilt_degrees), correlation_time=memory)
-    )
-
-
-def _pad(**changes: float) -> Wearer:
-    return evolve(TABLE.wearer, pad=HeelPad(**changes))
-
-
-def _in_shoe(contact: GroundContact) -> Wearer:
-    return evolve(TABLE.wearer, shoe=Shoe(contact=contact))
-
-
 TABLE = Setup(
     "the boot of the table",
     Wearer(rest_pitch=0.01, pad=HeelPad()),
@@ -117,35 +104,49 @@ TABLE = Setup(
 The array bears half of the load above it (assumed). With all of it the emulated pressure would exceed the array's range
 of 140 kPa, and the contours of figure 4 would lie outside of the array in most of the stance."""
 
+
+def _wearer(name: str, **changes: Any) -> Setup:
+    """Return the setup of the table with another wearer."""
+    return evolve(TABLE, name=name, wearer=evolve(TABLE.wearer, **changes))
+
+
+def _device(name: str, **changes: Any) -> Setup:
+    """Return the setup of the table with another device."""
+    return evolve(TABLE, name=name, device=evolve(TABLE.device, **changes))
+
+
+def _attitude(name: str, **changes: Any) -> Setup:
+    """Return the setup of the table with other errors of the attitude."""
+    return _device(name, attitude=evolve(TILTED_INERTIACUBE3, **changes))
+
+
+WHOLE_SOLE = _device("99 cells under the whole sole", cells=99, cell_part=WORN_CAPACITIVE, borne_share=1.0)
+INWARDS = "99 cells, and a load that moves inwards under the forefoot in bends"
 SETUPS = (
     TABLE,
-    Setup("a patch of fixed size that only moves with the pitch", evolve(TABLE.wearer, pad=None), TABLE.device),
-    Setup("a patch that spreads and does not move", _pad(roll=0.0, fore_aft_share=0.0), TABLE.device),
-    Setup("a heel bone that rolls twice as far", _pad(roll=0.18), TABLE.device),
-    Setup("a pad of half the stiffness in shear", _pad(shear_stiffness=20e3), TABLE.device),
-    Setup("feet that hardly turn in stance", evolve(TABLE.wearer, rest_pitch=4e-4), TABLE.device),
-    Setup("feet that turn twice as far in stance", evolve(TABLE.wearer, rest_pitch=0.02), TABLE.device),
-    Setup("a worn sole, which bends and slips", _in_shoe(WORN), TABLE.device),
-    Setup("a worn sole, pivot 2 cm ahead", _in_shoe(evolve(WORN, pivot_shift=0.02)), TABLE.device),
-    Setup("a worn sole that slips by 2 cm", _in_shoe(SLIPPING), TABLE.device),
-    Setup("no low pass before sampling", TABLE.wearer, evolve(TABLE.device, bandwidth=inf)),
-    Setup("no tilt that stays", TABLE.wearer, evolve(TABLE.device, attitude=INERTIACUBE3)),
-    Setup("a tilt of half a degree that stays", TABLE.wearer, _attitude_source(0.5, 30.0)),
-    Setup("attitude errors of one degree", TABLE.wearer, evolve(
-        TABLE.device, attitude=evolve(TILTED_INERTIACUBE3, tilt=radians(1.0), steady_tilt=radians(1.0)))),
-    Setup("attitude errors that last five minutes", TABLE.wearer, _attitude_source(0.25, 300.0)),
-    Setup("attitude errors that last half an hour", TABLE.wearer, _attitude_source(0.25, 1800.0)),
-    Setup("an array that bears the whole load", TABLE.wearer, evolve(TABLE.device, borne_share=1.0)),
-    Setup("an array that bears 0.3 of the load", TABLE.wearer, evolve(TABLE.device, borne_share=0.3)),
-    Setup("99 cells under the whole sole", TABLE.wearer, evolve(
-        TABLE.device, cells=99, cell_part=WORN_CAPACITIVE, borne_share=1.0)),
-    Setup("99 cells, and a load that moves inwards under the forefoot in bends", evolve(
-        TABLE.wearer, load_law=LoadLaw.HEEL_OUT_FOREFOOT_IN), evolve(
-        TABLE.device, cells=99, cell_part=WORN_CAPACITIVE, borne_share=1.0)),
-    Setup("samples at 100 Hz", TABLE.wearer, evolve(TABLE.device, rate=100.0)),
-    Setup("a wearer of 100 kg", evolve(TABLE.wearer, mass=100.0), TABLE.device),
-    Setup("a speed of 1.3 m/s", TABLE.wearer, TABLE.device, speed=1.3),
-)  # fmt: skip
+    _wearer("a patch of fixed size that only moves with the pitch", pad=None),
+    _wearer("a patch that spreads and does not move", pad=HeelPad(roll=0.0, fore_aft_share=0.0)),
+    _wearer("a heel bone that rolls twice as far", pad=HeelPad(roll=0.18)),
+    _wearer("a pad of half the stiffness in shear", pad=HeelPad(shear_stiffness=20e3)),
+    _wearer("feet that hardly turn in stance", rest_pitch=4e-4),
+    _wearer("feet that turn twice as far in stance", rest_pitch=0.02),
+    _wearer("a worn sole, which bends and slips", shoe=Shoe(contact=WORN)),
+    _wearer("a worn sole, pivot 2 cm ahead", shoe=Shoe(contact=evolve(WORN, pivot_shift=0.02))),
+    _wearer("a worn sole that slips by 2 cm", shoe=Shoe(contact=SLIPPING)),
+    _device("no low pass before sampling", bandwidth=inf),
+    _device("no tilt that stays", attitude=INERTIACUBE3),
+    _attitude("a tilt of half a degree that stays", steady_tilt=radians(0.5), correlation_time=30.0),
+    _attitude("attitude errors of one degree", tilt=radians(1.0), steady_tilt=radians(1.0)),
+    _attitude("attitude errors that last five minutes", steady_tilt=radians(0.25), correlation_time=300.0),
+    _attitude("attitude errors that last half an hour", steady_tilt=radians(0.25), correlation_time=1800.0),
+    _device("an array that bears the whole load", borne_share=1.0),
+    _device("an array that bears 0.3 of the load", borne_share=0.3),
+    WHOLE_SOLE,
+    evolve(WHOLE_SOLE, name=INWARDS, wearer=evolve(TABLE.wearer, load_law=LoadLaw.HEEL_OUT_FOREFOOT_IN)),
+    _device("samples at 100 Hz", rate=100.0),
+    _wearer("a wearer of 100 kg", mass=100.0),
+    evolve(TABLE, name="a speed of 1.3 m/s", speed=1.3),
+)
 """The setup of the table, and those that differ from it by one thing.
 
 The second load law is tried with 99 cells: under the heel, where the array is, both laws move the load alike."""

@@ -28,7 +28,7 @@ from ..published import PUBLISHED
 from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults
 from ..walks import align_track, find_halt, join_routes, thin_out
 from .figures import bias_curves, stance_curves
-from .runs import ContourRun, run_foot, stance_velocities
+from .runs import ContourRun, found_share, run_foot, stance_velocities
 from .variants import FOOT, MAIN, PACE, PRESSURE_ROW, VARIANTS, WITHOUT_BIAS_ROW, Setup
 
 
@@ -116,8 +116,8 @@ def walk(job: ContourJob) -> WalkResults:
         run = run_foot(VARIANTS[name], FOOT, after, merged(known, Calibration(drift={FOOT: drift})))
         velocities = stance_velocities(run, walked.truth, FOOT, t_halt)
         values[f"{name} m"] = (float(np.linalg.norm(_track(run)[-1])),)
-        values[f"{name} biases"] = tuple(np.where(np.isnan(velocities.bias), NOT_FOUND, velocities.bias).tolist())
-        values[f"{name} found"] = (100.0 * velocities.found_share,)
+        values[f"{name} biases"] = tuple(np.nan_to_num(velocities, nan=NOT_FOUND).tolist())
+        values[f"{name} found"] = (100.0 * found_share(velocities),)
         if name in MAIN or name == WITHOUT_BIAS_ROW:
             shown[name] = run
         if name == PRESSURE_ROW:
@@ -125,11 +125,6 @@ def walk(job: ContourJob) -> WalkResults:
     if job.uncalibrated:
         shown["Pressure as printed, uncalibrated"] = run_foot(VARIANTS[WITHOUT_BIAS_ROW], FOOT, after, known)
     return WalkResults(values, (Plot("", _tracks(walked, t_halt, shown), marks=(("start", 0.0, 0.0),)), *panels))
-
-
-def _layout(setup: Setup) -> Layout:
-    cells, shoe = setup.device.cells, setup.wearer.shoe
-    return cells if isinstance(cells, Layout) else sole_layout(cells, FOOT, shoe.length, shoe.width)
 
 
 def _marks(walked: SampledWalk, t_halt: float) -> tuple[CornerMark, ...]:
@@ -150,13 +145,13 @@ def _track(run: ContourRun) -> Floats:
     return np.array([(0.0, 0.0), *((x, y) for x, y, _ in (stride.position for stride in run.strides))])
 
 
-def _tracks(walked: SampledWalk, t_halt: float, runs: Mapping[str, ContourRun]) -> tuple[PictureTrack, ...]:
+def _tracks(walked: SampledWalk, t_halt: float, runs: Mapping[str, ContourRun]) -> list[PictureTrack]:
     ends = [one.t_end for one in walked.truth.strides(FOOT) if one.t_end > t_halt]
     tracks = [PictureTrack("true path", thin_out(_true_positions(walked, [t_halt, *ends])), DrawStyle.TRUTH)]
     for name, run in runs.items():
         true = _true_positions(walked, [t_halt, *(stride.t_end for stride in run.strides)])
         tracks.append(PictureTrack(name.lower(), thin_out(align_track(_track(run), true, over=10.0))))
-    return tuple(tracks)
+    return tracks
 
 
 def _true_positions(walked: SampledWalk, t: list[float]) -> Floats:

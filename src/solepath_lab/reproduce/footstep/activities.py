@@ -71,8 +71,8 @@ def variant_title(variant: str) -> str:
 
 def class_share(score: ActivityScore, activity: Activity) -> tuple[float, ...]:
     """Return the share of windows of an activity that are right, %; nothing for a walk without the activity."""
-    count = sum(score.reported_for(activity).values())
-    return (100.0 * score.samples.get((activity, activity), 0) / count,) if count else ()
+    reported = score.reported_for(activity)
+    return (100.0 * reported[activity] / reported.total(),) if reported else ()
 
 
 def _timeline(events: list[Event]) -> Timeline:

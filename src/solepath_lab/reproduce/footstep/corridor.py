@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from math import degrees, hypot
 
 from solepath.calibration import Calibration, CalibrationError
@@ -171,7 +171,7 @@ def _curves(walk: EmulatedWalk, strides: list[StrideTaken], stature: float) -> P
         "double feet": [(0.5 * (b + d), abs(0.5 * (a + c - b - d))) for (a, b), (c, d) in both],
         "common method": [(true, abs((2.0 * k + 2.0) * step - true)) for k, (_, true) in enumerate(right)],
     }
-    tracks = tuple([PictureTrack(name, tuple(points)) for name, points in curves.items()])
+    tracks = [PictureTrack(name, points) for name, points in curves.items()]
     return Plot(f"{CORRIDOR_LENGTH:g} m of corridor (b)", tracks, "distance, m", "error, m")
 
 
@@ -188,7 +188,7 @@ def _literal_share(walk: EmulatedWalk) -> float:
             if one.site is SITE_OF_FOOT[foot] and one.acc is not None
         ]
         strides = walk.truth.strides(foot)
-        for before, after in zip(strides, strides[1:], strict=False):
+        for before, after in pairwise(strides):
             longest = run = 0
             for t, at_rest in times:
                 if before.t_end <= t <= after.t_heel_off:

@@ -68,4 +68,4 @@ def mean_series(walks: Sequence[WalkResults], name: str) -> list[float]:
 
 
 def _tracks(points: Mapping[str, Iterable[tuple[float, float]]]) -> tuple[PictureTrack, ...]:
-    return tuple([PictureTrack(name, tuple([(float(x), float(y)) for x, y in of])) for name, of in points.items()])
+    return tuple([PictureTrack(name, [(float(x), float(y)) for x, y in of]) for name, of in points.items()])

@@ -6,6 +6,7 @@ there and in HALF_TURN, whose halves differ in nothing but where they lie."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from math import hypot
 
 import numpy as np
@@ -78,7 +79,7 @@ def _score(way: BuildingWalk, walk: EmulatedWalk, events: list[Event]) -> PlaceS
 
 
 def _floor(place: PlaceScore) -> Plot:
-    walls = tuple([PictureTrack("", (wall.start, wall.end), DrawStyle.TRUTH) for wall in BUILDING.levels[0].walls])
+    walls = [PictureTrack("", (wall.start, wall.end), DrawStyle.TRUTH) for wall in BUILDING.levels[0].walls]
     candidates = PictureTrack("candidates", place.before, DrawStyle.DOTS)
     tracks = (*walls, candidates, PictureTrack("true path", place.path), PictureTrack("place", place.track))
     return Plot("the way of fig. 15", tracks)
@@ -98,7 +99,7 @@ def _errors(way: BuildingWalk, walk: EmulatedWalk, events: list[Event]) -> tuple
     turns = [event.t for event in events if isinstance(event, TurnMade) and event.turn is not None]
     ends = [t for t in turns if t > placed[0].t] + [float("inf")]
     means = []
-    for start, end in zip(ends, ends[1:], strict=False):
+    for start, end in pairwise(ends):
         between = [error for one, error in zip(placed, off, strict=True) if start <= one.t < end]
         means.append(sum(between) / len(between) if between else 0.0)
     return tuple(off), tuple(means)

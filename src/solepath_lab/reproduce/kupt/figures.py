@@ -99,9 +99,9 @@ def panels(
     fused = [event for event in events["KUPT+DFPC"] if isinstance(event, StrideFused) and event.foot is Foot.LEFT]
     weighed = [event for event in by_index if isinstance(event, StrideFused) and event.foot is Foot.LEFT]
     indices = [
-        PictureTrack("similarity (9)", tuple([(e.t, e.similarity) for e in weighed if e.similarity is not None])),
-        PictureTrack("EI (10), m/s", tuple([(e.t, e.error_index) for e in weighed if e.error_index is not None])),
-        PictureTrack("coefficient (11)", tuple([(e.t, e.coefficient) for e in weighed])),
+        PictureTrack("similarity (9)", [(e.t, e.similarity) for e in weighed if e.similarity is not None]),
+        PictureTrack("EI (10), m/s", [(e.t, e.error_index) for e in weighed if e.error_index is not None]),
+        PictureTrack("coefficient (11)", [(e.t, e.coefficient) for e in weighed]),
     ]
     walked = [
         PictureTrack(name, _sums(events[key], Foot.LEFT), DrawStyle.DOTS)
@@ -111,24 +111,24 @@ def panels(
     for event in fused:
         total += event.stride_length
         calibrated.append((event.t, total))
-    walked.append(PictureTrack("KUPT + 1st stage DFPC", tuple(calibrated), DrawStyle.DOTS))
-    walked.append(PictureTrack("KUPT+DFPC", tuple([(e.t, e.distance) for e in fused]), DrawStyle.DOTS))
+    walked.append(PictureTrack("KUPT + 1st stage DFPC", calibrated, DrawStyle.DOTS))
+    walked.append(PictureTrack("KUPT+DFPC", [(e.t, e.distance) for e in fused], DrawStyle.DOTS))
     ends = _stance_ends(left)
     middle = len(ends) // 2
     shown = left[ends[middle] : ends[min(middle + SHOWN_STRIDES, len(ends) - 1)] + 1] if ends else left
     return (
         Plot("velocity, left foot (fig. 11 a)", _velocities(left), "time, s", "velocity, m/s"),
-        Plot("weights, left foot (fig. 11 c)", tuple(indices), "time, s", "no unit or m/s"),
-        Plot("distance, left foot (fig. 11 e)", tuple(walked), "time, s", "distance, m"),
+        Plot("weights, left foot (fig. 11 c)", indices, "time, s", "no unit or m/s"),
+        Plot("distance, left foot (fig. 11 e)", walked, "time, s", "distance, m"),
         Plot("drift in three strides (fig. 14)", _velocities(shown), "time, s", "velocity, m/s"),
     )
 
 
 def _velocities(seen: Sequence[KnownSample]) -> tuple[PictureTrack, ...]:
-    raw = PictureTrack("V-raw", tuple([(one.t, one.raw) for one in seen]))
+    raw = PictureTrack("V-raw", [(one.t, one.raw) for one in seen])
     reference = [(one.t, one.reference) for one in seen if one.reference is not None]
     zupt, kupt = without_drift(seen, knows_rolling=False), without_drift(seen, knows_rolling=True)
-    dots = PictureTrack("V-ref", tuple(reference), DrawStyle.DOTS)
+    dots = PictureTrack("V-ref", reference, DrawStyle.DOTS)
     return raw, dots, PictureTrack("ZUPT", zupt), PictureTrack("KUPT", kupt)
 
 

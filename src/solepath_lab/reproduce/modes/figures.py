@@ -37,8 +37,8 @@ def panels(results: Sequence[WalkResults], methods: tuple[str, ...], seed: int) 
         for axis in "xy"
     ]
     return (
-        Plot("corners as estimated by the four methods (fig. 15a)", tuple(tracks), marks=marks),
-        Plot("deviations at all corners (fig. 15b)", tuple(deviation_tracks), marks=(("", 0.0, 0.0),)),
+        Plot("corners as estimated by the four methods (fig. 15a)", tracks, marks=marks),
+        Plot("deviations at all corners (fig. 15b)", deviation_tracks, marks=(("", 0.0, 0.0),)),
         *boxes,
         rods(seed),
     )
@@ -65,5 +65,5 @@ def rods(seed: int) -> Plot:
                 points += [*rod, *rod[::-1], (float("nan"), float("nan"))]
         if sample.quat is not None:
             chain.set_attitude(sample.site, sample.t, sample.quat)
-    tracks = tuple(PictureTrack(f"{foot.value} leg", tuple(points[:-1])) for foot, points in sides.items())
+    tracks = [PictureTrack(f"{foot.value} leg", points[:-1]) for foot, points in sides.items()]
     return Plot("rods of the legs over one stride, from the left, y up (fig. 8)", tracks)

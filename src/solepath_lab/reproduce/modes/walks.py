@@ -7,9 +7,10 @@ by the law of the literature and by chance, not by that of the rules of table 2.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
-from attrs import evolve, frozen
+from attrs import astuple, evolve, frozen
 
 from solepath.calibration import Calibration, InsoleCalibration, Limbs
 from solepath.calibration.records import merged
@@ -20,7 +21,6 @@ from solepath.emulate.wearers.soles.contact import RIGID, GroundContact
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import TouchedDown
 from solepath.papers.walking_modes.calibrate import MODES, ModeMark, StepError, mean_errors, step_errors, touchdowns
-from solepath.papers.walking_modes.compensation import Compensation
 from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import WALKING_MODES
 from solepath.papers.walking_modes.settings import ModeRule, ModesSettings
@@ -42,8 +42,8 @@ RATE = 50.0
 CELL_COUNT = 99
 LOAD_VARIATION = 0.004
 """Standard deviation of the load's lateral position under a foot between steps, m (assumed)."""
-HIP_ERROR, BONE_ERROR, FOOT_ERROR = 0.010, 0.010, 0.005
-"""Standard deviations of measured lengths, m: distance of the hip joints, thigh and shank, foot and ankle's height.
+LENGTH_ERRORS = (0.010, 0.010, 0.010, 0.005, 0.005)
+"""Standard deviations of measured `Limbs`, m: distance of the hip joints, thigh, shank, foot and ankle's height.
 
 A joint found by regression is 12.3 mm off in space, with images as the truth (Mantovani et al. 2016, Gait & Posture
 44): 7 mm on one axis, and 10 mm for the distance of two. The others are assumed for a tape over the skin."""
@@ -106,15 +106,9 @@ def measured_limbs(wearer: Wearer) -> Limbs:
     """Return the lengths of the wearer's limbs as somebody measures them from outside, m: not as the joints have them.
 
     Errors are normal, the same in every walk, and drawn from the wearer's number."""
-    limbs, rng = wearer.limbs, np.random.default_rng([wearer.number, 10])
-    hips, thigh, shank, foot, ankle = (float(value) for value in rng.standard_normal(5))
-    return Limbs(
-        hip_width=limbs.hip_width + HIP_ERROR * hips,
-        thigh=limbs.thigh + BONE_ERROR * thigh,
-        shank=limbs.shank + BONE_ERROR * shank,
-        foot=limbs.foot + FOOT_ERROR * foot,
-        ankle_height=limbs.ankle_height + FOOT_ERROR * ankle,
-    )
+    drawn = np.random.default_rng([wearer.number, 10]).standard_normal(len(LENGTH_ERRORS)).tolist()
+    off = zip(astuple(wearer.limbs), LENGTH_ERRORS, drawn, strict=True)
+    return Limbs(*[length + sigma * value for length, sigma, value in off])
 
 
 @frozen
@@ -184,18 +178,15 @@ def deviations(walks: Iterable[WalkResults], point: str, method: str) -> Floats:
     return np.array([pooled(walks, corner_row(point, method, axis)) for axis in "xy"]).T
 
 
-def with_compensation(recipe: Recipe, compensation: Compensation) -> Recipe:
-    """Return the recipe with this compensation, which a wearer's own does not replace."""
+def with_settings(recipe: Recipe, **changes: Any) -> Recipe:
+    """Return the recipe with other settings of its part for walking modes."""
     modes = next(part for part in recipe.parts if isinstance(part, Modes))
-    settings = evolve(modes.settings, compensation=compensation, own_compensation=False)
-    return recipe.replace_part(Modes, evolve(modes, settings=settings))
+    return recipe.replace_part(Modes, evolve(modes, settings=evolve(modes.settings, **changes)))
 
 
 def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
     """Return the final touchdowns by foot of a session that knows the direction of the rectangle's first side."""
-    modes = next(part for part in recipe.parts if isinstance(part, Modes))
-    with_heading = evolve(modes, settings=evolve(modes.settings, heading=0.0))
-    events = run_session(recipe.replace_part(Modes, with_heading), samples, calibration)
+    events = run_session(with_settings(recipe, heading=0.0), samples, calibration)
     return {foot: [e for e in events if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 

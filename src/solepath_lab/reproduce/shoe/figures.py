@@ -63,7 +63,7 @@ def window_curves(samples: Sequence[Sample], truth: Truth) -> Plot:
     curves = [evolve(curve, points=tuple([point for point in curve.points if point[0] >= 0.0])) for curve in curves]
     threshold = EnergySettings().threshold
     curves.append(PictureTrack("threshold", ((0.0, threshold), (SHOWN, threshold)), DrawStyle.TRUTH))
-    return Plot("energy by window (fig. 3)", tuple(curves), "s", "g^2", (0.0, LARGEST_ENERGY))
+    return Plot("energy by window (fig. 3)", curves, "s", "g^2", (0.0, LARGEST_ENERGY))
 
 
 def posture_curves(samples: Sequence[Sample]) -> Plot:
@@ -77,7 +77,7 @@ def posture_curves(samples: Sequence[Sample]) -> Plot:
         assert isinstance(corrector, GatedTilt)
         x, y, z = gravity_error(corrector.attitude, corrector.last_acc)
         points.append((one.t, degrees(asin(min(1.0, sqrt(x * x + y * y + z * z))))))
-    return Plot("first attitude (fig. 7)", (PictureTrack("tilt error", tuple(points)),), "s", "degrees")
+    return Plot("first attitude (fig. 7)", (PictureTrack("tilt error", points),), "s", "degrees")
 
 
 def extraction_curves(samples: Sequence[Sample], truth: Truth) -> tuple[Plot, ...]:

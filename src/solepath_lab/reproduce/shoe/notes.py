@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import product
 
 import numpy as np
 
 from solepath.validate.alignment import Floats
 
+from ..tables import WalkResults, pooled
 from .scores import relative_error
 from .variants import DEFAULT_ROW, LEVEL, METHODS, STAIRS, STATES, ShoeSetup
-from .walks import ShoeResults
 
-Results = Mapping[str, Sequence[ShoeResults]]
+Results = Mapping[str, Sequence[WalkResults]]
 """Results of the wearers by walk."""
 
 
-def figures(walks: Iterable[ShoeResults], recipe: str, *names: str) -> list[float]:
+def figures(walks: Sequence[WalkResults], recipe: str, *names: str) -> list[float]:
     """Return these figures of a recipe on some walks, in one list."""
-    return [value for name in names for one in walks for value in one.scores[recipe].get(name, ())]
+    return pooled(walks, *[f"{recipe}: {name}" for name in names])
 
 
 def walk_of(state: str) -> str:
@@ -53,7 +53,7 @@ PAPER_NOTES = (
 
 
 def notes(
-    results: Results, long_walk: ShoeResults, setups: Sequence[ShoeSetup], setup_walks: Sequence[ShoeResults]
+    results: Results, long_walk: WalkResults, setups: Sequence[ShoeSetup], setup_walks: Sequence[WalkResults]
 ) -> tuple[str, ...]:
     """Return all sentences below the table; `setup_walks` are the short walks of `setups`."""
     return (
@@ -84,7 +84,7 @@ def _length_notes(results: Results) -> list[str]:
 def _tour_notes(results: Results) -> list[str]:
     """Return a sentence about the five minutes by each method."""
     walks, lines = results["five minutes"], []
-    length = sum([one.path_length for one in walks])
+    length = sum(pooled(walks, "path"))
     for method in (*METHODS, DEFAULT_ROW):
         ends, heights, headings = (
             np.abs(figures(walks, method, name)) for name in ("end", "end height", "end heading")
@@ -98,7 +98,7 @@ def _tour_notes(results: Results) -> list[str]:
     return lines
 
 
-def _long_notes(walk: ShoeResults) -> list[str]:
+def _long_notes(walk: WalkResults) -> list[str]:
     """Return a sentence about the walk of twenty rounds by each method."""
     lines = []
     for method in METHODS:
@@ -106,7 +106,7 @@ def _long_notes(walk: ShoeResults) -> list[str]:
         steps, legs, true, courses, heading, end, height = (_mean(figures([walk], method, name)) for name in names)
         courses = _mean(np.abs(figures([walk], method, "courses")))
         lines.append(
-            f"Twenty rounds by one wearer, {walk.path_length:.0f} m, {method}: steps {steps:.1f} %, a leg of "
+            f"Twenty rounds by one wearer, {walk.values['path'][0]:.0f} m, {method}: steps {steps:.1f} %, a leg of "
             f"{true:.2f} m comes out as {legs:.2f} m, the course of steps is off by {courses:.1f} degrees, the heading "
             f"of the last leg by {abs(heading):.0f} degrees, the end by {end:.1f} m and its height by "
             f"{abs(height):.2f} m."
@@ -114,7 +114,7 @@ def _long_notes(walk: ShoeResults) -> list[str]:
     return lines
 
 
-def _setup_notes(setups: Sequence[ShoeSetup], walks: Sequence[ShoeResults]) -> list[str]:
+def _setup_notes(setups: Sequence[ShoeSetup], walks: Sequence[WalkResults]) -> list[str]:
     """Return a sentence about each setup of the short walk."""
     lines = [
         "Setups, of which all but the first change one thing; by the printed method and ours: steps walking and "

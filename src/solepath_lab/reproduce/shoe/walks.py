@@ -19,9 +19,9 @@ from solepath.emulate.wearers.truth import Truth
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, StrideTaken
 from solepath.types import Sample
-from solepath.validate.alignment import Floats
+from solepath.validate.alignment import Floats, path_length
 
-from ..tables import DrawStyle, PictureTrack, Plot
+from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults
 from ..walks import align_track, final_strides, run_session
 from .figures import extraction_curves, posture_curves, window_curves
 from .scores import Scores, score_legs, score_strides
@@ -121,6 +121,11 @@ ROUTES: dict[str, Callable[[ShoeSetup], Route]] = {
     "five minutes": tour_route,
 }
 """Functions that return the route of each walk for a setup."""
+TITLES = {
+    "walking": "there and back (fig. 25a)", "rectangle": "rectangle (fig. 25b)", "stairs": "stairs (fig. 28)",
+    "five minutes": "five minutes (fig. 35)",
+}  # fmt: skip
+"""Titles of the walks whose tracks are drawn, in the order of the figures."""
 WALK_RECIPES: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("walking", "jogging", "stairs"), tuple(MAIN)),
     "short": tuple(SHORT),
@@ -143,34 +148,24 @@ class ShoeJob:
     """True for the walks of which curves are drawn."""
 
 
-@frozen
-class ShoeResults:
-    """The results of one walk, by name of the recipe."""
+def walk(job: ShoeJob) -> WalkResults:
+    """Emulate one walk and run its recipes on it.
 
-    scores: dict[str, Scores]
-    path_length: float
-    """Horizontal length of the true path of the foot, m."""
-    tracks: tuple[PictureTrack, ...] = ()
-    """True track, and those of ours and the printed recipe; only of a walk that is drawn."""
-    curves: tuple[Plot, ...] = ()
-    """Curves of figs. 3, 7 and 20; only of the short walk that is drawn."""
-
-
-def walk(job: ShoeJob) -> ShoeResults:
-    """Emulate one walk and run its recipes on it."""
+    Values are "path", the horizontal length of the true path of the foot, m, and "RECIPE: NAME" with the names of
+    `Scores`. Panels of a walk that is drawn are figs. 3, 7 and 20, or its tracks in space."""
     samples, truth = sample_walk(ROUTES[job.walk](job.setup), job.seed, job.setup)
     names = WALK_RECIPES[job.walk] if job.setup == TABLE else (OURS, PRINTED)
     sessions = {name: run_session(RECIPES[name], samples) for name in names}
-    curves: tuple[Plot, ...] = ()
+    panels: tuple[Plot, ...] = ()
     if job.drawn and job.walk == "short":
-        curves = (window_curves(samples, truth), posture_curves(samples), *extraction_curves(samples, truth))
+        panels = (window_curves(samples, truth), posture_curves(samples), *extraction_curves(samples, truth))
+    elif job.drawn:
+        panels = (Plot(TITLES.get(job.walk, ""), _tracks(sessions, truth)),)
     true_path = truth.pose(FOOT, np.arange(0.0, truth.duration, 0.1)).position
-    return ShoeResults(
-        scores={name: _score(job, events, truth) for name, events in sessions.items()},
-        path_length=float(np.sum(np.linalg.norm(np.diff(true_path[:, :2], axis=0), axis=1))),
-        tracks=_tracks(sessions, truth) if job.drawn else (),
-        curves=curves,
-    )
+    values: Values = {"path": (path_length(true_path[:, :2]),)}
+    for recipe, events in sessions.items():
+        values |= {f"{recipe}: {name}": of for name, of in _score(job, events, truth).items()}
+    return WalkResults(values, panels)
 
 
 def sample_walk(route: Route, seed: int, setup: ShoeSetup = TABLE) -> tuple[list[Sample], Truth]:
@@ -235,7 +230,7 @@ def _rises(strides: Sequence[StrideTaken], truth: Truth) -> tuple[float, ...]:
     return tuple(result)
 
 
-def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> tuple[PictureTrack, ...]:
+def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> list[PictureTrack]:
     t = np.array([0.0, *(stride.t_end for stride in truth.strides(FOOT)[-MAX_POINTS:])])
     position = truth.pose(FOOT, t).position
     tracks = [PictureTrack("true path", _points(position - position[0]), DrawStyle.TRUTH)]
@@ -243,7 +238,7 @@ def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> tuple[Pict
         strides = final_strides(sessions[name], FOOT)
         if len(strides) > 1:
             tracks.append(PictureTrack(name, _points(_positions(strides, truth)[0][-MAX_POINTS:])))
-    return tuple(tracks)
+    return tracks
 
 
 def _points(positions: Floats) -> tuple[tuple[float, float, float], ...]:
