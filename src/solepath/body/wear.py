@@ -9,7 +9,7 @@ from struct import Struct
 
 from ..events import FeetSwapped, FootResumed, FootSilent, StrideTaken, ToeOff
 from ..foot.view import FootView
-from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec2, Vec3, both, per_foot
+from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec2, Vec3, per_foot
 from ..types.attrs import ROW_SIZE, define, field, frozen, stateful
 from ..types.vector import ZERO, add, cross, dot, rotate_back, sub
 from .part import Inputs, LayoutReported, Outputs, Part, PartOutput
@@ -334,7 +334,7 @@ class Wear(Part):
                 self.sides.set_layout(event.site.foot, event.layout)
         if view is None:
             return ()
-        t, (this, other) = view.t, both(self.feet, view.foot)
+        t, this, other = view.t, self.feet[view.foot], self.feet[OTHER[view.foot]]
         outputs: list[PartOutput] = []
         if this.silent:
             this.silent = False
