@@ -174,5 +174,5 @@ def test_memory_does_not_grow_with_the_time_walked() -> None:
         report.take(None, [evolve(event, t=event.t + 20.0 * k) for event in events])
         if k in (250, 500):
             sizes.append(len(repr(report)))
-    assert min(one.count for one in report.strides.values()) > 1500 and report.wearer_track.count > 2000
+    assert min(one.count for one in report.walk.strides.values()) > 1500 and report.walk.wearer_track.count > 2000
     assert sizes[1] < 1.3 * sizes[0]

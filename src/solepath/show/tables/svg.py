@@ -5,7 +5,6 @@ Places on a picture are px, x to the right and y downwards."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from html import escape
 from itertools import groupby
 from math import ceil, floor
 from xml.etree.ElementTree import Element, fromstring
@@ -16,6 +15,8 @@ from ...recording import printable
 
 MAX_LENGTH = 300
 """Largest number of characters of a text that are shown; chosen by hand."""
+ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", "'": "&apos;", '"': "&quot;"})
+"""What stands for the characters that would be markup."""
 STEPS = [(multiple * 10.0**power, max(-power, 0)) for power in range(-9, 18) for multiple in (1.0, 2.0, 5.0)]
 """Round numbers, 1, 2 or 5 times a power of ten, from the least on, each with its digits after the point."""
 
@@ -37,7 +38,7 @@ def add(parent: Element, template: str, *values: Value) -> Element:
 
 def _written(value: Value) -> str:
     if isinstance(value, str):
-        return escape(printable(value, MAX_LENGTH))
+        return printable(value, MAX_LENGTH).translate(ESCAPES)
     return px(value) if isinstance(value, int | float) else "".join(value)
 
 
