@@ -196,7 +196,7 @@ def test_a_row_that_cannot_be_costs_itself_and_is_named(tmp_path: Path, old: str
         ("channels", "z\tACCEL", "w\tACCEL", "L_motion.tsv: names no column acc_z_left .it names gyro_z_left, "),
         ("channels", "mg", "deg/s", r"acc is in deg/s, not in one of m/s\^2, g, mg"),
         ("channels", "type", "kind", "L_channels.tsv: describes no channels, each with a type"),
-        ("channels", "LeftFoot", "r_toe", "several tracked points are on the right foot: r_toe, r-shoe"),
+        ("channels", "LeftFoot", "r_toe", "tracked points are on the same foot: r_toe .right., r-shoe .right."),
         ("motion", "1000.0", "x", "L_motion.tsv: line 1: acc_z_left is \"x\", not a number; 3 of 4 rows"),
         ("motion", "\n", "\t1\n", "L_motion.tsv: has 10 columns, and 9 are described"),
         ("motion", "1000.0", "30.0", r"L_motion.tsv: acc_left: the median of \|acc\| is 0.294 m/s\^2"),

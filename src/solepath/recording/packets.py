@@ -68,11 +68,6 @@ class OpenRecording:
     header: dict[str, Any]
     packets: Iterator[Packet]
     bad_lines: BadRows
-    _file: BinaryIO
-
-    def close(self) -> None:
-        """Close the file before its end."""
-        self._file.close()
 
 
 def open_packets(
@@ -88,7 +83,7 @@ def open_packets(
         file.close()
         raise
     bad_lines = BadRows(path, report)
-    return OpenRecording(header, _parse_packets(path, file, lines, bad_lines, progress), bad_lines, file)
+    return OpenRecording(header, _parse_packets(path, file, lines, bad_lines, progress), bad_lines)
 
 
 def _parse_header(path: Path, lines: Iterator[Line[bytes]]) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from .bids.names import MOTION_END, recording_of
 from .clock_offset import shift_clock
 from .decoded import decode_own
 from .errors import SAMPLE_SUFFIXES, RecordingError, Report, printable, warn
-from .packets import OpenRecording, open_packets
+from .packets import OpenRecording, open_packets, read_header
 
 if TYPE_CHECKING:
     from ..link.kinds import DeviceKinds
@@ -148,13 +148,11 @@ def open_source(
         if samples.start_time is not None:
             source.header = {"began": samples.start_time.isoformat(), "began_t": 0.0}
         return source
-    opened = open_packets(path, report=report)
-    source.header = opened.header
     if path.is_file():
-        opened.close()
-        source.total = path.stat().st_size
+        source.header, source.total = read_header(path), path.stat().st_size
     else:
-        source._pipe, source.bad_rows = opened, opened.bad_lines
+        source._pipe = open_packets(path, report=report)
+        source.header, source.bad_rows = source._pipe.header, source._pipe.bad_lines
     return source
 
 

@@ -83,6 +83,12 @@ def test_a_name_that_occurs_twice_is_taken_by_its_number(tmp_path: Path) -> None
             read_samples(tmp_path / "walk.csv", mapping=TableMapping.parse(f"t=Zeit,acc={number},#3,#4", "ms"))
 
 
+def test_a_pattern_of_times_is_of_one_column(tmp_path: Path) -> None:
+    (tmp_path / "walk.csv").write_text(table(names=["Zeit 1", *NAMES[1:6], "Zeit 2"]))
+    with pytest.raises(RecordingError, match=r"t needs 1 columns, not 2 \(Zeit 1, Zeit 2\)"):
+        read_samples(tmp_path / "walk.csv", mapping=TableMapping.parse("t=Zeit*,acc=A *", "ms"))
+
+
 def test_a_rate_stands_for_times_and_a_row_that_is_left_out_keeps_its_time(tmp_path: Path) -> None:
     lines = table().splitlines()
     lines[3] = lines[3].replace("0.500", "oh no")

@@ -10,20 +10,17 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from datetime import datetime
-from math import isnan
 from pathlib import Path
 from typing import Any
 
+from attrs import evolve
+
 from ...types import Foot
-from ..bad_rows import BadRows
 from ..errors import RecordingError, Report, printable, warn
 from ..mapping.mapping import TableMapping
 from ..mapping.units import UNITS, unit_of
 from ..mapping.words import foot_of_text
-from ..samples.columns import TableColumns
-from ..samples.plausible import list_unit_problems
-from ..samples.reader import SampleRecording, clean, read_file
-from ..samples.table import FootTable, floats
+from ..samples.reader import SampleFile, SampleRecording, load_files
 from .columns import read_json, read_table
 from .names import MOTION_END, recording_of
 
@@ -56,29 +53,18 @@ def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = 
     if not named:
         found = printable(", ".join(sorted({point for _, point, _ in points})) or "none")
         raise RecordingError(path, f"no tracked point with ACCEL or GYRO is a foot; there are: {found}")
-    for side in Foot:
-        same = [point for _, point, other in named if other is side]
-        if len(same) > 1:
-            where = printable(", ".join(same))
-            raise RecordingError(path, f"several tracked points are on the {side.value} foot: {where}")
+    if len(named) > len({side for _, _, side in named}):
+        where = printable(", ".join(f"{point} ({side.value})" for _, point, side in named))
+        raise RecordingError(path, f"several tracked points are on the same foot: {where}")
     # without the start of every file, all are taken to start together
     starts = {system: _start_of(system) for system in systems}
     known = [start for start in starts.values() if start is not None]
-    bad_rows, tables = BadRows(path, report, "row"), list[FootTable]()
+    files = []
     for system in dict.fromkeys(system for system, _, _ in named):
-        sides = {point: side for one, point, side in named if one == system}
-        for table in _read_system(system, systems[system], sides, bad_rows):
-            start = starts[system] if len(known) == len(starts) else None
-            if start is not None:
-                table.t = floats([t + (start - min(known)) for t in table.t])
-            tables.append(table)
-    used = clean(sorted(tables, key=lambda one: one.foot.value), foot, bad_rows)
-    if not used:
-        raise RecordingError(path, f"holds nothing of the {foot.value} foot" if foot else "holds no samples")
-    problems = [problem for table in used for problem in list_unit_problems(table)]
-    if problems:
-        raise RecordingError.of(problems)
-    return SampleRecording(path, tuple(used), bad_rows)
+        file = _describe(system, systems[system], {point: side for one, point, side in named if one == system})
+        start = starts[system]
+        files.append(file if start is None or len(known) < len(starts) else evolve(file, delay=start - min(known)))
+    return load_files(files, foot, report)
 
 
 def _read_channels(path: Path) -> list[dict[str, str]]:
@@ -100,10 +86,10 @@ def _name_of(channel: Mapping[str, str], sides: Mapping[str, Foot]) -> str:
     return "t" if kind == "LATENCY" else ""
 
 
-def _read_system(
-    path: Path, channels: Sequence[dict[str, str]], sides: Mapping[str, Foot], bad_rows: BadRows
-) -> list[FootTable]:
-    """Return the samples of the tracked points of one file; a row without any inertial one is no sample."""
+def _describe(path: Path, channels: Sequence[dict[str, str]], sides: Mapping[str, Foot]) -> SampleFile:
+    """Return a file with the names, units and rate that its channels and metadata say.
+
+    `sides`: foot of each tracked point."""
     names = [_name_of(channel, sides) for channel in channels]
     units = [channel.get("units", "") for channel in channels]
     for name, unit in zip(names, units, strict=True):
@@ -119,17 +105,7 @@ def _read_system(
         rate = next((float(one) for one in rates if isinstance(one, int | float) and one > 0), None)
         if rate is None:
             raise RecordingError(path, "has no LATENCY channel, and its metadata have no SamplingFrequency")
-    mapping = TableMapping(rate=rate, separator="tab", header=0)
-    headers: list[TableColumns] = []
-    tables = read_file(path, None, mapping, bad_rows, headers, described=(names, units))
-    if problems := headers[0].list_problems():
-        raise RecordingError.of(problems)
-    for table in tables:
-        inertial = [zip(*columns, strict=True) for q, columns in table.columns.items() if q != "pressure"]
-        table.select([any(not any(map(isnan, vector)) for vector in row) for row in zip(*inertial, strict=True)])
-    if not any(map(len, tables)):
-        bad_rows.finish()
-    return tables
+    return SampleFile(path, None, TableMapping(rate=rate, separator="tab", header=0), names, units)
 
 
 def _inherited(path: Path) -> dict[str, Any]:

@@ -41,8 +41,7 @@ def read_mapping(path: Path | str) -> TableMapping:
     for key, names in values.get("columns", {}).items():
         listed = names if isinstance(names, list) else [names]
         # columns of a table without names have numbers
-        fits = all(isinstance(name, str) or type(name) is int for name in listed)
-        values["columns"][key] = list(map(str, listed)) if fits else ()
+        values["columns"][key] = [str(name) if type(name) is int else name for name in listed]
     try:
         mapping = TableMapping(**{key: values[key] for key in KEYS if key in values}, origin=path.name)
     except ValueError as error:

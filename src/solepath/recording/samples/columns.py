@@ -99,7 +99,7 @@ def find_columns(header: SheetLayout, given: TableMapping, foot: Foot | None, *,
             found.faults["t"] = [f"names no column t ({header.list_names()})"]
         names = {q: q + suffix for q in QUANTITIES}
         if "t" in sources:
-            (time,) = sources["t"]
+            time = sources["t"][0]
             own = "t" + (suffix if "_" in time.name else "")
             names["t"] = own if export is OWN else f"t ({time.name})"
         found.feet.append(

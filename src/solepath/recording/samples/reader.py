@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import nullcontext, suppress
 from datetime import UTC, datetime
 from fnmatch import fnmatchcase
+from math import isnan
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -77,15 +78,37 @@ def load_samples(
         feet = [foot] if isinstance(foot, Foot) else list(foot)
         if len(feet) != len(paths):
             raise ValueError(f"there are {len(feet)} feet for {len(paths)} files")
+    files_read = [SampleFile(path, one, mapping) for path, one in zip(paths, feet, strict=True)]
+    return load_files(files_read, only, report)
+
+
+@frozen
+class SampleFile:
+    """A file of samples, and what is known of it."""
+
+    path: Path
+    foot: Foot | None
+    """Foot of samples that name none."""
+    mapping: TableMapping
+    names: Sequence[str] = ()
+    """Names of the columns, if another file has them; a row without a whole inertial quantity is then no sample."""
+    units: Sequence[str] = ()
+    """Units of these columns."""
+    delay: float = 0.0
+    """Time to add to those of the file, s."""
+
+
+def load_files(files: Sequence[SampleFile], only: Foot | None, report: Report) -> SampleRecording:
+    """Return the samples of the foot `only` (None: of both) in some files; RecordingError with all that is wrong."""
+    paths = [file.path for file in files]
     total = BadRows(paths[0], report, "row")
     problems: list[RecordingError] = []
     tables: list[FootTable] = []
     headers, guessed = list[TableColumns](), list[TableColumns]()
-    for path, its_foot in zip(paths, feet, strict=True):
-        bad_rows = BadRows(path, report, "row")
+    for file in files:
+        bad_rows = BadRows(file.path, report, "row")
         try:
-            own = read_file(path, its_foot, mapping, bad_rows, headers, is_alone=len(paths) == 1)
-            tables += clean(own, only, bad_rows)
+            tables += _clean(_read_file(file, bad_rows, headers, is_alone=len(files) == 1), only, bad_rows)
         except RecordingError as error:
             problems += error.problems
             guessed += [error.found] if isinstance(error, UnknownTable) and error.found is not None else []
@@ -120,20 +143,11 @@ def _feet_of_files(paths: Sequence[Path], patterns: Mapping[str, str]) -> Iterat
         yield foot_of_text(path.parent.name) if foot is None and use_folders else foot
 
 
-def read_file(
-    path: Path,
-    foot: Foot | None,
-    mapping: TableMapping,
-    bad_rows: BadRows,
-    headers: list[TableColumns],
-    *,
-    is_alone: bool = True,
-    described: tuple[Sequence[str], Sequence[str]] | None = None,
-) -> list[FootTable]:
+def _read_file(file: SampleFile, bad_rows: BadRows, headers: list[TableColumns], *, is_alone: bool) -> list[FootTable]:
     """Return the tables of the feet in one file, of which only the cells were read; its columns go to `headers`.
 
-    There are none for a sheet whose columns have faults. `described`: names and units of the columns, if another file
-    has them."""
+    There are none for a sheet whose columns have faults."""
+    path, mapping = file.path, file.mapping
     if path.suffix.lower() == ".npz":
         from .npz import check_lengths, open_npz  # imports numpy, which text does not need
 
@@ -142,14 +156,13 @@ def read_file(
     else:
         sheet, columns = open_sheet(path, mapping), {}
     with sheet as (layout, rows):
-        if described is not None:
-            if len(layout.names) != len(described[0]):
-                what = f"has {len(layout.names)} columns, and {len(described[0])} are described"
-                raise RecordingError(path, what)
-            layout = evolve(layout, names=described[0], units=described[1])
-        found = find_columns(layout, mapping, foot, is_alone=is_alone)
+        if file.names:
+            if len(layout.names) != len(file.names):
+                raise RecordingError(path, f"has {len(layout.names)} columns, and {len(file.names)} are described")
+            layout = evolve(layout, names=file.names, units=file.units)
+        found = find_columns(layout, mapping, file.foot, is_alone=is_alone)
         if not found.feet and not found.faults:
-            raise guess_mapping(layout, rows, foot)
+            raise guess_mapping(layout, rows, file.foot)
         headers.append(found)
         if found.is_empty or found.list_problems(found.elsewhere):
             return []
@@ -157,6 +170,10 @@ def read_file(
             tables = fill_tables(found, columns, check_lengths(found, columns), None)
         else:
             tables = read_rows(rows, found, bad_rows)
+    for table in tables if file.names else ():
+        inertial = [zip(*columns, strict=True) for q, columns in table.columns.items() if q != "pressure"]
+        table.select([any(not any(map(isnan, vector)) for vector in row) for row in zip(*inertial, strict=True)])
+        table.t = floats([t + file.delay for t in table.t])
     for flaw in [] if found.export is None else found.export.list_flaws(layout):
         bad_rows.report(f"{printable(str(path))}: {flaw}")
     if not any(map(len, tables)):
@@ -194,7 +211,7 @@ def _count_from_start(tables: Sequence[FootTable]) -> datetime | None:
     return None
 
 
-def clean(tables: Sequence[FootTable], only: Foot | None, bad_rows: BadRows) -> list[FootTable]:
+def _clean(tables: Sequence[FootTable], only: Foot | None, bad_rows: BadRows) -> list[FootTable]:
     """Return the tables of `only` (None: all) without the rows that cannot be used.
 
     A row of both feet is reported once. RecordingError for a table that is left with too few rows."""
