@@ -45,9 +45,9 @@ def in_terminal(*arguments: object, **options: Any) -> Iterator[tuple[int, subpr
 
 
 @contextmanager
-def emulator(*arguments: object, port: int = 0) -> Iterator[tuple[subprocess.Popen[str], str]]:
+def emulator(*arguments: object) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """Yield the process of emulated devices, and their address tcp:HOST:PORT."""
-    with started("emulate", "--listen", f"127.0.0.1:{port}", *arguments) as process:
+    with started("emulate", "--listen", "127.0.0.1:0", *arguments) as process:
         assert process.stdout is not None
         text, address = process.stdout.readline().rsplit(maxsplit=1)
         assert text == "serving at"
@@ -61,10 +61,10 @@ def run(*arguments: object, expect: int = 0) -> subprocess.CompletedProcess[str]
     return process
 
 
-def wait_for(path: Path, what: str, times: int = 1) -> None:
-    """Wait until `what` occurs in the file at least `times` times; fail after TAKES."""
+def wait_for(path: Path, what: str) -> None:
+    """Wait until `what` occurs in the file; fail after TAKES."""
     end = time.monotonic() + TAKES
-    while not path.exists() or path.read_text(encoding="utf-8").count(what) < times:
+    while not path.exists() or what not in path.read_text(encoding="utf-8"):
         assert time.monotonic() < end, f"{what} did not come"
         time.sleep(0.05)
 

@@ -60,8 +60,8 @@ class Log:
         rest = b"\x00\x01" if subevent == 0x29 else b""
         self.event(0x3E, start + own_address + struct.pack("<HHHB", 12, 0, 500, 0) + rest + (b"\xff" if rest else b""))
 
-    def disconnect(self, handle: int, reason: int = 0x08) -> None:
-        self.event(0x05, struct.pack("<BHB", 0, handle, reason))
+    def disconnect(self, handle: int) -> None:
+        self.event(0x05, struct.pack("<BHB", 0, handle, 0x08))
 
     def acl(self, handle: int, pdu: bytes, sent: bool, channel: int = 4, keep: slice = slice(None)) -> None:
         """Log one L2CAP PDU, in pieces if it is long; `keep` selects the logged pieces."""
@@ -135,8 +135,10 @@ def frames(site: Site = Site.LEFT_FOOT) -> tuple[bytes, ...]:
 
 
 @cache
-def info(site: Site = Site.LEFT_FOOT) -> bytes:
-    return next(p.data for p in walks.insoles(cells=96).packets if p.site is site and p.channel == "insole/info")
+def info() -> bytes:
+    return next(
+        p.data for p in walks.insoles(cells=96).packets if p.site is Site.LEFT_FOOT and p.channel == "insole/info"
+    )
 
 
 def read(log: Log, tmp_path: Path, **wishes: Any) -> tuple[list[tuple[str, str, str, bytes]], list[str]]:
@@ -149,8 +151,8 @@ def read(log: Log, tmp_path: Path, **wishes: Any) -> tuple[list[tuple[str, str, 
     return values, [report.removeprefix(f"{path}: ") for report in reports]
 
 
-def data_of(found: list[tuple[str, str, str, bytes]], channel: str, device: str = LEFT) -> list[bytes]:
-    return [data for address, _, name, data in found if (address, name) == (device, channel)]
+def data_of(found: list[tuple[str, str, str, bytes]], channel: str) -> list[bytes]:
+    return [data for address, _, name, data in found if (address, name) == (LEFT, channel)]
 
 
 def start_connection(

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import io
 import json
-import tarfile
+import shutil
 from pathlib import Path
 
 import pytest
@@ -18,27 +17,14 @@ from solepath.show.web.site import MARK, build_site, write_site
 
 def test_another_package_than_the_pinned_one_is_rejected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     manifest = {"name": "pyodide", "version": pyodide.VERSION}
-    with tarfile.open(tmp_path / "other.tgz", "w:gz") as archive:
-        text = json.dumps(manifest).encode()
-        info = tarfile.TarInfo("package/package.json")
-        info.size = len(text)
-        archive.addfile(info, io.BytesIO(text))
+    (tmp_path / "package").mkdir()
+    (tmp_path / "package" / "package.json").write_text(json.dumps(manifest))
+    shutil.make_archive(str(tmp_path / "other"), "gztar", tmp_path, "package")
     with serving(tmp_path) as address:
-        about = {"versions": {pyodide.VERSION: {**manifest, "dist": {"tarball": f"{address}other.tgz"}}}}
-        (tmp_path / "pyodide").write_text(json.dumps({"name": "pyodide", **about}))
+        about = {"versions": {pyodide.VERSION: {**manifest, "dist": {"tarball": f"{address}other.tar.gz"}}}}
+        (tmp_path / "pyodide").write_text(json.dumps(about))
         monkeypatch.setenv("NPM_CONFIG_REGISTRY", address)
-        monkeypatch.setenv("NPM_CONFIG_CACHE", str(tmp_path / "cache"))
         with pytest.raises(BuildError, match="its hash is another"):
-            package_files()
-
-
-def test_a_registry_without_the_package_is_said_in_one_sentence(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with serving(tmp_path) as address:
-        monkeypatch.setenv("NPM_CONFIG_REGISTRY", address)
-        monkeypatch.setenv("NPM_CONFIG_CACHE", str(tmp_path / "cache"))
-        with pytest.raises(BuildError, match=f"npm pack pyodide@{pyodide.VERSION} failed: .*404"):
             package_files()
 
 

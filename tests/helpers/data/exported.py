@@ -39,9 +39,7 @@ def write(path: Path, lines: Iterable[str], encoding: str = "utf-8") -> Path:
     return path
 
 
-def strange(
-    folder: Path, foot: Foot, *, acc_factor: float = 1.0, **changed: Callable[[np.ndarray], np.ndarray]
-) -> Path:
+def strange(folder: Path, foot: Foot, **changed: Callable[[np.ndarray], np.ndarray]) -> Path:
     """Write a table of no known format: semicolons, decimal commas, ms, g and deg/s, with other axes and lines above.
 
     `acc`, `gyro`: functions that change the columns before they are written."""
@@ -49,7 +47,6 @@ def strange(
     acc, gyro = (changed.get(name, lambda same: same)(values) for name, values in (("acc", acc), ("gyro", gyro)))
     head = ["Labor 7;;;;;;", "Proband;S 12;;;;;", "Zeit;Beschl X;Beschl Y;Beschl Z;Gyro X;Gyro Y;Gyro Z"]
     rows = (
-        ";".join(f"{v:.5f}" for v in (1e3 * s, *(acc_factor * a), *w)).replace(".", ",")
-        for s, a, w in zip(t, acc, gyro, strict=True)
+        ";".join(f"{v:.5f}" for v in (1e3 * s, *a, *w)).replace(".", ",") for s, a, w in zip(t, acc, gyro, strict=True)
     )
     return write(folder / f"{foot.value}.csv", [*head, *rows], "latin-1")

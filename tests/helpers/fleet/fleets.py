@@ -40,9 +40,9 @@ def walked(recipe: str = "default") -> Walked:
     return Walked((*sent, Sent(WEARER, len(sent), End())), tuple(events))
 
 
-def shown(number: int, run: int = 0, wearer: str = WEARER) -> Sent:
+def shown(number: int, run: int = 0) -> Sent:
     """Return a row whose packet a session rejects in one event that names it, which shows that the row was used."""
-    return Sent(wearer, number, Packet(0.25 * number, LEFT, f"story/{run}-{number}", b""), run)
+    return Sent(WEARER, number, Packet(0.25 * number, LEFT, f"story/{run}-{number}", b""), run)
 
 
 def stepped(

@@ -26,14 +26,13 @@ from solepath import (
     Site,
     TurnMade,
 )
-from solepath.recipes import DEFAULT, Recipe
 from solepath.types import Turn
 from solepath.types.vector import ZERO
 
 
-def feed_session(items: Iterable[Packet | Sample], recipe: Recipe = DEFAULT) -> tuple[Session, list[Event]]:
+def feed_session(items: Iterable[Packet | Sample]) -> tuple[Session, list[Event]]:
     """Return a session that was fed with all packets or samples, and its events."""
-    session = Session(recipe, poses=True, pressures=True)
+    session = Session(poses=True, pressures=True)
     return session, session.feed(items)
 
 

@@ -18,7 +18,7 @@ from attrs import evolve, frozen
 from browsers import Browser, Window
 from declared import THINGY
 from declared import walked as worn_walk
-from shown import PacketEvents, meanwhile, open_page, packet_events, show
+from shown import PacketEvents, meanwhile, open_page, packet_events, show, take_until
 
 from solepath import Packet, Sample, Session
 from solepath.emulate import case_study, emulate, sampled
@@ -104,10 +104,7 @@ class Shown:
 
 def live(walk: tuple[PacketEvents, ...], moment: float, plan: FloorPlan | None = None) -> Shown:
     """Return the state of a live session at the time `moment` of a walk, s."""
-    scene = Scene("Live", "default", "live", plan=plan)
-    for packet, events in walk:
-        if packet.t <= moment - LAST:
-            scene.take(packet, events)
+    scene = take_until(Scene("Live", "default", "live", plan=plan), walk, moment - LAST)
     rest = [one for one in walk if moment - LAST < one[0].t <= moment]
     return Shown(scene, lambda command: None, lambda page: show(scene, rest), lambda page: asyncio.sleep(0.0))
 

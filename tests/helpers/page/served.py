@@ -62,22 +62,19 @@ async def open_raw(page: Page) -> Connection:
     return await asyncio.open_connection("127.0.0.1", page.port)
 
 
-async def fetch_reply(page: Page, sent: bytes, ends: bool = False) -> bytes:
-    """Return the whole answer to these bytes on a new connection; with `ends`, close the sending side after them."""
+async def fetch_reply(page: Page, sent: bytes) -> bytes:
+    """Return the whole answer to these bytes on a new connection."""
     reader, writer = await open_raw(page)
     writer.write(sent)
-    if ends:
-        writer.write_eof()
     answer = await reader.read()
     writer.close()
     return answer
 
 
-def handshake(host: str = "localhost", more: str = "") -> bytes:
-    key = base64.b64encode(os.urandom(16)).decode()
+def handshake() -> bytes:
     return (
-        f"GET /ws HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-        f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n{more}\r\n"
+        f"GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {base64.b64encode(os.urandom(16)).decode()}\r\n\r\n"
     ).encode()
 
 

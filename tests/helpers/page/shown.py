@@ -97,15 +97,15 @@ def empty_scene(title: str = "round a square") -> Scene:
 
 def scene_after(seconds: float, title: str = "round a square") -> Scene:
     """Return the scene after the first `seconds` of the walk round the square."""
-    return _take_until(empty_scene(title), square_walk(), seconds)
+    return take_until(empty_scene(title), square_walk(), seconds)
 
 
 def scene_on_plan(seconds: float) -> Scene:
     """Return the scene, with the floor plan, after the first `seconds` of the walk along the corridor."""
-    return _take_until(Scene("along a corridor", "default", "live", plan=BUILDING), corridor_walk(), seconds)
+    return take_until(Scene("along a corridor", "default", "live", plan=BUILDING), corridor_walk(), seconds)
 
 
-def _take_until(scene: Scene, walk: Iterable[PacketEvents], seconds: float) -> Scene:
+def take_until(scene: Scene, walk: Iterable[PacketEvents], seconds: float) -> Scene:
     for packet, events in walk:
         if packet.t > seconds:
             break

@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from browsers import MAX_TEST_TIME, Browser, Window, browsing, why_not, window
+from browsers import Browser, Window, browsing, why_not, window
 from plain_tabs import PlainTab
 
 from solepath import Packet, Session
@@ -25,11 +25,9 @@ WORDS = "document.getElementById('site-words').textContent"
 
 
 @asynccontextmanager
-async def open_site(
-    chromium: Browser, url: str, *, width: int = 360, script: str = "", still: bool = True
-) -> AsyncIterator[Window]:
+async def open_site(chromium: Browser, url: str, *, script: str = "", still: bool = True) -> AsyncIterator[Window]:
     """Yield a window with the site, ready; at the end it must have requested nothing but files of its own origin."""
-    async with window(chromium, url, width=width, script=script, still=still) as view:
+    async with window(chromium, url, width=360, script=script, still=still) as view:
         await ready(view)
         yield view
         foreign = [one for one in view.requests if not one.removeprefix("blob:").startswith(url)]
@@ -42,10 +40,8 @@ async def ready(view: Window | PlainTab) -> None:
     await view.until(READY, patience=PATIENCE)
 
 
-def measure_site(
-    packets: Iterable[Packet], measure: Callable[[Browser, Path], Awaitable[None]], longest: float = MAX_TEST_TIME
-) -> int:
-    """Build a site with this recording and measure it in a new browser, for `longest` s; return the exit status."""
+def measure_site(packets: Iterable[Packet], measure: Callable[[Browser, Path], Awaitable[None]]) -> int:
+    """Build a site with this recording and measure it in a new browser; return the exit status."""
     reason = why_not()
     if reason is not None:
         print(reason)
@@ -54,7 +50,7 @@ def measure_site(
     with TemporaryDirectory() as directory, browsing() as browser:
         folder = Path(directory, "site")
         build_site(folder, packets)
-        browser.run(lambda chromium: measure(chromium, folder), longest)
+        browser.run(lambda chromium: measure(chromium, folder))
     return 0
 
 

@@ -15,19 +15,18 @@ from solepath.show.web.worker import Worker
 def connect(worker: Worker, packets: Sequence[Packet]) -> None:
     """Connect two insoles, whose values are those of the packets; their sites are also their addresses."""
     values = {(packet.site.value, packet.channel): packet.data.hex() for packet in packets}
-    for device in {packet.site.value for packet in packets}:
-        about = {"device": device, "t": packets[0].t}
-        characteristics = [[one.service, one.characteristic, one.access is Access.NOTIFY] for one in INSOLE.channels]
+    characteristics = [[one.service, one.characteristic, one.access is Access.NOTIFY] for one in INSOLE.channels]
+    for device in ("left_foot", "right_foot"):
         _send(worker, type="add", device=device)
-        answers = _send(worker, type="connected", characteristics=characteristics, **about)
+        answers = _send(worker, type="connected", device=device, t=0.0, characteristics=characteristics)
         while answers:
-            value = values.get((device, answers[-1]["channel"]), "")
-            answers = _send(worker, type="done", value=value, **about)
+            channel = answers[-1]["channel"]
+            answers = _send(worker, type="done", device=device, t=0.0, value=values.get((device, channel), ""))
 
 
 def send_frames(worker: Worker, packets: Sequence[Packet]) -> None:
     """Let the insoles send the frames of the packets."""
-    frames = [packet for packet in packets if packet.channel in INSOLE.streams]
+    frames = (packet for packet in packets if packet.channel in INSOLE.streams)
     _send(worker, type="values", values=[[one.t, one.site.value, one.channel, one.data.hex()] for one in frames])
 
 

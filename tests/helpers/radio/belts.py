@@ -42,8 +42,8 @@ def address(number: int) -> str:
     return f"F0:00:00:00:00:{number:02X}"
 
 
-def strap(number: int = 1, name: str | None = None, faults: str = "", **given: Any) -> Strap:
-    return Strap(name or f"strap {number}", address(number), faults=parse_faults(faults), **given)
+def strap(number: int = 1, faults: str = "", **given: Any) -> Strap:
+    return Strap(f"strap {number}", address(number), faults=parse_faults(faults), **given)
 
 
 @define

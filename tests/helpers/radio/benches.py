@@ -19,11 +19,9 @@ LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 Received = list[tuple[float, Outgoing]]
 
 
-def worn(
-    device: Device, site: Site = LEFT, *, faults: str = "", route: Route = ROUTE, started_at: float = 0.0
-) -> Peripheral:
-    """Return one device on a walk that starts at `started_at`."""
-    return Bench(route, devices={site: device}, seed=3, started_at=started_at, faults=parse_faults(faults))[site]
+def worn(device: Device, site: Site = LEFT, *, faults: str = "") -> Peripheral:
+    """Return one device on a walk."""
+    return Bench(ROUTE, devices={site: device}, seed=3, faults=parse_faults(faults))[site]
 
 
 @cache

@@ -50,12 +50,12 @@ def now() -> float:
     return asyncio.get_running_loop().time()
 
 
-def strap(name: str = "one", address: str = ONE, faults: str = "", **given: object) -> Strap:
-    return Strap(name, address, faults=parse_faults(faults), **given)
+def strap(name: str = "one", faults: str = "", **given: object) -> Strap:
+    return Strap(name, ONE, faults=parse_faults(faults), **given)
 
 
-async def find(backend: Backend, name: str = "one") -> BLEDevice:
-    found = await BleakScanner.find_device_by_name(name, 5.0, backend=backend.scanner)
+async def find(backend: Backend) -> BLEDevice:
+    found = await BleakScanner.find_device_by_name("one", 5.0, backend=backend.scanner)
     assert found is not None
     return found
 

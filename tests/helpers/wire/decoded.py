@@ -51,10 +51,9 @@ def cc2541_packet(t: float, sensor: str, **fields: Any) -> Packet:
     return packet(t, f"cc2541/{sensor}", build_whole(cc2541.FORMATS[f"cc2541/{sensor}"], fields))
 
 
-def movement_packet(
-    k: int, *, acc: tuple[int, int, int] = (0, 0, 4096), gyro: tuple[int, int, int] = (0, 0, 0)
-) -> Packet:
-    return packet(10.0 + 0.1 * k, "cc2650/movement", cc2650_value("movement", gyro=gyro, acc=acc, mag=(0, 0, 0)))
+def movement_packet(k: int) -> Packet:
+    value = cc2650_value("movement", gyro=(0, 0, 0), acc=(0, 0, 4096), mag=(0, 0, 0))
+    return packet(10.0 + 0.1 * k, "cc2650/movement", value)
 
 
 def feed(decoder: Decoder, *packets: Packet) -> list[Any]:
@@ -79,5 +78,5 @@ def acc_packet(t: float, counts: tuple[int, int, int] = (0, 0, 16)) -> Packet:
     return cc2541_packet(t, "accelerometer", acc=counts)
 
 
-def gyro_packet(t: float, counts: tuple[int, int, int] = (0, 0, 0)) -> Packet:
-    return cc2541_packet(t, "gyroscope", gyro=counts)
+def gyro_packet(t: float) -> Packet:
+    return cc2541_packet(t, "gyroscope", gyro=(0, 0, 0))

@@ -94,8 +94,8 @@ class Toy:
     def receive(self, t: float, name: str, value: bytes, site: Site = LEFT) -> list[Any]:
         return self.decoder.feed(Packet(t, site, f"toy/{name}", value), make_kinds([self.driver]))
 
-    def send_data(self, t: float, number: int = 0, ticks: int = 0, count: int = 1, up: float = 9.80665) -> list[Any]:
-        fields = {"number": number % 65536, "ticks": ticks % 2**32, "count": count, "up": [up]}
+    def send_data(self, t: float, number: int = 0, ticks: int = 0, count: int = 1) -> list[Any]:
+        fields = {"number": number % 65536, "ticks": ticks % 2**32, "count": count, "up": [9.80665]}
         return self.receive(t, "data", self.driver.write("toy/data", fields))
 
     def send_more(self, t: float, what: int, value: float) -> list[Any]:
