@@ -28,7 +28,7 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import NEAR_DISTANCE, PlaceScore, score
 
-from .. import markdown
+from ..tables import markdown
 
 DECLINATION = radians(4.0)
 """Angle from true to magnetic north, clockwise, rad: that of Central Europe (WMM2025)."""

@@ -8,10 +8,10 @@ from solepath.show.tables.table import percent, table
 from solepath.show.tables.words import activity_words
 from solepath.types import Activity
 
-from .. import markdown
 from ..evaluate.ablation import COLUMNS
 from ..evaluate.report import Result
 from ..measures.score import Figures
+from . import markdown
 from .columns import FIGURES, shown
 
 DIGITS = {"%": 2, "ms": 0}
