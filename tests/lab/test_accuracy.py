@@ -14,7 +14,7 @@ from quoted import below, nearly_the_same
 
 from solepath_lab.evaluate.jobs import find_data_sets
 from solepath_lab.evaluate.report import Result
-from solepath_lab.tables.markdown import accuracy_table
+from solepath_lab.tables.accuracy import accuracy_table
 
 Evaluated = Callable[[str, str], Result]
 SOAK, LONG = pytest.mark.soak, pytest.mark.long

@@ -6,10 +6,16 @@ from math import isclose
 
 from solepath.body.activity.chain import STAIRS_UP, WALK
 from solepath.types import Activity
+from solepath_lab.descriptions import read_rows
+from solepath_lab.train import turns
 from solepath_lab.train.activities_course import DEFAULT_CHANCES, LabelledCourse, chances, changes
 from solepath_lab.train.hugadb import spans
 
 STANDING, WALKING, STAIRS = Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP
+
+
+def test_turns_for_training_have_seeds_for_training() -> None:
+    assert min(int(row["seed"]) for row in read_rows(turns.__file__, "turns.csv")) >= turns.FIRST_TRAINING_SEED
 
 
 def test_labels_become_spans_and_a_gap_parts_them() -> None:

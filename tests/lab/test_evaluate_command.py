@@ -52,8 +52,11 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path, monkey
 
 
 def test_the_laboratory_says_its_version():
-    done = run("--version", program=lab)
-    assert done.returncode == 0 and re.fullmatch(r"solepath-lab \S+, (pure|compiled)\n", done.stdout)
+    assert re.fullmatch(r"solepath-lab \S+, (pure|compiled)\n", run("--version", program=lab).stdout)
+
+
+def test_the_main_program_names_the_laboratory():
+    assert "there is no command 'evaluate' here: it is one of solepath-lab" in run_failing("evaluate")
 
 
 def test_evaluate_without_data_names_what_it_needs(data, tmp_path, monkeypatch):

@@ -25,8 +25,8 @@ from solepath.body.checks.foot_clocks import FootClocks
 from solepath.events import DefectFound, GaitEvent, HeelStrike, StrideTaken
 from solepath.types import OTHER, Foot
 
-from .. import markdown
 from ..processes import run_jobs
+from ..tables import markdown
 from .clock_walks import KNOWN_APART, PAUSE, ClockJob, ClockWalk, FootEvent, error_between, foot_of, read_walk
 
 OFFSETS = (0.05, 0.1, 0.2, 0.3, 0.5)

@@ -24,11 +24,11 @@ from solepath.cli.common.failure import Failure
 from solepath.recording.samples import load_samples
 from solepath.validate.alignment import Floats, at_times
 
-from .. import markdown
 from ..evaluate.jobs import find_data_sets, recordings
 from ..evaluate.run import Arrays, truth_of
 from ..measures.strides import END_TOLERANCE
 from ..processes import run_jobs
+from ..tables import markdown
 
 DATA_SETS = ("pyshoe_vicon", "gumushane_surveyed")
 SHARES = (0.0, 0.03, 0.1)

@@ -27,8 +27,8 @@ from solepath.types import SITE_OF_FOOT, Foot, Sample, Vec3
 from solepath.types.vector import GRAVITY
 from solepath.validate.alignment import Floats
 
-from .. import markdown
 from ..processes import run_jobs
+from ..tables import markdown
 
 KNOWN: dict[str, set[Defect]] = {
     "felius_2min_walk": {Defect.AXES},

@@ -41,9 +41,9 @@ from solepath.recording import PacketWriter
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 
-from .. import markdown
 from ..options import option, seeds
 from ..processes import run_jobs
+from ..tables import markdown
 from .handling import CLUMSY, STEADY, Clumsiness, Handling
 from .heading import follow, heading_figures
 from .heading_walks import G_EFFECT, OTHER_DAY, heading_route, wearer_of

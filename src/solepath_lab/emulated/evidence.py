@@ -35,10 +35,10 @@ from solepath.types import SITE_OF_FOOT, Activity, Foot, Packet, Sample, Site
 from solepath.validate.place import score
 from solepath.walk.walk import Walk
 
-from .. import markdown
 from ..evaluate.activity import score_rides, score_windows
 from ..measures.confusion import ActivityScore
 from ..processes import run_jobs
+from ..tables import markdown
 from ..train.emulated import RATE, draw_route
 
 HEADING_ERROR = 0.1

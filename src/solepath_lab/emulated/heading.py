@@ -166,8 +166,8 @@ def heading_figures(track: HeadingTrack, truth: Truth, one_sided: bool = False) 
     t, headings = np.array(track.t), np.array(track.headings)
     turn = float(headings[0])
     to_truth = rotation(turn)
-    errors = np.array(track.places) @ to_truth.T - middle(truth, t) + middle(truth, np.zeros(1))
-    whole = middle(truth, np.arange(0.0, truth.duration, 0.5))
+    errors = np.array(track.places) @ to_truth.T - (middle(truth, t) - middle(truth, np.zeros(1)))[:, :2]
+    whole = middle(truth, np.arange(0.0, truth.duration, 0.5))[:, :2]
     path, end = float(distances(whole)[-1]), float(np.hypot(*errors[-1]))
     figures: Figures = {
         "position_end": end,
@@ -190,5 +190,5 @@ def heading_figures(track: HeadingTrack, truth: Truth, one_sided: bool = False) 
 
 
 def middle(truth: Truth, t: Floats) -> Floats:
-    """Return the true middle of both sensors at times `t`, s, (N, 2), m."""
-    return np.asarray(0.5 * sum(truth.pose(foot, t).position[:, :2] for foot in Foot), dtype=np.float64)
+    """Return the true middle of both sensors at times `t`, s, (N, 3), m."""
+    return np.asarray(0.5 * sum(truth.pose(foot, t).position for foot in Foot), dtype=np.float64)

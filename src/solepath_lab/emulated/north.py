@@ -27,7 +27,7 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import NEAR_DISTANCE, PlaceScore, score
 
-from .. import markdown
+from ..tables import markdown
 from .buildings import HALF_TURN
 from .magnetic_field import DisturbedField
 

@@ -29,7 +29,7 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import is_near, is_on_floor
 
-from .. import markdown
+from ..tables import markdown
 
 BINS = 10
 """Number of bins of equal width; a place that is the only one has a bin of its own after them."""

@@ -89,7 +89,7 @@ def score_reports(
 
     def truth_at(t: Floats) -> Floats:
         """Return where the wearer is at times `t`, s, in the session's world frame, (N, 2), m."""
-        return np.asarray((middle(walk.truth, t) - middle(walk.truth, np.zeros(1))) @ to_truth)
+        return np.asarray((middle(walk.truth, t) - middle(walk.truth, np.zeros(1)))[:, :2] @ to_truth)
 
     def place(t: float, off: float = 0.0) -> tuple[float, float]:
         angle = rng.uniform(0.0, 2.0 * pi)

@@ -26,7 +26,7 @@ from solepath.show.report.running import Running, running_cycle
 from solepath.types import OTHER, Foot
 from solepath.types.vector import GRAVITY
 
-from .. import markdown
+from ..tables import markdown
 from .heading_walks import insoles_of, wearer_of
 
 SLOWEST, FASTEST = 2.2, 3.8

@@ -25,7 +25,6 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import sampled
 from solepath.emulate.wearers.gait import Wearer
-from solepath.emulate.wearers.truth import Truth
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Site
 from solepath.validate.alignment import Floats, aligned_at_start, distances, track_error
@@ -36,6 +35,7 @@ from solepath.validate.matching import Matching
 from ..evaluate.run import Meta, RunSettings, run_session
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore
+from .heading import middle
 
 ALIGNED_LENGTH = 10.0
 """Length of path over which a track is aligned with the truth, m."""
@@ -86,16 +86,10 @@ def score_floors(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         strides += StrideScore(foot.strides_true, foot.strides_found, foot.strides_invented, foot.length_errors)
     return Scored(
         path.stem,
-        figures=place_figures(track.t, track.positions, mean_position(truth, track.t)),
+        figures=place_figures(track.t, track.positions, middle(truth, track.t)),
         events={"heel_strike": heel_strike, "toe_off": toe_off},
         strides=strides,
     )
-
-
-def mean_position(truth: Truth, t: Floats) -> Floats:
-    """Return the mean of both sensors' true positions at `t` (n,), s, relative to the mean at 0 s: (n,3), m."""
-    feet = [truth.pose(foot, t).position for foot in Foot]
-    return np.asarray(0.5 * (feet[0] + feet[1]), dtype=np.float64)
 
 
 def place_figures(t: Floats, positions: Floats, truth: Floats) -> Figures:

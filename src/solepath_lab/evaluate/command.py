@@ -19,7 +19,7 @@ from solepath.recipes import DEFAULT, NAMES, by_name
 from solepath.show.tables.progress import progress_bar
 
 from ..options import JSON, ONLY, PROCESSES, option, seeds
-from ..tables.markdown import accuracy_table
+from ..tables.accuracy import accuracy_table
 from ..tables.scores import ablation_table, score_table
 from . import ablation
 from .changes import comparison_tables, read_scores

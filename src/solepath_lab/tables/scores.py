@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from solepath.show.tables.table import number, percent, table
+from solepath.show.tables.table import percent, table
 from solepath.show.tables.words import activity_words
 from solepath.types import Activity
 
-from .. import markdown
 from ..evaluate.ablation import COLUMNS
 from ..evaluate.report import Result
-from ..measures.confusion import CLASSES
-from ..measures.score import Figures, Summary
+from ..measures.score import Figures
+from . import markdown
 from .columns import FIGURES, shown
 
 DIGITS = {"%": 2, "ms": 0}
@@ -39,21 +38,18 @@ def score_table(result: Result) -> str:
             rows.append(_row(f"pooled {summary.count}{name}", summary.together, keys))
     title = f"{data_set.name}: {data_set.title} ({result.recipe})"
     lines = [title, table(header, rows)]
-    lines += [_confusion(summary) for summary in result.summaries if summary.group == "all" and summary.confusion]
+    lines += [_confusion(one.confusion) for one in result.summaries if one.group == "all" and one.confusion]
     return "\n".join([*lines, *(f"failed: {sentence}" for sentence in result.failures)])
 
 
-def _confusion(summary: Summary) -> str:
+def _confusion(counts: dict[str, dict[str, int]]) -> str:
     """Return the confusion matrix: of the samples of each true activity, the share of each reported one, %."""
-    counts = summary.confusion or {}
-    reported = [activity for activity in Activity if any(activity.value in row for row in counts.values())]
+    reported = [activity_words(Activity(answer)) for row in [*counts.values()][:1] for answer in row]
     rows = []
-    for activity in CLASSES:
-        if (row := counts.get(activity.value)) is not None:
-            total = sum(row.values())
-            shares = [percent(row.get(other.value, 0) / total) for other in reported]
-            rows.append([activity_words(activity), *shares, number(float(total), 0)])
-    return table(["% of the true activity, reported as", *map(activity_words, reported), "samples"], rows)
+    for was, row in counts.items():
+        total = sum(row.values())
+        rows.append([activity_words(Activity(was)), *[percent(count / total) for count in row.values()], str(total)])
+    return table(["% of the true activity, reported as", *reported, "samples"], rows)
 
 
 def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:

@@ -11,12 +11,11 @@ from __future__ import annotations
 
 import csv
 from argparse import Namespace
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from math import degrees, radians
 from pathlib import Path
 
 import numpy as np
-from attrs import frozen
 
 from solepath.body.gait.turns import TurnDetector, TurnProcess, features
 from solepath.emulate.routes.route import Route
@@ -28,6 +27,7 @@ from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Turn
 
+from ..descriptions import read_rows
 from ..emulated.wearers import random_wearer
 
 TURNS_FILE = Path(__file__).with_name("turns.csv")
@@ -44,14 +44,8 @@ REGULARISATION = 1e-3
 """Weight of the squared length of the weights against the mean hinge loss (lambda of Pegasos); chosen by hand."""
 
 
-@frozen
-class Example:
-    """One turn: its class, and the angle of each foot, degrees, positive to the left."""
-
-    seed: int
-    turn: Turn
-    left: float
-    right: float
+Example = tuple[Turn, float, float]
+"""One turn: its class, and the angles of the left and the right foot, rad, positive to the left."""
 
 
 def walk(seed: int, turn: Turn) -> EmulatedWalk:
@@ -79,15 +73,13 @@ def largest_turn(walked: EmulatedWalk) -> TurnProcess | None:
     return max(turns, key=lambda one: abs(one.angle), default=None)
 
 
-def emulated_examples(seeds: Iterable[int]) -> list[Example]:
-    """Return a turn of each class for every seed, without the walks in which the recipe finds no turn of both feet."""
-    examples = []
+def emulated_rows(seeds: Iterable[int]) -> Iterator[tuple[int, str, float, float]]:
+    """Yield the rows of turns.csv: a turn of each class for every seed, if the recipe finds a turn of both feet."""
     for seed in seeds:
         for turn in ANGLES:
             found = largest_turn(walk(seed, turn))
             if found is not None and found.left is not None and found.right is not None:
-                examples.append(Example(seed, turn, round(degrees(found.left), 1), round(degrees(found.right), 1)))
-    return examples
+                yield seed, turn.name, round(degrees(found.left), 1), round(degrees(found.right), 1)
 
 
 def train_weights(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
@@ -95,11 +87,13 @@ def train_weights(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
 
     They minimise REGULARISATION |w|^2 / 2 + mean hinge loss by subgradient descent over all examples at once
     (Shalev-Shwartz et al. 2011, Pegasos). The result is the mean of the second half of the iterations."""
-    examples = [*examples, *(_mirrored(one) for one in examples)]
-    x = np.array([features(radians(one.left), radians(one.right)) for one in examples])
+    # a turn to the other side with the feet exchanged is an example too, because left and right are equivalent
+    other = {Turn.LEFT: Turn.RIGHT, Turn.RIGHT: Turn.LEFT, Turn.ABOUT: Turn.ABOUT}
+    examples = [*examples, *[(other[turn], -right, -left) for turn, left, right in examples]]
+    x = np.array([features(left, right) for _, left, right in examples])
     weights: dict[Turn, tuple[float, ...]] = {}
     for turn in ANGLES:
-        y = np.array([1.0 if one.turn is turn else -1.0 for one in examples])
+        y = np.array([1.0 if one is turn else -1.0 for one, _, _ in examples])
         share = np.where(y > 0.0, 0.5 / np.sum(y > 0.0), 0.5 / np.sum(y < 0.0))
         w, mean = np.zeros(x.shape[1]), np.zeros(x.shape[1])
         for k in range(1, ITERATIONS + 1):
@@ -111,31 +105,19 @@ def train_weights(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
     return weights
 
 
-def _mirrored(one: Example) -> Example:
-    """Return the same turn to the other side with the feet exchanged, because left and right are equivalent."""
-    other = {Turn.LEFT: Turn.RIGHT, Turn.RIGHT: Turn.LEFT, Turn.ABOUT: Turn.ABOUT}
-    return Example(one.seed, other[one.turn], -one.right, -one.left)
-
-
-def read(path: Path = TURNS_FILE) -> list[Example]:
-    """Return the turns in a file."""
-    with path.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    return [Example(int(r["seed"]), Turn[r["class"]], float(r["left"]), float(r["right"])) for r in rows]
-
-
-def write(examples: list[Example], path: Path = TURNS_FILE) -> None:
-    """Write the turns to a file."""
-    with path.open("w", encoding="utf-8", newline="") as file:
-        rows = csv.writer(file, lineterminator="\n")
-        rows.writerow(["seed", "class", "left", "right"])
-        rows.writerows([[one.seed, one.turn.name, one.left, one.right] for one in examples])
+def read() -> list[Example]:
+    """Return the turns of turns.csv."""
+    rows = read_rows(__file__, TURNS_FILE.name)
+    return [(Turn[row["class"]], radians(float(row["left"])), radians(float(row["right"]))) for row in rows]
 
 
 def run(options: Namespace) -> int:
     """Train the turn model and print its weights; return the exit status."""
     if options.emulate:
-        write(emulated_examples(range(FIRST_TRAINING_SEED, FIRST_TRAINING_SEED + TURNS_PER_CLASS)))
+        with TURNS_FILE.open("w", encoding="utf-8", newline="") as file:
+            rows = csv.writer(file, lineterminator="\n")
+            rows.writerow(["seed", "class", "left", "right"])
+            rows.writerows(emulated_rows(range(FIRST_TRAINING_SEED, FIRST_TRAINING_SEED + TURNS_PER_CLASS)))
     for turn, weights in train_weights(read()).items():
         print(f"    Turn.{turn.name}: {weights},")
     return 0

@@ -13,8 +13,6 @@ RECIPES = "there is no recipe 'cake'; there are: default, kupt-dfpc, "
 NAMES = [
     ("tracks walk.jsonl", "there is no command 'tracks': did you mean track?"),
     ("walk.jsonl", "there is no command 'walk.jsonl'; there are: demo, track, check, "),
-    ("evaluate walk.jsonl", "there is no command 'evaluate' here: it is one of solepath-lab"),
-    ("reproduce kupt-dfpc", "there is no command 'reproduce' here: it is one of solepath-lab"),
     ("--recipe default track walk.jsonl", "there is no option --recipe here: options come after the command"),
     ("track walk.jsonl --recipie default", "there is no option --recipie: did you mean --recipe?"),
     ("track walk.jsonl --out=", "--out: nothing is given: is a variable empty?"),
