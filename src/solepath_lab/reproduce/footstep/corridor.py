@@ -10,7 +10,6 @@ from attrs import field, frozen
 
 from solepath.calibration import Calibration, CalibrationError
 from solepath.emulate.routes.route import Route
-from solepath.emulate.routes.ways import corridor
 from solepath.emulate.walk import EmulatedWalk
 from solepath.events import Event, StrideTaken
 from solepath.foot.stance.stance import Load, Stance
@@ -25,6 +24,7 @@ from solepath.types.attrs import define, evolve
 from solepath.types.attrs import field as state_field
 from solepath.types.vector import GRAVITY, IDENTITY
 
+from ...emulated.buildings import corridor
 from ..walks import final_strides
 from .wearers import LENGTH_RECIPES, ONE_METRE_RULE, WearerJob
 
