@@ -70,7 +70,7 @@ class FootfallPlan:
         if len(ends) > 1 and ends[-1] - path.length > path.length - ends[-2]:
             ends.pop()
         scale = path.length / ends[-1]
-        move_pose = self.wearer.wander.way(path.length, self.rng) if self.wearer.wander else None
+        move_pose = self.wearer.wander(path.length, self.rng) if self.wearer.wander else None
         footfalls = []
         for end in (scale * end for end in ends):
             pose, move = path.at(end)
