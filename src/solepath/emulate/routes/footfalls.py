@@ -60,11 +60,8 @@ class FootfallPlan:
         s = 0.0
         while not ends or ends[-1] < path.length:
             speed, running = path.pace(min(s, path.length))
-            step_length = (
-                speed * 60.0 / running_cadence(speed)
-                if running
-                else self.wearer.walk_ratio * self.wearer.cadence(speed)
-            )
+            cadence = self._cadence(speed, running)
+            step_length = speed * 60.0 / cadence if running else self.wearer.walk_ratio * cadence
             s += step_length * self.vary(self.wearer.length_variation)
             ends.append(s)
         if len(ends) > 1 and ends[-1] - path.length > path.length - ends[-2]:
@@ -77,10 +74,13 @@ class FootfallPlan:
             if move_pose is not None:
                 pose = move_pose(pose, end)
             speed, running = path.pace(end)
-            step_time = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
+            step_time = 60.0 / self._cadence(speed, running)
             kind = StrideKind.RUN if running else StrideKind.WALK
             footfalls.append(Footfall(pose, speed, step_time, move.curvature, kind))
         return footfalls
+
+    def _cadence(self, speed: float, running: bool) -> float:
+        return running_cadence(speed) if running else self.wearer.cadence(speed)
 
     def _mark_footfalls(self, path: WalkPath, spacing: float) -> list[Footfall]:
         count = max(1, round(path.length / spacing))
