@@ -15,14 +15,15 @@ from strides import in_order
 from solepath.emulate import Route
 from solepath.emulate.routes.escalator import Escalator, ride_time
 from solepath.emulate.routes.styles import StrideKind
+from solepath.emulate.wearers.contact import RIGID
 from solepath.emulate.wearers.curves import Array
 from solepath.emulate.wearers.gait import PlannedStride, Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting, Shoe
-from solepath.emulate.wearers.soles.contact import RIGID, WORN
 from solepath.emulate.wearers.turning import from_rotation_vectors, matrices, multiply_quaternions
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Activity, Foot, Phase
 from solepath.types.vector import GRAVITY, from_rotation_vector
+from solepath_lab.emulated.soles import WORN
 from solepath_lab.emulated.unsteady import Swaying
 from solepath_lab.emulated.wearers import SUBJECTS
 

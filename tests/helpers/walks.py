@@ -16,7 +16,7 @@ from soak import soaked
 
 from solepath import recipes
 from solepath.emulate.radio import CLEAN, Radio
-from solepath.emulate.routes.building import BUILDING, FOUR_LOOPS
+from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
@@ -136,7 +136,7 @@ def indexed_building() -> IndexedPlan:
 def _placed(name: str, items: tuple[Item, ...], recipe: Recipe) -> Machine:
     """Return a session in a building with a known start without a heading."""
     building = indexed_building()
-    first_place = Start("0", (FOUR_LOOPS.columns[0], 12.0))
+    first_place = Start("0", (9.0, 12.0))
 
     def start() -> Session:
         return Session(recipe, poses=True, floorplan=building, start=first_place)

@@ -13,10 +13,10 @@ from views import told
 from solepath import Session, Site
 from solepath.body.part import StartGiven
 from solepath.emulate.routes.building import BUILDING
-from solepath.emulate.routes.ways import corridor
 from solepath.emulate.walk import sampled
 from solepath.events import Event, Placed, PositionRejected, PositionReported, TrackRevised
 from solepath.floorplan.plan import ConnectorKind, Point, Start
+from solepath_lab.emulated.buildings import corridor
 
 
 def reported(t: float, place: Point, sigma: float = 1.0, level: str = "0") -> PositionReported:

@@ -12,38 +12,17 @@ from .routes.route import Route
 RADIO = Radio(loss=0.03, duplicate=0.005, corrupt=0.005, latency=0.015, jitter=0.030)
 """A crowded 2.4 GHz band (assumed): 3 in 100 notifications never arrive, the others arrive after 15 to 45 ms."""
 
-ROUTE = (
-    Route()
-    .stand(3.0)
-    .walk(9.0, speed=1.3)
-    .turn(pi / 2, radius=1.5)
-    .walk(4.0)
-    .turn(pi / 2, radius=1.5)
-    .walk(6.0, speed=1.1)
-    .stop(2.0)
-    .turn(-pi / 2)
-    .walk(5.0, speed=1.2)
-    .turn(-pi / 2, radius=1.0)
-    .walk(10.0, speed=1.4)
-    .stop(2.0)
-)
+
+def _u_turn(standing: float, distance: float, speed: float) -> Route:
+    """Return standing, s, a U-shaped path whose last leg has this length, m, and speed, m/s, a halt, and a turn."""
+    there = Route().stand(standing).walk(9.0, speed=1.3).turn(pi / 2, radius=1.5).walk(4.0).turn(pi / 2, radius=1.5)
+    return there.walk(distance, speed=speed).stop(2.0).turn(-pi / 2)
+
+
+ROUTE = _u_turn(3.0, 6.0, 1.1).walk(5.0, speed=1.2).turn(-pi / 2, radius=1.0).walk(10.0, speed=1.4).stop(2.0)
 """A route of about 40 m: a U-shaped path, a halt, a turn on the spot, and a second path."""
-
-SITE_ROUTE = (
-    Route()
-    .stand(2.0)
-    .walk(9.0, speed=1.3)
-    .turn(pi / 2, radius=1.5)
-    .walk(4.0)
-    .turn(pi / 2, radius=1.5)
-    .walk(9.0, speed=1.2)
-    .stop(2.0)
-    .turn(-pi / 2)
-    .walk(6.0, speed=1.3)
-    .stop(2.0)
-)
+SITE_ROUTE = _u_turn(2.0, 9.0, 1.2).walk(6.0, speed=1.3).stop(2.0)
 """A route of 36 s for the site of `solepath web`, which holds the packets of this walk."""
-
 BUILDING_WALK_SEED = 8
 """Seed of a walk through the emulated building: down by an elevator, along 130 m of corridors, up the stairs."""
 

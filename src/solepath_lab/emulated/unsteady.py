@@ -70,7 +70,7 @@ class Wandering:
 
     sigma: float
 
-    def way(self, length: float, rng: Rng) -> Callable[[Pose, float], Pose]:
+    def __call__(self, length: float, rng: Rng) -> Callable[[Pose, float], Pose]:
         """Return a function that moves a pose on a path of this length, m, which is so many m along it."""
         return Wander.drawn(length, self.sigma, rng).move
 
@@ -81,8 +81,8 @@ class Swaying:
 
     sigma: float
 
-    def pieces(
-        self, t_start: float, first: float, last: float, end: float, rng: Rng
+    def __call__(
+        self, t_start: float, end: float, first: float, last: float, rng: Rng
     ) -> Iterator[tuple[float, float, list[Array]]]:
         """Yield the pieces of a foot that stands from `t_start` to `end`, s, and sways from `first` to `last`, s.
 

@@ -22,7 +22,6 @@ from attrs import evolve
 
 from solepath.calibration import Calibration
 from solepath.emulate.wearers.gait import LoadLaw
-from solepath.emulate.wearers.soles.contact import SLIPPING, WORN
 from solepath.papers.walking_modes.calibrate import MODES
 from solepath.papers.walking_modes.compensation import TABLE_1, Compensation
 from solepath.papers.walking_modes.recipe import (
@@ -37,6 +36,7 @@ from solepath.recipes import Recipe
 from solepath.types import Foot
 
 from ..emulated.laps import ACROSS, ALONG
+from ..emulated.soles import SLIPPING, WORN
 from ..emulated.wearers import SUBJECTS
 from .modes.figures import CORNER_POSITIONS, panels
 from .modes.walks import (

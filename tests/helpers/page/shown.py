@@ -18,13 +18,13 @@ from browsers import Browser, Window, window
 from solepath import Event, Packet, Sample, Session
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
-from solepath.emulate.routes.ways import corridor
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate
 from solepath.show.page.messages import Command, encode
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server.server import Page
 from solepath.types import SITE_OF_FOOT, Foot
+from solepath_lab.emulated.buildings import corridor
 
 REFRESH = 1.0 / 60.0
 """Time between two groups of packets that a scene takes, s."""

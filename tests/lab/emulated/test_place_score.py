@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from solepath import Turn
-from solepath.emulate.routes.ways import corridor
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Candidate, Event, Placed, TurnMade
 from solepath.validate.place import score
+from solepath_lab.emulated.buildings import corridor
 
 FAR, NEAR = 30.0, 0.5
 """Distances of the heavier and the lighter candidate from the wearer, m."""

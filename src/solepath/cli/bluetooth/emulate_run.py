@@ -45,11 +45,10 @@ def prepare_bench(options: Namespace) -> Bench:
         cc2541.PROFILE.name: sensortags.CC2541(),
         cc2541.PROFILE_20HZ.name: sensortags.CC2541(rate=20.0),
     }
-    feet = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
     try:
         bench = Bench(
             straight(options.distance) if options.postures is None else Route().stand(held_time(options.postures)),
-            devices=dict.fromkeys(feet, kinds[options.device]),
+            devices=dict.fromkeys((Site.LEFT_FOOT, Site.RIGHT_FOOT), kinds[options.device]),
             seed=options.seed,
             mtu=options.mtu,
             faults=parse_faults(read_bounded(options.faults, MAX_FAULTS).decode()) if options.faults else (),

@@ -35,18 +35,15 @@ class VirtualRadio:
     """A central behind an HCI transport.
 
     `reach` opens the transport and raises OSError when there is none; the next scan or connection after a loss calls it
-    again. `where` is the name of the transport in messages. `address` is the static address of the central; None: a
-    random one. `mtu` is the ATT MTU that the central requests, bytes."""
+    again. `where` is the name of the transport in messages. `mtu` is the ATT MTU that the central requests, bytes."""
 
-    def __init__(
-        self, reach: Callable[[], Awaitable[Transport]], where: str, mtu: int, address: str | None = None
-    ) -> None:
+    def __init__(self, reach: Callable[[], Awaitable[Transport]], where: str, mtu: int) -> None:
         self.mtu = mtu
         self.where = where
         self.keys = MemoryKeyStore()
         """Keys of the paired devices, by address."""
         self._reach = reach
-        self._address = hci.Address(address) if address else hci.Address.generate_static_address()
+        self._address = hci.Address.generate_static_address()
         self._device: Device | None = None
         self._transport: Transport | None = None
         self._listeners: list[ScanListener] = []

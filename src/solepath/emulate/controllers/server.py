@@ -28,7 +28,6 @@ _T = TypeVar("_T")
 
 ADVERTISING_INTERVAL = 62.5
 """Advertising interval given to bumble's host, ms: 100 HCI units. Its controller takes a unit for 1 ms: 100 ms."""
-_CENTRAL_ADDRESS = "C0:50:1E:9A:74:01"
 
 
 @asynccontextmanager
@@ -43,7 +42,7 @@ async def virtual_link(peripherals: Iterable[Peripheral], mtu: int = 247) -> Asy
         return Transport(controller, AsyncPipeSink(controller))
 
     async with advertise_devices(peripherals, medium):
-        radio = VirtualRadio(reach, "the virtual controller", mtu, _CENTRAL_ADDRESS)
+        radio = VirtualRadio(reach, "the virtual controller", mtu)
         try:
             yield backend_of(radio)
         finally:
@@ -72,7 +71,6 @@ class Server:
         self._loop = asyncio.get_running_loop()
         self._link: Connection | None = None
         self._timer: asyncio.TimerHandle | None = None
-        self._due = 0.0
         self._link_end: asyncio.Future[bytes] | None = None  # never gets a result; cancelled when the link ends
         self._controller = VirtualController(
             peripheral.name, medium, lambda: self._advertised() if peripheral.visible(self._loop.time()) else None
@@ -197,14 +195,13 @@ class Server:
         self._disarm()
         due = self.peripheral.next_due() if self._link is not None else None
         if due is not None:
-            self._due = due
             self._timer = self._loop.call_at(due, self._send)
 
     def _send(self) -> None:
         link = self._link
         if link is None:
             return
-        now = max(self._loop.time(), self._due)  # a timer may fire a clock's resolution early
+        now = self._loop.time()
         for outgoing in self.peripheral.poll(now):
             served = self._served[outgoing.channel]
             pdu = att.ATT_Handle_Value_Notification(

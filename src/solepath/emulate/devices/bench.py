@@ -50,10 +50,7 @@ class Bench:
         )
 
     def __getitem__(self, site: Site) -> Peripheral:
-        for peripheral in self.peripherals:
-            if peripheral.site is site:
-                return peripheral
-        raise KeyError(site)
+        return {peripheral.site: peripheral for peripheral in self.peripherals}[site]
 
     def walk_from(self, started_at: float) -> None:
         """Restart the walk at this time of the event loop, s."""

@@ -71,18 +71,23 @@ class Course:
 
     def walk(self, distance: float) -> None:
         """Walk `distance` m straight on."""
-        self.route = self.route.walk(distance, WALKING_SPEED)
-        x, y = self.position
-        self.position = (x + distance * cos(self.heading), y + distance * sin(self.heading))
+        self._go(self.route.walk(distance, WALKING_SPEED), distance, self.heading)
 
     def bend(self, angle: float, radius: float) -> None:
         """Walk a bend by `angle` rad, counter-clockwise positive, with radius `radius` m."""
-        self.route = self.route.turn(
-            angle, radius, min(WALKING_SPEED, TIGHT_TURN_SPEED if radius < 1.0 else WALKING_SPEED)
-        )
-        chord, direction = 2.0 * radius * abs(sin(0.5 * angle)), self.heading + 0.5 * angle
-        self.position = (self.position[0] + chord * cos(direction), self.position[1] + chord * sin(direction))
+        speed = min(WALKING_SPEED, TIGHT_TURN_SPEED if radius < 1.0 else WALKING_SPEED)
+        chord = 2.0 * radius * abs(sin(0.5 * angle))
+        self._go(self.route.turn(angle, radius, speed), chord, self.heading + 0.5 * angle)
         self.heading += angle
+
+    def flight(self, up: bool) -> None:
+        """Walk one flight of stairs."""
+        self._go(self.route.stairs(RISERS, up, RISE, GOING), RISERS * GOING, self.heading)
+
+    def _go(self, route: Route, distance: float, direction: float) -> None:
+        """Go on to a longer route, `distance` m away in this direction of the plan frame, rad."""
+        self.route, (x, y) = route, self.position
+        self.position = (x + distance * cos(direction), y + distance * sin(direction))
 
     def walk_along(self, points: list[Point]) -> None:
         """Walk from point to point, m, plan frame, with rounded corners; turn on the spot to the first one."""
@@ -114,12 +119,6 @@ class Course:
         self.walk(TURN_DISTANCE - (last_edge + edge))
         self.flight(up)
         self.level = OTHER_LEVEL[self.level]
-
-    def flight(self, up: bool) -> None:
-        """Walk one flight of stairs."""
-        self.route = self.route.stairs(RISERS, up, RISE, GOING)
-        x, y = self.position
-        self.position = (x + RISERS * GOING * cos(self.heading), y + RISERS * GOING * sin(self.heading))
 
 
 def plan_track(start: Start, walker: Walker, t: Array) -> Array:

@@ -60,27 +60,27 @@ class FootfallPlan:
         s = 0.0
         while not ends or ends[-1] < path.length:
             speed, running = path.pace(min(s, path.length))
-            step_length = (
-                speed * 60.0 / running_cadence(speed)
-                if running
-                else self.wearer.walk_ratio * self.wearer.cadence(speed)
-            )
+            cadence = self._cadence(speed, running)
+            step_length = speed * 60.0 / cadence if running else self.wearer.walk_ratio * cadence
             s += step_length * self.vary(self.wearer.length_variation)
             ends.append(s)
         if len(ends) > 1 and ends[-1] - path.length > path.length - ends[-2]:
             ends.pop()
         scale = path.length / ends[-1]
-        move_pose = self.wearer.wander.way(path.length, self.rng) if self.wearer.wander else None
+        move_pose = self.wearer.wander(path.length, self.rng) if self.wearer.wander else None
         footfalls = []
         for end in (scale * end for end in ends):
             pose, move = path.at(end)
             if move_pose is not None:
                 pose = move_pose(pose, end)
             speed, running = path.pace(end)
-            step_time = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
+            step_time = 60.0 / self._cadence(speed, running)
             kind = StrideKind.RUN if running else StrideKind.WALK
             footfalls.append(Footfall(pose, speed, step_time, move.curvature, kind))
         return footfalls
+
+    def _cadence(self, speed: float, running: bool) -> float:
+        return running_cadence(speed) if running else self.wearer.cadence(speed)
 
     def _mark_footfalls(self, path: WalkPath, spacing: float) -> list[Footfall]:
         count = max(1, round(path.length / spacing))

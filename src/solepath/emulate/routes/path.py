@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import groupby
 from math import cos, pi, sin, sqrt
 
 import numpy as np
@@ -231,13 +232,9 @@ class WalkPath:
     @property
     def sections(self) -> tuple[WalkPath, ...]:
         """Sections of the path, in order: each flight of stairs, and the level pieces between flights."""
-        sections: list[list[Piece]] = []
-        for piece in self.pieces:
-            if sections and piece.flight is None and sections[-1][-1].flight is None:
-                sections[-1].append(piece)
-            else:
-                sections.append([piece])
-        return tuple(WalkPath(tuple(pieces)) for pieces in sections)
+        return tuple(
+            [WalkPath(tuple(pieces)) for _, pieces in groupby(self.pieces, lambda piece: piece.flight is None)]
+        )
 
     def pace(self, s: float) -> tuple[float, bool]:
         """Return the speed `s` m after the halt, m/s, and whether the wearer runs there.

@@ -49,12 +49,12 @@ class Route:
     spacing: float | None = None
     """Distance between the marks to step on along the path, m; None: steps of natural length."""
 
-    def paced(self, spacing: float | None) -> Route:
-        """Let the wearer step on marks from here on; None: steps of natural length again. The wearer must stand here.
+    def paced(self, spacing: float) -> Route:
+        """Let the wearer, who must stand here, step on marks from here on.
 
         Marks are `spacing` m apart along the path from one halt to the next; the spacing is scaled so that the last
         mark is at the end of the path."""
-        return evolve(self, spacing=None if spacing is None else _positive("spacing", spacing))
+        return evolve(self, spacing=_positive("spacing", spacing))
 
     def stand(self, duration: float) -> Route:
         """Halt with a half step that brings the feet together, then stand for `duration` s."""

@@ -84,15 +84,6 @@ def case_study() -> BuildingWalk:
     return BuildingWalk(course.route, course.start, GROUND, a.name, b.name)
 
 
-def corridor() -> BuildingWalk:
-    """Return a walk of 63 m straight on from door to door, like the long corridor of Liu et al. 2015, section V-D."""
-    course = Course(GROUND, (FOUR_LOOPS.columns[0], 0.0), 0.5 * pi)
-    course.stand()
-    course.walk(63.0)
-    course.stand()
-    return BuildingWalk(course.route, course.start, GROUND)
-
-
 def wandering(seed: int, building: Building = FOUR_LOOPS) -> BuildingWalk:
     """Return a random walk that enters a floor by an elevator or stairs and leaves it by another one."""
     rng = np.random.default_rng([seed, 5])

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import struct
-
+import numpy as np
 from attrs import frozen
 
 from ...link.devices.dot import ORIENTATION_DRIVER as DRIVER
@@ -49,8 +48,8 @@ class Dot:
         sent = setup_notifications(DRIVER.profile, {"dot-orientation/battery": BATTERY_VALUE})
         (stream,) = DRIVER.profile.streams
         # Attitudes are sent as 32-bit floats.
-        for k, (sample_time, quat) in enumerate(zip(t.tolist(), attitudes.tolist(), strict=True)):
+        for k, (sample_time, quat) in enumerate(zip(t.tolist(), attitudes.astype(np.float32).tolist(), strict=True)):
             ticks = (first_ticks + round(k * TICK_RATE / SAMPLING_RATE)) % 2**32
-            data = DRIVER.write(stream, {"ticks": ticks, "quat": struct.unpack("<4f", struct.pack("<4f", *quat))})
+            data = DRIVER.write(stream, {"ticks": ticks, "quat": quat})
             sent.append(Notification(sample_time + HANDLING_TIME, stream, data))
         return sent

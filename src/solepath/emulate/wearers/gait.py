@@ -38,23 +38,13 @@ class HeelPad(Protocol):
         the foot's load, `weight` is in N, and `speed` is a ratio to 1.3 m/s."""
 
 
-class Wandering(Protocol):
-    """Wandering of a body about the path."""
+Wandering = Callable[[float, Rng], Callable[[Pose, float], Pose]]
+"""Function of the length of a path, m, that returns a function that moves a pose on it, which is so many m along it."""
+Swaying = Callable[[float, float, float, float, Rng], Iterator[tuple[float, float, list[Array]]]]
+"""Function that yields the pieces of a foot that stands, of the start and the end of standing, and of swaying, s.
 
-    def way(self, length: float, rng: Rng) -> Callable[[Pose, float], Pose]:
-        """Return a function that moves a pose on a path of this length, m, which is so many m along it."""
-
-
-class Swaying(Protocol):
-    """Sway of a foot that stands."""
-
-    def pieces(
-        self, t_start: float, first: float, last: float, end: float, rng: Rng
-    ) -> Iterator[tuple[float, float, list[Array]]]:
-        """Yield the pieces of a foot that stands from `t_start` to `end`, s, and sways from `first` to `last`, s.
-
-        A piece has its start and end, s, and the curves of pitch, yaw and roll, rad. All are 0 at `first` and `last`,
-        and yaw is relative to the foot's own."""
+A piece has its start and end, s, and the curves of pitch, yaw and roll, rad. All are 0 at both ends of swaying, and yaw
+is relative to the foot's own."""
 
 
 class LoadLaw(Enum):

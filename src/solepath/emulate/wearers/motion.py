@@ -114,10 +114,10 @@ class FootMotion:
         # v = v_c + w x r, a = a_c + w' x r + w x (w x r).
         x, y, z = mounting.position
         arm = np.stack([x - self.reference[row, 0], np.full_like(t, y), z - self.reference[row, 1]], axis=1)
-        arm_velocity = _cross(rate, arm)
+        arm_velocity = np.cross(rate, arm)
         position = centre + _apply(turn, arm)
         velocity = centre_v + _apply(turn, arm_velocity)
-        acceleration = centre_a + _apply(turn, _cross(rate_change, arm) + _cross(rate, arm_velocity))
+        acceleration = centre_a + _apply(turn, np.cross(rate_change, arm) + np.cross(rate, arm_velocity))
 
         for ride in self.rides:
             moved = t >= ride.start
@@ -204,12 +204,6 @@ def _multiply(p: Array, q: Array) -> Array:
     """Return the Hamilton products of p (N, 4) with one q."""
     w, x, y, z = q
     return np.asarray(p @ np.array([[w, x, y, z], [-x, w, -z, y], [-y, z, w, -x], [-z, -y, x, w]]))
-
-
-def _cross(a: Array, b: Array) -> Array:
-    """Return the cross products of rows, in a third of the time that numpy.cross takes."""
-    (ax, ay, az), (bx, by, bz) = np.ascontiguousarray(a.T), np.ascontiguousarray(b.T)
-    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1)
 
 
 def _apply(turn: Array, v: Array) -> Array:

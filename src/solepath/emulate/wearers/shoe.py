@@ -15,7 +15,7 @@ from attrs import evolve, frozen
 
 from ...types import Quat, Vec3
 from ...types.vector import IDENTITY
-from .soles.contact import RIGID, GroundContact
+from .contact import RIGID, GroundContact
 
 
 @frozen

@@ -6,7 +6,7 @@ the roll over the heel at heel-strike. A bump is added that keeps the sole just 
 
 At heel-strike the heel still moves by some decimetres per second relative to the ground, as in reality. Sole and heel
 pad deform and stop the heel within the impact time; from then on the heel rolls without slip. Impact, slip at toe-off
-and the place where the sole bends may vary between strides (soles/contact.py). Numbers without a source were chosen by
+and the place where the sole bends may vary between strides (contact.py). Numbers without a source were chosen by
 hand for plausible rates and forces of a foot and not swept."""
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from attrs import evolve
 from ...types import Foot, Phase
 from ..routes.path import Pose
 from ..routes.styles import StrideKind
+from .contact import MAX_IMPACT_SHARE, TOE_SLIP, impact_displacement, slip_at_toe_off
 from .curves import BUMP, LEVELLING, Array, EndState, Rng, constant, evaluate, join, subcurve
 from .gait import PlannedStride, WalkPlan, Wearer
 from .motion import PHASES, FootMotion
 from .ramps import axes, leaning, ramp_height, steeper
 from .shoe import Rocker
-from .soles.contact import MAX_IMPACT_SHARE, RIGID, TOE_SLIP, impact_displacement, slip_at_toe_off
 from .swing import pitch_at, reversal_share, running_swing_pitch, walking_swing_pitch
 
 TOE_OFF_SLOPES = (2.1, -2.0)
@@ -59,7 +59,7 @@ class _MotionBuilder:
     def __init__(self, wearer: Wearer, plan: WalkPlan, rng: Rng, contact_rng: Rng) -> None:
         self.worn_shoe, self.sway, self.rng, self.contact_rng = wearer.shoe, wearer.sway, rng, contact_rng
         self.shoe = wearer.shoe
-        self.contact = RIGID.draw(contact_rng)
+        self.contact = wearer.shoe.contact.draw(contact_rng)
         self.rides, self.moving_ground, self.duration = plan.rides, plan.moving_ground, plan.duration
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
 
@@ -90,7 +90,7 @@ class _MotionBuilder:
             return
         arc = self.shoe.heel
         centre = [constant(float(value)) for value in self._centre(arc, pose)]
-        for start, stop, (pitch, yaw, roll) in self.sway.pieces(t_start, first, last, end, self.rng):
+        for start, stop, (pitch, yaw, roll) in self.sway(t_start, end, first, last, self.rng):
             curves = leaning([*centre, pitch, yaw + constant(pose.heading), roll], pose, arc.radius)
             self._add(start, stop, curves, (arc.x, arc.radius), arc.radius, Phase.STATIONARY)
 

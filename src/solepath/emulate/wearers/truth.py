@@ -6,7 +6,9 @@ sensor's position at t = 0 relative to the point between the feet; with it both 
 
 from __future__ import annotations
 
+from itertools import groupby, pairwise
 from math import atan2, cos, hypot, sin
+from operator import itemgetter
 
 import numpy as np
 from attrs import evolve, frozen
@@ -32,30 +34,21 @@ def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
         overlapping.append((climb.start, climb.end, Activity.STAIRS_UP if climb.up else Activity.STAIRS_DOWN))
     for car in plan.rides:
         overlapping.append((car.start, car.end, Activity.ELEVATOR_UP if car.height > 0.0 else Activity.ELEVATOR_DOWN))
-    spans: list[tuple[float, float, Activity]] = []
     boundaries = sorted({0.0, plan.duration, *(t for start, end, _ in overlapping for t in (start, end))})
-    for start, end in zip(boundaries, boundaries[1:], strict=False):
-        middle = 0.5 * (start + end)
-        # Later spans are more specific and replace earlier ones.
-        activity = next((a for b, e, a in reversed(overlapping) if b <= middle < e), Activity.STANDING)
-        if spans and spans[-1][2] is activity:
-            spans[-1] = (spans[-1][0], end, activity)
-        else:
-            spans.append((start, end, activity))
-    return tuple(spans)
+
+    def activity_in(span: tuple[float, float]) -> Activity:
+        """Return the activity between two boundaries; later spans are more specific and replace earlier ones."""
+        middle = 0.5 * (span[0] + span[1])
+        return next((a for b, e, a in reversed(overlapping) if b <= middle < e), Activity.STANDING)
+
+    found = [(activity, list(spans)) for activity, spans in groupby(pairwise(boundaries), activity_in)]
+    return tuple([(spans[0][0], spans[-1][1], activity) for activity, spans in found])
 
 
 def _running_spans(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
     strides = sorted((s.heel_strike, s.toe_off, s.kind is StrideKind.RUN) for foot in Foot for s in plan.strides[foot])
-    spans: list[tuple[float, float, Activity]] = []
-    was_running = False
-    for heel_strike, toe_off, is_running in strides:
-        if is_running and was_running:
-            spans[-1] = (spans[-1][0], heel_strike, Activity.RUNNING)
-        elif is_running:
-            spans.append((toe_off, heel_strike, Activity.RUNNING))
-        was_running = is_running
-    return spans
+    runs = [list(one) for is_running, one in groupby(strides, itemgetter(2)) if is_running]
+    return [(run[0][1], run[-1][0], Activity.RUNNING) for run in runs]
 
 
 @frozen

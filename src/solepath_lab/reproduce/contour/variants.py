@@ -13,7 +13,6 @@ from attrs import evolve, frozen
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.wearers.gait import LoadLaw, Wearer
 from solepath.emulate.wearers.shoe import Shoe
-from solepath.emulate.wearers.soles.contact import SLIPPING, WORN
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from solepath.papers.pressure_contour.contour import PAPER_LEVELS, Contours, ContourSettings
 from solepath.papers.pressure_contour.contour_stance import (
@@ -27,6 +26,7 @@ from solepath.recipes import Recipe
 from solepath.types import Foot
 
 from ...emulated.boot import INERTIACUBE3, TILTED_INERTIACUBE3, WORN_CAPACITIVE, HeelPad, boot
+from ...emulated.soles import SLIPPING, WORN
 
 RATE = 50.0
 """Sampling rate, Hz (assumed)."""

@@ -8,7 +8,6 @@ from math import degrees, hypot
 
 from solepath.calibration import Calibration, CalibrationError
 from solepath.emulate.routes.route import Route
-from solepath.emulate.routes.ways import corridor
 from solepath.emulate.walk import EmulatedWalk
 from solepath.events import Event, StrideTaken
 from solepath.foot.stance.stance import Load, Stance
@@ -22,6 +21,7 @@ from solepath.types import OTHER, SITE_OF_FOOT, Foot, Packet, Quat, Vec3
 from solepath.types.attrs import define, evolve, field
 from solepath.types.vector import GRAVITY, IDENTITY
 
+from ...emulated.buildings import corridor
 from ..tables import PictureTrack, Plot, WalkResults
 from ..walks import final_strides
 from .wearers import LENGTH_RECIPES, ONE_METRE_RULE, WearerJob

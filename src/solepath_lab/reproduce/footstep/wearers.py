@@ -1,7 +1,7 @@
 """Wearers of the experiments, the shoes and sensors that they may have, and the variants of the recipe.
 
 A CC2541 in each insole samples at 20 Hz (section IV, "System Deployment"). Every wearer has another pair. The soles are
-worn ones, which flex and slip (emulate/wearers/soles/contact.py)."""
+worn ones, which flex and slip (emulated/soles.py)."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.parts import MPU6050
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.emulate.wearers.contact import RIGID, GroundContact
 from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP
-from solepath.emulate.wearers.soles.contact import RIGID, SLIPPING, WORN, GroundContact
 from solepath.papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
 from solepath.papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
@@ -24,6 +24,7 @@ from solepath.papers.footstep_tracker.snake import PrintedSnake
 from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
 from solepath.types import SITE_OF_FOOT, Packet
 
+from ...emulated.soles import SLIPPING, WORN
 from ...emulated.wearers import random_wearer
 
 RATE = 20.0

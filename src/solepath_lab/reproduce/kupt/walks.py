@@ -13,9 +13,9 @@ from solepath.calibration.records import merged
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import LSM6DSOX, MPU9250, WORN_RESISTIVE, Imu
 from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.emulate.wearers.contact import RIGID, GroundContact
 from solepath.emulate.wearers.gait import LoadLaw, Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE, Mounting, Shoe
-from solepath.emulate.wearers.soles.contact import RIGID, SLIPPING, WORN, GroundContact
 from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
 from solepath.papers.kupt_dfpc.noise import pressure_noise
 from solepath.papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC
@@ -29,6 +29,7 @@ from solepath.types.vector import from_rotation_vector
 
 from ...emulated.laps import corridor, straight
 from ...emulated.postures import postures, write_postures
+from ...emulated.soles import SLIPPING, WORN
 from ..walks import WalkParts, cut_walk, find_halt, join_routes
 
 RATE = 30.0

@@ -16,8 +16,8 @@ from solepath.calibration import Calibration, InsoleCalibration, Limbs
 from solepath.calibration.records import merged
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import CRE_CC02, WORN_RESISTIVE
+from solepath.emulate.wearers.contact import RIGID, GroundContact
 from solepath.emulate.wearers.gait import LoadLaw, Wearer
-from solepath.emulate.wearers.soles.contact import RIGID, GroundContact
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import TouchedDown
 from solepath.papers.walking_modes.calibrate import MODES, ModeMark, StepError, mean_errors, step_errors, touchdowns

@@ -10,8 +10,8 @@ from typing import Any
 from attrs import evolve, frozen
 
 from solepath.emulate.sensors.parts import LSM6DSOX, MPU6050, Imu
+from solepath.emulate.wearers.contact import RIGID, GroundContact
 from solepath.emulate.wearers.shoe import ON_HEEL, ON_INSTEP, Mounting
-from solepath.emulate.wearers.soles.contact import RIGID, SLIPPING, WORN, GroundContact
 from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing, ShoeSensingSettings
 from solepath.papers.shoe_sensing.printed import GatedTilt, GatedTiltSettings
 from solepath.papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING, SHOE_SENSING_PRINTED
@@ -19,6 +19,8 @@ from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude
 from solepath.recipes import DEFAULT, Recipe
 from solepath.types import Foot
 from solepath.types.vector import from_rotation_vector
+
+from ...emulated.soles import SLIPPING, WORN
 
 TILTED = Mounting(ON_INSTEP.position, from_rotation_vector((0.0, 0.4, 0.0)))
 """Mounting on the laces, which slope down to the toe by 0.4 rad (assumed)."""
@@ -98,7 +100,7 @@ class ShoeSetup:
 
 
 TABLE = ShoeSetup("worn sole")
-"""Setup of the table: a foot that flexes and slips (emulate/wearers/soles/contact.py)."""
+"""Setup of the table: a foot that flexes and slips (emulated/soles.py)."""
 SETUPS = (
     TABLE,
     *(ShoeSetup(f"{rate:g} Hz", rate=rate) for rate in (40.0, 50.0, 60.0, 80.0)),

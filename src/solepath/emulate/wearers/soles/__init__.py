@@ -1,1 +1,0 @@
-"""Soles and heels as they are worn: where they differ from rigid ones that roll without slip."""
