@@ -35,7 +35,7 @@ def parser() -> Parser:
     top = Parser(
         prog="solepath-lab",
         description="How good solepath is, and how its parameters were learnt: every table of the documents.",
-        epilog="example: solepath-lab evaluate --emulated --walks 1",
+        example="solepath-lab evaluate --emulated --walks 1",
     )
     commands = top.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser, required=True)
     for command in COMMANDS:

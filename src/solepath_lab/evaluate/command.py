@@ -36,7 +36,7 @@ def add_to(commands: Any) -> None:
         help="score recipes on recorded data with a truth, and on emulated walks",
         description="Score recipes on a directory of recorded data with a truth, on long emulated walks, or on both, "
         "and print the tables.",
-        epilog="example: solepath-lab evaluate --emulated --walks 1",
+        example="solepath-lab evaluate --emulated --walks 1",
     )
     command.add_argument("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})")
     add_only(command)

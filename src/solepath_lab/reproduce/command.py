@@ -42,7 +42,7 @@ def add_to(commands: Any) -> None:
         help="walk a paper's experiment again on the emulator",
         description="Walk the experiment of a paper again with emulated wearers and emulated sensors, and print its "
         "table beside the paper's.",
-        epilog="example: solepath-lab reproduce kupt-dfpc --walks 5 --figure kupt.png",
+        example="solepath-lab reproduce kupt-dfpc --walks 5 --figure kupt.png",
     )
     complete_with(command.add_argument("name", metavar="NAME", help=", ".join(NAMES)), lambda: NAMES)
     command.add_argument(

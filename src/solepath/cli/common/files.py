@@ -44,58 +44,47 @@ MAX_START = 1_000_000
 
 @frozen
 class Kind:
-    """A kind of output file; `start` matches the first bytes of such a file, None if it is replaced with --force only.
+    """A kind of output file.
 
-    `is_elsewhere` says that `start` may match anywhere in the first MAX_START bytes."""
+    `mark` is a pattern of the first MAX_START bytes of such a file, None if it is replaced with --force only."""
 
-    start: re.Pattern[bytes] | None
-    is_elsewhere: bool = False
+    mark: bytes | None
 
     def is_own(self, path: Path) -> bool:
         """Return whether an existing file is of this kind, or empty."""
         with path.open("rb") as file:
             content = file.read(MAX_START)
-        if not content:
-            return True
-        if self.start is None:
-            return False
-        return bool(self.start.search(content) if self.is_elsewhere else self.start.match(content))
+        return not content or self.mark is not None and re.search(self.mark, content, re.DOTALL) is not None
 
 
 def _table(columns: Sequence[str]) -> Kind:
-    return Kind(re.compile(re.escape(",".join(columns).encode()) + rb"\r?\n"))
+    return Kind(rb"\A" + re.escape(",".join(columns).encode()) + rb"\r?\n")
 
 
 RECORDING = Kind(None)
 """A recording, of packets or MCAP: what was measured once cannot be computed again."""
-REPORT = Kind(
-    re.compile(rb'<!DOCTYPE html>\n<html lang="en"><head>[^\n]{0,80}<meta name="generator" content="solepath">')
-)
-EXPERIMENT = Kind(re.compile(rb'\{\n "name": "[^"\n]*",\n "emulated": true,\n "table": \{'))
+REPORT = Kind(rb'\A<!DOCTYPE html>\n<html lang="en"><head>[^\n]{0,80}<meta name="generator" content="solepath">')
+EXPERIMENT = Kind(rb'\A\{\n "name": "[^"\n]*",\n "emulated": true,\n "table": \{')
 """JSON of `reproduce`."""
-SCORES = Kind(re.compile(rb'\{\}\n|\{\n "[^"\n]*": \{\n  "[^"\n]*": \{\n   "recordings": \{'))
+SCORES = Kind(rb'\A\{\}\n|\A\{\n "[^"\n]*": \{\n  "[^"\n]*": \{\n   "recordings": \{')
 """JSON of `evaluate`."""
-FLEET_FIGURES = Kind(re.compile(rb'\{\n "wearers": \d+,\n "seconds": '))
+FLEET_FIGURES = Kind(rb'\A\{\n "wearers": \d+,\n "seconds": ')
 """JSON of `fleet-demo`."""
 FIGURE = Kind(
-    re.compile(
-        rb"\A\x89PNG.{0,60}tEXtSoftware\0solepath|\A%!PS-Adobe[^\n]*\n(?:%%[^\n]*\n)*%%Creator: solepath\n"
-        rb"|/Creator \(solepath\) /Producer \(Matplotlib |<dc:creator>\s*<cc:Agent>\s*<dc:title>solepath</dc:title>",
-        re.DOTALL,
-    ),
-    is_elsewhere=True,
+    rb"\A\x89PNG.{0,60}tEXtSoftware\0solepath|\A%!PS-Adobe[^\n]*\n(?:%%[^\n]*\n)*%%Creator: solepath\n"
+    rb"|/Creator \(solepath\) /Producer \(Matplotlib |<dc:creator>\s*<cc:Agent>\s*<dc:title>solepath</dc:title>"
 )
 """A figure of `reproduce` (.png, .eps, .ps, .pdf, .svg), whose metadata name the program that drew it."""
-CALIBRATION = Kind(re.compile(rb""))
+CALIBRATION = Kind(b"")
 """A calibration, which is read, checked and completed: what is none stays as it is."""
 TRACK_KINDS = {
-    EVENTS_FILE: Kind(re.compile(rb'\{"event": "[A-Z]\w*", "t": [^\s,"]+, "known_at": ')),
+    EVENTS_FILE: Kind(rb'\A\{"event": "[A-Z]\w*", "t": [^\s,"]+, "known_at": '),
     TRACK_FILE: _table(TRACK_COLUMNS),
     STRIDES_FILE: _table(STRIDE_COLUMNS),
     GAIT_CYCLES_FILE: _table(CYCLE_COLUMNS),
 }
 PLACE_KINDS = {PLACES_FILE: _table(PLACE_COLUMNS)}
-PLAN_KINDS = {PLAN_FILE: Kind(re.compile(rb"""<\?xml [^\n]*\n<svg [^\n>]*id="solepath-plan\""""))}
+PLAN_KINDS = {PLAN_FILE: Kind(rb"""\A<\?xml [^\n]*\n<svg [^\n>]*id="solepath-plan\"""")}
 
 
 @frozen
@@ -177,7 +166,7 @@ def check_outputs(options: Namespace, outputs: Sequence[OutputFile], *inputs: Pa
             except BlockingIOError:
                 raise Failure(f"{path}: {LOCKED}") from None
             if not getattr(options, "force", False) and not kind.is_own(path):
-                why = "exists" if kind.start is None else "exists and is no such file that solepath wrote"
+                why = "exists" if kind.mark is None else "exists and is no such file that solepath wrote"
                 raise Failure(f"{path}: {why}; --force replaces it")
     for output in outputs:
         _check_writable(output.path, getattr(options, "out", None))
