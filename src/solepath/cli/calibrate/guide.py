@@ -107,7 +107,7 @@ class Dialogue:
 
     async def prompt(self, question: str) -> str:
         """Print a question and return the line that is typed; raise EOFError for END, and at the end of the input."""
-        self._ask(f"{question} ")
+        self._print(f"{question} ")
         async for typed in self.turns(lambda: self._shown):
             if typed is not None:
                 return typed
@@ -115,10 +115,10 @@ class Dialogue:
 
     def print_line(self, line: str = "") -> None:
         """Print a line that stays, below what was shown."""
-        self._ask("\n" * bool(self._shown) + line + "\n")
+        self._print("\n" * bool(self._shown) + line + "\n")
         self._shown = ""
 
-    def _ask(self, text: str) -> None:
+    def _print(self, text: str) -> None:
         """Print a text, and forget what was typed before it."""
         while self._typed and self._typed[0] != END:
             self._typed.popleft()
