@@ -79,7 +79,7 @@ def parser() -> Parser:
     top = Parser(
         prog="solepath-lab",
         description="How good solepath is, and how its parameters were learnt: every table of the documents.",
-        epilog="example: solepath-lab evaluate --emulated --walks 1",
+        example="solepath-lab evaluate --emulated --walks 1",
     )
     top.add_argument("--version", action="version", version=f"solepath-lab {version('solepath')}, {form()}")
     commands = top.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser, required=True)
@@ -94,7 +94,7 @@ def _add(commands: Any, added: dict[str, Command]) -> None:
     """Add commands, whose descriptions are the first paragraphs of their modules."""
     for name, (what, module, its_options) in added.items():
         text = (module.__doc__ or "").partition("\n\n")[0]
-        command = commands.add_parser(name, help=what, description=text, epilog=getattr(module, "EXAMPLE", None))
+        command = commands.add_parser(name, help=what, description=text, example=getattr(module, "EXAMPLE", ""))
         for one in its_options:
             one(command)
         command.set_defaults(run=module.run)

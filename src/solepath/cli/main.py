@@ -73,7 +73,7 @@ class _TopParser(Parser):
 
 def parser() -> Parser:
     """Return the parser with all commands."""
-    top = _TopParser(prog="solepath", epilog="example: solepath track walk.csv")
+    top = _TopParser(prog="solepath", example="solepath track walk.csv")
     top.add_argument("--version", action="store_true", help="print the version, compiled or pure, and exit")
     commands = top.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser)
     for command in COMMANDS:

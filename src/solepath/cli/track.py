@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..calibration import Calibration
 from ..recording import printable
-from .common.failure import Failure, note
+from .common.failure import Failure, note, reject_options
 from .common.files import REPORT, OutputFile, add_force, check_outputs, files_of_track
 from .common.inputs import (
     Recording,
@@ -29,7 +29,7 @@ from .common.inputs import (
 from .common.outcomes import add_outcomes, band_files_of, has_outcomes, outcomes_of
 from .common.own_devices import UnusedPackets, drivers_of
 from .common.parser import add_command
-from .common.report import add_report, check_report_options, report_of
+from .common.report import DETAILS, add_report, report_of
 from .common.tables import add_tables, feet_of, mapping_of, source_named
 from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
 
@@ -96,7 +96,8 @@ def run(options: Namespace) -> int:
     if not is_one:
         _check_comparison(options, recipes)
     outcomes = outcomes_of(options)
-    check_report_options(options)
+    if options.report is None:
+        reject_options(options, (*DETAILS, "compare"), "goes with --report")
     outputs = _outputs(options, recipes)
     calibration, drivers = calibration_of(options), drivers_of(options)
     address = page_address_of(options)
@@ -176,10 +177,8 @@ def _check_comparison(options: Namespace, recipes: Sequence[Recipe]) -> None:
     names = [recipe.name for recipe in recipes]
     if twice := [name for name in names if names.count(name) > 1]:
         raise Failure(f"--recipe {twice[0]} was given twice")
-    for option in OF_ONE_RECIPE:
-        if getattr(options, option) not in (None, False, []):
-            name = option.replace("_", "-")
-            raise Failure(f"--{name} is for one walk: give one --recipe with it, or leave it out to compare recipes")
+    why = "is for one walk: give one --recipe with it, or leave it out to compare recipes"
+    reject_options(options, OF_ONE_RECIPE, why)
     if has_outcomes(options):
         raise Failure("clinical outcomes are of one walk: give one --recipe with them")
 

@@ -12,7 +12,7 @@ from time import sleep
 from typing import Any
 
 from ..show.tables.table import number, table
-from .common.failure import Failure, note, parse_whole_number, tell
+from .common.failure import Failure, note, parse_port, reject_options, tell
 from .common.os_errors import address_error_text
 from .common.parser import add_command
 from .common.view import open_browser
@@ -41,7 +41,7 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("--serve", action="store_true", help="show the site on this machine")
     command.add_argument(
-        "--port", metavar="N", type=parse_whole_number, help=f"port of --serve (default: {DEFAULT_PORT}; 0: any)"
+        "--port", metavar="N", type=parse_port, help=f"port of --serve (default: {DEFAULT_PORT}; 0: any)"
     )
     command.add_argument("--no-browser", action="store_true", help="open no browser: only say where the site is")
 
@@ -53,12 +53,10 @@ def run(options: Namespace) -> int:
     from ..show.tables.progress import progress_bar
     from ..show.web.site import build_site
 
-    if not options.serve and (options.port is not None or options.no_browser):
-        raise Failure("--port and --no-browser are for --serve")
-    if options.out is None and not options.serve:
-        raise Failure("name the folder of the site, or show it with --serve")
-    if options.port is not None and options.port > 65535:
-        raise Failure(f"--port {options.port}: there is no such port: ports are 0 to 65535")
+    if not options.serve:
+        reject_options(options, ("port", "no_browser"), "is for --serve")
+        if options.out is None:
+            raise Failure("name the folder of the site, or show it with --serve")
     if options.out is not None and options.out.exists() and not options.out.is_dir():
         raise Failure(f"{options.out}: is a file; the site needs a folder")
     with ExitStack() as stack:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 from collections.abc import Iterator
 from functools import partial
 from itertools import chain
@@ -31,7 +30,7 @@ ENVIRONMENT = "SOLEPATH_DATA"
 """Environment variable that names the data directory."""
 
 
-SCORES = Kind(re.compile(rb'\{\}\n|\{\n "[^"\n]*": \{\n  "[^"\n]*": \{\n   "recordings": \{'))
+SCORES = Kind(rb'\A\{\}\n|\A\{\n "[^"\n]*": \{\n  "[^"\n]*": \{\n   "recordings": \{')
 """JSON of `evaluate`."""
 OPTIONS = (
     option("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})"),
@@ -63,7 +62,7 @@ OPTIONS = (
     ),
     PROCESSES,
 )
-EXAMPLE = "example: solepath-lab evaluate --emulated --walks 1"
+EXAMPLE = "solepath-lab evaluate --emulated --walks 1"
 
 
 def run(options: argparse.Namespace) -> int:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import re
 import sys
 from functools import partial
 from pathlib import Path
@@ -31,15 +30,11 @@ EXPERIMENTS: dict[str, Experiment] = {
     "shoe-sensing": shoe_sensing.reproduce,
 }
 """Function that repeats the experiment of each paper."""
-EXPERIMENT = Kind(re.compile(rb'\{\n "name": "[^"\n]*",\n "emulated": true,\n "table": \{'))
+EXPERIMENT = Kind(rb'\A\{\n "name": "[^"\n]*",\n "emulated": true,\n "table": \{')
 """JSON of `reproduce`."""
 FIGURE = Kind(
-    re.compile(
-        rb"\A\x89PNG.{0,60}tEXtSoftware\0solepath|\A%!PS-Adobe[^\n]*\n(?:%%[^\n]*\n)*%%Creator: solepath\n"
-        rb"|/Creator \(solepath\) /Producer \(Matplotlib |<dc:creator>\s*<cc:Agent>\s*<dc:title>solepath</dc:title>",
-        re.DOTALL,
-    ),
-    is_elsewhere=True,
+    rb"\A\x89PNG.{0,60}tEXtSoftware\0solepath|\A%!PS-Adobe[^\n]*\n(?:%%[^\n]*\n)*%%Creator: solepath\n"
+    rb"|/Creator \(solepath\) /Producer \(Matplotlib |<dc:creator>\s*<cc:Agent>\s*<dc:title>solepath</dc:title>"
 )
 """A figure of `reproduce` (.png, .eps, .ps, .pdf, .svg), whose metadata name the program that drew it."""
 NAMES = tuple(EXPERIMENTS)
@@ -71,7 +66,7 @@ OPTIONS = (
     add_force,
     PROCESSES,
 )
-EXAMPLE = "example: solepath-lab reproduce kupt-dfpc --walks 5 --figure kupt.png"
+EXAMPLE = "solepath-lab reproduce kupt-dfpc --walks 5 --figure kupt.png"
 
 
 def run(options: argparse.Namespace) -> int:

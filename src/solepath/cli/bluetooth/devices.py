@@ -125,28 +125,26 @@ def choose_devices(found: list[Advertisement], kind: str | None, own: Sequence[D
     drivers of devices of one's own."""
     from ...ble import DeviceConfig
     from ...link.devices.insole import PROFILE as INSOLE
-    from ...link.setup.config import identify
+    from ...link.setup.config import advertises, identify
 
     named = profile_named(kind, own)
-    profiles = {one.address: identify(one.name, one.services, [driver.profile for driver in own]) for one in found}
-    if named is not None:
-        known = [
-            device
-            for device in found
-            if named.matches_name(device.name) or not {*named.services}.isdisjoint(device.services)
-        ]
-    else:
-        known = [device for device in found if profiles[device.address] is not None]
-    if any(profiles[device.address] is INSOLE for device in known):
+
+    def profile_of(one: Advertisement) -> Profile | None:
+        if named is None:
+            return identify(one.name, one.services, [driver.profile for driver in own])
+        return named if advertises(named, one.name, one.services) else None
+
+    known = [(one, profile) for one in found if (profile := profile_of(one)) is not None]
+    if any(profile is INSOLE for _, profile in known):
         return [DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]
-    if len(known) == 1:
-        note(f"{known[0].name}: taken for the right foot's (--left {known[0].address} says otherwise)")
-        return [DeviceConfig(Site.RIGHT_FOOT, known[0].address, named or profiles[known[0].address])]
-    if not known and named is not None:
-        raise Failure(f"no {named.name} is in range: switch it on, or say which device it is with --left and --right")
     if not known:
-        raise Failure("no device in range is known here: switch it on, or say which with --left and --right")
-    names = ", ".join(f"{device.address} ({device.name})" for device in known)
+        what = "device that is known here" if named is None else named.name
+        raise Failure(f"no {what} is in range: switch it on, or say which device it is with --left and --right")
+    if len(known) == 1:
+        ((one, profile),) = known
+        note(f"{one.name}: taken for the right foot's (--left {one.address} says otherwise)")
+        return [DeviceConfig(Site.RIGHT_FOOT, one.address, profile)]
+    names = ", ".join(f"{one.address} ({one.name})" for one, _ in known)
     raise Failure(f"{len(known)} devices are in range, {names}: say which is where with --left and --right")
 
 

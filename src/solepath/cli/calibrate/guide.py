@@ -86,12 +86,10 @@ class Dialogue:
         self._typed.append(END)
 
     async def turns(self, line: Callable[[], str]) -> AsyncIterator[str | None]:
-        """Forget what was typed before anything was asked, then yield each line that is typed, or None while none is.
+        """Yield each line that is typed, or None while none is.
 
         The line that `line` returns is shown meanwhile, and stays above the next one. EOFError is raised for END, and
         at the end of the input; an error of `receiving` is raised too."""
-        while self._typed and self._typed[0] != END:
-            self._typed.popleft()
         while True:
             if self._receiving.done():
                 self._receiving.result()
@@ -109,7 +107,7 @@ class Dialogue:
 
     async def prompt(self, question: str) -> str:
         """Print a question and return the line that is typed; raise EOFError for END, and at the end of the input."""
-        print(f"{question} ", end="", flush=True)
+        self._print(f"{question} ")
         async for typed in self.turns(lambda: self._shown):
             if typed is not None:
                 return typed
@@ -117,5 +115,11 @@ class Dialogue:
 
     def print_line(self, line: str = "") -> None:
         """Print a line that stays, below what was shown."""
-        print("\n" * bool(self._shown) + line, flush=True)
+        self._print("\n" * bool(self._shown) + line + "\n")
         self._shown = ""
+
+    def _print(self, text: str) -> None:
+        """Print a text, and forget what was typed before it."""
+        while self._typed and self._typed[0] != END:
+            self._typed.popleft()
+        print(text, end="", flush=True)

@@ -4,22 +4,15 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Coroutine
 from functools import partial
-from typing import TYPE_CHECKING, Any
 
 from ..bluetooth.devices import add_feet, need_bleak
-from ..common.failure import Failure
+from ..common.failure import Failure, reject_options
 from ..common.files import Kind, OutputFile, add_force, check_outputs
-from ..common.view import PageAddress, add_view, page_address_of
-
-if TYPE_CHECKING:
-    import asyncio
+from ..common.view import add_view, page_address_of
 
 OF_LIVE = ("height", "heel", "via", "left", "right", "profile", "pair", "view", "no_browser")
 """Options that only --live uses."""
-Measure = Callable[[Namespace, PageAddress | None, "asyncio.Event"], Coroutine[Any, Any, int]]
-"""Function that makes the file with a person at the terminal."""
 
 
 def add_live(command: ArgumentParser, what: str, shown: str) -> None:
@@ -30,16 +23,13 @@ def add_live(command: ArgumentParser, what: str, shown: str) -> None:
     add_force(command)
 
 
-def measure_live(options: Namespace, kind: Kind, purpose: str, measure: Callable[[], Measure]) -> None:
+def measure_live(options: Namespace, kind: Kind, purpose: str) -> None:
     """Make the file, of this `kind`, with a person at the terminal, if --live is given.
 
-    `purpose` is the command with what it needs a person for; `measure` imports the function. Failure is raised for an
-    option of --live without it, or if there is no terminal, no Bluetooth, or no way to write the file; SystemExit when
-    the person stopped."""
+    `purpose` is the command with what it needs a person for. Failure is raised for an option of --live without it, or
+    if there is no terminal, no Bluetooth, or no way to write the file; SystemExit when the person stopped."""
     if not options.live:
-        for name in OF_LIVE:
-            if getattr(options, name, None) not in (None, False):
-                raise Failure(f"--{name.replace('_', '-')} is an option of --live: without it nothing is measured now")
+        reject_options(options, OF_LIVE, "is an option of --live: without it nothing is measured now")
         return
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise Failure(f"{purpose}: it needs a terminal")
@@ -48,6 +38,10 @@ def measure_live(options: Namespace, kind: Kind, purpose: str, measure: Callable
     address = page_address_of(options)
     from ..common.loop import run_to_end
 
-    status = run_to_end(partial(measure(), options, address))
+    if options.kind == "shoe":
+        from .shoe_live import measure
+    else:
+        from .toe_out_live import measure
+    status = run_to_end(partial(measure, options, address))
     if status != 0:
         raise SystemExit(status)

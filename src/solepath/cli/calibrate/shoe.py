@@ -11,7 +11,7 @@ from ...calibration import Calibration
 from ..common.failure import parse_count, parse_positive
 from ..common.files import Kind
 from ..common.parser import add_command
-from .live import Measure, add_live, measure_live
+from .live import add_live, measure_live
 
 TIMES = 3
 """Number of measurements of each posture, as in the paper."""
@@ -49,7 +49,7 @@ def add_shoe(kinds: Any) -> None:
 def _shoe(options: Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
     from ...papers.kupt_dfpc.shoe.fit import fit_shoe
 
-    measure_live(options, MEASUREMENTS, "calibrate shoe --live asks a person for what the rulers show", _measure)
+    measure_live(options, MEASUREMENTS, "calibrate shoe --live asks a person for what the rulers show")
     fit = fit_shoe(options.files[0])
     shoe = fit.calibration.shoe
     steepest = "" if shoe is None else f", flat to {degrees(shoe.steepest):.0f} degrees"
@@ -58,9 +58,3 @@ def _shoe(options: Namespace, known: Calibration) -> tuple[Calibration, list[str
         f"{1000.0 * fit.residual_radius:.1f} mm, of L_p2t {1000.0 * fit.residual_to_toe:.1f} mm, largest "
         f"{1000.0 * fit.worst:.1f} mm"
     ]
-
-
-def _measure() -> Measure:
-    from .shoe_live import measure
-
-    return measure

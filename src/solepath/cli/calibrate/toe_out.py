@@ -13,7 +13,7 @@ from ..common.files import RECORDING
 from ..common.own_devices import drivers_of
 from ..common.parser import add_command
 from ..common.tables import add_tables, source_named
-from .live import Measure, add_live, measure_live
+from .live import add_live, measure_live
 
 
 def add_toe_out(kinds: Any) -> None:
@@ -38,7 +38,7 @@ def _toe_out(options: Namespace, known: Calibration) -> tuple[Calibration, list[
 
     if options.live and options.driver_files:
         raise Failure("--driver is for a recording here: make it with `solepath record`, and give it without --live")
-    measure_live(options, RECORDING, "calibrate toe-out --live shows a person how to walk", _measure)
+    measure_live(options, RECORDING, "calibrate toe-out --live shows a person how to walk")
     distance = options.distance
     feet = toe_out(source_named(options, drivers_of(options)), distance)
 
@@ -61,9 +61,3 @@ def _toe_out(options: Namespace, known: Calibration) -> tuple[Calibration, list[
     if len(unknown) == len(feet):
         raise Failure("\n".join([*lines, "nothing is learnt"]))
     return toe_out_calibration(feet), lines
-
-
-def _measure() -> Measure:
-    from .toe_out_live import measure
-
-    return measure

@@ -101,20 +101,21 @@ class GuidedWalk:
     def _foot(self, foot: Foot) -> ShownFoot:
         strides = self.walk.strides(foot)
         shown = ShownFoot(foot, len(strides), fsum([along for along, _, _ in strides]))
-        if foot not in self.first_t:
-            return evolve(shown, why="its sensor does not send yet")
         try:
             of = self.walk.foot(foot)
         except CalibrationError as error:
             return evolve(shown, why=str(error))
         if of is None:
-            return evolve(shown, why=f"{FEWEST_STRIDES} strides are needed")
+            sends = foot in self.first_t
+            return evolve(
+                shown, why=f"{FEWEST_STRIDES} strides are needed" if sends else "its sensor does not send yet"
+            )
         why = "" if of.is_known else f"the angle is less than {ERRORS:g} of its errors"
         return evolve(shown, angle=of.angle, sigma=of.sigma, learnt=of.is_known, why=why)
 
 
 def _words(foot: ShownFoot) -> str:
-    strides = f"{foot.foot.value} {foot.strides} strides"
+    strides = f"{foot.foot} {foot.strides} strides"
     if foot.angle is not None and foot.sigma is not None:
         return f"{strides}, {degrees(foot.angle):.1f} +- {degrees(foot.sigma):.1f} degrees"
     return strides if foot.strides < FEWEST_STRIDES else f"{strides}: {foot.why}"

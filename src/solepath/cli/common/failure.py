@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentTypeError
+from argparse import ArgumentTypeError, Namespace
+from collections.abc import Iterable
 from contextlib import suppress
 from functools import partial
 from importlib.util import find_spec
@@ -54,6 +55,13 @@ def require(what: str, extra: str, *packages: str) -> None:
             raise Failure(f"{what} {package}: {install_hint(extra)}")
 
 
+def reject_options(options: Namespace, names: Iterable[str], why: str) -> None:
+    """Raise Failure if one of these options is given; `why` is the sentence after its name."""
+    for name in names:
+        if getattr(options, name, None) not in (None, False, []):
+            raise Failure(f"--{name.replace('_', '-')} {why}")
+
+
 def finite(text: str) -> float:
     """Return the finite number in `text`; raise ValueError for any other text."""
     value = nan if "_" in text else float(text)  # Python reads 1_0 as ten
@@ -99,9 +107,17 @@ def parse_span(what: str, text: str) -> tuple[float, float]:
     raise ArgumentTypeError(f"{printable(text, 80)} is not {what}, as in 12.5,24.1")
 
 
+def parse_port(text: str) -> int:
+    """Parse an option of argparse: a port; 0 is any that is free."""
+    if text.isascii() and text.isdecimal() and int(text) <= 65535:
+        return int(text)
+    raise ArgumentTypeError(f"{text[:40]!r} is not a port from 0 to 65535")
+
+
 def parse_address(text: str) -> tuple[str, int]:
     """Parse an option of argparse: HOST:PORT, where an IPv6 host may have brackets."""
     host, _, port = text.rpartition(":")
-    if not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
-        raise ArgumentTypeError(f"{text[:80]!r} is not HOST:PORT, as in {PAGE_ADDRESS}")
-    return host.removeprefix("[").removesuffix("]"), int(port)
+    with suppress(ArgumentTypeError):
+        if host:
+            return host.removeprefix("[").removesuffix("]"), parse_port(port)
+    raise ArgumentTypeError(f"{text[:80]!r} is not HOST:PORT, as in {PAGE_ADDRESS}")

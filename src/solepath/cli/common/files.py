@@ -45,46 +45,39 @@ MAX_START = 1_000_000
 
 @frozen
 class Kind:
-    """A kind of output file; `start` matches the first bytes of such a file, None if it is replaced with --force only.
+    """A kind of output file.
 
-    `is_elsewhere` says that `start` may match anywhere in the first MAX_START bytes."""
+    `mark` is a pattern of the first MAX_START bytes of such a file, None if it is replaced with --force only."""
 
-    start: re.Pattern[bytes] | None
-    is_elsewhere: bool = False
+    mark: bytes | None
 
     def is_own(self, path: Path) -> bool:
         """Return whether an existing file is of this kind, or empty."""
         with path.open("rb") as file:
             content = file.read(MAX_START)
-        if not content:
-            return True
-        if self.start is None:
-            return False
-        return bool(self.start.search(content) if self.is_elsewhere else self.start.match(content))
+        return not content or self.mark is not None and re.search(self.mark, content, re.DOTALL) is not None
 
 
 def _table(columns: Sequence[str]) -> Kind:
-    return Kind(re.compile(re.escape(",".join(columns).encode()) + rb"\r?\n"))
+    return Kind(rb"\A" + re.escape(",".join(columns).encode()) + rb"\r?\n")
 
 
 RECORDING = Kind(None)
 """A recording, of packets or MCAP: what was measured once cannot be computed again."""
-REPORT = Kind(
-    re.compile(rb'<!DOCTYPE html>\n<html lang="en"><head>[^\n]{0,80}<meta name="generator" content="solepath">')
-)
-FLEET_FIGURES = Kind(re.compile(rb'\{\n "wearers": \d+,\n "seconds": '))
+REPORT = Kind(rb'\A<!DOCTYPE html>\n<html lang="en"><head>[^\n]{0,80}<meta name="generator" content="solepath">')
+FLEET_FIGURES = Kind(rb'\A\{\n "wearers": \d+,\n "seconds": ')
 """JSON of `fleet-demo`."""
-CALIBRATION = Kind(re.compile(rb""))
+CALIBRATION = Kind(b"")
 """A calibration, which is read, checked and completed: what is none stays as it is."""
 TRACK_KINDS = {
-    EVENTS_FILE: Kind(re.compile(rb'\{"event": "[A-Z]\w*", "t": [^\s,"]+, "known_at": ')),
+    EVENTS_FILE: Kind(rb'\A\{"event": "[A-Z]\w*", "t": [^\s,"]+, "known_at": '),
     TRACK_FILE: _table(TRACK_COLUMNS),
     STRIDES_FILE: _table(STRIDE_COLUMNS),
     GAIT_CYCLES_FILE: _table(CYCLE_COLUMNS),
 }
-RUN_KINDS = {RUN_FILE: Kind(re.compile(rb'\{\n "solepath": "[^"\n]*",\n "recipe": "'))}
+RUN_KINDS = {RUN_FILE: Kind(rb'\A\{\n "solepath": "[^"\n]*",\n "recipe": "')}
 PLACE_KINDS = {PLACES_FILE: _table(PLACE_COLUMNS)}
-PLAN_KINDS = {PLAN_FILE: Kind(re.compile(rb"""<\?xml [^\n]*\n<svg [^\n>]*id="solepath-plan\""""))}
+PLAN_KINDS = {PLAN_FILE: Kind(rb"""\A<\?xml [^\n]*\n<svg [^\n>]*id="solepath-plan\"""")}
 
 
 @frozen
@@ -168,7 +161,7 @@ def check_outputs(options: Namespace, outputs: Sequence[OutputFile], *inputs: Pa
             except BlockingIOError:
                 raise Failure(f"{path}: {LOCKED}") from None
             if not getattr(options, "force", False) and not kind.is_own(path):
-                why = "exists" if kind.start is None else "exists and is no such file that solepath wrote"
+                why = "exists" if kind.mark is None else "exists and is no such file that solepath wrote"
                 raise Failure(f"{path}: {why}; --force replaces it")
     for output in outputs:
         _check_writable(output.path, getattr(options, "out", None))

@@ -16,8 +16,6 @@ WIDTH = 100
 """Largest number of characters in a line of the help."""
 NAME_WIDTH = 26
 """Largest number of characters in the left column of the help."""
-EXAMPLE = "example: "
-"""Start of the text at the end of a help, which is printed as it is."""
 REQUIRED = "the following arguments are required: "
 """Start of the message of argparse."""
 OPTION_GROUPS = {
@@ -42,47 +40,28 @@ MIN_OPTION_SIMILARITY = 0.7
 _Action = TypeVar("_Action", bound=argparse.Action)
 
 
-class _Once(argparse.Action):
-    """An option with a value, which may be given once: a second value would replace the first one silently."""
-
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: Any,
-        option_string: str | None = None,
-    ) -> None:
-        given: set[str] = namespace.__dict__.setdefault("given", set())
-        if option_string is not None and self.dest in given:
-            parser.error(f"{option_string} was given twice")
-        given.add(self.dest)
-        setattr(namespace, self.dest, values)
-
-
-class _Help(argparse.HelpFormatter):
-    """Help of at most WIDTH columns; an example keeps its lines."""
-
-    def __init__(self, prog: str, **kwargs: Any) -> None:
-        width = min(WIDTH, shutil.get_terminal_size((WIDTH, 24)).columns - 1)
-        super().__init__(prog, max_help_position=NAME_WIDTH, width=width)
-
-    def _fill_text(self, text: str, width: int, indent: str) -> str:
-        if text.startswith(EXAMPLE):
-            return text.replace(EXAMPLE, "example:\n").replace("\n", "\n  ")
-        return super()._fill_text(text, width, indent)
+def _formatter(prog: str) -> argparse.HelpFormatter:
+    """Return a formatter of a help of at most WIDTH columns."""
+    width = min(WIDTH, shutil.get_terminal_size((WIDTH, 24)).columns - 1)
+    return argparse.HelpFormatter(prog, max_help_position=NAME_WIDTH, width=width)
 
 
 class Parser(argparse.ArgumentParser):
     """A parser whose options, and those of its commands, may be given once; it ends the program with one line."""
 
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        super().__init__(*args, **{"formatter_class": _Help} | kwargs)
+    def __init__(self, *, example: str = "", **kwargs: Any) -> None:
+        """Make a parser with `example`, lines of commands, at the end of its help."""
+        super().__init__(formatter_class=_formatter, allow_abbrev=False, **kwargs)
         self._optionals.title, self._positionals.title = "options", "arguments"
         self._negative_number_matcher = re.compile(r"-[\d.]")  # so that -1,2 is a value
+        self.example = example
         self.commands: Any = None
         """The action that has the commands, or the kinds; None without any."""
-        self.register("action", None, _Once)
-        self.register("action", "store", _Once)
+
+    def format_help(self) -> str:
+        """Return the help, with the example at its end."""
+        lines = [f"  {line}\n" for line in self.example.splitlines()]
+        return super().format_help() + "".join(["\nexample:\n", *lines] if lines else [])
 
     def _add_action(self, action: _Action) -> _Action:
         command = self.prog.rpartition(" ")[2]
@@ -104,8 +83,8 @@ class Parser(argparse.ArgumentParser):
         if text.startswith(REQUIRED):
             missing = text.removeprefix(REQUIRED)
             text = f"{missing} {'are' if ', ' in missing else 'is'} missing"
-            if self.epilog:
-                hint = f", as in: {self.epilog.removeprefix(EXAMPLE).splitlines()[0]}"
+            if self.example:
+                hint = f", as in: {self.example.splitlines()[0]}"
         text = text.replace("expected one argument", "needs a value")
         note(text if text.endswith("?") else text + hint)
         self.exit(2)
@@ -124,15 +103,17 @@ class Parser(argparse.ArgumentParser):
 
     def _check_options(self, words: Sequence[str]) -> None:
         known = [one for one in self._option_string_actions if one.startswith("--")]
-        for before, word in pairwise(["", *words]):
+        for number, (before, word) in enumerate(pairwise(["", *words])):
             if word == "" or (word.startswith("--") and word.endswith("=")):
                 option = word.rstrip("=") or before
                 self.error(f"{option + ': ' if option.startswith('-') else ''}nothing is given: is a variable empty?")
             if word == "--" or (self.commands is not None and not word.startswith("-")):
                 return  # what follows belongs to a command
             name = word.partition("=")[0]
-            is_known = name in self._option_string_actions or any(one.startswith(name) for one in known)
-            if is_known or not OPTION.fullmatch(word):
+            action = self._option_string_actions.get(name)
+            if isinstance(action, argparse._StoreAction) and name in words[:number]:
+                self.error(f"{name} was given twice")
+            if action is not None or not OPTION.fullmatch(word):
                 continue
             bare = name.lstrip("-")
             meant = closest(bare, [one.removeprefix("--") for one in known], MIN_OPTION_SIMILARITY)
@@ -153,8 +134,6 @@ def add_command(
     commands: Any, name: str, what: str, description: str, example: str, **defaults: Any
 ) -> argparse.ArgumentParser:
     """Add a command, or a kind, to a parser, with `what` as its line of help; return its own parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
-        name, help=what, description=description, epilog=EXAMPLE + example
-    )
+    command: argparse.ArgumentParser = commands.add_parser(name, help=what, description=description, example=example)
     command.set_defaults(**defaults)
     return command

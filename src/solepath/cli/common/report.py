@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...recording import Source, printable, read_start_time
-from .failure import Failure
 from .outcomes import band_files_of, person_of
 
 if TYPE_CHECKING:
@@ -39,13 +38,6 @@ def add_report(command: ArgumentParser) -> None:
         help="an earlier recording to compare with, run with the same recipe and calibration, without floor plan and "
         "with its clocks as they are; twice for the files of two feet",
     )
-
-
-def check_report_options(options: Namespace) -> None:
-    """Raise Failure if an option goes with a report and there is none."""
-    given = [name for name in (*DETAILS, "compare") if getattr(options, name) is not None]
-    if given and options.report is None:
-        raise Failure(f"--{given[0]} goes with --report")
 
 
 def report_of(

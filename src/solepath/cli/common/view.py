@@ -5,15 +5,15 @@ from __future__ import annotations
 import os
 import sys
 from argparse import ArgumentParser, Namespace
-from collections.abc import AsyncIterator, Callable
-from contextlib import AsyncExitStack, asynccontextmanager
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import AsyncExitStack, asynccontextmanager, contextmanager
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
 from attrs import frozen
 
 from ...recording import printable
-from .failure import PAGE_ADDRESS, Failure, has_terminal, note, parse_address, parse_positive, require
+from .failure import PAGE_ADDRESS, Failure, has_terminal, note, parse_address, parse_positive, reject_options, require
 from .os_errors import address_error_text
 
 if TYPE_CHECKING:
@@ -62,16 +62,27 @@ def page_address_of(options: Namespace) -> PageAddress | None:
     Failure is raised when it is malformed or in use, when aiohttp is not installed, or for an option of the page
     without --view."""
     if options.view is None:
-        for name in ("speed", "no_browser"):
-            if getattr(options, name, None):
-                raise Failure(f"--{name.replace('_', '-')} is for the page: it goes with --view")
+        reject_options(options, ("speed", "no_browser"), "is for the page: it goes with --view")
         return None
     browser = sys.stdout.isatty() and not options.no_browser
     host, port = options.view or DEFAULT_PAGE
     address = PageAddress(host, port, browser)
     require("--view needs", "view", "aiohttp")
-    _check_free(address)
+    from ...show.page.server.access import listen
+
+    with _naming(address):  # before a long recording is read
+        listen(address.host, address.port).close()
     return address
+
+
+@contextmanager
+def _naming(address: PageAddress) -> Iterator[None]:
+    """Raise Failure, with the reason, if the page cannot be served at the address."""
+    try:
+        yield
+    except (OSError, UnicodeError) as error:
+        reason = "there is no such host" if isinstance(error, UnicodeError) else address_error_text(error)
+        raise Failure(f"--view {printable(address.host, 80)}:{address.port or 0}: {reason}") from None
 
 
 def speed_of(options: Namespace, default: float) -> float:
@@ -98,10 +109,8 @@ async def serve_page(
     from ...show.page.server.server import Page
 
     async with AsyncExitStack() as stack:
-        try:
+        with _naming(address):
             page = await stack.enter_async_context(Page(scene, host=address.host, port=address.port, commands=commands))
-        except (OSError, UnicodeError) as error:
-            raise _address_failure(address, error) from None
         print(f"the page: {page.url}", flush=True)
         if not on_loopback(address.host):
             note("the page can be reached from other machines: whoever has this address with its token sees it")
@@ -153,32 +162,11 @@ def compute_rest(player: Player, what: str) -> None:
                 raise KeyboardInterrupt
 
 
-def _has_browser() -> bool:
-    """Return whether there is a graphical browser; a browser in the terminal would hide this command's output."""
-    if sys.platform in ("darwin", "win32"):
-        return True
-    return any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"))
-
-
 def open_browser(url: str) -> None:
-    """Open a graphical browser, if there is one."""
+    """Open a graphical browser, if there is one; one in the terminal would hide this command's output."""
     import webbrowser
 
-    if _has_browser() and not webbrowser.open(url):
+    variables = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
+    has_browser = sys.platform in ("darwin", "win32") or any(map(os.environ.get, variables))
+    if has_browser and not webbrowser.open(url):
         note("no browser could be opened: open the address yourself")
-
-
-def _check_free(address: PageAddress) -> None:
-    """Raise Failure if the page cannot be served at the address, before a long recording is read."""
-    from ...show.page.server.access import listen
-
-    try:
-        listen(address.host, address.port).close()
-    except (OSError, UnicodeError) as error:
-        raise _address_failure(address, error) from None
-
-
-def _address_failure(address: PageAddress, error: OSError | UnicodeError) -> Failure:
-    """Return a Failure with the reason why the page cannot be served at the address."""
-    reason = "there is no such host" if isinstance(error, UnicodeError) else address_error_text(error)
-    return Failure(f"--view {printable(address.host, 80)}:{address.port or 0}: {reason}")

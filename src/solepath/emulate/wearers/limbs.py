@@ -62,7 +62,7 @@ _DIFFERENCE_STEP = 1e-3
 _NO_MOUNTING = Mounting((0.0, 0.0, 0.0))
 
 SIDE_SIGNS = {Foot.LEFT: 1.0, Foot.RIGHT: -1.0}
-FOOT_OF_SITE = {site: Foot(site.value.partition("_")[0]) for site in Site if site is not Site.PELVIS}
+FOOT_OF_SITE: dict[Site, Foot] = {site: Foot(site.value.partition("_")[0]) for site in Site if site is not Site.PELVIS}
 """Foot on whose side each site is, for every site except the pelvis."""
 _THIGHS = (Site.LEFT_THIGH, Site.RIGHT_THIGH)
 
