@@ -20,7 +20,7 @@ from ...walk.links import LinkLedger
 from ...walk.walk import Walk
 
 RUN_FILE = "run.json"
-WITHOUT_EFFECT = {"out", "report", "force", "view", "no_browser", "speed"}
+WITHOUT_EFFECT = {"command", "out", "report", "force", "view", "no_browser", "speed"}
 """Options that say where results are written and shown, which do not depend on them."""
 
 
@@ -45,7 +45,8 @@ def write_run(path: Path, recipe: Recipe, walk: Walk, options: argparse.Namespac
 
 def _given(options: argparse.Namespace) -> dict[str, Any]:
     """Return the options that a person gave, as JSON has them; files are given by their names."""
-    return {name: _plain(getattr(options, name)) for name in sorted(options.given - WITHOUT_EFFECT)}
+    given = {name: value for name, value in sorted(vars(options).items()) if value not in (None, False, [], ())}
+    return {name: _plain(value) for name, value in given.items() if not (name in WITHOUT_EFFECT or callable(value))}
 
 
 def _plain(value: Any) -> Any:
