@@ -20,7 +20,6 @@ from .records import (
     Vec2,
     Vec3,
     WalkingMode,
-    both,
     per_foot,
 )
 
@@ -45,7 +44,6 @@ __all__ = [
     "Vec3",
     "WalkingMode",
     "ValueEnum",
-    "both",
     "per_foot",
     "shared",
 ]

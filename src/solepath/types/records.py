@@ -58,11 +58,6 @@ def per_foot(make: Callable[[], _Value]) -> PerFoot[_Value]:
     return {foot: make() for foot in Foot}
 
 
-def both(of: PerFoot[_Value], foot: Foot) -> tuple[_Value, _Value]:
-    """Return the value of a foot, and that of the other one."""
-    return of[foot], of[OTHER[foot]]
-
-
 class OnBody(ValueEnum):
     """A place on the body; the base class of `Site`."""
 

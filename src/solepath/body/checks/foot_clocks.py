@@ -19,7 +19,7 @@ from math import atan2, cos, fsum, hypot, pi, sin, sqrt
 
 from ...events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...foot.view import FootView
-from ...types import OTHER, Foot, PerFoot, Phase, Site, both, per_foot
+from ...types import OTHER, Foot, PerFoot, Phase, Site, per_foot
 from ...types.attrs import define, evolve, field, frozen, stateful
 from ..part import ClockUnsettled, Inputs, Outputs, Part, PartOutput
 from .stances import Finding
@@ -194,7 +194,7 @@ class LoneStrides:
 
     def add(self, event: GaitEvent) -> str | None:
         """Add an event of a foot; return sentences for the person if the foot has walked while the other one stood."""
-        this, other = both(self.feet, event.foot)
+        this, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
         if other.strides:
             other.restart()
         if not isinstance(event, StrideTaken):
@@ -371,7 +371,7 @@ class FootClocks(Part):
 
     def _compare(self, foot: Foot, middle: float) -> bool:
         """Compare the newest cycle of a foot, the middle of whose stance is `middle`, s; return whether that worked."""
-        is_left, (this, other) = foot is Foot.LEFT, both(self.feet, foot)
+        is_left, this, other = foot is Foot.LEFT, self.feet[foot], self.feet[OTHER[foot]]
         if not other.swings:
             return False
         own = this.swings[-1]

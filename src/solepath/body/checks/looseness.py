@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ...events import Defect, StrideTaken
 from ...foot.view import FootView
-from ...types import PerFoot, Site, both, per_foot
+from ...types import OTHER, PerFoot, Site, per_foot
 from ...types.attrs import define, field, stateful
 from ..part import Inputs, Outputs, Part, PartOutput
 from .stances import Finding
@@ -76,7 +76,7 @@ class Looseness(Part):
         for event in events:
             if not isinstance(event, StrideTaken) or view is None or view.after is None:
                 continue
-            this, other = both(self.feet, event.foot)
+            this, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
             x, y, z = view.after.velocity_error
             this.add(x * x + y * y + z * z)
             compares = min(this.count, other.count) >= FIRST_STRIDES + RECENT_STRIDES and not this.reported

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Final
 from ...calibration import Calibration, usual_strides
 from ...events import Defect, DefectFound, PositionReported, SampleGap, StrideTaken
 from ...foot.view import AfterEvents, FootPose, FootView
-from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Phase, Site, Vec2, Vec3, both, per_foot
+from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Phase, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen, stateful
 from ...types.vector import ZERO, add, sub, wrap_angle
 from ..part import Inputs, Outputs, PartOutput, Position, Shift, StartGiven
@@ -258,7 +258,7 @@ class BothFeet(MeanOfFeet):
 
         Returns what was found, and the correction of the foot."""
         foot, common, length, turn = event.foot, self.common, event.length, event.heading_change
-        this, other = both(self.tracks, foot)
+        this, other = self.tracks[foot], self.tracks[OTHER[foot]]
         numbers = (*event.position, *event.displacement, *event.covariance)
         if self.errors.diverged or not all([abs(number) < MAX_TRACK_VALUE for number in numbers]):
             return self._restart()
@@ -352,8 +352,8 @@ class BothFeet(MeanOfFeet):
         feet must have the same direction, so each track is turned by half of the angle if it is repeated, and both are
         moved by equal distances, so that the other foot stands beside the middle of the stride."""
         foot, side = event.foot, _side(event.foot)
-        this, other = both(self.tracks, foot)
-        stride, other_stride = both(self.strides, foot)
+        this, other = self.tracks[foot], self.tracks[OTHER[foot]]
+        stride, other_stride = self.strides[foot], self.strides[OTHER[foot]]
         if stride is None or other_stride is None or not event.t_start < other_stride.t_end < event.t_end:
             return False
         if stride.direction is None or other_stride.direction is None:
@@ -382,7 +382,7 @@ class BothFeet(MeanOfFeet):
 
         The `times` of its stance and swing are in s."""
         foot, turn, length = event.foot, event.heading_change, hypot(moved.real, moved.imag)
-        (this, other), other_stride = both(self.tracks, foot), self.strides[OTHER[foot]]
+        this, other, other_stride = self.tracks[foot], self.tracks[OTHER[foot]], self.strides[OTHER[foot]]
         deviation = self.directions[foot].add_stride(phase(moved), turn) if length > MIN_LENGTH else 0.0
         if other_stride is None or alone:
             return

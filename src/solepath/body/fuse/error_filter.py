@@ -23,7 +23,7 @@ from collections.abc import Sequence
 from math import exp, hypot
 
 from ...foot.world import Covariance2
-from ...types import OTHER, Foot, PerFoot, Vec2, both, per_foot
+from ...types import OTHER, Foot, PerFoot, Vec2, per_foot
 from ...types.attrs import define, field
 from .common_error import Term, column
 
@@ -227,7 +227,7 @@ def feet_apart(foot: Foot, to_other: complex, reach: float) -> Measurement:
 
 def _difference(foot: Foot, along: complex, arm: float = 0.0) -> list[Term]:
     """Return the terms of the other foot's error minus that of a foot along a direction, with the `arm` of headings."""
-    (this, other), x, y = both(FEET, foot), along.real, along.imag
+    this, other, x, y = FEET[foot], FEET[OTHER[foot]], along.real, along.imag
     return [
         (other + X, x), (other + Y, y), (this + X, -x), (this + Y, -y), (this + HEADING, arm), (other + HEADING, -arm)
     ]  # fmt: skip

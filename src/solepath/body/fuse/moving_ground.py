@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import hypot
 
 from ...events import StrideTaken
-from ...types import PerFoot, Vec2, Vec3, both, per_foot
+from ...types import OTHER, PerFoot, Vec2, Vec3, per_foot
 from ...types.attrs import define, field
 
 LEAST_SPEED = 0.35
@@ -75,7 +75,7 @@ class MovingGround:
         """Add a stride; return a sentence if it shows that the ground starts or stops to move.
 
         `velocity_error` is the integrated velocity of the foot when it came to stand, m/s."""
-        this, other = both(self.feet, event.foot)
+        this, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
         (dx, dy, _), (ex, ey, _) = event.displacement, velocity_error
         length = hypot(dx, dy)
         if length <= 0.0:

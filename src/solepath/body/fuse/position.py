@@ -16,7 +16,7 @@ from math import cos, fsum, hypot, sin
 
 from ...foot.view import FootPose, FootView
 from ...foot.world import Covariance2, Covariance3
-from ...types import OTHER, Foot, PerFoot, Site, Vec2, Vec3, both, per_foot
+from ...types import OTHER, Foot, PerFoot, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, add, sub, turned
 from ..part import Inputs, Outputs, Position, TrackPart
@@ -155,7 +155,7 @@ class MeanOfFeet(TrackPart):
         t, foot = view.t, view.foot
         if view.sample.acc is None or view.sample.gyro is None:
             return
-        this, other = both(self.tracks, foot)
+        this, other = self.tracks[foot], self.tracks[OTHER[foot]]
         has_returned = False
         if this.t is None:
             this.started_at = t
@@ -222,7 +222,7 @@ class MeanOfFeet(TrackPart):
 
     def _start_return(self, foot: Foot) -> None:
         """Mark a foot as unplaced at the other foot's position, in case the other foot becomes absent."""
-        this, other = both(self.tracks, foot)
+        this, other = self.tracks[foot], self.tracks[OTHER[foot]]
         other.offset = add(other.offset, self._offset_to_mean(OTHER[foot]))
         this.separation = other.separation = None
         this.offset = sub(other.newest, turned(this.newest_place, this.turn))
@@ -237,7 +237,7 @@ class MeanOfFeet(TrackPart):
             self.tracks[foot].separation = sub(left.newest, right.newest)
             return
         returned = Foot.LEFT if left.unplaced else Foot.RIGHT
-        this, other = both(self.tracks, returned)
+        this, other = self.tracks[returned], self.tracks[OTHER[returned]]
         kept = self.return_strides[-2 * STRIDES_TO_ALIGN - 1 :]
         self.return_strides = [*kept, (foot is Foot.LEFT, this.newest_place, other.newest)]
         lefts, rights = [

@@ -17,7 +17,7 @@ from ...events import (
 )
 from ...events.foot import LONGEST_HARMLESS_GAP
 from ...foot.view import FootView
-from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, both, per_foot
+from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, per_foot
 from ...types.attrs import define, field, stateful
 from ..part import ClockUnsettled, Inputs, Outputs, Part, PartOutput
 from .means import GaitMeans, GaitParameters
@@ -353,7 +353,7 @@ class GaitCycles(Part):
 
     def _measure(self, foot: Foot, cycle: PendingCycle, known_at: float) -> GaitCycleMeasured:
         """Measure the first of the waiting cycles and return its event."""
-        this, other = both(self.feet, foot)
+        this, other = self.feet[foot], self.feet[OTHER[foot]]
         this.count, this.waiting_cycles = this.count + 1, this.waiting_cycles[1:]
         comparable = not self.clocks_apart
         for falls in (this, other):

@@ -13,7 +13,7 @@ from math import fsum, pi
 
 from ...events import FootFlat, StrideTaken, TurnMade
 from ...foot.view import AfterEvents, FootView
-from ...types import Foot, PerFoot, Quat, Site, Turn, both, per_foot
+from ...types import OTHER, Foot, PerFoot, Quat, Site, Turn, per_foot
 from ...types.attrs import define, field, frozen, stateful
 from ...types.vector import heading_turned
 from ..part import Inputs, Outputs, Part, PartOutput
@@ -162,7 +162,7 @@ class TurnDetector:
 
     def add_stride(self, event: StrideTaken) -> TurnProcess | None:
         """Add a stride of either foot, in order of `known_at`, and return the turn that it ends."""
-        foot, other = both(self.feet, event.foot)
+        foot, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
         angle = foot.stride_filter.turn(event.heading_change)
         foot.stride_end = event.t_end
         if angle != 0.0:
@@ -182,7 +182,7 @@ class TurnDetector:
         """Add a pivot by `angle`, rad, between foot-flats at `t_start` and `t_end`, s; return the turn that it ends.
 
         A small angle is ignored."""
-        this, other = both(self.feet, foot)
+        this, other = self.feet[foot], self.feet[OTHER[foot]]
         if abs(angle) <= STRAIGHT_TOLERANCE:
             return None
         this.stride_end = t_end
