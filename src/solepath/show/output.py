@@ -20,7 +20,7 @@ from ..events import Event, FootMoved, GaitCycleMeasured, LiveEvent, Placed, Str
 from ..recording.errors import printable
 
 EVENTS_FILE, TRACK_FILE, STRIDES_FILE, GAIT_CYCLES_FILE = "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"
-PLACES_FILE, PLAN_FILE = "places.csv", "plan.svg"
+PLACES_FILE, PLAN_FILE, RUN_FILE = "places.csv", "plan.svg", "run.json"
 TRACK_COLUMNS = ("t_s", "foot", "x_m", "y_m", "z_m", "phase")
 STRIDE_COLUMNS = (
     "foot", "t_start_s", "t_end_s", "x_m", "y_m", "z_m", "stride_length_m", "heading_change_deg", "height_change_m",

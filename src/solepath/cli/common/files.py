@@ -28,13 +28,13 @@ from ...show.output import (
     PLACE_COLUMNS,
     PLACES_FILE,
     PLAN_FILE,
+    RUN_FILE,
     STRIDE_COLUMNS,
     STRIDES_FILE,
     TRACK_COLUMNS,
     TRACK_FILE,
 )
 from .failure import Failure
-from .run_file import RUN_FILE
 
 T = TypeVar("T")
 WRITTEN = {"out", "record", "report", "json", "figure", "resume", "dir"}

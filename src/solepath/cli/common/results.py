@@ -16,7 +16,7 @@ from ...floorplan.plan import FloorPlan
 from ...recording import printable
 from ...saving.files import FileReplacements
 from ...session import Session
-from ...show.output import PLAN_FILE, TrackFiles, os_errors_naming
+from ...show.output import PLAN_FILE, RUN_FILE, TrackFiles, os_errors_naming
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
@@ -24,7 +24,7 @@ from ...walk.walk import Walk
 from .failure import Failure
 from .files import OutputFile, replacements
 from .own_devices import UnusedPackets
-from .run_file import RUN_FILE, write_run
+from .run_file import write_run
 
 if TYPE_CHECKING:
     from ...show.outcomes.clinic import OutcomeRequest

@@ -19,7 +19,6 @@ from ...show.tables.summary import links_of
 from ...walk.links import LinkLedger
 from ...walk.walk import Walk
 
-RUN_FILE = "run.json"
 WITHOUT_EFFECT = {"command", "out", "report", "force", "view", "no_browser", "speed"}
 """Options that say where results are written and shown, which do not depend on them."""
 
