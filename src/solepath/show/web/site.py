@@ -122,9 +122,10 @@ def _library(build: Path, package: Mapping[str, bytes]) -> bytes:
         shutil.copytree(folder, build / "source" / name, ignore=shutil.ignore_patterns("__pycache__", "static"))
     shutil.copy(HERE / "node" / "prepare.mjs", build)
     run_node("node", str(build / "prepare.mjs"), str(build))
-    modules = _files_below(build / "compiled", "**/*.pyc")
-    models = [_files_below(build / "source", f"solepath/{room}/**/*.json") for room in ("body", "papers")]
-    return _archive(modules | models[0] | models[1])
+    packed = _files_below(build / "compiled", "**/*.pyc")
+    for read in ("body/**/*.json", "papers/**/*.json", "recording/mapping/*.toml"):  # by modules, beside themselves
+        packed |= _files_below(build / "source", f"solepath/{read}")
+    return _archive(packed)
 
 
 def _files_below(folder: Path, pattern: str) -> dict[str, bytes]:
