@@ -17,10 +17,10 @@ from .step.state import StateHead, StateRest, write_state
 class Fleet(Sessions):
     """The configuration of a job, the same for all wearers and on every worker; it holds no wearer's state.
 
-    `recipe`, `floorplan`, `profiles`, `poses`, `pressures` are arguments of Session, `parts` of Session.restore.
-    `calibrations` holds the calibration of each wearer, looked up when a session of that wearer starts. `window` is the
-    largest number of rows that may overtake a missing row before that row is given up. The app must keep new versions
-    of its own code in `recipe`, `profiles` and `parts` compatible. Raises TypeError and ValueError as Session does.
+    Recipe, floor plan, profiles, poses and pressures are arguments of Session, parts of Session.restore. The mapping
+    "calibrations" has the calibration of each wearer. The window is the largest number of rows that may overtake a
+    missing row before that row is given up. The app must keep new versions of its own code in recipe, profiles and
+    parts compatible. Raises TypeError and ValueError as Session does.
 
     A Fleet can be pickled when its arguments can; the readers of a driver cannot. For an engine that pickles its job,
     define a class in a module that the workers can import, so that only its name is pickled:

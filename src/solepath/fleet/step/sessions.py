@@ -41,12 +41,19 @@ class Sessions:
         kw_only=True,
         validator=instance_of(Mapping),  # type: ignore[type-abstract]
     )
+    """Calibration of each wearer, looked up when a session of that wearer starts."""
     floorplan: IndexedPlan | None = field(default=None, kw_only=True, converter=_indexed)
+    """Floor plan of all sessions, as for Session."""
     profiles: tuple[Driver, ...] = field(default=(), kw_only=True, converter=_drivers)
+    """Drivers of the app's own devices, as for Session."""
     parts: tuple[type, ...] = field(default=(), kw_only=True, converter=_classes)
+    """Classes of the app's own parts, as for Session.restore."""
     window: int = field(default=256, kw_only=True, validator=[instance_of(int), ge(0)])
+    """Largest number of rows that may overtake a missing row before that row is given up."""
     poses: bool = field(default=False, kw_only=True)
+    """Flag: sessions report positions, as for Session."""
     pressures: bool = field(default=False, kw_only=True)
+    """Flag: sessions report the cells of insoles, as for Session."""
 
     def __attrs_post_init__(self) -> None:
         # an error that concerns all wearers is raised here, not in a worker
