@@ -12,9 +12,13 @@ from commands import run
 from recordings import recorded
 from shown import frame, walked
 
-from solepath import Packet, SampleGap, Session, Site
+from solepath import Packet, Sample, SampleGap, Session, Site
+from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.sensortags import CC2541
+from solepath.emulate.walk import emulate
 from solepath.show.page.scene.scene import Scene
+from solepath.walk import Walk
 
 LEFT = Site.LEFT_FOOT
 CUT, ABSENCE = 20.0, 25.0
@@ -91,3 +95,50 @@ def test_what_made_the_files_is_written_beside_them(tmp_path: Path) -> None:
     assert {**one, "options": None} == {**two, "options": None}
     run("track", path, "--out", tmp_path / "other", "--recipe", "default")
     assert json.loads((tmp_path / "other" / "run.json").read_text())["recipe_sha256"] != one["recipe_sha256"]
+
+
+def followed(packets: list[Packet]) -> Walk:
+    """Return the walk of a session that was fed with the packets."""
+    session, walk = Session(poses=True), Walk()
+    for packet in packets:
+        walk.take(packet, session.feed(packet))
+    walk.take(None, session.finish())
+    return walk
+
+
+@pytest.mark.parametrize("absence", [0.0, ABSENCE])
+def test_a_sensor_with_two_streams_misses_samples_and_not_packets(absence: float) -> None:
+    route = Route().stand(2.0).walk(80.0, speed=1.2).stop(2.0)
+    packets = emulate(route, devices={LEFT: CC2541()}, radio=CLEAN, seed=2).packets
+    streams = {"cc2541/accelerometer": 0, "cc2541/gyroscope": 0}
+    kept, lost = [], 0
+    for packet in packets:
+        count = streams.get(packet.channel)
+        if count is not None:
+            streams[packet.channel] = count + 1
+        if CUT < packet.t <= CUT + absence or (count is not None and count % 50 == 25):
+            lost += count is not None and not CUT < packet.t <= CUT + absence
+        else:
+            kept.append(packet)
+    link = followed(kept).links[LEFT]
+    assert link.missing == pytest.approx(lost / 2, abs=1)
+    assert 100.0 * link.missing_share == pytest.approx(2.0, abs=0.25)
+    assert link.missing_time == pytest.approx(0.1 * link.missing, rel=0.05)
+
+
+def test_a_foot_that_falls_silent_until_the_end_is_absent_until_then() -> None:
+    route = Route().stand(2.0).walk(40.0, speed=1.2).stop(2.0)
+    packets = [one for one in walked(route, cells=8) if one.site is not LEFT or one.t < 15.0]
+    walk = followed(packets)
+    assert walk.links[LEFT].absent_time(walk.now) == pytest.approx(packets[-1].t - 15.0, abs=0.1)
+    assert walk.links[LEFT].missing == 0
+
+
+@pytest.mark.parametrize("rate", [10, 50, 100, 250, 400])
+def test_rows_are_counted_at_every_rate(rate: int) -> None:
+    session, walk = Session(poses=True), Walk()
+    for k in range(40 * rate):
+        if k % 50 != 25:
+            sample = Sample(k / rate, LEFT, (0.1, 0.2, 9.8), (0.01, 0.02, 0.03))
+            walk.take(sample, session.feed(sample))
+    assert walk.links[LEFT].missing == 40 * rate // 50

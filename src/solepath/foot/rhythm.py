@@ -20,7 +20,7 @@ def follow(usual: float, newest: float, gain: float, largest: float = LARGEST_RA
 
 USUAL_GAIN = 0.02
 """Weight of the newest interval in the usual one; chosen by hand."""
-LEAST_GAP_RATIO, LEAST_GAP_DIFFERENCE = 1.75, 0.004
+LEAST_GAP_RATIO, LEAST_GAP_DIFFERENCE = 1.75, 0.002
 """Ratio of an interval to the usual one, and difference between them in s, above which it is a gap; chosen by hand."""
 GAPS_OF_NEW_RATE, LARGEST_GAP_DEVIATION = 10, 0.1
 """Number of equal gaps in a row that mean a new sampling rate, and largest relative difference between them."""

@@ -21,7 +21,7 @@ from .limitations import LACKING_TIME, Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .phase import SWING
 from .rejection import rejected, rejection_reason
-from .rhythm import Rhythm
+from .rhythm import LONGEST_LOSS, Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load, Stance
 from .view import AfterEvents, FootPose, FootView, PressedCells
@@ -303,7 +303,7 @@ class FootTracker:
         self._report_gap(t_last, t, known_at, events)
         corrector, gait = self.corrector, self.gait
         template = gait.template
-        gait.stride.add_gap(t_last, t, self.rhythm.usual_interval or 0.0)
+        gait.stride.add_gap(t_last, t, self.rhythm.usual_interval or 0.0 if duration <= LONGEST_LOSS else duration)
         if duration > LONGEST_BRIDGE:
             self.rest.end_rest()
             self.levelling = Levelling()

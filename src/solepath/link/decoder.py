@@ -34,6 +34,8 @@ from ..types.records import MAX_TIME
 from ..wire.error import WireError
 from .kinds import BUILT_IN_KINDS, DeviceKinds, DeviceLink, Output, is_address
 
+MAX_SAMPLE_LEAD = 0.15
+"""Largest time by which a sample's time may be later than its arrival, s (periodic.py)."""
 SET_BACK_PACKETS = 20
 """Number of packets in a row with earlier arrivals that shows that the receiver's clock was set back."""
 
@@ -63,8 +65,10 @@ class Decoder:
     """Arrival of the newest packet of a channel that must not fall silent, s."""
     stale: bool = False
     """True from StreamStale until StreamResumed."""
-    reconnected: bool = False
-    """True from a new connection until the first packet of such a channel."""
+    absent_since: float | None = None
+    """Arrival of the newest packet of such a channel before the newest silence or new connection, s; None before any.
+
+    Samples that are missing after it were not sent to this receiver: they are an absence and no loss."""
     used: bool = field(default=False, init=False, eq=False, metadata=NOT_SAVED)
     """Flag: the packet of the last `feed` was used, though it may report an earlier one that was rejected."""
 
@@ -158,10 +162,13 @@ class Decoder:
         if link is None or kind is None or packet.channel not in kind.profile.streams:
             return self.advance(t, kinds) + out
         newest, limit = self.newest_stream_arrival, kind.profile.stale_after
-        reconnected, self.reconnected, self.newest_stream_arrival = self.reconnected, False, t
+        self.newest_stream_arrival = t
         is_long = newest is not None and t - newest > limit
-        if is_long or reconnected or self.stale:
-            out = [evolve(item, count=0) if isinstance(item, SampleGap) else item for item in out]
+        if is_long or self.stale:
+            self.absent_since = newest
+        if self.absent_since is not None:
+            last = self.absent_since + MAX_SAMPLE_LEAD
+            out = [evolve(item, count=0) if isinstance(item, SampleGap) and item.t <= last else item for item in out]
         if newest is not None and (self.stale or (is_long and not link.may_be_silent)):
             resumed = StreamResumed(t=t, site=self.site, silent_for=t - newest)
             out[:0] = [resumed] if self.stale else [self._silence(newest, t, limit), resumed]
@@ -173,7 +180,7 @@ class Decoder:
 
         out = parse_receiver_event(packet)
         if any([isinstance(event, Connected) for event in out]):
-            self.reconnected = True
+            self.absent_since = self.newest_stream_arrival
             if self.link is not None:
                 self.link.handle_reconnection()
         return [*out]

@@ -89,12 +89,11 @@ class CoveredTime:
         return self._ended_time + (0.0 if self.span_start is None else self.span_end - self.span_start)
 
 
-def taken(missing: int, samples: int, packets: int) -> int:
-    """Return how many samples a device took, of which these are missing and these came in so many packets.
+def missing_samples(lost: int, samples: int, packets: int) -> float:
+    """Return how many samples are missing if `lost` were counted, and these came in so many packets.
 
-    A CC2541 sends acceleration and angular rate in packets of their own, so that more packets than samples come; then
-    every packet is a sample that could be missing."""
-    return missing + max(samples, packets)
+    A CC2541 sends acceleration and angular rate in packets of their own, two for a sample, and counts both."""
+    return lost * samples / packets if packets > samples > 0 else lost
 
 
 @define
@@ -116,7 +115,8 @@ class RecentLoss:
         """Return the share, 0 to 1, of the samples in the window before `now`, s, that are missing."""
         recent = [counts[1:] for counts in self.seconds if now - LOSS_WINDOW - 1.0 < counts[0] <= now]
         packets, samples, missing = [sum(column) for column in zip(*recent, strict=True)] or (0, 0, 0)
-        return missing / taken(missing, samples, packets) if samples or packets else None
+        lost = missing_samples(missing, samples, packets)
+        return lost / (lost + (samples or packets)) if samples or packets else None
 
 
 @define
@@ -130,9 +130,9 @@ class LinkLedger:
     received: int = 0
     """Packets of samples that came and were used. The fragments of a frame count as one packet, when a sample is
     complete. The count is 0 where samples are fed without packets, and for a device that only the app knows."""
-    missing: int = 0
-    """Samples that the device took and that did not arrive (`SampleGap.count`). A packet that was rejected because it
-    came twice or late is not missing. A packet that came damaged, or that the receiver dropped, is."""
+    lost: int = 0
+    """Samples that were counted as lost (`SampleGap.count`). A packet that was rejected because it came twice is not
+    lost. One that came damaged or late, or that the receiver dropped, is."""
     dropped: int = 0
     """Packets that came and were discarded because the program did not read them in time (PacketsDropped)."""
     rejected: Counter[tuple[str, str]] = field(factory=Counter)
@@ -147,8 +147,8 @@ class LinkLedger:
     """True from the first sample of pressure cells on."""
     gaps: int = 0
     """Number of losses and absences (SampleGap)."""
-    absent_time: float = 0.0
-    """Total duration of the absences, s, in which the device was not connected, was silent or took no samples."""
+    ended_absences: float = 0.0
+    """Total duration, s, of the absences that have ended."""
     silences: int = 0
     """Number of times that nothing came for longer than the link allows (StreamStale)."""
     connections: int = 0
@@ -174,6 +174,8 @@ class LinkLedger:
     """True after the session has reported that nothing comes any more."""
     _absent_since: float | None = None
     """Arrival of the newest sample before the present absence, s; None while samples come."""
+    _absent_after: float | None = None
+    """Time of the newest sample before the newest absence that has ended, s, by its own clock."""
     _t: float | None = None
     """Time of the newest sample by its own clock, s."""
     _covered: CoveredTime = field(factory=CoveredTime)
@@ -198,7 +200,8 @@ class LinkLedger:
         if t == self._t:
             return
         if self._absent_since is not None:
-            self.absent_time += max(0.0, known_at - self._absent_since)
+            self.ended_absences += max(0.0, known_at - self._absent_since)
+            self._absent_after = self._t
         self._t, self.last_sample_at, self.is_counted, self._absent_since = t, known_at, True, None
         self.samples += 1
         self._losses.add(known_at, samples=1)
@@ -222,10 +225,10 @@ class LinkLedger:
                 self.dropped += count
             case SampleGap(duration=duration, count=count):
                 self.gaps += 1
-                self.missing += count
+                self.lost += count
                 self._losses.add(event.known_at, missing=count)
-                if self._covered.span_start is not None:
-                    self.absent_time += 0.0 if count else duration
+                if self._covered.span_start is not None and event.t != self._absent_after:
+                    self.ended_absences += 0.0 if count else duration
                     self._gaps_covered += 1
                     self._gap_time_covered += duration
             case ClockReset():
@@ -271,9 +274,18 @@ class LinkLedger:
         return len(self._recent) / min(RATE_WINDOW, max(now - self._recent_start, MIN_RATE_TIME))
 
     @property
+    def missing(self) -> int:
+        """Number of samples that the device took and that did not arrive."""
+        return round(missing_samples(self.lost, self.samples, self.received))
+
+    @property
     def taken(self) -> int:
         """Number of samples that the device took while it was connected."""
-        return taken(self.missing, self.samples, self.received)
+        return self.missing + (self.samples or self.received)
+
+    def absent_time(self, now: float) -> float:
+        """Return for how long, until `now`, s, the device was not connected, was silent or took no samples, s."""
+        return self.ended_absences + (0.0 if self._absent_since is None else max(0.0, now - self._absent_since))
 
     @property
     def missing_share(self) -> float:

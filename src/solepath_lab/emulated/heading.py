@@ -50,10 +50,17 @@ HALF_HOUR = 1800.0
 """Shortest duration of the longer walks, s."""
 
 
-LENGTHS: dict[str, IsComplete] = {
-    "500m": lambda length, seconds: length >= LONG_WALK,
-    "30min": lambda length, seconds: seconds >= HALF_HOUR,
-}
+def is_long(length: float, seconds: float) -> bool:
+    """Return whether a walk has LONG_WALK metres."""
+    return length >= LONG_WALK
+
+
+def is_half_hour(length: float, seconds: float) -> bool:
+    """Return whether a walk lasts for HALF_HOUR."""
+    return seconds >= HALF_HOUR
+
+
+LENGTHS: dict[str, IsComplete] = {"500m": is_long, "30min": is_half_hour}
 """Lengths of walks by name."""
 
 

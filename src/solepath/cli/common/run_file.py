@@ -26,14 +26,14 @@ WITHOUT_EFFECT = {"command", "out", "report", "force", "view", "no_browser", "sp
 def write_run(path: Path, recipe: Recipe, walk: Walk, options: argparse.Namespace) -> None:
     """Write run.json of a recording that was run with this recipe, from what the walk has counted."""
     settings = json.dumps(codec.save(recipe), sort_keys=True)
-    inputs = [*options.files, options.mapping, options.calibration, options.floorplan]
+    inputs = [*options.files, *(options.compare or ()), options.mapping, options.calibration, options.floorplan]
     content = {
         "solepath": version("solepath"),
         "recipe": recipe.name,
         "recipe_sha256": sha256(settings.encode()).hexdigest(),
         "inputs": [{"name": one.name, "sha256": _digest(one)} for one in inputs if one is not None and one.is_file()],
         "options": _given(options),
-        "sites": {site.value: _figures(link) for site, link in links_of(walk)},
+        "sites": {site.value: _figures(link, walk.now) for site, link in links_of(walk)},
         "findings": [
             {"code": defect.name.lower(), "site": site.value, "text": found.what}
             for (site, defect), found in walk.found_defects.items()
@@ -59,11 +59,11 @@ def _digest(path: Path) -> str:
         return file_digest(file, "sha256").hexdigest()
 
 
-def _figures(link: LinkLedger) -> dict[str, float]:
+def _figures(link: LinkLedger, now: float) -> dict[str, float]:
     return {
         "samples": link.samples,
         "missing": link.missing,
         "missing_s": round(link.missing_time, 3),
         "missing_share": round(link.missing_share, 6),
-        "absent_s": round(link.absent_time, 3),
+        "absent_s": round(link.absent_time(now), 3),
     }

@@ -52,7 +52,7 @@ def link_rows(walk: Walk) -> list[list[str]]:
     rows = []
     for site, link in links_of(walk):
         battery = "-" if link.battery is None else f"{100.0 * link.battery:.0f} %"
-        missing = str(link.missing), number(100.0 * link.missing_share, 1), number(link.absent_time, 1)
+        missing = str(link.missing), number(100.0 * link.missing_share, 1), number(link.absent_time(walk.now), 1)
         faults = str(link.rejected.total()), str(link.silences), battery
         rows.append([site.words, str(link.samples), number(link.rate, 1), *missing, *faults])
     return rows

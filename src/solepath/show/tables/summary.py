@@ -70,14 +70,14 @@ def degraded_lines(walk: Walk) -> list[str]:
     return [f"{foot}: {counts.degraded} of {counts.strides} strides degraded" for foot, counts in feet]
 
 
-def missing_words(link: LinkLedger) -> str:
-    """Return how many samples of a link are missing, and how long its sensor was absent; "" if neither is so."""
+def missing_words(link: LinkLedger, now: float) -> str:
+    """Return how many samples of a link are missing, and how long its sensor was absent until `now`, s; else ""."""
     words = []
     if link.missing:
         share = f"{100.0 * link.missing_share:.1f} %, {link.missing_time:.2f} s"
         words.append(f"{link.missing} of {counted(link.taken, 'sample')} missing ({share})")
-    if link.absent_time >= SHORTEST_ABSENCE:
-        words.append(f"absent for {link.absent_time:.1f} s")
+    if (absent := link.absent_time(now)) >= SHORTEST_ABSENCE:
+        words.append(f"absent for {absent:.1f} s")
     return ", ".join(words)
 
 
@@ -105,7 +105,7 @@ def link_health(walk: Walk) -> list[str]:
     def total(name: str) -> int:
         return sum([getattr(link, name) for link in links])  # whole numbers
 
-    lines = [f"{site.words}: {words}" for site, link in links_of(walk) if (words := missing_words(link))]
+    lines = [f"{site.words}: {words}" for site, link in links_of(walk) if (words := missing_words(link, walk.now))]
     rejected = sum([link.rejected for link in links], Counter[tuple[str, str]]())
     for kind in ("packet", "sample"):
         reasons = {reason: count for (what, reason), count in rejected.items() if what == f"{kind}s"}

@@ -15,7 +15,7 @@ from ..running import running_means
 HEADER = ("parameter", "left", "right", "both", "CV %", "asymmetry")
 NO_STEADY = (
     "No stride was steady, so that there are no means: steady strides are neither first nor last of a walk, nor in a "
-    "turn, on stairs or with samples missing."
+    "turn, on stairs or degraded."
 )
 
 DEFINITIONS = {
@@ -32,7 +32,7 @@ DEFINITIONS = {
     "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
 }
 """Short definition of each parameter; GaitCycleMeasured has the full definitions."""
-STEADY = ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing")
+STEADY = ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or degraded")
 VARIATION = ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)")
 BOTH_FEET = ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)")
 ASYMMETRY = ("asymmetry", "(right - left) / their mean; 0 of equal feet, none of a flight (Robinson et al. 1987)")

@@ -104,8 +104,8 @@ def _samples(facts: Facts) -> Found:
     missing, worst = [], 0.0
     for foot in facts.report.walk.known_feet:
         link = facts.report.walk.links.get(SITE_OF_FOOT[foot])
-        if link is not None and (words := missing_words(link)):
-            absent = link.absent_time / facts.duration if facts.duration > 0.0 else 0.0
+        if link is not None and (words := missing_words(link, facts.report.walk.now)):
+            absent = link.absent_time(facts.report.walk.now) / facts.duration if facts.duration > 0.0 else 0.0
             worst = max(worst, link.missing_share, absent)
             missing.append(f"{foot} foot {words}")
     silences = facts.report.walk.silences.total()
