@@ -52,8 +52,7 @@ export const losesMany = ({ links, finished }) => !finished && mostLost(links) >
 const FIGURES = {
   rate: ({ rate }) => rate !== null && `${fixed(rate)} samples a second`,
   recent: ({ recent_share }) => recent_share !== null && lossText(recent_share),
-  missing: ({ missing, missing_share }) =>
-    missing > 0 && `${counted(missing, "sample")} missing since the start (${percent(missing_share, 1)})`,
+  missing: ({ missing: n, missing_share: share }) => n > 0 && `${counted(n, "sample")} missing since the start (${percent(share, 1)})`,
   gaps: ({ gaps }) => gaps > 0 && counted(gaps, "interruption"),
   rejected: ({ rejected }) => rejected > 0 && `${counted(rejected, "packet")} rejected`,
   battery: ({ battery }) => battery !== null && `battery ${percent(battery)}`,
