@@ -64,13 +64,25 @@ def test_another_tick_rate_is_another_clock() -> None:
     assert sample.t == pytest.approx(10.07, abs=1e-6)
 
 
-def test_frames_lost_over_a_whole_round_of_the_sequence_are_counted_by_ticks() -> None:
-    decoder = fed_decoder()
+def test_frames_lost_over_a_whole_round_of_the_sequence_are_counted_by_ticks_and_are_an_absence() -> None:
+    decoder, other = fed_decoder(), fed_decoder()
     lost_frames = 3 * 65536 + 10
+    late = frame_packet(4 + lost_frames)
+    assert isinstance(other.link, InsoleLink)
+    (counted,) = of(SampleGap, other.link.feed(late.channel, late.data, late.t))
+    assert counted.count == lost_frames - 1
     (gap,) = of(SampleGap, decoder.feed(frame_packet(4 + lost_frames)))
     assert gap.t == pytest.approx(10.0 + 4 * SAMPLE_INTERVAL)
     assert gap.duration == pytest.approx(lost_frames * SAMPLE_INTERVAL)
     assert gap.count == 0, "half an hour of silence is an absence"
+
+
+def test_a_loss_after_the_receivers_clock_was_set_back_is_no_absence_of_before() -> None:
+    decoder = fed_decoder()
+    decoder.feed(frame_packet(1000))  # after a silence
+    decoder.restart_clock(3.0)
+    frames = [packet(3.0 + SAMPLE_INTERVAL * k, "insole/frame", insole_frame(1100 + k)) for k in range(6) if k != 4]
+    assert [gap.count for gap in of(SampleGap, feed(decoder, *frames))] == [1]
 
 
 def test_a_device_that_samples_again_after_a_pause_has_lost_nothing() -> None:

@@ -65,7 +65,7 @@ class SampleGap(BaseEvent):
     duration: float
     """Time from the last sample before the gap to the first sample after it, s."""
     count: int
-    """Number of samples that the device took and that did not arrive.
+    """Number of samples that the device took and that did not arrive; of a CC2541, values of either of its two streams.
 
     The device's counters give it, or the times of arrival if the device has no counters; for samples that were fed
     without packets, the usual interval between them. It is 0 for an absence: the device was not connected, was silent

@@ -32,10 +32,9 @@ from ..types import Packet, Site
 from ..types.attrs import NOT_SAVED, define, evolve, field, fields
 from ..types.records import MAX_TIME
 from ..wire.error import WireError
+from .clock import MAX_EARLY_ARRIVAL
 from .kinds import BUILT_IN_KINDS, DeviceKinds, DeviceLink, Output, is_address
 
-MAX_SAMPLE_LEAD = 0.15
-"""Largest time by which a sample's time may be later than its arrival, s (periodic.py)."""
 SET_BACK_PACKETS = 20
 """Number of packets in a row with earlier arrivals that shows that the receiver's clock was set back."""
 
@@ -126,7 +125,7 @@ class Decoder:
 
         The next packet may have arrived earlier or later by the new clock; it starts a new fit."""
         out = self.finish()
-        self.newest_arrival, self.backward_packets = None, 0
+        self.newest_arrival, self.absent_since, self.backward_packets = None, None, 0
         if self.newest_stream_arrival is not None:
             self.newest_stream_arrival = now
         if self.link is not None:
@@ -167,7 +166,7 @@ class Decoder:
         if is_long or self.stale:
             self.absent_since = newest
         if self.absent_since is not None:
-            last = self.absent_since + MAX_SAMPLE_LEAD
+            last = self.absent_since + MAX_EARLY_ARRIVAL
             out = [evolve(item, count=0) if isinstance(item, SampleGap) and item.t <= last else item for item in out]
         if newest is not None and (self.stale or (is_long and not link.may_be_silent)):
             resumed = StreamResumed(t=t, site=self.site, silent_for=t - newest)

@@ -22,7 +22,7 @@ from __future__ import annotations
 from math import floor
 
 from ..types.attrs import define, field
-from .clock import Clock
+from .clock import MAX_EARLY_ARRIVAL, Clock
 from .counters import SampleTimes
 
 MIN_LOSS_GAP = 1.5
@@ -35,8 +35,6 @@ MIN_EARLY_PERIODS, EARLY_SLOT = 0.5, 0.25
 """Smallest lead of a packet that shows that none was lost, and distance of its time from the last slot, periods."""
 REVISABLE_PACKETS = 12
 """Number of packets after a reported loss that may still show that no packet was lost."""
-MAX_EARLY_ARRIVAL = 0.15
-"""Largest time by which an assigned time may be after the arrival, s; one period is added."""
 SETTLED_PACKETS = 40
 """Number of packets after which the fit is good enough to measure lateness; until then only gaps show a loss."""
 SLIPPED_PACKETS, SLIPPED_DURATION = 8, 0.32

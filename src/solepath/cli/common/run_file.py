@@ -13,6 +13,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from attrs import asdict, has
+
 from ...recipes import Recipe
 from ...saving import codec
 from ...show.tables.summary import links_of
@@ -51,6 +53,8 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
 def _plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [_plain(one) for one in value]
+    if has(type(value)):
+        return {name: _plain(one) for name, one in asdict(value, recurse=False).items()}
     return value if isinstance(value, bool | int | float | str) else getattr(value, "name", str(value))
 
 
