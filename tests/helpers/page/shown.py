@@ -31,7 +31,8 @@ REFRESH = 1.0 / 60.0
 MAX_PART = 2.0 * REFRESH
 TIMES = frozenset({"t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike", "revises"})
 """Fields of events that hold a time, s."""
-CONNECTED = "document.getElementById('connection').dataset.state === 'open'"
+CONNECTED = "document.getElementById('connection').dataset.state === 'open' && solepath.state.known"
+"""Whether the page has its connection and the first scene, before which its state has no members."""
 
 PacketEvents = tuple[Packet | Sample, tuple[Event, ...]]
 """Packet or sample that a session was fed, and the events that it returned for it."""
