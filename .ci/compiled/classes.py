@@ -85,7 +85,7 @@ def _read_field(node: ast.AnnAssign) -> Field:
     if isinstance(hint, ast.Subscript) and ast.unparse(hint.value) == "Final":
         hint = hint.slice
     one, value = Field(ast.unparse(node.target), hint, declared=node.value), node.value
-    if isinstance(value, ast.Call) and ast.unparse(value.func) == "field":
+    if isinstance(value, ast.Call) and ast.unparse(value.func) in ("field", "state"):
         options = {keyword.arg: keyword.value for keyword in value.keywords}
         if "init" in options:
             one.init = ast.literal_eval(options["init"])

@@ -177,8 +177,8 @@ class ModuleRewriter:
             these = []
             for one in record.own:
                 declared = "declare()" if one.declared is None else ast.unparse(one.declared)
-                if declared.startswith("field("):
-                    declared = declared.replace("field(", "declare(", 1)
+                if declared.startswith(("field(", "state(")):
+                    declared = f"declare({declared.partition('(')[2]}"
                 elif not declared.startswith("declare("):
                     declared = f"declare(default={declared})"
                 if one.name in record.defaults:

@@ -25,7 +25,7 @@ from math import log
 from ..events import Defect, DefectFound, LiftRidden, StrideTaken
 from ..foot.view import FootView
 from ..types import Foot, Site
-from ..types.attrs import define, evolve, field, stateful
+from ..types.attrs import define, evolve, field, state, stateful
 from ..types.vector import to_float32
 from .part import HeightShift, Inputs, Outputs, Part, PartOutput, Replacement
 
@@ -205,20 +205,20 @@ class Altitude(Part):
     needs_samples = True
     idle = True
 
-    now: HeightEstimate = field(factory=HeightEstimate)
+    now: HeightEstimate = state(factory=HeightEstimate)
     """Estimate after all inputs."""
-    base: HeightEstimate = field(factory=HeightEstimate)
+    base: HeightEstimate = state(factory=HeightEstimate)
     """Estimate before the oldest input that is kept."""
-    inputs: deque[PackedInput] = field(factory=deque)
+    inputs: deque[PackedInput] = state(factory=deque)
     """Recent inputs, in the order in which they were processed: readings of both barometers and changes of the
     correction."""
-    sides: list[PendingReadings] = field(factory=lambda: [PendingReadings(), PendingReadings()])
+    sides: list[PendingReadings] = state(factory=lambda: [PendingReadings(), PendingReadings()])
     """Pending readings of the left and the right barometer."""
     noise: float = 0.04
     """Variance of a reading, estimated from consecutive readings, m^2."""
     ride_variance: float = 0.0
     """Variance of the height of all rides together, m^2."""
-    strides: deque[tuple[float, float]] = field(factory=deque)
+    strides: deque[tuple[float, float]] = state(factory=deque)
     """Start and end of each of the newest strides, in whole hundredths of a second."""
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:

@@ -10,7 +10,7 @@ from struct import Struct
 from ..events import FeetSwapped, FootResumed, FootSilent, StrideTaken, ToeOff
 from ..foot.view import FootView
 from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec2, Vec3, per_foot
-from ..types.attrs import ROW_SIZE, define, field, frozen, stateful
+from ..types.attrs import ROW_SIZE, define, field, frozen, state, stateful
 from ..types.vector import ZERO, add, cross, dot, rotate_back, sub
 from .part import Inputs, LayoutReported, Outputs, Part, PartOutput
 
@@ -164,8 +164,8 @@ class Sides:
 
     Cost: an integral at 50 Hz, or a centre of pressure at 20 Hz for an insole without inertial sensor."""
 
-    feet: PerFoot[SwapEvidence] = field(factory=lambda: per_foot(SwapEvidence))
-    declared: list[Foot] = field(factory=list)
+    feet: PerFoot[SwapEvidence] = state(factory=lambda: per_foot(SwapEvidence))
+    declared: list[Foot] = state(factory=list)
     """Feet whose devices have reported a layout that is made for them."""
 
     def update(self, view: FootView, events: Sequence[object]) -> bool:
@@ -321,9 +321,9 @@ class Wear(Part):
     needs_samples = True
     notices = (LayoutReported,)
 
-    settings: WearSettings = WearSettings()
-    sides: Sides = field(factory=Sides)
-    feet: PerFoot[FootSilence] = field(factory=lambda: per_foot(FootSilence))
+    settings: WearSettings = field(default=WearSettings())
+    sides: Sides = state(factory=Sides)
+    feet: PerFoot[FootSilence] = state(factory=lambda: per_foot(FootSilence))
     swapped: bool = False
     """Flag: exchanged feet were reported."""
 

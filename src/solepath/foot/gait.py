@@ -7,7 +7,7 @@ from math import hypot
 from ..calibration import HeadingCalibration, usual_strides
 from ..events import Event
 from ..types import Foot, Phase, Vec3
-from ..types.attrs import field, stateful
+from ..types.attrs import field, state, stateful
 from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub
 from .cues.cues import Cues, TimedCue
 from .gap import Infill
@@ -25,19 +25,19 @@ FLAT_SPEED = 0.35
 class Gait:
     """The phases and strides of one foot, each of which becomes an event as soon as its cue is seen."""
 
-    foot: Foot
-    heading: HeadingCalibration | None
+    foot: Foot = field()
+    heading: HeadingCalibration | None = field()
     """Drift of the heading that is removed at the end of every stride; None when it was not calibrated."""
     phase: Phase = Phase.STATIONARY
     phase_start: float | None = None
     """Start of the current phase, s; None before the first change of phase and after times restarted."""
-    template: StrideTemplate = field(factory=StrideTemplate)
+    template: StrideTemplate = state(factory=StrideTemplate)
     stride: StrideBuilder = field(init=False)
-    path: PathCovariance = field(factory=PathCovariance)
+    path: PathCovariance = state(factory=PathCovariance)
     """Covariance of the path up to the last anchor, navigation frame; an anchor is the heel-off that ends a stretch."""
     anchor_position: Vec3 = ZERO
     """Position at the last anchor, navigation frame, m."""
-    world: World = field(factory=World)
+    world: World = state(factory=World)
     heading_settled: bool = False
     """The heading of the world frame is final."""
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..events import Event, Flaw, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
-from ..types.attrs import MADE_AGAIN, evolve, field, stateful
+from ..types.attrs import MADE_AGAIN, evolve, field, state, stateful
 from ..types.records import MAX_TIME
 from ..types.vector import ZERO
 from .attitude import Levelling, Rest, WalkScale
@@ -35,12 +35,12 @@ if TYPE_CHECKING:
 class FootTracker:
     """Tracks one foot from its samples, which must be in order of time."""
 
-    foot: Foot
-    detector: Detector
-    corrector: Corrector
-    cues: Cues
-    settings: FootSettings = FootSettings()
-    sole: Sole | None = field(default=None, metadata=MADE_AGAIN)
+    foot: Foot = field()
+    detector: Detector = field()
+    corrector: Corrector = field()
+    cues: Cues = field()
+    settings: FootSettings = field(default=FootSettings())
+    sole: Sole | None = state(default=None, metadata=MADE_AGAIN)
     """Pressure cells of the foot; None until there are any."""
     t: float | None = None
     """Time of the newest sample, s; None before any."""
@@ -56,12 +56,12 @@ class FootTracker:
     """Number of samples that the link has lost since the last gap; None where samples are fed without a link."""
     lost_after: float = 0.0
     """Time of the sample after which they were lost, s."""
-    rhythm: Rhythm = field(factory=Rhythm)
-    levelling: Levelling = field(factory=Levelling)
+    rhythm: Rhythm = state(factory=Rhythm)
+    levelling: Levelling = state(factory=Levelling)
     levelled: bool = False
     """The first attitude is known."""
-    rest: Rest = field(factory=Rest)
-    walk_scale: WalkScale = field(factory=WalkScale)
+    rest: Rest = state(factory=Rest)
+    walk_scale: WalkScale = state(factory=WalkScale)
     gait: Gait = field(init=False)
     limitations: Limitations = field(init=False)
 

@@ -30,7 +30,7 @@ from ..floorplan.index import IndexedPlan
 from ..floorplan.plan import ConnectorKind, FloorPlanError, Point, Start
 from ..foot.view import FootView
 from ..types import Foot, Vec3
-from ..types.attrs import NOT_SAVED, evolve, field, stateful
+from ..types.attrs import NOT_SAVED, evolve, state, stateful
 from .headings import ANY_HEADING_SHARE, START_HEADING_ERROR, Heading, KnownHeading
 from .levels import (
     EXIT_ERROR,
@@ -162,7 +162,7 @@ class StrideScale:
 
     factor: float = 1.0
     """Factor of the wearer's moves."""
-    last: dict[Foot, tuple[float, float, float]] = field(factory=dict)
+    last: dict[Foot, tuple[float, float, float]] = state(factory=dict)
     """Last stride of each foot: position of the wearer after it, m, and stride length, m."""
 
     def add_stride(self, stride: StrideTaken, here: Vec3) -> None:
@@ -185,22 +185,22 @@ class Particles(Part):
     notices = (StartGiven,)
     needs_position = True
 
-    particles: Cloud = field(factory=list)
+    particles: Cloud = state(factory=list)
     """The particles, at most `MAX_PARTICLES`."""
     random: int = 1
     """State of the random numbers."""
-    plan: IndexedPlan | None = field(default=None, eq=False, repr=False, metadata=NOT_SAVED)
+    plan: IndexedPlan | None = state(default=None, eq=False, repr=False, metadata=NOT_SAVED)
     """The floor plan; it is not saved, and is set when a session is made or restored."""
-    pending_events: list[Event] = field(factory=list)
+    pending_events: list[Event] = state(factory=list)
     """Events since the wearer's last position."""
     place: Placed | None = None
     """Place of the wearer on the plan; None while it is not known."""
     start: Start | None = None
     last_place: Point = (0.0, 0.0)
     """Newest position of the track that was used, m, world frame."""
-    references: References = field(factory=References)
-    stride_scale: StrideScale = field(factory=StrideScale)
-    known: KnownHeading = field(factory=KnownHeading)
+    references: References = state(factory=References)
+    stride_scale: StrideScale = state(factory=StrideScale)
+    known: KnownHeading = state(factory=KnownHeading)
     stride_count: int = 0
     """Number of strides since the last check for particles outside of the plan."""
     strides_outside: int = 0
@@ -221,7 +221,7 @@ class Particles(Part):
     """First arrival while its exits are not decided; None before, afterwards, and with a known heading."""
     strides_since: int = 0
     """Number of strides since the first arrival."""
-    unmapped: Cloud = field(factory=list)
+    unmapped: Cloud = state(factory=list)
     """Particles that were in a lift when it went to where the plan has no landing; empty if it did not."""
     unmapped_height: float = 0.0
     """Height of all rides since then, m, upwards."""

@@ -18,7 +18,7 @@ from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTa
 from ..floorplan.index import IndexedPlan, Landing
 from ..floorplan.plan import ConnectorKind, Point
 from ..types import Activity, Floats, Foot, Vec3
-from ..types.attrs import define, field, frozen, stateful
+from ..types.attrs import define, field, frozen, state, stateful
 from ..types.vector import add, sub
 
 # What the plan says about its stairs and elevators.
@@ -352,7 +352,7 @@ class References:
     activity: Activity = Activity.UNKNOWN
     passage: Passage | None = None
     """Passage under way, or left and not decided; None otherwise."""
-    track: deque[tuple[float, Vec3]] = field(factory=deque)
+    track: deque[tuple[float, Vec3]] = state(factory=deque)
     """Newest positions of the track: t, s, and position, m."""
     ride_end: float | None = None
     """End of the last ride, s."""

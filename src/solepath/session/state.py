@@ -41,7 +41,7 @@ from ..foot.view import FootView
 from ..link.kinds import DeviceKinds
 from ..recipes import Recipe, part_class
 from ..types import OTHER, SITE_OF_FOOT, Foot, Packet, Quat, Sample, Site
-from ..types.attrs import MADE_AGAIN, NOT_SAVED, evolve, field, frozen, stateful
+from ..types.attrs import MADE_AGAIN, NOT_SAVED, evolve, field, frozen, state, stateful
 from ..types.plain import has_floats, number, text, with_floats
 from ..types.records import MAX_TIME
 from ..types.vector import normalise
@@ -79,23 +79,23 @@ class SessionSettings:
 class SessionState:
     """The whole state of a session: decoders of the worn devices, trackers of the feet, and the parts of the body."""
 
-    settings: SessionSettings
+    settings: SessionSettings = field()
     now: float | None = None
     """Newest known time, s, packets' clock; None before the first."""
-    decoders: dict[Site, Decoder] = field(factory=dict)
+    decoders: dict[Site, Decoder] = state(factory=dict)
     finished: bool = False
     parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
     """Parts in the order in which they receive events."""
-    awake: tuple[tuple[int, Part], ...] = field(default=(), metadata=NOT_SAVED)
+    awake: tuple[tuple[int, Part], ...] = state(default=(), metadata=NOT_SAVED)
     """Parts that need samples without events too, each after the number of the part that follows it.
 
     A part that is idle after events, a notice or a reset is left out, because only one of these wakes it."""
-    feet: dict[Foot, FootTracker] = field(factory=dict, metadata=MADE_AGAIN)
+    feet: dict[Foot, FootTracker] = state(factory=dict, metadata=MADE_AGAIN)
     height: tuple[float, float] = (0.0, 0.0)
     """Height correction added to the tracks' z, m, positive upwards, and its variance, m^2."""
-    unsettled: dict[Site, float | None] = field(factory=dict)
+    unsettled: dict[Site, float | None] = state(factory=dict)
     """Time up to which each site's times are not comparable with another site's, s; None when they are comparable."""
-    unused: list[Site] = field(factory=list)
+    unused: list[Site] = state(factory=list)
     """Sites whose samples the recipe cannot use; reported once."""
 
     def __attrs_post_init__(self) -> None:

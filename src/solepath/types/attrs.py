@@ -1,8 +1,9 @@
 """The decorators `define`, `frozen` and `stateful` of all classes of solepath: those of attrs, but faster to import.
 
 `stateful` is `define` for a class with state: each field with a default is state, which no constructor takes, but
-`settings`. A class from which others with settings of their own derive is made by `define`: type checkers take the
-state of a base for arguments.
+`settings`. mypy sees the same constructor: it takes what is a `field` there, and neither what has a plain default nor
+what is a `state`, which is a `field` at run time. A class from which others with settings of their own derive is made
+by `define`.
 
 attrs writes and compiles `__repr__`, `__eq__` and `__hash__` of every class when its module is imported. This takes
 three fifths of the time to create a class, and took a third of the time of `import solepath`. Here all classes share
@@ -13,7 +14,7 @@ import."""
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import attrs
 from attrs import astuple, evolve, field, fields
@@ -43,8 +44,17 @@ def limited(default: Any, least: float, most: float, unit: str = "") -> Any:
 
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from attr import s as stateful
     from attrs import define, frozen
-    from attrs import define as stateful
+
+    _Value = TypeVar("_Value")
+
+    def state(*, default: _Value = ..., factory: Callable[[], _Value] = ..., **options: Any) -> _Value:
+        """Return a field of state, of a class made by `stateful`."""
+        raise NotImplementedError
+
 else:
 
     def _repr(self: Any) -> str:
@@ -89,7 +99,7 @@ else:
         ]
 
     define = partial(_decorate, attrs_decorator=attrs.define, hashed=False)
-    stateful = partial(define, field_transformer=_with_state)
+    stateful, state = partial(define, field_transformer=_with_state), field
     frozen = partial(_decorate, attrs_decorator=attrs.frozen, hashed=True)
 
 __all__ = [
@@ -106,5 +116,6 @@ __all__ = [
     "frozen",
     "limited",
     "limits",
+    "state",
     "stateful",
 ]

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, PerFoot, Site, Vec3, per_foot
-from ...types.attrs import evolve, field, frozen, stateful
+from ...types.attrs import evolve, field, frozen, state, stateful
 from ...types.vector import TIME_EPSILON, ZERO
 from ..part import ActivityPart, Inputs, Outputs, PartOutput
 from .early import ActivityCue, ActivityReport, BlockSigns, Early, cue_of_stride, follow, follow_block
@@ -61,27 +61,27 @@ class Activities(ActivityPart):
 
     needs_samples = True
 
-    settings: ActivitiesSettings = ActivitiesSettings()
+    settings: ActivitiesSettings = field(default=ActivitiesSettings())
     origin: float | None = None
     """Start of block 0, s."""
     next_block: int = 0
     """Number of the block that is judged next."""
-    feet: PerFoot[FootBlocks] = field(factory=lambda: per_foot(FootBlocks))
+    feet: PerFoot[FootBlocks] = state(factory=lambda: per_foot(FootBlocks))
     pressure_height: PressureHeight | None = None
     """Heights by the barometers; None before any reading."""
     walked: bool = False
     """Flag: the wearer has taken a stride. Before, no force can have shown that an elevator set off, and a slope of the
     air pressure alone is no ride."""
-    hypotheses: Hypotheses = field(factory=Hypotheses)
-    report: ActivityReport = field(factory=ActivityReport)
+    hypotheses: Hypotheses = state(factory=Hypotheses)
+    report: ActivityReport = state(factory=ActivityReport)
     newest_block: int = -1
     """Number of the newest block that is complete in all feet that give samples."""
-    early: list[Early] = field(factory=lambda: [(NO_ACTIVITY, 1.0)])
+    early: list[Early] = state(factory=lambda: [(NO_ACTIVITY, 1.0)])
     """Newest activity of the likeliest sequence and those in the blocks since, each with its probability."""
     stride_cue: tuple[int, ActivityCue, float] | None = None
     """Number of the block of the newest stride with a cue, its cue, and the probability of that; None before any."""
-    flights: Flights = field(factory=Flights)
-    strides: deque[StrideTaken] = field(factory=deque)
+    flights: Flights = state(factory=Flights)
+    strides: deque[StrideTaken] = state(factory=deque)
     """Strides whose activity is not known yet, without their features."""
 
     @property

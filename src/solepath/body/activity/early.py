@@ -11,7 +11,7 @@ from math import exp, fsum
 
 from ...events import ActivityChanged, Event, LiftRidden
 from ...types import Activity, Floats
-from ...types.attrs import field, stateful
+from ...types.attrs import state, stateful
 from ...types.vector import TIME_EPSILON
 from .chain import ACTIVITIES, STAND, UNKNOWN, Chain
 from .elevator_evidence import PULSE_ACCELERATION, PULSE_DEVIATION, ElevatorEvidence, RestLevels
@@ -34,7 +34,7 @@ class ActivityReport:
 
     activity: Activity = Activity.UNKNOWN
     """The newest activity that was reported, final or not."""
-    provisional: list[Early] = field(factory=list)
+    provisional: list[Early] = state(factory=list)
     """Segments that were reported and are not final, oldest first, each with its newest probability."""
     withdrawn_at: float | None = None
     """Time `t` of the newest report, s, if it is not final and withdrew an activity without a successor; else None."""

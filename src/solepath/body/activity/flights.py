@@ -24,7 +24,7 @@ from math import fsum
 
 from ...events import FlightClimbed, StrideTaken
 from ...types import PerFoot, per_foot
-from ...types.attrs import define, field, stateful
+from ...types.attrs import define, state, stateful
 
 LEAST_RISE = 0.08
 """Least height change of a stair stride, m: half of a riser."""
@@ -102,7 +102,7 @@ class Flights:
     """Number of level strides since the last stair stride."""
     trusted_rise: float = 0.0
     """Sum of the height changes of the trusted stair strides of the flight under way, m."""
-    feet: PerFoot[FootClimb] = field(factory=lambda: per_foot(FootClimb))
+    feet: PerFoot[FootClimb] = state(factory=lambda: per_foot(FootClimb))
 
     def reset(self) -> None:
         """Discard the flight under way, because the clock restarts or another device is worn."""

@@ -12,7 +12,7 @@ from math import exp
 from ...events import Defect, StrideTaken
 from ...foot.view import FootView
 from ...types import PerFoot, Site, per_foot
-from ...types.attrs import define, field, stateful
+from ...types.attrs import define, state, stateful
 from ..altitude import DEGRADED_FACTOR, SCALE_HEIGHT, STANDARD_PRESSURE, height_above_track
 from ..part import Inputs, Outputs, Part
 from .stances import Finding
@@ -73,7 +73,7 @@ class AirPressure(Part):
     needs_samples = True
     idle = True
 
-    feet: PerFoot[Barometer] = field(factory=lambda: per_foot(Barometer))
+    feet: PerFoot[Barometer] = state(factory=lambda: per_foot(Barometer))
     stride_at: float | None = None
     """End of the newest stride of either foot, s; None before any."""
     degraded: bool = False

@@ -20,7 +20,7 @@ from math import atan2, cos, fsum, hypot, pi, sin, sqrt
 from ...events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Phase, Site, per_foot
-from ...types.attrs import define, evolve, field, frozen, stateful
+from ...types.attrs import define, evolve, field, frozen, state, stateful
 from ..part import ClockUnsettled, Inputs, Outputs, Part, PartOutput
 from .stances import Finding
 
@@ -173,7 +173,7 @@ class LoneFoot:
 class LoneStrides:
     """Detects a foot that walked while the other foot stood; the sentences are those of the right foot."""
 
-    feet: PerFoot[LoneFoot] = field(factory=lambda: per_foot(LoneFoot))
+    feet: PerFoot[LoneFoot] = state(factory=lambda: per_foot(LoneFoot))
     other_t: float | None = None
     """Time of the newest sample of the foot that did not have the newest event, s; None before any."""
     requested: Foot | None = None
@@ -293,12 +293,12 @@ class FootClocks(Part):
 
     idle: bool = True
     """Flag: only samples with events are needed."""
-    feet: PerFoot[FootClock] = field(factory=lambda: per_foot(FootClock))
-    comparisons: list[Comparison] = field(factory=list)
+    feet: PerFoot[FootClock] = state(factory=lambda: per_foot(FootClock))
+    comparisons: list[Comparison] = state(factory=list)
     """Newest comparisons, oldest first."""
     reported: float | None = None
     """Newest offset that was reported, s; None before any."""
-    lone: LoneStrides = field(factory=LoneStrides)
+    lone: LoneStrides = state(factory=LoneStrides)
     lone_reported: bool = False
     """Flag: it was reported that one foot walked while the other one stood."""
     lone_sentences: str | None = None

@@ -9,7 +9,7 @@ from __future__ import annotations
 from ...events import Defect, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, PerFoot, Site, per_foot
-from ...types.attrs import define, field, stateful
+from ...types.attrs import define, state, stateful
 from ..part import Inputs, Outputs, Part, PartOutput
 from .stances import Finding
 
@@ -68,7 +68,7 @@ class Looseness(Part):
     needs_samples = True
     idle = True
 
-    feet: PerFoot[LandingErrors] = field(factory=lambda: per_foot(LandingErrors))
+    feet: PerFoot[LandingErrors] = state(factory=lambda: per_foot(LandingErrors))
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a stride of the foot; return the event if its sensor came loose."""

@@ -10,7 +10,7 @@ from math import degrees, radians, sqrt
 from ...events import Defect, DefectFound, Flaw, SampleGap, StrideTaken
 from ...foot.view import FASTEST_RUN, FootView
 from ...types import PerFoot, Site, per_foot
-from ...types.attrs import define, evolve, field, stateful
+from ...types.attrs import define, evolve, state, stateful
 from ...types.vector import GRAVITY
 from ..activity.flights import HIGHEST_RISE, integrated_rise
 from ..part import Inputs, Outputs, Part, PartOutput, Replacement
@@ -76,7 +76,7 @@ class PossibleMotion(Part):
 
     Latency: none; a stride is replaced before the parts after this one receive it."""
 
-    feet: PerFoot[FootRecord] = field(factory=lambda: per_foot(FootRecord))
+    feet: PerFoot[FootRecord] = state(factory=lambda: per_foot(FootRecord))
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         outputs: list[PartOutput] = []

@@ -8,7 +8,7 @@ from typing import Final
 from ...events import Defect, DefectFound, HeelStrike, SampleRejected, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Site, Vec3, per_foot
-from ...types.attrs import define, field, stateful
+from ...types.attrs import define, field, state, stateful
 from ..part import Inputs, Outputs, Part, PartOutput
 from .axes import AxesCheck, BandwidthCheck
 from .readings import (
@@ -88,7 +88,7 @@ class SensorChecks(Part):
 
     needs_samples = True
 
-    feet: PerFoot[SensorCheck] = field(factory=lambda: per_foot(SensorCheck))
+    feet: PerFoot[SensorCheck] = state(factory=lambda: per_foot(SensorCheck))
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample and events; return the defects that they show."""

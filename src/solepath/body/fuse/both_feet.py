@@ -25,7 +25,7 @@ from ...calibration import Calibration, usual_strides
 from ...events import Defect, DefectFound, PositionReported, SampleGap, StrideTaken
 from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Phase, Site, Vec2, Vec3, per_foot
-from ...types.attrs import define, field, frozen, stateful
+from ...types.attrs import define, field, frozen, state, stateful
 from ...types.vector import ZERO, add, sub, wrap_angle
 from ..part import Inputs, Outputs, PartOutput, Position, Shift, StartGiven
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
@@ -122,13 +122,13 @@ class BothFeet(MeanOfFeet):
 
     notices = (StartGiven,)
 
-    settings: BothFeetSettings = BothFeetSettings()
-    errors: TrackErrorFilter = field(factory=TrackErrorFilter)
+    settings: BothFeetSettings = field(default=BothFeetSettings())
+    errors: TrackErrorFilter = state(factory=TrackErrorFilter)
     """Covariance of the errors of both tracks, of which only the differences are used."""
-    common: CommonError = field(factory=CommonError)
+    common: CommonError = state(factory=CommonError)
     """Covariance of the errors that both tracks share."""
-    straight_ways: StraightWays = field(factory=StraightWays)
-    ground: MovingGround = field(factory=MovingGround)
+    straight_ways: StraightWays = state(factory=StraightWays)
+    ground: MovingGround = state(factory=MovingGround)
     compass: Compass | None = None
     """The compass; None until a sample has a magnetic field."""
     measured_at: float = 0.0
@@ -136,7 +136,7 @@ class BothFeet(MeanOfFeet):
     plan_start: PlanStart | None = None
     """Wearer's first place on the floor plan, in whose frame a person may report positions; None if it or the first
     heading is not known there."""
-    path: WalkedPath = field(factory=WalkedPath)
+    path: WalkedPath = state(factory=WalkedPath)
     """Path of the wearer so far."""
     started: bool = False
     """Flag: both feet have had samples."""
@@ -144,12 +144,12 @@ class BothFeet(MeanOfFeet):
     """Distance walked, m; it is counted up to `ALIGNMENT_DISTANCE`."""
     width: float = WALKING_WIDTH
     """Walking width, m."""
-    strides: PerFoot[DirectedStride | None] = field(factory=lambda: dict.fromkeys(Foot))
+    strides: PerFoot[DirectedStride | None] = state(factory=lambda: dict.fromkeys(Foot))
     """Newest stride of each foot."""
     divergence: float | None = None
     """The newest angle between the tracks, rad; None before any and after a correction."""
-    directions: PerFoot[WalkingDirection] = field(factory=lambda: per_foot(WalkingDirection))
-    placements: PerFoot[tuple[float, Vec3]] = field(factory=lambda: dict.fromkeys(Foot, (0.0, ZERO)))
+    directions: PerFoot[WalkingDirection] = state(factory=lambda: per_foot(WalkingDirection))
+    placements: PerFoot[tuple[float, Vec3]] = state(factory=lambda: dict.fromkeys(Foot, (0.0, ZERO)))
     """Turn, rad, and offset, m, of each track when alignment ended; later corrections go to the feet themselves."""
 
     def calibrated(self, calibration: Calibration) -> BothFeet:

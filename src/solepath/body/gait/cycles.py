@@ -18,7 +18,7 @@ from ...events import (
 from ...events.foot import LONGEST_HARMLESS_GAP
 from ...foot.view import FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, per_foot
-from ...types.attrs import define, field, stateful
+from ...types.attrs import define, field, state, stateful
 from ..part import ClockUnsettled, Inputs, Outputs, Part, PartOutput
 from .means import GaitMeans, GaitParameters
 
@@ -267,8 +267,8 @@ class GaitCycles(Part):
     needs_samples = True
     notices = (ClockUnsettled,)
 
-    feet: PerFoot[Footfalls] = field(factory=lambda: per_foot(Footfalls))
-    means: GaitMeans = field(factory=GaitMeans)
+    feet: PerFoot[Footfalls] = state(factory=lambda: per_foot(Footfalls))
+    means: GaitMeans = state(factory=GaitMeans)
     idle: bool = True
     """Flag: no cycle waits for samples of the other foot."""
     clocks_apart: bool = False

@@ -16,7 +16,7 @@ from typing import Any
 
 from ...events import GaitCycleMeasured
 from ...types import Foot, PerFoot, ValueEnum, per_foot
-from ...types.attrs import define, evolve, field, frozen, stateful
+from ...types.attrs import define, evolve, field, frozen, state, stateful
 
 MEMORY_STRIDES = 120
 """Number of strides of a foot after which older strides fade."""
@@ -198,10 +198,10 @@ class GaitMeans:
 
     A stride is added when the next stride of its foot follows, so that the last stride before a stop is left out."""
 
-    newest: PerFoot[GaitCycleMeasured | None] = field(factory=lambda: dict.fromkeys(Foot))
+    newest: PerFoot[GaitCycleMeasured | None] = state(factory=lambda: dict.fromkeys(Foot))
     """Newest stride of each foot."""
-    walking_means: ParameterMeans = field(factory=ParameterMeans)
-    running_means: ParameterMeans = field(factory=ParameterMeans)
+    walking_means: ParameterMeans = state(factory=ParameterMeans)
+    running_means: ParameterMeans = state(factory=ParameterMeans)
     """Running means of the strides of a runner."""
     running: bool | None = None
     """Flag: the newest stride in the means was a running stride; None before any."""

@@ -14,7 +14,7 @@ from math import fsum, pi
 from ...events import FootFlat, StrideTaken, TurnMade
 from ...foot.view import AfterEvents, FootView
 from ...types import OTHER, Foot, PerFoot, Quat, Site, Turn, per_foot
-from ...types.attrs import define, field, frozen, stateful
+from ...types.attrs import define, field, frozen, state, stateful
 from ...types.vector import heading_turned
 from ..part import Inputs, Outputs, Part, PartOutput
 
@@ -150,7 +150,7 @@ class TurnDetector:
     Latency: a turn is known after `STRAIGHT_STRIDES` straight strides of the feet (two strides when only one foot has
     samples), or after the feet have stood for `MIN_PAUSE`."""
 
-    feet: PerFoot[FootTurn] = field(factory=lambda: per_foot(FootTurn))
+    feet: PerFoot[FootTurn] = state(factory=lambda: per_foot(FootTurn))
     t_start: float | None = None
     """Start of the first turning stride of the process, s; None outside a turn."""
     t_end: float = 0.0
@@ -288,8 +288,8 @@ class Turns(Part):
 
     needs_samples = True
 
-    detector: TurnDetector = field(factory=TurnDetector)
-    last_flat: dict[Foot, FlatFoot] = field(factory=dict)
+    detector: TurnDetector = state(factory=TurnDetector)
+    last_flat: dict[Foot, FlatFoot] = state(factory=dict)
     """Newest foot-flat of each foot."""
     idle: bool = True
     """Flag: no turn is under way."""

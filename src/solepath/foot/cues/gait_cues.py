@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ...types import Layout, Phase, Vec3
-from ...types.attrs import define, field, stateful
+from ...types.attrs import define, state, stateful
 from ..phase import LOADING, PUSH_OFF, STATIONARY, SWING, Cue
 from ..stance.stance import Load, Stance
 from .cues import MOST_SINGLE_CELLS, Cues, TimedCue
@@ -90,8 +90,8 @@ class GaitCues(Cues):
 
     Latency: that of `InertialCues`, or of `PressureCues` with pressure cells."""
 
-    inertial: InertialCues = field(factory=InertialCues)
-    pressure: PressureCues = field(factory=PressureCues)
+    inertial: InertialCues = state(factory=InertialCues)
+    pressure: PressureCues = state(factory=PressureCues)
     touch: Touch | None = None
     """Detector of ground contact for an insole of few cells; None until there is one."""
     sagittal: float = 0.0

@@ -16,7 +16,7 @@ The numbers were chosen by hand and not swept."""
 from __future__ import annotations
 
 from ...types import Floats, Layout
-from ...types.attrs import evolve, field, frozen, stateful
+from ...types.attrs import evolve, field, frozen, state, stateful
 from ...types.vector import TIME_EPSILON
 from ..pressure.insole import Extremes, centre
 from ..stance.stance import Load
@@ -58,7 +58,7 @@ class TouchSettings:
 class Touch:
     """Detects ground contact from the load. Latency: none. At first the foot is on the ground."""
 
-    settings: TouchSettings = TouchSettings()
+    settings: TouchSettings = field(default=TouchSettings())
     trusted: bool = False
     """The cells were right in the last swing, and nothing has contradicted them since."""
     moving_since: float | None = None
@@ -69,9 +69,9 @@ class Touch:
     """The load of the last sample is unknown."""
     airborne: bool = False
     """The foot is in the air according to the cells."""
-    cells: list[Extremes] = field(factory=list)
+    cells: list[Extremes] = state(factory=list)
     """Lowest and highest recent value of each cell."""
-    in_front: list[bool] = field(factory=list)
+    in_front: list[bool] = state(factory=list)
     """Flag for each cell, True in the front half of the foot; empty without a layout."""
     front_peak: float = 0.0
     """Highest load of any front cell since the last contact, as a share of its range."""

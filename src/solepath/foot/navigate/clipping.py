@@ -21,7 +21,7 @@ from math import asin, fsum, sqrt
 from typing import NamedTuple
 
 from ...types import Quat, Vec3
-from ...types.attrs import define, field, frozen, stateful
+from ...types.attrs import define, field, frozen, state, stateful
 from ...types.vector import (
     GRAVITY,
     IDENTITY,
@@ -364,15 +364,15 @@ State = tuple[Quat, Vec3, Vec3, Covariance]
 class Recovery:
     """Correction of the state of a filter for the clipped peaks of both sensors of one foot."""
 
-    gyro_clipping: Clipping = field(factory=Clipping)
+    gyro_clipping: Clipping = state(factory=Clipping)
     """Clipping of the gyroscope."""
-    acc_clipping: Clipping = field(factory=lambda: Clipping(ACCELEROMETER))
+    acc_clipping: Clipping = state(factory=lambda: Clipping(ACCELEROMETER))
     """Clipping of the accelerometer."""
     last_acc: Vec3 = ZERO
     """Last acc, sensor frame, m/s^2."""
     earlier_acc: Vec3 = ZERO
     """Acc before the last one, sensor frame, m/s^2."""
-    swing: SwingSamples = field(factory=SwingSamples)
+    swing: SwingSamples = state(factory=SwingSamples)
     """Samples since the gyroscope came near the end of its range."""
     earlier_rate: Vec3 = ZERO
     """Rate before the last one, sensor frame, rad/s."""

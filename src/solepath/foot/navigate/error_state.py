@@ -15,7 +15,7 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 from ...types import Floats, Quat, Vec3
-from ...types.attrs import define, field, stateful
+from ...types.attrs import define, field, state, stateful
 from ...types.vector import GRAVITY, TIME_EPSILON, ZERO, sub, tipped
 from ..phase import STATIONARY
 from ..rhythm import StanceRhythm
@@ -167,7 +167,7 @@ class ErrorStateFilter(Strapdown):
     Numbers in this module without a source were chosen by hand on the recordings of docs/accuracy.md and not swept. A
     table in that document gives the accuracy of the default recipe without whole terms of the filter."""
 
-    settings: ErrorStateSettings = ErrorStateSettings()
+    settings: ErrorStateSettings = field(default=ErrorStateSettings())
     uncertainty: Covariance = (0.0,) * 45
     """Covariance at the last propagation."""
     elapsed: float = 0.0
@@ -182,7 +182,7 @@ class ErrorStateFilter(Strapdown):
     """Variance that noise has added to each angle since the last propagation, rad^2."""
     time_since_anchor: float = 0.0
     """Time since the last anchor, s."""
-    level: LevelGround = field(factory=LevelGround)
+    level: LevelGround = state(factory=LevelGround)
     """Height correction of level walking."""
     accepted_at: float | None = None
     """Time at which evidence was last accepted, s; None before any."""
@@ -192,11 +192,11 @@ class ErrorStateFilter(Strapdown):
     """Start of the current unbroken evidence, s; None without evidence."""
     velocity_error: Vec3 = ZERO
     """Error of the velocity at the first accepted evidence of the newest stance, m/s; see `Corrector`."""
-    rhythm: StanceRhythm = field(factory=StanceRhythm)
+    rhythm: StanceRhythm = state(factory=StanceRhythm)
     """Usual durations of stance and swing, for evidence that the gate rejects."""
     recovery: Recovery | None = None
     """Recovery of the clipped peaks of both sensors; None before any sample."""
-    interval: IndependentInterval = field(factory=IndependentInterval)
+    interval: IndependentInterval = state(factory=IndependentInterval)
     """Interval between independent readings, for the noise of what lies between two samples."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:

@@ -19,7 +19,7 @@ from operator import add
 from ...calibration import Newtons
 from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Cell, Floats, Foot, Layout, Phase, Sample, Vec2
-from ...types.attrs import define, field, stateful
+from ...types.attrs import define, field, state, stateful
 from ...types.vector import TIME_EPSILON
 from ..limitations import Limitations
 from ..settings import FootSettings, InsoleSettings
@@ -79,7 +79,7 @@ class InsoleLoads:
     the air (its noise) is subtracted, with 0 as the lower limit (Chen et al. 2019: noise "could be removed through
     deleting p_noise", equation (1))."""
 
-    settings: InsoleSettings = InsoleSettings()
+    settings: InsoleSettings = field(default=InsoleSettings())
     layout: Layout | None = None
     in_newtons: bool = False
     """The device sends newtons, so `settings.newtons` is not used."""
@@ -91,13 +91,13 @@ class InsoleLoads:
     """Indices of the cells of the heel area."""
     forefoot_cells: tuple[int, ...] = ()
     """Indices of the cells of the forefoot area."""
-    total: Extremes = field(factory=Extremes)
+    total: Extremes = state(factory=Extremes)
     """Extremes of the total load."""
-    heel: Extremes = field(factory=Extremes)
+    heel: Extremes = state(factory=Extremes)
     """Extremes of the load of the heel area."""
-    forefoot: Extremes = field(factory=Extremes)
+    forefoot: Extremes = state(factory=Extremes)
     """Extremes of the load of the forefoot area."""
-    tare: list[float] = field(factory=list)
+    tare: list[float] = state(factory=list)
     """Value of each cell in the air, unit of the samples."""
     tare_total: float = 0.0
     """Sum of the cells at the sample that gave the tare, unit of the samples."""
@@ -320,8 +320,8 @@ class Sole:
 
     Failed cells are not used. If the layout is unknown and the recipe needs pressure, the layout is estimated."""
 
-    foot: Foot
-    settings: FootSettings = FootSettings()
+    foot: Foot = field()
+    settings: FootSettings = field(default=FootSettings())
     insole: InsoleLoads = field(init=False)
     had_cells: bool = False
     """At least one sample with usable cells was added."""

@@ -18,7 +18,7 @@ from __future__ import annotations
 from math import exp, inf, log, sqrt
 
 from ...types import Quat, Vec2, Vec3
-from ...types.attrs import NOT_SAVED, define, field, stateful
+from ...types.attrs import NOT_SAVED, define, field, state, stateful
 from ...types.vector import IDENTITY, TIME_EPSILON, ZERO
 from ..phase import STATIONARY, SWING
 from ..settings import CycleSettings
@@ -146,9 +146,9 @@ class Cycle(Detector):
     Latency: 25 ms. The statistic has no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py).
     Time is divided into spans of equal duration. The extremes are those of the last three spans and the current one."""
 
-    settings: CycleSettings = CycleSettings()
-    sensor_height: SensorHeight = field(factory=SensorHeight)
-    shoe: ShoeDetector = field(factory=ShoeDetector)
+    settings: CycleSettings = field(default=CycleSettings())
+    sensor_height: SensorHeight = state(factory=SensorHeight)
+    shoe: ShoeDetector = state(factory=ShoeDetector)
     span_end: float | None = None
     """End of the current span, s; None before any."""
     lows: tuple[float, float, float] = (NO_STATISTIC, NO_STATISTIC, NO_STATISTIC)
@@ -163,7 +163,7 @@ class Cycle(Detector):
     """Lowest statistic of the last three spans together."""
     past_high: float = 0.0
     """Highest statistic of the last three spans together."""
-    threshold: float | None = field(default=None, metadata=NOT_SAVED)
+    threshold: float | None = state(default=None, metadata=NOT_SAVED)
     """Threshold by the extremes of all four spans; None until it is asked for after one of them has changed."""
 
     def update(

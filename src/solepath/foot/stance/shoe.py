@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from ...types import Quat, Vec3
-from ...types.attrs import field, stateful
+from ...types.attrs import field, state, stateful
 from ...types.vector import GRAVITY, IDENTITY, ZERO
 from ..phase import STATIONARY
 from ..settings import ShoeSettings
@@ -28,8 +28,8 @@ class ShoeDetector(Detector):
     T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2), over the W samples of the window. The sigma of the zero
     velocity grows with sqrt(T) above the statistic of a foot at rest."""
 
-    settings: ShoeSettings = ShoeSettings()
-    entries: list[tuple[float, float, float, float, float, float]] = field(factory=list)
+    settings: ShoeSettings = field(default=ShoeSettings())
+    entries: list[tuple[float, float, float, float, float, float]] = state(factory=list)
     """Time (s), acc x, y, z (m/s^2), and squared norms of acc and gyro (rad/s) of each sample in the window."""
     sums: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
     """Sums over the window of acc x, y, z and of the squared norms of acc and gyro."""

@@ -22,7 +22,7 @@ from collections.abc import Iterable, Sequence
 from enum import Enum
 
 from ...types import SITE_OF_FOOT, Packet, Site
-from ...types.attrs import field, frozen, stateful
+from ...types.attrs import field, frozen, state, stateful
 from ...wire.error import WireError
 from ...wire.fields import build_text
 from ...wire.insole_info import parse_info
@@ -64,7 +64,7 @@ def shorten(text: str, size: int) -> str:
 class RecentTroubles:
     """The troubles of one device that were reported less than `REPORT_INTERVAL` ago."""
 
-    _reported: dict[bytes, float] = field(factory=dict)
+    _reported: dict[bytes, float] = state(factory=dict)
     """Time of the last report of each trouble, s, by its text."""
 
     def leave_out(self, values: list[Value], now: float) -> list[Value]:
@@ -121,14 +121,14 @@ REJECTED = {
 class DeviceSetup:
     """The setup of one connected device (see the module)."""
 
-    roster: Roster
-    member: Member
-    profile: Profile
-    characteristics: frozenset[GattCharacteristic]
-    address: str
-    advertised_name: str
+    roster: Roster = field()
+    member: Member = field()
+    profile: Profile = field()
+    characteristics: frozenset[GattCharacteristic] = field()
+    address: str = field()
+    advertised_name: str = field()
     """Name that the device advertises; "" when unknown."""
-    signal: int | None
+    signal: int | None = field()
     """Signal strength of its advertisement, dBm; None when unknown."""
     request: Request | None = None
     """Request to do now; None when there is nothing to do."""
@@ -141,14 +141,14 @@ class DeviceSetup:
     _is_accepted: bool = False
     _info: bytes | None = None
     """Record from which the site was read, until its turn among the values."""
-    _queue: deque[Request] = field(factory=deque)
-    _written: list[Value] = field(factory=list)
+    _queue: deque[Request] = state(factory=deque)
+    _written: list[Value] = state(factory=list)
     """Values that were written until the device was set up, which may let it be silent."""
-    _values: list[Value] = field(factory=list)
+    _values: list[Value] = state(factory=list)
     """Values that the running call will return."""
     _watched: tuple[str, ...] = ()
     """Streams that must notify in time; none when silence is allowed."""
-    _last_t: dict[str, float] = field(factory=dict)
+    _last_t: dict[str, float] = state(factory=dict)
     """Time of the newest notification of each channel since the last setup, s."""
     _set_up_at: float = 0.0
     """Time at which the device was last set up, s."""
