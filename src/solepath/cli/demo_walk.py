@@ -99,8 +99,8 @@ def place_table(score: PlaceScore) -> str:
     """Return the table of the score of positions on the floor plan."""
     rows = [
         ["strides placed", str(score.strides)],
-        ["one candidate, the true one, after strides", "-" if score.decided is None else str(score.decided)],
-        ["strides with one candidate, a wrong one", str(score.wrong)],
+        ["decided, at the true place, after strides", "-" if score.decided is None else str(score.decided)],
+        ["strides decided, at a wrong place", str(score.wrong)],
         ["strides without the true candidate", str(score.dropped)],
         ["from the second turn on, median error m", number(median(score.off)) if score.off else "-"],
     ]

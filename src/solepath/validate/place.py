@@ -36,11 +36,11 @@ class PlaceScore:
     off: tuple[float, ...]
     """3D position error after each scored stride from the second turn on, m; a wrong level adds a height error."""
     decided: int | None
-    """Number of placed strides until the true candidate was the only one; None when that never happened."""
+    """Number of placed strides until the place was decided (Placed.decided) and the true one; None if it never was."""
     dropped: int
     """Number of scored strides, after the first placed one, without the true candidate."""
     wrong: int
-    """Number of scored strides with a single candidate that was not the true one."""
+    """Number of scored strides with a decided place that was not the true one."""
     strides: int
     """Number of scored strides."""
     nearest: tuple[float, ...] = field(default=(), repr=False)
@@ -51,7 +51,7 @@ class PlaceScore:
     path: Points = field(default=(), repr=False)
     """True positions of the wearer."""
     track: Points = field(default=(), repr=False)
-    """Estimated positions since the true candidate was the only one for the first time."""
+    """Estimated positions since the place was decided and the true one for the first time."""
     before: Points = field(default=(), repr=False)
     """Positions of all candidates before that."""
 
@@ -69,10 +69,10 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
     decided: int | None = None
     dropped = wrong = strides = 0
     places = way.places(walker, np.array([one.t for one in placed])) if placed else []
-    for k, (one, (level, x, y)) in enumerate(zip(placed, places, strict=True)):
+    for k, (one, (level, x, y)) in enumerate(zip(placed, places, strict=True), start=1):
         is_true = [is_near(candidate, level, x, y) for candidate in one.candidates]
-        if decided is None and is_true == [True]:
-            decided = k + 1
+        if decided is None and one.decided and is_true[0]:
+            decided = k
         if decided is None:
             before += [(c.position[0], c.position[1]) for c in one.candidates]
         else:
@@ -81,7 +81,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
             continue
         strides += 1
         dropped += not any(is_true)
-        wrong += is_true == [False]
+        wrong += one.decided and not is_true[0]
         if one.t >= t_second_turn:
             candidates = [(candidate.position, candidate.level) for candidate in one.candidates]
             errors = [
