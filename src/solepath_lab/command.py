@@ -1,81 +1,93 @@
-"""`solepath-lab`: parses the command line and runs the command. Exit status and errors are those of `solepath`."""
+"""`solepath-lab`: parses the command line and runs the command. Exit status and errors are those of `solepath`.
+
+Only the modules of the command that is run are imported, so that the version and the list of commands need no numpy."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Container, Mapping, Sequence
 from importlib.metadata import version
 from types import ModuleType
-from typing import Any
 
 from solepath.cli.common.parser import Parser
 from solepath.cli.completion import COMPLETING, complete
 from solepath.cli.main import form, guarded
 
-from . import options
-from .damage import clocks, losses, sensors
-from .emulated import by_hand, evidence, north, reliability, runs
-from .evaluate import command as evaluate
-from .evaluate import sensitivity
-from .options import FOLDER, ONLY, PROCESSES, Option, option
-from .reproduce import command as reproduce
-from .train import activities, footstep_activity, turns
+from .options import FOLDER, ONLY, PROCESSES, Option, only, option, seeds
 
-Command = tuple[str, ModuleType, tuple[Option, ...]]
-"""What the help says of a command, its module, whose `run` is called, and its options."""
-COMMANDS: dict[str, Command] = {
-    "evaluate": (
-        "score recipes on recorded data with a truth, and on emulated walks", evaluate, evaluate.OPTIONS
-    ),
-    "reproduce": ("walk a paper's experiment again on the emulator", reproduce, reproduce.OPTIONS),
+Kinds = Mapping[str, tuple[str, tuple[Option, ...]]]
+"""What the help says of each command, or of each kind of one, and its options beside the OPTIONS of its module."""
+COMMANDS: Kinds = {
+    "evaluate": ("score recipes on recorded data with a truth, and on emulated walks", ()),
+    "reproduce": ("walk a paper's experiment again on the emulator", ()),
     "sensitivity": (
-        "each number of the default recipe at half and at twice", sensitivity,
+        "each number of the default recipe at half and at twice",
         (FOLDER, ONLY, option("--number", metavar="NAME", action="append", default=[], help="only this number"),
          PROCESSES),
     ),
 }  # fmt: skip
-GROUPS: dict[str, tuple[str, dict[str, Command]]] = {
+GROUPS: dict[str, tuple[str, Kinds]] = {
     "damage": (
         "damage recordings on purpose: what is noticed, and what is reported of whole ones",
         {
-            "sensors": ("damaged sensors", sensors, (FOLDER, ONLY, PROCESSES)),
-            "clocks": ("separate clocks of the feet", clocks, (FOLDER, ONLY, PROCESSES)),
-            "losses": ("lengths of strides with samples cut out", losses, (FOLDER, PROCESSES)),
+            "sensors": ("damaged sensors", (FOLDER, ONLY, PROCESSES)),
+            "clocks": ("separate clocks of the feet", (FOLDER, ONLY, PROCESSES)),
+            "losses": ("lengths of strides with samples cut out", (FOLDER, PROCESSES)),
         },
     ),
     "emulated": (
         "tables of emulated wearers",
         {
             "evidence": (
-                "activities and place with evidence taken away", evidence,
-                (options.seeds(12, 5001), options.only("row, such as 'everything'"), PROCESSES),
+                "activities and place with evidence taken away",
+                (seeds(12, 5001), only("row, such as 'everything'"), PROCESSES),
             ),
-            "reliability": (
-                "weights of candidates and how often they are true", reliability, (options.seeds(25, 5001),)
-            ),
-            "north": ("worth of a compass on a plan that knows its north", north, (options.seeds(24, 7001),)),
-            "runs": ("measures of runners against the truth", runs, (options.seeds(12, 1, "runs"),)),
-            "by-hand": ("worth of a calibration by hand", by_hand, (*by_hand.OPTIONS, PROCESSES)),
+            "reliability": ("weights of candidates and how often they are true", (seeds(25, 5001),)),
+            "north": ("worth of a compass on a plan that knows its north", (seeds(24, 7001),)),
+            "runs": ("measures of runners against the truth", (seeds(12, 1, "runs"),)),
+            "by-hand": ("worth of a calibration by hand", (PROCESSES,)),
         },
     ),
     "train": (
         "learn the parameters of a part again",
         {
-            "activities": ("network of the activities", activities, (FOLDER,)),
+            "activities": ("network of the activities", (FOLDER,)),
             "turns": (
-                "weights of the classifier of turns", turns,
+                "weights of the classifier of turns",
                 (option("--emulate", action="store_true", help="write turns.csv again"),),
             ),
-            "footstep-activity": ("thresholds and model of TwoSecondWindows", footstep_activity, (FOLDER,)),
+            "footstep-activity": ("thresholds and model of TwoSecondWindows", (FOLDER,)),
         },
     ),
 }  # fmt: skip
 """Commands with kinds: what the help says of each, and its kinds. First seeds are none of those for training."""
 
 
-def parser() -> Parser:
-    """Return the parser with all commands."""
+def _modules(group: str) -> dict[str, ModuleType]:
+    """Return the modules whose `run` is called: of the kinds of a command of GROUPS, or of the other commands."""
+    match group:
+        case "damage":
+            from .damage import clocks, losses, sensors
+
+            return {"sensors": sensors, "clocks": clocks, "losses": losses}
+        case "emulated":
+            from .emulated import by_hand, evidence, north, reliability, runs
+
+            return {"evidence": evidence, "reliability": reliability, "north": north, "runs": runs, "by-hand": by_hand}
+        case "train":
+            from .train import activities, footstep_activity, turns
+
+            return {"activities": activities, "turns": turns, "footstep-activity": footstep_activity}
+    from .evaluate import command as evaluate
+    from .evaluate import sensitivity
+    from .reproduce import command as reproduce
+
+    return {"evaluate": evaluate, "reproduce": reproduce, "sensitivity": sensitivity}
+
+
+def parser(words: Container[str] | None = None) -> Parser:
+    """Return the parser with all commands; a command that is not among the `words` has only its name and its kinds."""
     top = Parser(
         prog="solepath-lab",
         description="How good solepath is, and how its parameters were learnt: every table of the documents.",
@@ -83,29 +95,35 @@ def parser() -> Parser:
     )
     top.add_argument("--version", action="version", version=f"solepath-lab {version('solepath')}, {form()}")
     commands = top.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser, required=True)
-    _add(commands, COMMANDS)
+    _add(top, "", COMMANDS, words)
     for name, (what, kinds) in GROUPS.items():
         group = commands.add_parser(name, help=what, description=f"{what[0].upper()}{what[1:]}.")
-        _add(group.add_subparsers(metavar="KIND", dest="kind", parser_class=Parser, required=True), kinds)
+        group.add_subparsers(metavar="KIND", dest="kind", parser_class=Parser, required=True)
+        _add(group, name, kinds, words)
     return top
 
 
-def _add(commands: Any, added: dict[str, Command]) -> None:
-    """Add commands, whose descriptions are the first paragraphs of their modules."""
-    for name, (what, module, its_options) in added.items():
+def _add(parser: Parser, group: str, kinds: Kinds, words: Container[str] | None) -> None:
+    """Add commands, or kinds of one, whose descriptions are the first paragraphs of their modules."""
+    for name, (what, its_options) in kinds.items():
+        if words is not None and name not in words:
+            parser.commands.add_parser(name, help=what)
+            continue
+        module = _modules(group)[name]
         text = (module.__doc__ or "").partition("\n\n")[0]
-        command = commands.add_parser(name, help=what, description=text, example=getattr(module, "EXAMPLE", ""))
-        for one in its_options:
+        example = getattr(module, "EXAMPLE", "")
+        command = parser.commands.add_parser(name, help=what, description=text, example=example)
+        for one in (*getattr(module, "OPTIONS", ()), *its_options):
             one(command)
         command.set_defaults(run=module.run)
 
 
 def run(arguments: Sequence[str] | None) -> int:
     """Run one command and return the exit status; errors are raised."""
-    top = parser()
+    words = list(sys.argv[1:] if arguments is None else arguments)
     if COMPLETING in os.environ:
-        complete(top)
-    given = top.parse_args(list(sys.argv[1:] if arguments is None else arguments))
+        complete(parser(os.environ.get("COMP_LINE", "").split()))
+    given = parser(words).parse_args(words)
     status: int = given.run(given)
     return status
 

@@ -29,11 +29,11 @@ def test_no_command_prints_the_help_and_version_prints_the_version():
     assert run("--version").stdout.startswith("solepath 0.")
 
 
-WITHOUT_NUMPY = "import sys; sys.modules['numpy'] = None; from solepath.cli import main; sys.exit(main(sys.argv[1:]))"
+WITHOUT_NUMPY = "import sys; sys.modules['numpy'] = None; from {} import main; sys.exit(main(sys.argv[1:]))"
 
 
-def without_numpy(*arguments: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-c", WITHOUT_NUMPY, *map(str, arguments)]
+def without_numpy(*arguments: object, program: str = "solepath.cli") -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-c", WITHOUT_NUMPY.format(program), *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
@@ -42,6 +42,17 @@ def test_packets_need_no_numpy_and_the_commands_that_do_give_the_line_that_insta
     assert done.returncode == 0 and "strides" in done.stdout and (folder / "bare.html").exists(), done.stderr
     for arguments in (["demo"], ["track", folder / "walk.npz"]):
         done = without_numpy(*arguments)
+        assert (done.returncode, done.stderr) == (2, f"solepath: this needs numpy: {install_hint('arrays')}\n")
+
+
+def test_the_laboratory_says_its_version_and_its_commands_without_numpy_and_else_what_installs_it():
+    done = without_numpy("--version", program="solepath_lab.command")
+    assert (done.returncode, done.stderr) == (0, "") and done.stdout.startswith("solepath-lab 0.")
+    for arguments, named in ((["--help"], "evaluate"), (["emulated", "--help"], "evidence")):
+        done = without_numpy(*arguments, program="solepath_lab.command")
+        assert (done.returncode, done.stderr) == (0, "") and named in done.stdout
+    for arguments in (["evaluate", "--emulated"], ["emulated", "runs", "--help"], ["train", "turns"]):
+        done = without_numpy(*arguments, program="solepath_lab.command")
         assert (done.returncode, done.stderr) == (2, f"solepath: this needs numpy: {install_hint('arrays')}\n")
 
 
