@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import signal
 from pathlib import Path
@@ -36,6 +37,9 @@ def test_live_reports_links_and_what_it_records_gives_the_same_events_again(inso
     for name in ("events.jsonl", "track.csv", "strides.csv"):
         assert (replayed / name).read_text() == (out / name).read_text()
     assert (replayed / "strides.csv").read_text().count("\n") > 2
+    live, later = [json.loads((folder / "run.json").read_text()) for folder in (out, replayed)]
+    assert live["inputs"] == [] and live["options"]["left"] == "solepath L"
+    assert (live["sites"], live["recipe_sha256"]) == (later["sites"], later["recipe_sha256"])
     devices = {(packet.site, packet.device) for packet in read_packets(file) if packet.device}
     assert devices == {(Site.LEFT_FOOT, "F0:5E:00:00:00:01"), (Site.RIGHT_FOOT, "F0:5E:00:00:00:02")}
 

@@ -5,7 +5,8 @@ from strides import stride
 
 from solepath.events import Defect, DefectFound, Flaw, HeelStrike, Limitation, PacketRejected, Rejection, SampleGap
 from solepath.session import Session
-from solepath.show.tables.summary import link_health, status, summary
+from solepath.show.findings import Concern, texts
+from solepath.show.tables.summary import status, summary
 from solepath.types import Foot, Packet, Sample, Site
 from solepath.walk.walk import Walk
 
@@ -27,14 +28,17 @@ def test_a_summary_counts_the_events_of_each_foot():
     assert (left.events["heel-strike"], left.strides, left.degraded, left.distance) == (1, 1, 1, 1.25)
     text = summary(walk, title="walk.npz", seconds=2.0)
     assert text.splitlines()[0] == "walk.npz: 4.0 s"
-    assert "left: 1 of 1 strides degraded" in text and "2 times as fast as walked" in text
+    assert (
+        "left foot: 1 of 1 stride degraded: a gap of more than 60 ms in 1" in text
+        and "2 times as fast as walked" in text
+    )
     # 62.5 ms, and only of what is final; a half is rounded to the even millisecond
     assert "known after it happened, median: heel-strike 62 ms\n" in text
 
 
 def test_a_healthy_link_is_not_mentioned_and_a_bad_one_line_by_line():
     walk = Walk()
-    assert link_health(walk) == []
+    assert texts(walk, Concern.LINK) == []
     frame = Packet(1.0, Site.LEFT_FOOT, "insole/frame", b"")
     for _ in range(97):
         walk.take(frame, [])
@@ -43,7 +47,7 @@ def test_a_healthy_link_is_not_mentioned_and_a_bad_one_line_by_line():
         rejected = PacketRejected(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", reason=reason)
         walk.take(frame, [rejected])
     missing = "left foot: 3 of 100 samples missing (3.0 %, 0.00 s)"
-    assert link_health(walk) == [missing, "3 packets rejected (checksum 2, duplicate 1)"]
+    assert texts(walk, Concern.LINK) == [missing, "left foot: 3 packets rejected (checksum 2, duplicate 1)"]
 
 
 def test_defects_are_the_first_lines_of_a_summary_and_limitations_are_reported():
@@ -58,5 +62,5 @@ def test_defects_are_the_first_lines_of_a_summary_and_limitations_are_reported()
 def test_control_codes_of_devices_do_not_reach_the_terminal():
     walk, packet = Walk(), Packet(1.0, Site.LEFT_FOOT, "receiver/trouble", b"\x1b[31mA\x07 is none")
     walk.take(packet, Session().feed(packet))
-    for text in (*status(walk), *link_health(walk)):
+    for text in (*status(walk), *texts(walk, Concern.LINK)):
         assert text.isprintable() and "A" in text

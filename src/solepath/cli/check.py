@@ -3,27 +3,19 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections import Counter
 from collections.abc import Sequence
 from itertools import chain
-from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..events import Defect, DefectFound, Flaw
-from ..events.foot import LONGEST_HARMLESS_GAP
 from ..recording import RecordingError, printable
 from ..recording.errors import UnusableValues
 from ..recording.source import label_files
 from ..show.tables.table import counted
-from ..types import Foot
 from .common.failure import MAX_LENGTH
 from .common.inputs import Recording, add_calibration, add_recipe_name, assumed_foot, calibration_of
 from .common.own_devices import UnusedPackets, drivers_of
 from .common.parser import add_command
 from .common.tables import add_tables, axes_repair, source_named
-
-if TYPE_CHECKING:
-    from ..walk.walk import Walk
 
 UNSEEN = (
     "all three axes of an accelerometer reversed, which turns left into right",
@@ -37,31 +29,7 @@ UNSEEN = (
 )
 """Some defects that may be in data of which the checks report nothing; there are others."""
 LARGE_SHARE = 0.1
-"""Share of degraded strides of a foot from which on they are mentioned, and of damaged rows that must be mended; chosen
-by hand."""
-
-
-FLAW_WORDS = {
-    Flaw.GAP: f"a gap of more than {1e3 * LONGEST_HARMLESS_GAP:.0f} ms",
-    Flaw.RANGE: "values at the end of a range",
-    Flaw.TWO_STRIDES: "two strides in one",
-    Flaw.IMPOSSIBLE: "a speed or a height that cannot be",
-}
-"""What the sentence on degraded strides says of each flaw; strides that a defect spoils are not in it."""
-
-
-def degraded_strides(walk: Walk, foot: Foot, found: Sequence[DefectFound]) -> str | None:
-    """Return how many strides of a foot are degraded and by what; None if they are few.
-
-    Strides after a defect that spoils its data do not count."""
-    spoilt = min([one.known_at for one in found if one.spoils and one.site.foot is foot], default=inf)
-    strides = [one for one in walk.strides[foot] if one.known_at < spoilt]
-    degraded = [one for one in strides if one.degraded]
-    if len(degraded) < max(1.0, LARGE_SHARE * len(strides)):
-        return None
-    flaws = Counter(flaw for one in strides for flaw in one.flaws)
-    reasons = [f"{words} in {flaws[flaw]}" for flaw, words in FLAW_WORDS.items() if flaws[flaw]]
-    return f"{foot} foot: {len(degraded)} of {counted(len(strides), 'stride')} degraded: {', '.join(reasons)}"
+"""Share of damaged rows from which on they must be mended; chosen by hand."""
 
 
 def add_to(commands: Any) -> None:
@@ -90,7 +58,7 @@ def run(options: Namespace) -> int:
     from ..link.kinds import make_kinds
     from ..recipes import by_name
     from ..session import Session
-    from ..show.tables.summary import link_health, wear_lines
+    from ..show.findings import Concern, findings
     from ..walk.walk import Walk
 
     recipe, calibration, drivers = by_name(options.recipe), calibration_of(options), drivers_of(options)
@@ -106,8 +74,7 @@ def run(options: Namespace) -> int:
         print("nothing else was checked: mend this first")
         return 1
     session, recording = Session(recipe, calibration=calibration, poses=True, profiles=drivers), Recording(source)
-    walk, unused = Walk(limit=None), UnusedPackets(make_kinds(drivers))
-    must, found = list[str](), list[DefectFound]()
+    walk, unused, must = Walk(), UnusedPackets(make_kinds(drivers)), list[str]()
     may = [*filter(None, [assumed_foot(source)])]
     for item in chain(recording, [None]):
         if recording.failure is not None and not walk.item_count:
@@ -115,20 +82,15 @@ def run(options: Namespace) -> int:
         events = session.finish() if item is None else session.feed(item)
         walk.take(item, events)
         unused.take(item, events)
-        found += [event for event in events if isinstance(event, DefectFound)]
     if recording.failure is not None:
         must.append(_without_path(recording.failure))
-    for defect in found:
-        if (what := words_beside(defect, found)) is not None:
-            sentence = f"{defect.site.words}: {what}{axes_repair(source, defect)}"
-            (must if defect.needs_action else may).append(sentence)
+    for one in findings(walk):
+        (must if one.act or one.concern is Concern.WEAR else may).append(one.text + axes_repair(source, one.event))
     bad_rows = source.bad_rows
     has_many = bad_rows is not None and bad_rows.count > LARGE_SHARE * (bad_rows.count + bad_rows.good)
     prefix = f"{printable(str(options.files[0]))}: " if is_one else ""
     (must if has_many else may).extend(flaw.removeprefix(prefix) for flaw in flaws)
-    must += [*unused.sentences(), *wear_lines(walk), *walk.troubles]
-    may += [*filter(None, [degraded_strides(walk, foot, found) for foot in Foot])]
-    may += [*walk.limitations, *link_health(walk)]
+    must += unused.sentences()
     strides = {foot: counts.strides for foot, counts in walk.feet.items() if counts.strides}
     walked = ", ".join(f"{foot} foot {counted(count, 'stride')}" for foot, count in strides.items()) or "no stride"
     print(f"{name}: {walk.covered_time.total:.1f} s, {walked}")
@@ -141,16 +103,6 @@ def run(options: Namespace) -> int:
         print(f"too few strides to check everything: {needed}")
     _print_list("not everything can be seen in the data; a check may miss, for example", UNSEEN)
     return 1 if must else 0
-
-
-def words_beside(defect: DefectFound, found: Sequence[DefectFound]) -> str | None:
-    """Return what to print of a defect beside the others; None if another one of its site says it more exactly."""
-    others = [one for one in found if one.site is defect.site and one is not defect]
-    if defect.defect is Defect.AXES and defect.axes is None and any(one.axes is not None for one in others):
-        return None
-    fault, _, advice = defect.what.partition(": choose a larger ")
-    is_scaled = any(one.defect is Defect.WRONG_SCALE for one in others) and "accelerometer" in fault
-    return f"{fault}: correct its scale first" if advice and is_scaled else defect.what
 
 
 def _without_path(error: RecordingError) -> str:

@@ -166,8 +166,8 @@ def _draw(demo: Demo, speed: float) -> None:
 
 def _print_progress(demo: Demo) -> None:
     """Compute the demo as fast as possible and print lines of plain text instead of a picture."""
+    from ..show.findings import Concern, texts
     from ..show.tables.plot import plot
-    from ..show.tables.summary import link_health
     from ..show.tables.table import counted
 
     due = REPORT_INTERVAL
@@ -176,8 +176,5 @@ def _print_progress(demo: Demo) -> None:
             due += REPORT_INTERVAL
             feet = (f"{foot} {counted(demo.found.foot(foot).strides, 'stride')}" for foot in Foot)
             print(f"{packet.t:6.1f} s  {', '.join(feet)}", flush=True)
-    print(
-        "\n".join(
-            ["", *(line.rstrip() for line in plot(demo.found.track.points, 72, 16)), "", *link_health(demo.found)]
-        )
-    )
+    picture = [line.rstrip() for line in plot(demo.found.track.points, 72, 16)]
+    print("\n".join(["", *picture, "", *texts(demo.found, Concern.LINK)]))

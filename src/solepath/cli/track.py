@@ -26,7 +26,7 @@ from .common.inputs import (
     source_of,
     undo_clocks,
 )
-from .common.outcomes import add_outcomes, band_files_of, has_outcomes, outcomes_of
+from .common.outcomes import add_outcomes, has_outcomes, outcomes_of
 from .common.own_devices import UnusedPackets, drivers_of
 from .common.parser import add_command
 from .common.report import DETAILS, add_report, report_of
@@ -74,8 +74,8 @@ def add_to(commands: Any) -> None:
         "--out",
         metavar="DIR",
         type=Path,
-        help="write events.jsonl, track.csv, strides.csv and gait_cycles.csv into it, with a floor plan places.csv and "
-        "plan.svg too, once they are whole",
+        help="write events.jsonl, track.csv, strides.csv, gait_cycles.csv and run.json into it, with a floor plan "
+        "places.csv and plan.svg too, once they are whole",
     )
     add_report(command)
     add_outcomes(command)
@@ -186,13 +186,13 @@ def _check_comparison(options: Namespace, recipes: Sequence[Recipe]) -> None:
 def _outputs(options: Namespace, recipes: Sequence[Recipe]) -> list[OutputFile]:
     """Return the files of --out and --report; raise Failure or OSError when one must not, or cannot, be written."""
     has_plan, outcomes = options.floorplan is not None, has_outcomes(options)
-    outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=outcomes, run=True)
+    outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=outcomes)
     if len(recipes) > 1:
         folders = [_folder(options, recipe) for recipe in recipes]
-        outputs = [one for out in folders for one in files_of_track(out, places=has_plan, plan=has_plan, run=True)]
+        outputs = [one for out in folders for one in files_of_track(out, places=has_plan, plan=has_plan)]
     if options.report is not None:
         outputs.append(OutputFile(options.report, REPORT))
-    check_outputs(options, outputs, *band_files_of(options))
+    check_outputs(options, outputs)
     return outputs
 
 

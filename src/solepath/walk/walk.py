@@ -20,14 +20,17 @@ from ..events import (
     ActivityChanged,
     CellsFailed,
     ClockReset,
+    Connected,
     Defect,
     DefectFound,
     Event,
     FeetSwapped,
+    Flaw,
     FlightClimbed,
     FootFlat,
     FootMoved,
     FootPressed,
+    FootResumed,
     FootSilent,
     GaitCycleMeasured,
     HeelOff,
@@ -69,10 +72,10 @@ REJECTIONS = (PacketRejected, SampleRejected)
 """Events of packets and samples that were not used; they do not advance the time."""
 UNLIMITED_STRIDES = 10**9
 """Memory of the running means, in strides, that no walk reaches, so that all strides have equal weights."""
-MAX_NAMED_CELLS = 8
-"""Largest number of cells that a sentence names one by one."""
-MAX_SENTENCES = 100
-"""Largest number of different sentences of one kind that are kept; later ones are left out."""
+FAULTS = (DefectFound, CellsFailed, InsoleNeverUnloads, FeetSwapped, FootSilent, LinkTrouble, Limitation)
+"""Events that say what is wrong."""
+MAX_FAULTS = 300
+"""Largest number of different faults that are kept; later ones are left out."""
 MAX_ACTIVITY_CHANGES = 2000
 """Largest number of activity changes that are kept; with more, the shortest activities are left out."""
 LIMIT = 1200
@@ -97,6 +100,8 @@ class FootCounts:
     """Number of final strides."""
     degraded: int = 0
     """Number of final strides that are degraded."""
+    flaws: Counter[Flaw] = field(factory=Counter)
+    """Number of final strides with each flaw."""
     distance: float = 0.0
     """Sum of the stride lengths, m."""
     events: Counter[str] = field(factory=Counter)
@@ -106,6 +111,18 @@ class FootCounts:
     """First position, world frame, m."""
     position: Vec3 | None = None
     """Live position, world frame, m."""
+
+
+@define
+class Fault:
+    """Something that is wrong, as the newest event says it."""
+
+    event: Event
+    """One of FAULTS."""
+    count: int = 1
+    """Number of events that said it."""
+    holds: bool = True
+    """False once another device is connected there, its clock restarts, or the foot that was silent sends again."""
 
 
 @define
@@ -150,14 +167,8 @@ class Walk:
     turns: Counter[Turn] = field(factory=Counter)
     latencies: dict[str, Counter[int]] = field(factory=lambda: {name: Counter() for name in GAIT_EVENTS.values()})
     """For each gait event, by its name, how often each latency occurred; latencies are in units of 0.1 ms."""
-    limitations: list[str] = field(factory=list)
-    """Different sentences on limitations of the session."""
-    defects: list[str] = field(factory=list)
-    """Different sentences on data that contradict themselves or physics."""
-    wear_problems: list[str] = field(factory=list)
-    """Different sentences on sensors that are worn wrongly, and on faulty cells."""
-    troubles: list[str] = field(factory=list)
-    """Different sentences on what the receiver could not do."""
+    faults: dict[str, Fault] = field(factory=dict)
+    """What is wrong: a fault for each defect of a site, and for each thing that another event says."""
     strides: dict[Foot, ThinnedList[StrideTaken]] = field(factory=_of_each_foot)
     """Final strides, from foot-flat to foot-flat."""
     distances: dict[Foot, ThinnedList[tuple[float, float]]] = field(factory=_of_each_foot)
@@ -174,8 +185,6 @@ class Walk:
     wearer_track: ThinnedList[WearerMoved] = field(factory=ThinnedList)
     placed: ThinnedList[Placed | PlaceLost] = field(factory=ThinnedList)
     soles: dict[Foot, SoleLoads] = field(factory=dict)
-    found_defects: dict[tuple[Site, Defect], DefectFound] = field(factory=dict)
-    """Newest report of each defect of each site."""
     sample_span: tuple[float, float] | None = None
     """Times of the first and the last sample that the session reported, s."""
     event_span: tuple[float, float] | None = None
@@ -188,8 +197,6 @@ class Walk:
     """Times of the final events of each foot, s, by their names in GAIT_EVENTS; empty unless `keeps_all`."""
     activities: list[ActivityChanged] = field(factory=list)
     """Activities in the order in which they were reported; empty unless `keeps_all`."""
-    silences: Counter[Foot] = field(factory=Counter)
-    """Number of times that a foot sent nothing while the other one walked on."""
     _other_decoders: dict[Site, Decoder] = field(factory=dict)
     """Decoders that count the samples of sites that are not feet; a session has no event for these samples."""
 
@@ -310,6 +317,7 @@ class Walk:
                 counts = self.foot(event.foot)
                 counts.strides += 1
                 counts.degraded += event.degraded
+                counts.flaws.update(event.flaws)
                 counts.distance += event.length
                 self.strides[event.foot].add(event, self.limit)
                 self.distances[event.foot].add((event.t, counts.distance), self.limit)
@@ -347,36 +355,31 @@ class Walk:
                 self.placed.add(_with_heaviest(event), self.limit)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None and self.limit != 0:
                 self.sole(site.foot).layout = layout
-            case FootSilent(foot=foot):
-                self.silences[foot] += 1
             case _:
                 pass
 
     def _add_fault(self, event: Event) -> None:
-        """Add a sentence on a fault, unless it is there already."""
-        match event:
-            case DefectFound(site=site, what=what, defect=defect):
-                self.found_defects[site, defect] = event
-                if defect is Defect.CLOCKS:
-                    self.gait.separate_feet()
-                    self.recent_gait.separate_feet()
-                _add_new_sentence(self.defects, f"{site.words}: {what}")
-            case LinkTrouble(site=site, what=what):
-                _add_new_sentence(self.troubles, f"{site.words}: {what}")
-            case Limitation(site=site, what=what):
-                _add_new_sentence(self.limitations, what if site is None else f"{site.words}: {what}")
-            case CellsFailed(site=site, fault=fault, cells=cells):
-                _add_new_sentence(self.wear_problems, f"{site.words}: {_cell_words(cells)} {fault.value}, left out")
-            case InsoleNeverUnloads(site=site):
-                _add_new_sentence(
-                    self.wear_problems, f"{site.words}: the insole never unloads; phases come from the inertial sensor"
-                )
-            case FeetSwapped():
-                _add_new_sentence(
-                    self.wear_problems, "the feet look swapped: what comes as the left one is like a right one"
-                )
-            case _:
-                pass
+        """Add what is wrong, or note that it does not hold any more."""
+        if isinstance(event, FAULTS):
+            names = ("defect", "fault", "cells") if isinstance(event, DefectFound | CellsFailed) else ("what",)
+            key = " ".join([type(event).__name__, *[str(getattr(event, name, "")) for name in names]])
+            key = f"{key} {site_of(event)}"
+            if (known := self.faults.get(key)) is not None:
+                self.faults[key] = Fault(event, known.count + 1)
+            elif len(self.faults) < MAX_FAULTS:
+                self.faults[key] = Fault(event)
+            if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
+                self.gait.separate_feet()
+                self.recent_gait.separate_feet()
+        elif isinstance(event, FootResumed | Connected) or isinstance(event, ClockReset) and event.restarted:
+            for fault in self.faults.values():
+                if site_of(fault.event) is site_of(event):
+                    fault.holds &= isinstance(event, FootResumed) and not isinstance(fault.event, FootSilent)
+
+    @property
+    def found_defects(self) -> list[DefectFound]:
+        """Newest report of each defect of each site."""
+        return [fault.event for fault in self.faults.values() if isinstance(fault.event, DefectFound)]
 
     @property
     def known_feet(self) -> list[Foot]:
@@ -400,13 +403,8 @@ def _extend(span: tuple[float, float] | None, t: float) -> tuple[float, float]:
     return (t, t) if span is None else (min(span[0], t), max(span[1], t))
 
 
-def _add_new_sentence(sentences: list[str], sentence: str) -> None:
-    if sentence not in sentences and len(sentences) < MAX_SENTENCES:
-        sentences.append(sentence)
-
-
-def _cell_words(numbers: tuple[int, ...]) -> str:
-    """Return the numbers of the cells in words, or only their count if there are more than MAX_NAMED_CELLS."""
-    if len(numbers) > MAX_NAMED_CELLS:
-        return f"{len(numbers)} cells"
-    return f"cell{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
+def site_of(event: Event) -> Site | None:
+    """Return the site that an event is about; None for both feet, or for the whole session."""
+    foot: Foot | None = getattr(event, "foot", None)
+    site: Site | None = getattr(event, "site", None) if foot is None else SITE_OF_FOOT[foot]
+    return site

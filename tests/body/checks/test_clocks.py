@@ -157,7 +157,7 @@ def test_nothing_compares_the_feet_after_their_clocks_were_found_apart() -> None
         assert gait is not None and gait.both.stance_time is not None and gait.asymmetry("stance_time") is not None
         assert {getattr(gait.both, name) for name in BETWEEN} == {None}, "not in the means either"
         assert (gait.asymmetry("step_time"), gait.coordination) == (None, None)
-    assert walk.defects == [f"right foot: {defect.what}"]
+    assert [one.what for one in walk.found_defects] == [defect.what]
 
 
 def means(events: list[Event]) -> dict[tuple[Foot, str], float]:

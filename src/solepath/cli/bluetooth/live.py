@@ -36,8 +36,8 @@ def add_to(commands: Any) -> None:
         "--out",
         metavar="DIR",
         type=Path,
-        help="write events.jsonl, track.csv, strides.csv and gait_cycles.csv into this directory, with a floor plan "
-        "places.csv too",
+        help="write events.jsonl, track.csv, strides.csv, gait_cycles.csv and run.json into this directory, with a "
+        "floor plan places.csv too",
     )
     live.add_argument(
         "--lsl",

@@ -24,7 +24,7 @@ from ...link.driver import Driver
 from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, printable
 from ...session import Session
-from ...show.output import TrackFiles
+from ...show.output import RUN_FILE, TrackFiles
 from ...show.page.body import LiveBody
 from ...show.page.live_commands import position_of
 from ...show.page.scene.scales import newtons_of
@@ -33,9 +33,11 @@ from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet, Sample
 from ...walk.walk import Walk
 from ..common.failure import Failure, is_installed, note, tell
+from ..common.files import TRACK_KINDS, OutputFile
 from ..common.loop import unless_stopped
 from ..common.os_errors import file_error_text, in_words
 from ..common.own_devices import drivers_of
+from ..common.run_file import write_run
 from ..common.view import PageAddress, serve_page
 from .backend import backend_of
 from .devices import SCAN_TIME, choose_devices, listening_time, named_devices
@@ -77,7 +79,13 @@ async def listen(
     walk, floor = Walk(), None if plan is None else plan.plan
     collector: Walk | Scene = walk
     async with AsyncExitStack() as stack:
-        files = LiveFiles(options.record, options.out, places=plan is not None, replace=options.force)
+        run_file = None if options.out is None else OutputFile(options.out / RUN_FILE, TRACK_KINDS[RUN_FILE])
+
+        def describe() -> None:
+            if run_file is not None:
+                run_file.replace(lambda path: write_run(path, recipe, walk, options))
+
+        files = LiveFiles(options.record, options.out, describe, places=plan is not None, replace=options.force)
         stack.callback(files.close)
         seconds = listening_time(options)
         loop = asyncio.get_running_loop()
@@ -207,6 +215,8 @@ class LiveFiles:
 
     record: Path | None
     out: Path | None
+    describe: Callable[[], None]
+    """Writes run.json: when a sensor sends its first packet, and at the end."""
     places: bool
     """True for a session with a floor plan."""
     replace: bool
@@ -236,6 +246,7 @@ class LiveFiles:
     def _write(self) -> None:
         if self._events is None and self.out is not None:
             self._events = TrackFiles(self.out, places=self.places)
+            self.describe()
         while self._held:
             item, events = self._held.popleft()
             if self._packets is not None and isinstance(item, Packet):
@@ -263,6 +274,9 @@ class LiveFiles:
             with self._reported():
                 if file is not None:
                     file.close()
+        if events is not None:
+            with self._reported():
+                self.describe()
 
 
 @contextmanager

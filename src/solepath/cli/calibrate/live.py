@@ -8,7 +8,7 @@ from functools import partial
 
 from ..bluetooth.devices import add_feet, need_bleak
 from ..common.failure import Failure, reject_options
-from ..common.files import Kind, OutputFile, add_force, check_outputs
+from ..common.files import CALIBRATION, Kind, OutputFile, add_force, check_outputs
 from ..common.view import add_view, page_address_of
 
 OF_LIVE = ("height", "heel", "via", "left", "right", "profile", "pair", "view", "no_browser")
@@ -33,7 +33,7 @@ def measure_live(options: Namespace, kind: Kind, purpose: str) -> None:
         return
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise Failure(f"{purpose}: it needs a terminal")
-    check_outputs(options, [OutputFile(options.files[0], kind)], options.out)
+    check_outputs(options, [OutputFile(options.files[0], kind), OutputFile(options.out, CALIBRATION)])
     need_bleak()
     address = page_address_of(options)
     from ..common.loop import run_to_end

@@ -19,6 +19,7 @@ from typing import Any, TypeVar
 
 from attrs import field, frozen
 
+from ...recording.bids.names import MOTION_END, channels_of, systems_of
 from ...saving.files import FileReplacements, identity, replace_whole
 from ...saving.lock import LOCKED, locked
 from ...show.output import (
@@ -74,8 +75,8 @@ TRACK_KINDS = {
     TRACK_FILE: _table(TRACK_COLUMNS),
     STRIDES_FILE: _table(STRIDE_COLUMNS),
     GAIT_CYCLES_FILE: _table(CYCLE_COLUMNS),
+    RUN_FILE: Kind(rb'\A\{\n "solepath": "[^"\n]*",\n "recipe": "'),
 }
-RUN_KINDS = {RUN_FILE: Kind(rb'\A\{\n "solepath": "[^"\n]*",\n "recipe": "')}
 PLACE_KINDS = {PLACES_FILE: _table(PLACE_COLUMNS)}
 PLAN_KINDS = {PLAN_FILE: Kind(rb"""\A<\?xml [^\n]*\n<svg [^\n>]*id="solepath-plan\"""")}
 
@@ -119,17 +120,15 @@ def add_force(command: ArgumentParser) -> None:
     )
 
 
-def files_of_track(
-    out: Path | None, *, places: bool, plan: bool = False, outcomes: bool = False, run: bool = False
-) -> list[OutputFile]:
+def files_of_track(out: Path | None, *, places: bool, plan: bool = False, outcomes: bool = False) -> list[OutputFile]:
     """Return the files that are written to the directory `out`; `places`, `plan`: with a floor plan, and its picture.
 
-    `outcomes`: with clinical outcomes; `run`: with run.json. Raise Failure when a file has the directory's name."""
+    `outcomes`: with clinical outcomes. Raise Failure when a file has the directory's name."""
     if out is None:
         return []
     if out.exists() and not out.is_dir():
         raise Failure(f"{out}: is a file; --out needs a folder, which is made when there is none")
-    kinds = TRACK_KINDS | (RUN_KINDS if run else {}) | (PLACE_KINDS if places else {}) | (PLAN_KINDS if plan else {})
+    kinds = TRACK_KINDS | (PLACE_KINDS if places else {}) | (PLAN_KINDS if plan else {})
     if outcomes:
         from ...show.outcomes.files import BOUT_COLUMNS, BOUTS_FILE, OUTCOME_COLUMNS, OUTCOMES_FILE
 
@@ -137,15 +136,22 @@ def files_of_track(
     return [OutputFile(out / name, kind) for name, kind in kinds.items()]
 
 
-def check_outputs(options: Namespace, outputs: Sequence[OutputFile], *inputs: Path) -> None:
+def files_read(options: Namespace) -> list[Path]:
+    """Return the files that a command reads: all paths among its options, but those of options that name outputs.
+
+    The recording is the first; a directory stands for the files in it, and a file of a Motion-BIDS dataset for those of
+    its recording."""
+    written = {*WRITTEN, "files"} if getattr(options, "live", False) else WRITTEN
+    given = [getattr(options, "files", None), *[value for name, value in vars(options).items() if name not in written]]
+    paths = [one for value in given for one in (value if isinstance(value, list) else [value]) if isinstance(one, Path)]
+    return list(dict.fromkeys([file for path in paths for file in _files_in(path)]))
+
+
+def check_outputs(options: Namespace, outputs: Sequence[OutputFile]) -> None:
     """Check that no output is an input, another output, being recorded, not writable, or replaced with --force only.
 
-    Inputs are all paths among the options, but those of options that name outputs, and `inputs`; a directory stands for
-    the files in it. No file is changed. Raise Failure, with one sentence, or OSError."""
-    written = {*WRITTEN, "files"} if getattr(options, "live", False) else WRITTEN
-    given = [value for name, value in vars(options).items() if name not in written]
-    given += [one for value in given if isinstance(value, list) for one in value]
-    read = [path for one in (*given, *inputs) if isinstance(one, Path) for path in _files_in(one)]
+    No file is changed. Raise Failure, with one sentence, or OSError."""
+    read = files_read(options)
     for output in outputs:
         if any(_is_same(output.path, path) for path in read):
             raise Failure(f"{output.path}: is what this command reads; write to another file")
@@ -168,6 +174,9 @@ def check_outputs(options: Namespace, outputs: Sequence[OutputFile], *inputs: Pa
 
 
 def _files_in(path: Path) -> list[Path]:
+    if path.name.endswith(MOTION_END) and path.is_file():
+        systems = systems_of(path)
+        return [path, *systems, *map(channels_of, systems)]
     return sorted(path.iterdir()) if path.is_dir() else [path]
 
 

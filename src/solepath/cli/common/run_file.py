@@ -1,8 +1,9 @@
-"""run.json, which says how the files beside it came about, and what the recording lacks.
+"""run.json, which says how the files beside it came about, and what is wrong with the recording.
 
 It is JSON: {"solepath": version, "recipe": name, "recipe_sha256", "inputs": [{"name", "sha256"}], "options": {...},
 "sites": {"left_foot": {"samples", "missing", "missing_s", "missing_share", "absent_s"}}, "findings": [{"code", "site",
-"text"}]}. walk/links.py defines the figures of a site, events/defect.py the codes of findings."""
+"text"}]}. walk/links.py defines the figures of a site, show/findings.py the findings; the site of one about both feet
+or the whole session is ""."""
 
 from __future__ import annotations
 
@@ -17,28 +18,28 @@ from attrs import asdict, has
 
 from ...recipes import Recipe
 from ...saving import codec
-from ...show.tables.summary import links_of
+from ...show.findings import findings, links_of
 from ...walk.links import LinkLedger
 from ...walk.walk import Walk
+from .files import WRITTEN, files_read
 
-WITHOUT_EFFECT = {"command", "out", "report", "force", "view", "no_browser", "speed"}
+WITHOUT_EFFECT = {*WRITTEN, "command", "force", "view", "no_browser", "speed"}
 """Options that say where results are written and shown, which do not depend on them."""
 
 
 def write_run(path: Path, recipe: Recipe, walk: Walk, options: argparse.Namespace) -> None:
     """Write run.json of a recording that was run with this recipe, from what the walk has counted."""
     settings = json.dumps(codec.save(recipe), sort_keys=True)
-    inputs = [*options.files, *(options.compare or ()), options.mapping, options.calibration, options.floorplan]
     content = {
         "solepath": version("solepath"),
         "recipe": recipe.name,
         "recipe_sha256": sha256(settings.encode()).hexdigest(),
-        "inputs": [{"name": one.name, "sha256": _digest(one)} for one in inputs if one is not None and one.is_file()],
+        "inputs": [{"name": one.name, "sha256": _digest(one)} for one in files_read(options) if one.is_file()],
         "options": _given(options),
         "sites": {site.value: _figures(link, walk.now) for site, link in links_of(walk)},
         "findings": [
-            {"code": defect.name.lower(), "site": site.value, "text": found.what}
-            for (site, defect), found in walk.found_defects.items()
+            {"code": one.code, "site": "" if one.site is None else one.site.value, "text": one.what}
+            for one in findings(walk)
         ],
     }
     path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")

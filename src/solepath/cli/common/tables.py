@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...events import DefectFound
+from ...events import DefectFound, Event
 from ...recording import Source, TableMapping, read_mapping
 from ...recording.mapping.mapping import FORMATS
 from ...types import Foot
@@ -91,12 +91,14 @@ def mapping_of(options: Namespace) -> TableMapping | None:
         raise Failure("; ".join(str(error).splitlines())) from None
 
 
-def axes_repair(source: Source, event: DefectFound) -> str:
+def axes_repair(source: Source, event: Event | None) -> str:
     """Return what gives the gyroscope of a table the axes that fit; "" for anything else than wrong axes of a table."""
-    tables = () if source.samples is None or event.axes is None else source.samples.tables
+    if source.samples is None or not isinstance(event, DefectFound) or event.axes is None:
+        return ""
+    tables = source.samples.tables
     for table in tables:
         names = table.signed.get("gyro", ())
-        if table.foot is event.site.foot and event.axes is not None and len(names) == 3:
+        if table.foot is event.site.foot and len(names) == 3:
             turned = [_turn(names[abs(axis) - 1]) if axis < 0 else names[abs(axis) - 1] for axis in event.axes]
             is_alone = len(tables) == 1 or table.mapping.is_of_one_foot and tables[0].signed == tables[-1].signed
             key = "gyro" if is_alone else f"gyro_{table.foot.value}"

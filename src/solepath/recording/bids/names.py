@@ -22,6 +22,17 @@ def recording_of(path: Path) -> Path:
     return path.with_name(re.sub(r"_tracksys-[0-9A-Za-z]+", "", path.name))
 
 
+def systems_of(path: Path) -> list[Path]:
+    """Return the files of all tracking systems of the recording to which a file `*_motion.tsv` belongs."""
+    beside = sorted(path.parent.glob(f"*{MOTION_END}"))
+    return [one for one in beside if recording_of(one) == recording_of(path)]
+
+
+def channels_of(path: Path) -> Path:
+    """Return the file that describes the columns of a file `*_motion.tsv`."""
+    return path.with_name(path.name.removesuffix(MOTION_END) + "_channels.tsv")
+
+
 @frozen
 class Entities:
     """The labels that name one recording in a dataset; ValueError for one that BIDS does not allow."""

@@ -22,7 +22,7 @@ from ..mapping.units import UNITS, unit_of
 from ..mapping.words import foot_of_text
 from ..samples.reader import SampleFile, SampleRecording, load_files
 from .columns import read_json, read_table
-from .names import MOTION_END, recording_of
+from .names import MOTION_END, channels_of, systems_of
 
 _QUANTITY_OF_TYPE = {"ACCEL": "acc", "GYRO": "gyro"}
 ON_FOOT = re.compile(r"foot|shoe|ankle|heel|toe|insole|instep|calcn|lf\b|rf\b", re.IGNORECASE)
@@ -40,8 +40,7 @@ def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = 
         raise RecordingError(path, f"is no file of Motion-BIDS, whose name ends in {MOTION_END}")
     if not path.is_file():
         raise RecordingError(path, "no such file")
-    beside = sorted(path.parent.glob(f"*{MOTION_END}"))
-    systems = {one: _read_channels(one) for one in beside if recording_of(one) == recording_of(path)}
+    systems = {one: _read_channels(one) for one in systems_of(path)}
     points = [
         (system, point, foot_of_text(point) if ON_FOOT.search(point) else None)
         for system, channels in systems.items()
@@ -69,10 +68,9 @@ def load_motion(path: Path | str, foot: Foot | None = None, *, report: Report = 
 
 def _read_channels(path: Path) -> list[dict[str, str]]:
     """Return the rows of channels.tsv, which describe the columns of a `_motion.tsv` in their order."""
-    beside = path.with_name(path.name.removesuffix(MOTION_END) + "_channels.tsv")
-    channels = read_table(beside)
+    channels = read_table(channels_of(path))
     if not channels or not all("type" in channel for channel in channels):
-        raise RecordingError(beside, "describes no channels, each with a type")
+        raise RecordingError(channels_of(path), "describes no channels, each with a type")
     return channels
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from ...recording import printable
 from ...types import Foot
 from ...walk.walk import Walk
-from ..tables.summary import activity_lines, degraded_lines, link_health, links_of, wear_lines
+from ..findings import links_of
+from ..tables.summary import activity_lines
 from ..tables.table import counted, duration_text, number
 from .markup import whole_sentences
 
@@ -30,11 +31,6 @@ def overview(walk: Walk, duration: float, end: float) -> list[str]:
     if walk.fused is not None:
         lines.append(f"both feet together went {number(walk.fused.distance, 1)} m")
     return whole_sentences(lines + activity_lines(walk, end))
-
-
-def faults(walk: Walk) -> list[str]:
-    """Return sentences on what is missing or wrong in sensors, their wearing and their links; none without faults."""
-    return whole_sentences([*wear_lines(walk), *link_health(walk), *degraded_lines(walk)])
 
 
 def sensors(walk: Walk) -> str:

@@ -8,9 +8,9 @@ from statistics import fmean
 
 from attrs import define
 
-from ...recording import printable
 from ...types import Foot
 from ...walk.walk import FootCounts, Walk
+from ..findings import Concern, texts
 from .gait import gait_rows
 from .table import number, table
 
@@ -44,8 +44,8 @@ class RecipeRun:
             for row in gait_rows(gait):
                 means = [one for one in (row.both, row.left, row.right) if one is not None]
                 cells[f"{row.label} {row.unit}"] = number(means[0], row.digits)
-        cells["defects of the data"] = str(len(walk.defects))
-        cells["limitations"] = str(len(walk.limitations))
+        cells["defects of the data"] = str(len(walk.found_defects))
+        cells["limitations"] = str(len(texts(walk, Concern.LIMITATION)))
         samples = sum([walk.samples(foot) for foot in Foot])  # whole numbers
         cells["us a sample"] = number(1e6 * self.seconds / samples if samples else None, 0)
         return cells
@@ -60,6 +60,6 @@ def recipe_lines(title: str, runs: Sequence[RecipeRun]) -> list[str]:
     rows = [[name, *[column.get(name, "-") for column in columns]] for name in names]
     lines = table(header, [row for row in rows if set(row[1:]) != {"-"}]).splitlines()
     for run in runs:
-        for kind, found in (("DEFECT", run.walk.defects), ("limitation", run.walk.limitations)):
-            lines += [f"{run.recipe}: {kind}, {printable(what)}" for what in found]
+        for kind, concern in (("DEFECT", Concern.DATA), ("limitation", Concern.LIMITATION)):
+            lines += [f"{run.recipe}: {kind}, {what}" for what in texts(run.walk, concern)]
     return lines

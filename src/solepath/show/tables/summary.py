@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterator
 from statistics import median
 
 from ...events import Placed
@@ -12,25 +10,19 @@ from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
 from ...walk.links import LinkLedger
 from ...walk.places import MAX_LISTED, PlaceCounts
 from ...walk.walk import GAIT_EVENTS, FootCounts, Walk
+from ..findings import Concern, links_of, texts
 from .gait import gait_lines
 from .table import counted, duration_text, milliseconds, number, table, times
 from .words import activity_words, directions, turn_words
 
 NO_DATA = "no data from either foot"
-SHORTEST_ABSENCE = 0.05
-"""Shortest absence that is written, s; a shorter one would be written as 0.0 s."""
-
-
-def links_of(walk: Walk) -> list[tuple[Site, LinkLedger]]:
-    """Return the ledgers of the links in the order of Site."""
-    return [(site, walk.links[site]) for site in Site if site in walk.links]
 
 
 def summary(walk: Walk, *, title: str, seconds: float) -> str:
     """Return the summary of one recording; `seconds` is the wall time that computing it took."""
     duration = walk.covered_time.total
-    lines = [f"{title}: {duration:.1f} s", *[f"DEFECT, {printable(what)}" for what in walk.defects]]
-    lines += ["", _foot_table(walk), "", *degraded_lines(walk)] if walk.known_feet else [NO_DATA]
+    lines = [f"{title}: {duration:.1f} s", *[f"DEFECT, {what}" for what in texts(walk, Concern.DATA)]]
+    lines += ["", _foot_table(walk), ""] if walk.known_feet else [NO_DATA]
     if (fused := walk.fused) is not None:
         lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen} foot's path")
     if walk.modes:
@@ -39,8 +31,8 @@ def summary(walk: Walk, *, title: str, seconds: float) -> str:
     lines += activity_lines(walk, walk.now)
     if gait := gait_lines(walk.gait):
         lines += ["", *gait]
-    lines += wear_lines(walk) + link_health(walk) + latency(walk)
-    lines += [f"limitation, {printable(what)}" for what in walk.limitations]
+    lines += texts(walk, Concern.WEAR, Concern.LINK, Concern.STRIDES) + latency(walk)
+    lines += [f"limitation, {what}" for what in texts(walk, Concern.LIMITATION)]
     samples = sum([walk.samples(foot) for foot in Foot])  # whole numbers
     if seconds > 0.0 and samples:
         pace = f"{duration / seconds:.0f} times as fast as walked, {1e6 * seconds / samples:.0f} us a sample"
@@ -48,37 +40,14 @@ def summary(walk: Walk, *, title: str, seconds: float) -> str:
     return "\n".join(lines)
 
 
-def _feet(walk: Walk) -> Iterator[tuple[Foot, FootCounts, LinkLedger]]:
-    for foot in walk.known_feet:
-        yield foot, walk.feet.get(foot, FootCounts()), walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
-
-
 def _foot_table(walk: Walk) -> str:
     """Return a table of the feet."""
-    names = GAIT_EVENTS.values()
-    rows = [
-        [foot.value, str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
-        + [str(counts.events[name]) for name in names]
-        for foot, counts, link in _feet(walk)
-    ]
+    names, rows = GAIT_EVENTS.values(), []
+    for foot in walk.known_feet:
+        counts, link = walk.feet.get(foot, FootCounts()), walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
+        row = [foot.value, str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
+        rows.append(row + [str(counts.events[name]) for name in names])
     return table(["foot", "samples", "Hz", "strides", "distance m", *[f"{name}s" for name in names]], rows)
-
-
-def degraded_lines(walk: Walk) -> list[str]:
-    """Return a line for each foot with degraded strides."""
-    feet = [(foot, counts) for foot, counts, _ in _feet(walk) if counts.degraded]
-    return [f"{foot}: {counts.degraded} of {counts.strides} strides degraded" for foot, counts in feet]
-
-
-def missing_words(link: LinkLedger, now: float) -> str:
-    """Return how many samples of a link are missing, and how long its sensor was absent until `now`, s; else ""."""
-    words = []
-    if link.missing:
-        share = f"{100.0 * link.missing_share:.1f} %, {link.missing_time:.2f} s"
-        words.append(f"{link.missing} of {counted(link.taken, 'sample')} missing ({share})")
-    if (absent := link.absent_time(now)) >= SHORTEST_ABSENCE:
-        words.append(f"absent for {absent:.1f} s")
-    return ", ".join(words)
 
 
 def activity_lines(walk: Walk, now: float) -> list[str]:
@@ -90,40 +59,6 @@ def activity_lines(walk: Walk, now: float) -> list[str]:
         "turns": [f"{walk.turns[turn]} {turn_words(turn)}" for turn in Turn if walk.turns[turn]],
     }
     return [f"{name}: {', '.join(texts)}" for name, texts in found.items() if texts]
-
-
-def wear_lines(walk: Walk) -> list[str]:
-    """Return a line for each fault in how sensors are worn; none without faults."""
-    silences = [(foot, walk.silences[foot]) for foot in Foot if walk.silences[foot]]
-    return walk.wear_problems + [f"{foot}: silent {times(n)} while the other walked on" for foot, n in silences]
-
-
-def link_health(walk: Walk) -> list[str]:
-    """Return a line for each kind of fault of the links; none without faults."""
-    links = list(walk.links.values())
-
-    def total(name: str) -> int:
-        return sum([getattr(link, name) for link in links])  # whole numbers
-
-    lines = [f"{site.words}: {words}" for site, link in links_of(walk) if (words := missing_words(link, walk.now))]
-    rejected = sum([link.rejected for link in links], Counter[tuple[str, str]]())
-    for kind in ("packet", "sample"):
-        reasons = {reason: count for (what, reason), count in rejected.items() if what == f"{kind}s"}
-        if reasons:
-            detail = ", ".join([f"{reason} {count}" for reason, count in sorted(reasons.items())])
-            lines.append(f"{counted(sum(reasons.values()), kind)} rejected ({detail})")
-    if resets := total("clock_resets"):
-        lines.append(counted(resets, "clock reset"))
-    if silences := total("silences"):
-        lines.append(f"a stream fell silent {times(silences)}")
-    if restarts := total("restarts"):
-        lines.append(f"a stream froze and was set up again {times(restarts)}")
-    if dropped := total("dropped"):
-        lines.append(f"{counted(dropped, 'packet')} dropped: too many came to be used in time")
-    for site, link in links_of(walk):
-        if link.connections > 1:
-            lines.append(f"{site.words}: connected {times(link.connections)}")
-    return lines + [f"trouble, {printable(what)}" for what in walk.troubles]
 
 
 def latency(walk: Walk) -> list[str]:

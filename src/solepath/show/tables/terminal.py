@@ -14,8 +14,9 @@ from rich.text import Text
 
 from ...types import Foot, Phase
 from ...walk.walk import FootCounts, Walk
+from ..findings import Concern, texts
 from .plot import plot
-from .summary import link_health, status, wear_lines
+from .summary import status
 
 FRAME_RATE = 12.0
 """Largest number of pictures a second; chosen by hand."""
@@ -54,7 +55,7 @@ def picture(walk: Walk, title: str) -> Group:
     feet = Table.grid(expand=False, padding=(0, 3))
     for foot in Foot:
         feet.add_row(*_foot(walk, foot))
-    health = status(walk) + wear_lines(walk) + link_health(walk)
+    health = status(walk) + texts(walk, Concern.WEAR, Concern.LINK)
     return Group(
         Panel(feet, title=title, width=PLOT_SIZE[0] + 4),
         Panel("\n".join(plot(walk.track.points, *PLOT_SIZE)), title="track", width=PLOT_SIZE[0] + 4),

@@ -9,20 +9,14 @@ from attrs import define, field
 from ....events import (
     ActivityChanged,
     BatteryLevel,
-    CellsFailed,
     ClockReset,
     Connected,
-    DefectFound,
     Disconnected,
     Event,
-    FeetSwapped,
     FlightClimbed,
     FootResumed,
     FootSilent,
-    InsoleNeverUnloads,
     LiftRidden,
-    Limitation,
-    LinkTrouble,
     PacketsDropped,
     PlaceLost,
     PlanContradicted,
@@ -36,7 +30,7 @@ from ....events import (
 from ....recording import printable
 from ....types import SITE_OF_FOOT, Activity, Site, Turn
 from ....walk.walk import Walk
-from .links import fault_words
+from ...findings import Concern, finding_of
 from .lists import GrowingList
 
 MAX_LINES = 50
@@ -50,11 +44,6 @@ LINES: dict[type[Event], tuple[str, str]] = {
     StreamStale: ("fault", "nothing has come for {0.silent_for:.1f} s"),
     StreamResumed: ("link", "data come again after {0.silent_for:.1f} s"),
     StreamRestarted: ("link", "the data had stopped, the sensor was set up again"),
-    LinkTrouble: ("fault", "{0.what}"),
-    Limitation: ("wear", "{0.what}"),
-    InsoleNeverUnloads: ("wear", "the insole is never without load; the shoe may be too tight for it"),
-    FeetSwapped: ("fault", "the insoles may be swapped: what comes as the left foot looks like a right one"),
-    FootSilent: ("fault", "{0.foot} foot: nothing comes while the other foot walks on"),
     FootResumed: ("link", "{0.foot} foot: samples again after {0.silent_for:.1f} s"),
     PlaceLost: ("place", "{0.what}"),
     PlanContradicted: ("place", "{0.what}"),
@@ -97,6 +86,9 @@ def sentence(event: Event) -> tuple[str, str] | None:
 
     `kind` is "fault" (until somebody acts, results are wrong or absent), "wear" (they are only less accurate), "link",
     "gait", "place" or "here"."""
+    if (finding := finding_of(event)) is not None:
+        text = finding.brief if finding.concern is Concern.WEAR else finding.text
+        return "fault" if finding.act else "wear", printable(text, 300)
     kind, text = LINES.get(type(event)) or _line(event)
     if not text:
         return None
@@ -115,10 +107,6 @@ def _line(event: Event) -> tuple[str, str]:
             return "wear", f"{_counted(count, 'packet')} came too fast to be used"
         case BatteryLevel(level=level) if level <= LOW_BATTERY:
             return "wear", f"the battery is at {100.0 * level:.0f} %"
-        case DefectFound():
-            return "fault" if event.needs_action else "wear", "{0.what}"
-        case CellsFailed():
-            return "wear", f"{fault_words(event)}; left out from now on"
         case TurnMade(turn=turn, angle=angle, final=True) if turn is not None:
             return "gait", f"{TURNS[turn]} by {abs(degrees(angle)):.0f} degrees"
         case FlightClimbed(up=up, steps=strides, height=height, final=True):

@@ -42,7 +42,7 @@ from ..player.playback import Playback
 from .bending import bend_of
 from .feet import NO_COUNTS, PHASE_OF_EVENT, FootScene
 from .gait import SceneGaitMeans, ScenePace, activity_frame
-from .links import SceneFindings, feet_silent_since, link_frame
+from .links import feet_silent_since, findings_frame, link_frame, unsound
 from .lists import GrowingList
 from .log import SceneLog
 from .plan_drawing import PlanDrawing, draw_plan
@@ -80,7 +80,6 @@ class Scene:
     pace: ScenePace = field(factory=ScenePace, init=False)
     scales: Scales = field(factory=Scales, init=False)
     log: SceneLog = field(factory=SceneLog, init=False)
-    findings: SceneFindings = field(factory=SceneFindings, init=False)
     reports: SceneReports = field(factory=SceneReports, init=False)
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
@@ -110,7 +109,6 @@ class Scene:
 
     def _show(self, event: Event) -> None:
         self.log.add_event(event, self.walk)
-        self.findings.add_event(event)
         self.walk.add(event)
         match event:
             case FootMoved(foot=foot) if self._is_connected(foot):
@@ -219,14 +217,14 @@ class Scene:
             "wearer": self.wearer.wearer_frame(),
             "place": self.wearer.place_frame(walk.places.last),
             "activity": activity_frame(since, activity, silent_since),
-            "pace": None if silent_since is not None else self.pace.frame(now, activity, since, self.findings.unsound),
+            "pace": None if silent_since is not None else self.pace.frame(now, activity, since, unsound(walk)),
             "support": None if left is None or right is None else SUPPORT[left][right].value,
             "touchdown": None if down is None else members(down, "t", "foot", "mode", "position"),
             "body": legs,
             "fused": None if fused is None else _fused_frame(fused),
             "scales": self.scales.frame(),
             **self.gait_means.frames(walk.recent_gait, walk.gait),
-            "findings": self.findings.frame(silent),
+            "findings": findings_frame(walk, silent),
             "links": links,
             "playback": None if self.playback is None else self.playback.frame(),
             "posture": plain(self.guide) if isinstance(self.guide, ShownPosture) else None,

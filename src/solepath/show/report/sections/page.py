@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from xml.etree.ElementTree import Element
 
+from ...findings import Concern, texts
 from ...tables.svg import add
 from ..content import ReportContent
 from ..figures.activity import activity_figure
@@ -13,7 +14,7 @@ from ..figures.space import space_figure
 from ..figures.stride import stride_figures
 from ..figures.track import height_figure, plan_figure, track_figure
 from ..markup import paragraph, section, sentences, skeleton, table, whole_sentences
-from ..words import LINK_HEADER, faults, link_rows, overview, sensors
+from ..words import LINK_HEADER, link_rows, overview, sensors
 from .comparison import comparison
 from .facts import Facts, facts_of
 from .gait_table import NO_STEADY, definitions, gait_table
@@ -24,6 +25,12 @@ from .quality import STOP, judgements, overall, quality_box, warning
 
 NO_PLACE = "Where on the floor plan the wearer was is not known."
 NO_TRACK = "There is no track: no foot with a motion sensor took two strides."
+FOUND = {
+    "Cannot be right": (Concern.DATA,),
+    "Missing or wrong": (Concern.WEAR, Concern.LINK, Concern.STRIDES),
+    "Done without": (Concern.LIMITATION,),
+}
+"""Headings of the findings."""
 
 
 def page_of(report: ReportContent) -> Element:
@@ -104,13 +111,13 @@ def _course(parent: Element, report: ReportContent, facts: Facts) -> None:
 def _health(parent: Element, report: ReportContent) -> None:
     walk = report.walk
     table(parent, "From each sensor", LINK_HEADER, link_rows(walk), "numbers links")
-    found = {"Cannot be right": whole_sentences(walk.defects), "Missing or wrong": faults(walk)}
-    if not any(found.values()):
+    found = {title: whole_sentences(texts(walk, *concerns)) for title, concerns in FOUND.items()}
+    if not any(list(found.values())[:-1]):
         paragraph(parent, "Nothing was wrong with the sensors and their links.")
-    for title, texts in {**found, "Done without": whole_sentences(walk.limitations)}.items():
-        if texts:
+    for title, words in found.items():
+        if words:
             add(parent, "<h3>{}</h3>", title)
-            sentences(parent, texts)
+            sentences(parent, words)
 
 
 def _making(report: ReportContent) -> list[tuple[str, str]]:

@@ -12,8 +12,8 @@ from attrs import frozen
 
 from ....events import Defect
 from ....types import SITE_OF_FOOT, Foot
+from ...findings import Concern, missing_words, texts
 from ...tables.gait import MIN_STRIDES, strides_of
-from ...tables.summary import missing_words
 from ...tables.svg import add
 from ...tables.table import counted, times
 from ..markup import whole_sentences
@@ -108,17 +108,14 @@ def _samples(facts: Facts) -> Found:
             absent = link.absent_time(facts.report.walk.now) / facts.duration if facts.duration > 0.0 else 0.0
             worst = max(worst, link.missing_share, absent)
             missing.append(f"{foot} foot {words}")
-    silences = facts.report.walk.silences.total()
-    if silences:
-        missing.append(f"a foot was silent {times(silences)} while the other walked on")
-    verdict = STOP if worst > MAX_GAP_SHARE else LOOK if silences or worst > GOOD_GAP_SHARE else GOOD
+    verdict = STOP if worst > MAX_GAP_SHARE else LOOK if worst > GOOD_GAP_SHARE else GOOD
     return verdict, f"{'; '.join(missing) or 'No sample is missing'}.", "missing samples"
 
 
 def _clocks(facts: Facts) -> Found | None:
     walk, concern = facts.report.walk, "the clocks of the feet"
-    for (_, defect), event in walk.found_defects.items():
-        if defect is Defect.CLOCKS:
+    for event in walk.found_defects:
+        if event.defect is Defect.CLOCKS:
             return LOOK, whole_sentences([f"{event.site.words}: {event.what}"])[0], concern
     if resets := sum([link.clock_resets for link in walk.links.values()]):  # whole numbers
         return LOOK, f"A sensor's clock restarted {times(resets)}.", "restarted clocks"
@@ -130,7 +127,7 @@ def _clocks(facts: Facts) -> Found | None:
 
 
 def _plausibility(facts: Facts) -> Found:
-    found = [one for (_, defect), one in facts.report.walk.found_defects.items() if defect is not Defect.CLOCKS]
+    found = [one for one in facts.report.walk.found_defects if one.defect is not Defect.CLOCKS]
     if not found:
         return GOOD, "Nothing contradicts itself or physics.", ""
     sentences = whole_sentences([f"{one.site.words}: {one.defect.value}" for one in found])
@@ -141,7 +138,7 @@ def _plausibility(facts: Facts) -> Found:
 
 
 def _wear(facts: Facts) -> Found | None:
-    lines = facts.report.walk.wear_problems
+    lines = texts(facts.report.walk, Concern.WEAR)
     return (LOOK, " ".join(whole_sentences(lines)), "how the sensors are worn") if lines else None
 
 
