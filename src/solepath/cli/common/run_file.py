@@ -56,7 +56,7 @@ def _plain(value: Any) -> Any:
         return [_plain(one) for one in value]
     if has(type(value)):
         return {name: _plain(one) for name, one in asdict(value, recurse=False).items()}
-    return value if isinstance(value, bool | int | float | str) else getattr(value, "name", str(value))
+    return value if isinstance(value, bool | int | float | str | None) else getattr(value, "name", str(value))
 
 
 def _digest(path: Path) -> str:

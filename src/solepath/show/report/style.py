@@ -89,8 +89,6 @@ svg:where(:not(.plan)) path { fill: none; }
 .dense .mark { opacity: .3; stroke-width: 1; } .dense .mark.left { stroke-width: 2.4; }
 .dense .turn, .dense .missing { opacity: .35; stroke-width: .6; }
 .flight { fill: none; stroke: var(--soft); stroke-dasharray: 3 3; }
-.swing { fill: var(--paper); stroke: var(--rule); fill-opacity: .55; }
-.stance.left { fill: var(--left); } .stance.right { fill: var(--right); }
 svg .bar { fill: var(--accent); }
 .cells { stroke: var(--soft); stroke-width: .5; }
 .centre { stroke: #10202e; stroke-width: 2.2; stroke-linecap: round; stroke-linejoin: round; }
@@ -116,7 +114,7 @@ svg.plan { font-family: system-ui, sans-serif; }
   td span { display: block; } td span + span { margin-left: 0; }
   table.gait tr { grid-template-columns: 1fr 1fr 1.3fr .8fr 1.3fr; }
   table.comparison tr { grid-template-columns: .8fr .8fr 1.7fr .8fr .8fr; }
-  table.links tr { --columns: 4; } table.thirds tr { --columns: 3; }
+  table.links tr { --columns: 4; }
 }
 @media print {
   @page { size: A4; margin: 10mm 14mm; }
@@ -132,9 +130,9 @@ svg.plan { font-family: system-ui, sans-serif; }
   .figures { grid-template-columns: repeat(3, 1fr); gap: 2mm; margin-top: 1.5mm; }
   .figures svg text, .figures svg.narrow text { font-size: 17px; } .figures > p { margin: 0; }
   .figures .stride-speed { display: none; } .ways svg { max-height: 82mm; }
-  .figures.thirds { grid-template-columns: 1fr 1fr 1.35fr 1fr; } .thirds svg { max-height: 32mm; }
-  .figures.thirds svg text { font-size: 19px; }
-  .figures.thirds .note, #gait ~ .figures figcaption .note { display: none; }
+  .figures.soles svg { max-height: 32mm; }
+  .figures.soles svg text { font-size: 19px; }
+  .figures.soles .note, #gait ~ .figures figcaption .note { display: none; }
   #course ~ .figures { display: flex; flex-wrap: wrap; } #course ~ .figures > figure { flex: 0 1 calc(25% - 1.5mm); }
   #course ~ .figures > figure:only-of-type { flex-basis: 65mm; }
   #course ~ .figures > ul { flex: 1 0 100%; columns: 3; margin: 0; } #course ~ .figures svg { max-height: 28mm; }

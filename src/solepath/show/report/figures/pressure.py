@@ -5,7 +5,7 @@ A contact is the time from heel-strike to toe-off."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from math import dist, fsum
+from math import dist
 from statistics import median_high
 from xml.etree.ElementTree import Element
 
@@ -14,14 +14,13 @@ from attrs import evolve
 from ....types import Foot, Layout
 from ....walk.soles import STATIONS, SoleLoads
 from ...tables.svg import View, add, colour_bar, line, shade
-from ..markup import figure, paragraph, table, whole_sentences
+from ..markup import figure, paragraph, whole_sentences
 from .axes import MARGIN_SHARE, PATH, Chart, write
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
 """Colours from no load to the highest; a higher load is darker, also on a black-and-white printer."""
 SOLE_WIDTH, SOLE_HEIGHT, SOLE_TOP = 150.0, 240.0, 31.0
 """Largest size of the drawing of a sole, and its place on the map, px."""
-THIRDS = ("heel", "midfoot", "forefoot")
 PATHS = "Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single strides."
 STOOD = "No whole stride was walked: the loads are means over the whole recording."
 
@@ -43,15 +42,12 @@ def pressure_figures(parent: Element, soles: Mapping[Foot, SoleLoads]) -> None:
         return {foot: [load / n for load in loads] for foot, (loads, n) in found.items()}
 
     if walked:
-        loads = means("mean_sums", "contacts")
-        _map(parent, "mean", "Mean load of a contact", drawn, loads, paths=True)
+        _map(parent, "mean", "Mean load of a contact", drawn, means("mean_sums", "contacts"), paths=True)
         _map(parent, "peak", "Peak load of a contact", drawn, means("peak_sums", "contacts"))
         _forces(parent, walked)
     else:
-        loads = means("cell_sums", "samples")
-        _map(parent, "standing", "Mean load of the whole recording", drawn, loads)
+        _map(parent, "standing", "Mean load of the whole recording", drawn, means("cell_sums", "samples"))
         paragraph(parent, STOOD)
-    _thirds(parent, drawn, loads)
     for foot in pressed:
         if foot not in shown:
             paragraph(parent, f"No whole stride of the {foot} foot was measured with its pressure.")
@@ -123,15 +119,3 @@ def _forces(parent: Element, soles: Mapping[Foot, SoleLoads]) -> None:
     note = f"Contacts: {', '.join([f'{foot} {sole.contacts}' for foot, sole in soles.items()])}."
     what = f"{'; '.join(texts)}."
     Chart.of(parent, "force", "Mean force over a contact", what, (0.0, 100.0), y, labels, note).curves(curves)
-
-
-def _thirds(parent: Element, drawn: Drawn, loads: Loads) -> None:
-    """Add a table of the shares of the load, %, on the three thirds of the insole's length."""
-    rows = []
-    for foot, (_, layout) in drawn.items():
-        sums = [0.0] * len(THIRDS)
-        for cell, load in zip(layout.cells, loads[foot], strict=True):
-            sums[min(max(int(3.0 * cell.x / layout.length), 0), 2)] += load
-        rows.append([foot.value, *[f"{100.0 * part / (fsum(sums) or 1.0):.0f} %" for part in sums]])
-    if rows:
-        table(parent, "Mean load by thirds of the length", ("foot", *THIRDS), rows, "numbers thirds")

@@ -8,7 +8,6 @@ from ...findings import Concern, texts
 from ...tables.svg import add
 from ..content import ReportContent
 from ..figures.activity import activity_figure
-from ..figures.cycle import cycle_figure
 from ..figures.pressure import pressure_figures
 from ..figures.space import space_figure
 from ..figures.stride import stride_figures
@@ -63,7 +62,7 @@ def page_of(report: ReportContent) -> Element:
     if has_strides:
         _gait(section(details, "gait", "Gait"), report, facts)
     if any([sole.samples for sole in walk.soles.values()]):
-        figures = add(section(details, "pressure", "Pressure"), "<div class='figures thirds'/>")
+        figures = add(section(details, "pressure", "Pressure"), "<div class='figures soles'/>")
         pressure_figures(figures, walk.soles)
     if walk.links:
         _health(section(details, "health", "Sensors and links"), report)
@@ -91,8 +90,6 @@ def _gait(parent: Element, report: ReportContent, facts: Facts) -> None:
     if not facts.means:
         paragraph(parent, NO_STEADY)
     figures = add(parent, "<div class='figures'/>")
-    for means in facts.means:
-        cycle_figure(figures, means)
     stride_figures(figures, [one for cycles in report.walk.cycles.values() for one in cycles], report.clock)
 
 
