@@ -13,7 +13,7 @@ from ..recording.source import label_files
 from ..show.tables.table import counted
 from .common.failure import MAX_LENGTH
 from .common.inputs import Recording, add_calibration, add_recipe_name, assumed_foot, calibration_of
-from .common.own_devices import UnusedPackets, drivers_of
+from .common.own_devices import drivers_of
 from .common.parser import add_command
 from .common.tables import add_tables, axes_repair, source_named
 
@@ -55,7 +55,6 @@ def run(options: Namespace) -> int:
     RecordingError is raised for a file that cannot be read as a recording. One whose values are in another unit can be
     read, and gets a verdict. Rows and packets that cannot be read are left out and named."""
     from ..body.checks.axes import SETTLED_STRIDES
-    from ..link.kinds import make_kinds
     from ..recipes import by_name
     from ..session import Session
     from ..show.findings import Concern, findings
@@ -74,14 +73,13 @@ def run(options: Namespace) -> int:
         print("nothing else was checked: mend this first")
         return 1
     session, recording = Session(recipe, calibration=calibration, poses=True, profiles=drivers), Recording(source)
-    walk, unused, must = Walk(), UnusedPackets(make_kinds(drivers)), list[str]()
+    walk, must = Walk(), list[str]()
     may = [*filter(None, [assumed_foot(source)])]
     for item in chain(recording, [None]):
         if recording.failure is not None and not walk.item_count:
             raise recording.failure
         events = session.finish() if item is None else session.feed(item)
         walk.take(item, events)
-        unused.take(item, events)
     if recording.failure is not None:
         must.append(_without_path(recording.failure))
     for one in findings(walk):
@@ -90,7 +88,6 @@ def run(options: Namespace) -> int:
     has_many = bad_rows is not None and bad_rows.count > LARGE_SHARE * (bad_rows.count + bad_rows.good)
     prefix = f"{printable(str(options.files[0]))}: " if is_one else ""
     (must if has_many else may).extend(flaw.removeprefix(prefix) for flaw in flaws)
-    must += unused.sentences()
     strides = {foot: counts.strides for foot, counts in walk.feet.items() if counts.strides}
     walked = ", ".join(f"{foot} foot {counted(count, 'stride')}" for foot, count in strides.items()) or "no stride"
     print(f"{name}: {walk.covered_time.total:.1f} s, {walked}")

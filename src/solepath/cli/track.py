@@ -27,7 +27,7 @@ from .common.inputs import (
     undo_clocks,
 )
 from .common.outcomes import add_outcomes, has_outcomes, outcomes_of
-from .common.own_devices import UnusedPackets, drivers_of
+from .common.own_devices import drivers_of
 from .common.parser import add_command
 from .common.report import DETAILS, add_report, report_of
 from .common.tables import add_tables, feet_of, mapping_of, source_named
@@ -86,7 +86,6 @@ def add_to(commands: Any) -> None:
 
 def run(options: Namespace) -> int:
     """Run the recording, with several recipes through a session for each at once; return the exit status."""
-    from ..link.kinds import make_kinds
     from ..session import Session
     from .common.loop import stop_signals_raise
     from .common.results import Results
@@ -140,7 +139,6 @@ def run(options: Namespace) -> int:
             floor,
             outputs,
             outcomes,
-            UnusedPackets(make_kinds(drivers)),
             options,
         )
         for recipe in recipes
@@ -156,7 +154,7 @@ def run(options: Namespace) -> int:
         if recording.failure is None or runs[0].walk.item_count:
             lines = [one.write() for one in runs]
             print("\n".join(lines[0] if is_one else _comparison(options, recording.name, runs)))
-            for sentence in runs[0].unused.sentences():
+            for sentence in runs[0].urgent_links():
                 note(sentence)
     if recording.failure is None:
         if (assumed := assumed_foot(source)) is not None:

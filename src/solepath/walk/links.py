@@ -21,6 +21,7 @@ from ..events import (
     LinkTrouble,
     PacketRejected,
     PacketsDropped,
+    Rejection,
     SampleGap,
     SampleRejected,
     StreamRestarted,
@@ -43,6 +44,10 @@ LOSS_WINDOW = 10
 """Time over which the recent loss is counted, in whole seconds."""
 SILENCE_TIME = 1.5
 """Time without a sample after which a link counts as silent, even if the session has not reported it yet, s."""
+MAX_CHANNELS = 100
+"""Largest number of unknown channels of a site that are remembered by name."""
+NO_DEVICE = ("device", "receiver")
+"""Prefixes of channels that belong to no kind of device."""
 STRAGGLER_TIME = 1.0
 """Time after the end of a connection within which a sample does not mean that there is a new connection, s."""
 
@@ -135,8 +140,13 @@ class LinkLedger:
     lost. One that came damaged or late, or that the receiver dropped, is."""
     dropped: int = 0
     """Packets that came and were discarded because the program did not read them in time (PacketsDropped)."""
+    packets: int = 0
+    """Packets that came, used or not, without those of the receiver itself."""
     rejected: Counter[tuple[str, str]] = field(factory=Counter)
     """Number of PacketRejected and SampleRejected by ("packets" or "samples", reason)."""
+    unknown: Counter[str] = field(factory=Counter)
+    """Number of packets of channels that no device has, or not the one at this site, by channel; the first MAX_CHANNELS
+    channels, and of all others together under ""."""
     samples: int = 0
     """Number of used samples with different times. A sample of a foot counts when it was fed as a sample, or when the
     session reported its position or pressure (FootMoved, FootPressed). For another site, all samples in its packets
@@ -217,8 +227,11 @@ class LinkLedger:
     def add_event(self, event: Event) -> None:
         """Count an event of this link; other events change nothing."""
         match event:
-            case PacketRejected(reason=reason):
+            case PacketRejected(reason=reason, channel=channel):
                 self.rejected["packets", reason.value] += 1
+                if reason is Rejection.UNKNOWN_CHANNEL:
+                    is_named = channel in self.unknown or len(self.unknown) < MAX_CHANNELS
+                    self.unknown[channel if is_named else ""] += 1
             case SampleRejected(reason=reason):
                 self.rejected["samples", reason.value] += 1
             case PacketsDropped(count=count):

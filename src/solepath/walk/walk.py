@@ -53,7 +53,7 @@ from ..events import (
 )
 from ..link.decoder import Decoder
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Turn, Vec3, WalkingMode
-from .links import SET_BACK_TOLERANCE, CoveredTime, LinkLedger, is_frame_fragment, is_sample_channel
+from .links import NO_DEVICE, SET_BACK_TOLERANCE, CoveredTime, LinkLedger, is_frame_fragment, is_sample_channel
 from .places import PlaceCounts
 from .soles import SoleLoads
 from .thinned import T, ThinnedList
@@ -221,6 +221,8 @@ class Walk:
         if item is None:
             return
         self.item_count += 1
+        if isinstance(item, Packet) and item.channel.partition("/")[0] not in NO_DEVICE:
+            self.link(item.site).packets += 1
         rejection = PacketRejected if isinstance(item, Packet) else SampleRejected
         if any([isinstance(event, rejection) for event in events]):
             return
@@ -380,6 +382,12 @@ class Walk:
     def found_defects(self) -> list[DefectFound]:
         """Newest report of each defect of each site."""
         return [fault.event for fault in self.faults.values() if isinstance(fault.event, DefectFound)]
+
+    @property
+    def is_useless(self) -> bool:
+        """True if items were rejected, and no packet or sample of a sensor was used."""
+        links = self.links.values()
+        return any([one.rejected for one in links]) and not any([one.received or one.samples for one in links])
 
     @property
     def known_feet(self) -> list[Foot]:

@@ -16,6 +16,7 @@ from ...floorplan.plan import FloorPlan
 from ...recording import printable
 from ...saving.files import FileReplacements
 from ...session import Session
+from ...show.findings import findings
 from ...show.output import PLAN_FILE, RUN_FILE, TrackFiles, os_errors_naming
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
@@ -23,7 +24,6 @@ from ...types import Packet, Sample
 from ...walk.walk import Walk
 from .failure import Failure
 from .files import OutputFile, replacements
-from .own_devices import UnusedPackets
 from .run_file import write_run
 
 if TYPE_CHECKING:
@@ -50,7 +50,6 @@ class Results:
     """All files of `out`, and `report`, as they were before the run."""
     outcomes: OutcomeRequest | None = None
     """Clinical outcomes; None without any."""
-    unused: UnusedPackets = field(factory=UnusedPackets)
     options: Namespace | None = None
     """Options of the command, for run.json; None without this file."""
     walk: Walk = field(factory=Walk, init=False)
@@ -83,7 +82,6 @@ class Results:
         if self._report_path is None and self.report is not None:
             self._report_path = self._replacements.temporary_path(self.report)
         self.walk.take(item, events)
-        self.unused.take(item, events)
         if self._files is not None:
             for event in events:
                 self._files.write(event)
@@ -92,8 +90,8 @@ class Results:
         """Complete files and report; return the lines of the summary.
 
         Raises Failure, and writes nothing, if no packet of the recording could be used."""
-        if self.unused.is_all:
-            raise Failure(f"{self.title}: {'; '.join(self.unused.sentences())}")
+        if self.walk.is_useless:
+            raise Failure(f"{self.title}: {'; '.join(self.urgent_links())}")
         lines = [summary(self.walk, title=self.title, seconds=self.seconds)]
         if self.plan is not None:
             lines += place_lines(self.walk.places)
@@ -121,6 +119,10 @@ class Results:
             lines.append(f"report in {printable(str(self.report))}")
         self._replacements.move_to_targets()
         return lines
+
+    def urgent_links(self) -> list[str]:
+        """Return what the counts of the links show to be wrong until somebody acts."""
+        return [one.text for one in findings(self.walk) if one.act and one.event is None]
 
     def __enter__(self) -> Results:
         return self
