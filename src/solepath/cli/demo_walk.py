@@ -13,7 +13,7 @@ from ..emulate.radio import Radio
 from ..emulate.routes.building import BUILDING
 from ..emulate.routes.ways import BuildingWalk, wandering
 from ..emulate.walk import EmulatedWalk, emulate
-from ..events import Event, Placed, PlaceLost, TurnMade
+from ..events import Event
 from ..floorplan.index import IndexedPlan
 from ..session import Session
 from ..show.tables.table import milliseconds, number, percent, table
@@ -39,7 +39,6 @@ class Demo:
     """Floor plan of that building; None when the walk is not in the building."""
     found: Walk = field(factory=lambda: Walk(limit=None, keeps_all=True))
     """What the session found."""
-    _place_events: list[Event] = field(factory=list)
 
     def play(self) -> Iterator[Packet]:
         """Yield each packet after the session has processed it."""
@@ -51,9 +50,6 @@ class Demo:
     def add_events(self, packet: Packet | Sample | None, events: list[Event]) -> None:
         """Add the events that a session returned for a packet; `packet` is None at the end."""
         self.found.take(packet, events)
-        for event in events:
-            if isinstance(event, Placed | PlaceLost | TurnMade):
-                self._place_events.append(event)
 
     def tables(self) -> list[str]:
         """Return the comparison with the truth, and the score on a floor plan. Call it after `play` has finished."""
@@ -61,7 +57,8 @@ class Demo:
         rows = list(zip(COMPARED, *map(_column, compared), strict=True))
         tables = [table(["against the truth", *[one.foot.value for one in compared]], rows)]
         if self.way is not None:
-            tables.append(place_table(score(self.way, self.walk.walker, self.walk.truth, self._place_events)))
+            events = [*self.found.placed, *self.found.made_turns]
+            tables.append(place_table(score(self.way, self.walk.walker, self.walk.truth, events)))
         return tables
 
 

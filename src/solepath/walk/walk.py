@@ -354,7 +354,7 @@ class Walk:
             case WearerMoved():
                 self.wearer_track.add(event, self._point_limit)
             case Placed() | PlaceLost():
-                self.placed.add(_with_heaviest(event), self.limit)
+                self.placed.add(event if self.keeps_all else _with_heaviest(event), self.limit)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None and self.limit != 0:
                 self.sole(site.foot).layout = layout
             case _:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import sys
 from collections.abc import Iterator
 from functools import partial
 from itertools import chain
@@ -15,7 +16,7 @@ from solepath.cli.common.failure import Failure, note
 from solepath.cli.common.files import Kind, OutputFile, add_force, check_outputs, write_json
 from solepath.cli.common.inputs import add_calibration, add_recipe_name, calibration_of
 from solepath.recipes import DEFAULT, NAMES, by_name
-from solepath.show.tables.progress import progress_bar
+from solepath.show.tables.progress import print_above, progress_bar
 
 from ..options import JSON, ONLY, PROCESSES, option, seeds
 from ..tables.accuracy import accuracy_table
@@ -109,7 +110,7 @@ def run(options: argparse.Namespace) -> int:
         for result in chain(*evaluations):
             results.append(result)
             if not options.markdown and not options.ablation:
-                print(score_table(result), end="\n\n", flush=True)
+                print_above(f"{score_table(result)}\n", sys.stdout)
     if options.ablation:
         print(ablation_table(results, options.markdown))
     elif options.markdown:

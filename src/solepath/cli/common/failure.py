@@ -11,6 +11,7 @@ from importlib.util import find_spec
 from math import inf, isfinite, nan, radians
 
 from ...recording import printable
+from ...show.tables.progress import print_above
 from ...types.extras import install_hint
 
 PAGE_ADDRESS = "127.0.0.1:8765"
@@ -28,7 +29,7 @@ class Failure(Exception):
 def note(sentence: str) -> None:
     """Print one line on stderr and go on."""
     sys.stdout.flush()
-    print(f"solepath: {printable(sentence, MAX_LENGTH)}", file=sys.stderr)
+    print_above(f"solepath: {printable(sentence, MAX_LENGTH)}")
 
 
 def tell(sentence: str) -> None:

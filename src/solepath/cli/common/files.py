@@ -147,11 +147,11 @@ def files_read(options: Namespace) -> list[Path]:
     return list(dict.fromkeys([file for path in paths for file in _files_in(path)]))
 
 
-def check_outputs(options: Namespace, outputs: Sequence[OutputFile]) -> None:
+def check_outputs(options: Namespace, outputs: Sequence[OutputFile], *inputs: Path) -> None:
     """Check that no output is an input, another output, being recorded, not writable, or replaced with --force only.
 
-    No file is changed. Raise Failure, with one sentence, or OSError."""
-    read = files_read(options)
+    Inputs are `files_read` and `inputs`. No file is changed. Raise Failure, with one sentence, or OSError."""
+    read = [*files_read(options), *[file for one in inputs for file in _files_in(one)]]
     for output in outputs:
         if any(_is_same(output.path, path) for path in read):
             raise Failure(f"{output.path}: is what this command reads; write to another file")

@@ -14,17 +14,13 @@ CAUTION = (
     "These are measurements of foot-worn sensors, for whoever knows how to read them. They are no diagnosis and come "
     "from no medical device."
 )
-MONTHS = (
-    "January", "February", "March", "April", "May", "June", "July", "August", "September", "October", "November",
-    "December",
-)  # fmt: skip
 
 
 def date_words(text: str) -> str:
     """Return a date such as 2026-11-26 in words, 26 November 2026; any other text as it is."""
     with suppress(ValueError):
         day = date.fromisoformat(text.strip())
-        return f"{day.day} {MONTHS[day.month - 1]} {day.year}"
+        return f"{day.day} {day:%B %Y}"
     return text.strip()
 
 
