@@ -10,11 +10,11 @@ from collections.abc import Container, Mapping, Sequence
 from importlib.metadata import version
 from types import ModuleType
 
-from solepath.cli.common.parser import Parser
+from solepath.cli.common.parser import Option, Parser, option
 from solepath.cli.completion import COMPLETING, complete
 from solepath.cli.main import form, guarded
 
-from .options import FOLDER, ONLY, PROCESSES, Option, only, option, seeds
+from .options import FOLDER, ONLY, PROCESSES, only, seeds
 
 Kinds = Mapping[str, tuple[str, tuple[Option, ...]]]
 """What the help says of each command, or of each kind of one, and its options beside the OPTIONS of its module."""

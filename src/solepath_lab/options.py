@@ -3,20 +3,10 @@
 from __future__ import annotations
 
 import os
-from argparse import ArgumentParser
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from solepath.cli.common.failure import parse_count, parse_whole_number
-
-Option = Callable[[ArgumentParser], object]
-"""Function that adds an option to the parser of a command."""
-
-
-def option(*names: str, **settings: Any) -> Option:
-    """Return an option with the arguments of `ArgumentParser.add_argument`."""
-    return lambda parser: parser.add_argument(*names, **settings)
+from solepath.cli.common.parser import Option, option
 
 
 def seeds(count: int, first: int, counted: str = "walks", may_be_none: bool = False) -> Option:

@@ -5,17 +5,16 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Sequence
 from itertools import chain
-from typing import Any
 
 from ..recording import RecordingError, printable
 from ..recording.errors import UnusableValues
 from ..recording.source import label_files
 from ..show.tables.table import counted
 from .common.failure import MAX_LENGTH
-from .common.inputs import Recording, add_calibration, add_recipe_name, assumed_foot, calibration_of
+from .common.inputs import Recording, add_calibration, assumed_foot, calibration_of, recipe_option
 from .common.own_devices import drivers_of
-from .common.parser import add_command
-from .common.tables import add_tables, axes_repair, source_named
+from .common.parser import command
+from .common.tables import axes_repair, source_named, table_options
 
 UNSEEN = (
     "all three axes of an accelerometer reversed, which turns left into right",
@@ -30,23 +29,6 @@ UNSEEN = (
 """Some defects that may be in data of which the checks report nothing; there are others."""
 LARGE_SHARE = 0.1
 """Share of damaged rows from which on they must be mended; chosen by hand."""
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands,
-        "check",
-        "say what is wrong with a recording",
-        "Say what is wrong with a recording of packets (JSON Lines) or of samples (text tables, Excel,"
-        " Parquet, .npz), in sentences. The exit status is 1 if something must be mended, also if the values are in"
-        " another unit, and 2 if the file is no recording. Axes need about 20 s of walking, clocks 60 s.",
-        "solepath check walk.csv",
-        run=run,
-    )
-    add_tables(command)
-    add_recipe_name(command)
-    add_calibration(command)
 
 
 def run(options: Namespace) -> int:
@@ -110,3 +92,17 @@ def _without_path(error: RecordingError) -> str:
 def _print_list(title: str, sentences: Sequence[str]) -> None:
     if sentences:
         print("\n  ".join([f"{title}:", *(printable(sentence, MAX_LENGTH) for sentence in sentences)]))
+
+
+add_to = command(
+    "check",
+    "say what is wrong with a recording",
+    "Say what is wrong with a recording of packets (JSON Lines) or of samples (text tables, Excel,"
+    " Parquet, .npz), in sentences. The exit status is 1 if something must be mended, also if the values are in"
+    " another unit, and 2 if the file is no recording. Axes need about 20 s of walking, clocks 60 s.",
+    "solepath check walk.csv",
+    table_options(),
+    recipe_option(),
+    add_calibration,
+    run=run,
+)

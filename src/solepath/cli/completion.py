@@ -4,30 +4,13 @@ from __future__ import annotations
 
 from argparse import Action, ArgumentParser, Namespace
 from collections.abc import Callable, Iterable
-from typing import Any
 
 from .common.failure import require
-from .common.parser import add_command
+from .common.parser import command, option
 
 COMPLETING = "_ARGCOMPLETE"
 """Environment variable that a shell sets when it runs the program to complete a word."""
 SHELLS = ("bash", "zsh", "fish", "powershell")
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands,
-        "completion",
-        "make the Tab key complete commands, options and recipes",
-        "Print what makes a shell complete commands, options, recipes and files at the Tab key (extra "
-        "completion). One line in the file that the shell reads at its start is enough.",
-        """eval "$(solepath completion bash)"        in ~/.bashrc
-eval "$(solepath completion zsh)"         in ~/.zshrc
-solepath completion fish | source         in ~/.config/fish/config.fish""",
-        run=run,
-    )
-    command.add_argument("shell", metavar="SHELL", choices=SHELLS, help=", ".join(SHELLS))
 
 
 def run(options: Namespace) -> int:
@@ -51,3 +34,16 @@ def complete(parser: ArgumentParser) -> None:
 def complete_with(action: Action, names: Callable[[], Iterable[str]]) -> None:
     """Complete the value of an option with the names that a function returns."""
     vars(action)["completer"] = lambda **_: names()
+
+
+add_to = command(
+    "completion",
+    "make the Tab key complete commands, options and recipes",
+    "Print what makes a shell complete commands, options, recipes and files at the Tab key (extra "
+    "completion). One line in the file that the shell reads at its start is enough.",
+    """eval "$(solepath completion bash)"        in ~/.bashrc
+eval "$(solepath completion zsh)"         in ~/.zshrc
+solepath completion fish | source         in ~/.config/fish/config.fish""",
+    option("shell", metavar="SHELL", choices=SHELLS, help=", ".join(SHELLS)),
+    run=run,
+)

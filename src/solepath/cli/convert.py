@@ -18,10 +18,18 @@ from .common.closest import unknown
 from .common.failure import Failure, note, parse_whole_number, require
 from .common.files import RECORDING as RECORDING_KIND
 from .common.files import OutputFile, add_force, check_outputs
-from .common.inputs import Recording, add_calibration, add_recipe, calibration_of, check_pressure, recipes_of
+from .common.inputs import (
+    Recording,
+    add_calibration,
+    add_heading,
+    calibration_of,
+    check_pressure,
+    recipe_option,
+    recipes_of,
+)
 from .common.own_devices import drivers_of
-from .common.parser import add_command
-from .common.tables import add_tables, source_named
+from .common.parser import command, option
+from .common.tables import source_named, table_options
 
 if TYPE_CHECKING:
     from ..events import Event
@@ -39,73 +47,6 @@ MAX_ISSUES = 10
 """Largest number of issues that are printed."""
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands,
-        "convert",
-        "import a phone's btsnoop log; export to MCAP, OpenSim or Motion-BIDS",
-        "Convert a btsnoop log (an Android phone's HCI snoop log, btmon) to a recording of packets, or "
-        "either to MCAP, which opens in Foxglove; or any recording to a storage file of OpenSim or, with --subject, "
-        "into a Motion-BIDS dataset. The name of OUT chooses the format: .jsonl, .mcap or .sto.",
-        "solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
-        run=run,
-    )
-    add_tables(command, "IN")
-    command.add_argument(
-        "out",
-        metavar="OUT",
-        type=Path,
-        help="what to write: FILE.jsonl, FILE.mcap, FILE.sto, or with --subject the folder of a dataset",
-    )
-    command.add_argument(
-        "--site",
-        metavar="ADDRESS=SITE",
-        dest="sites",
-        type=_site,
-        action="append",
-        default=[],
-        help="where a device of the log was worn: " + ", ".join(site.value for site in Site) + " (insoles say "
-        "themselves of which foot they are, unless this says otherwise); may be given again",
-    )
-    command.add_argument(
-        "--handle",
-        metavar="[ADDRESS/]HANDLE=CHANNEL",
-        dest="handles",
-        type=_handle,
-        action="append",
-        default=[],
-        help="what an attribute is whose discovery is not in the log, for instance 0x002b=cc2650/movement; may be "
-        "given again",
-    )
-    command.add_argument(
-        "--positions", action="store_true", help="of the sensors instead of their attitudes, for OpenSim (.sto)"
-    )
-    command.add_argument(
-        "--subject", metavar="LABEL", help="who walked: writes into the Motion-BIDS dataset in the folder OUT"
-    )
-    command.add_argument("--session", metavar="LABEL", default="", help="the visit, in the dataset")
-    command.add_argument(
-        "--task", metavar="LABEL", default="walk", help="what was done, in the dataset (default: walk)"
-    )
-    command.add_argument(
-        "--run",
-        metavar="N",
-        dest="repetition",
-        type=parse_whole_number,
-        default=0,
-        help="the repetition, in the dataset",
-    )
-    command.add_argument(
-        "--validate",
-        action="store_true",
-        help="have the official validator of BIDS, or OpenSim, read the result (extras bids and opensim)",
-    )
-    add_recipe(command)
-    add_calibration(command)
-    add_force(command)
 
 
 def _site(text: str) -> tuple[str, Site]:
@@ -317,3 +258,62 @@ def validate_storage(path: Path, *, positions: bool) -> int:
     labels = ", ".join(table.getColumnLabels())
     print(f"OpenSim {opensim.GetVersion()} reads {table.getNumRows()} rows of {labels}")
     return 0
+
+
+add_to = command(
+    "convert",
+    "import a phone's btsnoop log; export to MCAP, OpenSim or Motion-BIDS",
+    "Convert a btsnoop log (an Android phone's HCI snoop log, btmon) to a recording of packets, or "
+    "either to MCAP, which opens in Foxglove; or any recording to a storage file of OpenSim or, with --subject, "
+    "into a Motion-BIDS dataset. The name of OUT chooses the format: .jsonl, .mcap or .sto.",
+    "solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
+    table_options("IN"),
+    option(
+        "out",
+        metavar="OUT",
+        type=Path,
+        help="what to write: FILE.jsonl, FILE.mcap, FILE.sto, or with --subject the folder of a dataset",
+    ),
+    option(
+        "--site",
+        metavar="ADDRESS=SITE",
+        dest="sites",
+        type=_site,
+        action="append",
+        default=[],
+        help="where a device of the log was worn: " + ", ".join(site.value for site in Site) + " (insoles say "
+        "themselves of which foot they are, unless this says otherwise); may be given again",
+    ),
+    option(
+        "--handle",
+        metavar="[ADDRESS/]HANDLE=CHANNEL",
+        dest="handles",
+        type=_handle,
+        action="append",
+        default=[],
+        help="what an attribute is whose discovery is not in the log, for instance 0x002b=cc2650/movement; may be "
+        "given again",
+    ),
+    option("--positions", action="store_true", help="of the sensors instead of their attitudes, for OpenSim (.sto)"),
+    option("--subject", metavar="LABEL", help="who walked: writes into the Motion-BIDS dataset in the folder OUT"),
+    option("--session", metavar="LABEL", default="", help="the visit, in the dataset"),
+    option("--task", metavar="LABEL", default="walk", help="what was done, in the dataset (default: walk)"),
+    option(
+        "--run",
+        metavar="N",
+        dest="repetition",
+        type=parse_whole_number,
+        default=0,
+        help="the repetition, in the dataset",
+    ),
+    option(
+        "--validate",
+        action="store_true",
+        help="have the official validator of BIDS, or OpenSim, read the result (extras bids and opensim)",
+    ),
+    recipe_option(),
+    add_heading,
+    add_calibration,
+    add_force,
+    run=run,
+)

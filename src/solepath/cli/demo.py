@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..recording import PacketWriter
 from ..types import Foot
@@ -21,8 +21,17 @@ from .common.failure import (
     tell,
 )
 from .common.files import RECORDING, OutputFile, add_force, check_outputs
-from .common.parser import add_command
-from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
+from .common.parser import command, one_of, option
+from .common.view import (
+    PageAddress,
+    add_no_browser,
+    compute_rest,
+    page_address_of,
+    play,
+    speed_of,
+    speed_option,
+    view_option,
+)
 
 if TYPE_CHECKING:
     from .demo_walk import Demo
@@ -31,47 +40,6 @@ REPORT_INTERVAL = 10.0
 """Time of the walk between two lines of progress without a terminal, s."""
 TERMINAL_SPEED = 2.0
 """Speed in a terminal, in multiples of real time."""
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands,
-        "demo",
-        "walk an emulated route and compare with the truth",
-        "An emulated wearer walks a route with both insoles over a lossy radio. In a terminal it is shown "
-        "live, on a page in the browser where aiohttp is installed; without a terminal it is computed as fast as it "
-        "can be.",
-        "solepath demo\nsolepath demo --building --record walk.jsonl",
-        run=run,
-    )
-    command.add_argument(
-        "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
-    )
-    route = command.add_mutually_exclusive_group()
-    route.add_argument(
-        "--distance",
-        metavar="M",
-        type=parse_positive,
-        help="walk so many metres straight on instead of the scripted route",
-    )
-    route.add_argument(
-        "--building",
-        action="store_true",
-        help="walk through an emulated building, with its floor plan: a lift, corridors, stairs",
-    )
-    command.add_argument(
-        "--loss", metavar="SHARE", type=parse_share, help="share of packets lost, 0 to 1 (default: 0.03)"
-    )
-    command.add_argument(
-        "--jitter", metavar="S", type=parse_seconds, help="by how many seconds a packet may be late (default: 0.03)"
-    )
-    shown = command.add_mutually_exclusive_group()
-    add_view(command, shown, "show it")
-    shown.add_argument("--terminal", action="store_true", help="show it in the terminal, not in the browser")
-    add_speed(command, f"1 on the page, {TERMINAL_SPEED:g} in the terminal")
-    command.add_argument("--record", metavar="FILE", type=Path, help="write the packets as a recording for `track`")
-    add_force(command)
 
 
 def run(options: Namespace) -> int:
@@ -178,3 +146,40 @@ def _print_progress(demo: Demo) -> None:
             print(f"{packet.t:6.1f} s  {', '.join(feet)}", flush=True)
     picture = [line.rstrip() for line in plot(demo.found.track.points, 72, 16)]
     print("\n".join(["", *picture, "", *texts(demo.found, Concern.LINK)]))
+
+
+add_to = command(
+    "demo",
+    "walk an emulated route and compare with the truth",
+    "An emulated wearer walks a route with both insoles over a lossy radio. In a terminal it is shown "
+    "live, on a page in the browser where aiohttp is installed; without a terminal it is computed as fast as it "
+    "can be.",
+    "solepath demo\nsolepath demo --building --record walk.jsonl",
+    option("--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"),
+    one_of(
+        option(
+            "--distance",
+            metavar="M",
+            type=parse_positive,
+            help="walk so many metres straight on instead of the scripted route",
+        ),
+        option(
+            "--building",
+            action="store_true",
+            help="walk through an emulated building, with its floor plan: a lift, corridors, stairs",
+        ),
+    ),
+    option("--loss", metavar="SHARE", type=parse_share, help="share of packets lost, 0 to 1 (default: 0.03)"),
+    option(
+        "--jitter", metavar="S", type=parse_seconds, help="by how many seconds a packet may be late (default: 0.03)"
+    ),
+    one_of(
+        view_option("show it"),
+        option("--terminal", action="store_true", help="show it in the terminal, not in the browser"),
+    ),
+    add_no_browser,
+    speed_option(f"1 on the page, {TERMINAL_SPEED:g} in the terminal"),
+    option("--record", metavar="FILE", type=Path, help="write the packets as a recording for `track`"),
+    add_force,
+    run=run,
+)

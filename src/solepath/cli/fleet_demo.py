@@ -18,8 +18,8 @@ from attrs.filters import exclude
 from ..recording import printable
 from .common.failure import Failure, parse_count, parse_number, parse_whole_number, require, tell
 from .common.files import FLEET_FIGURES, OutputFile, add_force, check_outputs, write_json
-from .common.inputs import add_recipe_name
-from .common.parser import add_command
+from .common.inputs import recipe_option
+from .common.parser import command, option
 
 if TYPE_CHECKING:
     from ..fleet.demo.run import DemoStage
@@ -28,46 +28,6 @@ DIFFERENCE_STATUS = 1
 """Exit status when the events of two runs differ."""
 DEFAULT_TOTAL_TIME, MIN_DEFAULT_TIME, MAX_DEFAULT_TIME = 1200.0, 6.0, 20.0
 """Default walking time of all wearers together, and the least and the greatest default of each wearer, s."""
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands,
-        "fleet-demo",
-        "many emulated wearers through a stream engine that is killed",
-        "Emulated wearers, whose packets come late, twice and out of order, walk through Spark Structured "
-        "Streaming on this machine, which keeps the state of their sessions. Its processes are killed at random "
-        "moments (kill -9) and started again. The events must equal those of an uninterrupted run, and those of "
-        "sessions without an engine. Exit status 1 when they do not.",
-        "solepath fleet-demo --wearers 40 --kills 3 --out fleet",
-        run=run,
-    )
-    command.add_argument(
-        "--wearers", metavar="N", type=parse_count, default=100, help="how many wearers (default: 100)"
-    )
-    command.add_argument("--kills", metavar="K", type=parse_whole_number, default=3, help="how many kills (default: 3)")
-    command.add_argument(
-        "--seconds",
-        metavar="S",
-        type=partial(parse_number, "a number of seconds from 1 to 3600", 1.0, 3600.0),
-        help=f"how long each wearer walks, s (default: {MIN_DEFAULT_TIME:g} for "
-        f"{DEFAULT_TOTAL_TIME / MIN_DEFAULT_TIME:.0f} wearers and more, up to {MAX_DEFAULT_TIME:g} for fewer)",
-    )
-    add_recipe_name(command, "recipe of the sessions")
-    command.add_argument(
-        "--seed", metavar="X", type=parse_whole_number, default=1, help="other wearers, other kills (default: 1)"
-    )
-    command.add_argument(
-        "--processes",
-        metavar="P",
-        type=parse_count,
-        default=min(2, os.cpu_count() or 1),
-        help="Python processes of Spark (default: 2, where there are two processors)",
-    )
-    command.add_argument("--out", metavar="DIR", type=Path, help="leave the events there, as Parquet in DIR/events")
-    command.add_argument("--json", metavar="FILE", type=Path, help="write the figures as JSON too")
-    add_force(command)
 
 
 def run(options: Namespace) -> int:
@@ -191,3 +151,36 @@ def figures(stage: DemoStage) -> dict[str, Any]:
         "ratio": stage.rate / rate,
         "kills": [{**asdict(kill), "down": down} for kill, down in stage.kills],
     }
+
+
+add_to = command(
+    "fleet-demo",
+    "many emulated wearers through a stream engine that is killed",
+    "Emulated wearers, whose packets come late, twice and out of order, walk through Spark Structured "
+    "Streaming on this machine, which keeps the state of their sessions. Its processes are killed at random "
+    "moments (kill -9) and started again. The events must equal those of an uninterrupted run, and those of "
+    "sessions without an engine. Exit status 1 when they do not.",
+    "solepath fleet-demo --wearers 40 --kills 3 --out fleet",
+    option("--wearers", metavar="N", type=parse_count, default=100, help="how many wearers (default: 100)"),
+    option("--kills", metavar="K", type=parse_whole_number, default=3, help="how many kills (default: 3)"),
+    option(
+        "--seconds",
+        metavar="S",
+        type=partial(parse_number, "a number of seconds from 1 to 3600", 1.0, 3600.0),
+        help=f"how long each wearer walks, s (default: {MIN_DEFAULT_TIME:g} for "
+        f"{DEFAULT_TOTAL_TIME / MIN_DEFAULT_TIME:.0f} wearers and more, up to {MAX_DEFAULT_TIME:g} for fewer)",
+    ),
+    recipe_option("recipe of the sessions"),
+    option("--seed", metavar="X", type=parse_whole_number, default=1, help="other wearers, other kills (default: 1)"),
+    option(
+        "--processes",
+        metavar="P",
+        type=parse_count,
+        default=min(2, os.cpu_count() or 1),
+        help="Python processes of Spark (default: 2, where there are two processors)",
+    ),
+    option("--out", metavar="DIR", type=Path, help="leave the events there, as Parquet in DIR/events"),
+    option("--json", metavar="FILE", type=Path, help="write the figures as JSON too"),
+    add_force,
+    run=run,
+)

@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..calibration import Calibration
 from ..recording import printable
@@ -17,21 +17,31 @@ from .common.inputs import (
     add_calibration,
     add_clocks,
     add_floorplan,
-    add_recipe,
+    add_heading,
     assumed_foot,
     calibration_of,
     check_pressure,
     floorplan_of,
+    recipe_option,
     recipes_of,
     source_of,
     undo_clocks,
 )
 from .common.outcomes import add_outcomes, has_outcomes, outcomes_of
 from .common.own_devices import drivers_of
-from .common.parser import add_command
+from .common.parser import command, option
 from .common.report import DETAILS, add_report, report_of
-from .common.tables import add_tables, feet_of, mapping_of, source_named
-from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
+from .common.tables import feet_of, mapping_of, source_named, table_options
+from .common.view import (
+    PageAddress,
+    add_no_browser,
+    compute_rest,
+    page_address_of,
+    play,
+    speed_of,
+    speed_option,
+    view_option,
+)
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -45,43 +55,6 @@ OF_ONE_RECIPE = (
     "report", "title", "subject", "date", "device", "compare", "reference", "view", "no_browser", "speed",
 )  # fmt: skip
 """Options of the report and of the page, which show one walk, so that they go with one recipe."""
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands,
-        "track",
-        "run a recording and print a summary",
-        "Run a recording of packets (JSON Lines) or of samples (text tables, Excel, Parquet, .npz) and"
-        " print a summary.",
-        "solepath track walk.csv --report walk.html\n"
-        "solepath track left.csv right.csv --units g,deg/s,ms --out walk\n"
-        "solepath track walk.jsonl --recipe default --recipe kupt-dfpc",
-        run=run,
-    )
-    add_tables(command)
-    add_recipe(
-        command,
-        action="append",
-        default=None,
-        help="how to compute (default: default); given again, one table with a column for each recipe",
-    )
-    add_calibration(command)
-    add_floorplan(command)
-    add_clocks(command)
-    command.add_argument(
-        "--out",
-        metavar="DIR",
-        type=Path,
-        help="write events.jsonl, track.csv, strides.csv, gait_cycles.csv and run.json into it, with a floor plan "
-        "places.csv and plan.svg too, once they are whole",
-    )
-    add_report(command)
-    add_outcomes(command)
-    add_force(command)
-    add_view(command, command, "play it")
-    add_speed(command, "1, on the page")
 
 
 def run(options: Namespace) -> int:
@@ -243,3 +216,37 @@ def _run_on_page(
         play(player, address, pace)
     compute_rest(player, "recording")
     return shown
+
+
+add_to = command(
+    "track",
+    "run a recording and print a summary",
+    "Run a recording of packets (JSON Lines) or of samples (text tables, Excel, Parquet, .npz) and print a summary.",
+    "solepath track walk.csv --report walk.html\n"
+    "solepath track left.csv right.csv --units g,deg/s,ms --out walk\n"
+    "solepath track walk.jsonl --recipe default --recipe kupt-dfpc",
+    table_options(),
+    recipe_option(
+        action="append",
+        default=None,
+        help="how to compute (default: default); given again, one table with a column for each recipe",
+    ),
+    add_heading,
+    add_calibration,
+    add_floorplan,
+    add_clocks,
+    option(
+        "--out",
+        metavar="DIR",
+        type=Path,
+        help="write events.jsonl, track.csv, strides.csv, gait_cycles.csv and run.json into it, with a floor plan "
+        "places.csv and plan.svg too, once they are whole",
+    ),
+    add_report,
+    add_outcomes,
+    add_force,
+    view_option("play it"),
+    add_no_browser,
+    speed_option("1, on the page"),
+    run=run,
+)

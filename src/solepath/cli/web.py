@@ -9,12 +9,11 @@ from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import sleep
-from typing import Any
 
 from ..show.tables.table import number, table
 from .common.failure import Failure, note, parse_port, reject_options, tell
 from .common.os_errors import address_error_text
-from .common.parser import add_command
+from .common.parser import command, option
 from .common.view import open_browser
 
 DEFAULT_PORT = 8766
@@ -22,28 +21,6 @@ CLOCK_INTERVAL = 0.2
 """Time between two looks at whether the command was stopped, s."""
 LISTED = 5
 """Number of the largest files that are named with their sizes."""
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands,
-        "web",
-        "write the page as a site that needs no server",
-        "Write the page as a folder of static files. Python runs in the browser (Pyodide, fetched once "
-        "from the npm registry and checked), so that any web server with https can serve it, and a phone can use it "
-        "offline.",
-        "solepath web site --serve",
-        run=run,
-    )
-    command.add_argument(
-        "out", metavar="OUT", type=Path, nargs="?", help="folder of the site; files of an earlier one are replaced"
-    )
-    command.add_argument("--serve", action="store_true", help="show the site on this machine")
-    command.add_argument(
-        "--port", metavar="N", type=parse_port, help=f"port of --serve (default: {DEFAULT_PORT}; 0: any)"
-    )
-    command.add_argument("--no-browser", action="store_true", help="open no browser: only say where the site is")
 
 
 def run(options: Namespace) -> int:
@@ -100,3 +77,18 @@ def _serve(folder: Path, options: Namespace) -> None:
         print("Ctrl-C ends it", flush=True)
         while not stop_requested():
             sleep(CLOCK_INTERVAL)
+
+
+add_to = command(
+    "web",
+    "write the page as a site that needs no server",
+    "Write the page as a folder of static files. Python runs in the browser (Pyodide, fetched once "
+    "from the npm registry and checked), so that any web server with https can serve it, and a phone can use it "
+    "offline.",
+    "solepath web site --serve",
+    option("out", metavar="OUT", type=Path, nargs="?", help="folder of the site; files of an earlier one are replaced"),
+    option("--serve", action="store_true", help="show the site on this machine"),
+    option("--port", metavar="N", type=parse_port, help=f"port of --serve (default: {DEFAULT_PORT}; 0: any)"),
+    option("--no-browser", action="store_true", help="open no browser: only say where the site is"),
+    run=run,
+)

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
-from functools import partial
 from itertools import product
 from pathlib import Path
 
@@ -30,7 +29,8 @@ from solepath.calibration import Calibration, CalibrationError
 from solepath.cli.calibrate.by_hand.fit import SYMMETRIC
 from solepath.cli.calibrate.by_hand.pauses import Floats
 from solepath.cli.calibrate.by_hand.sensor import fit_sensors, sensor_calibration
-from solepath.cli.common.inputs import add_recipe_name
+from solepath.cli.common.inputs import recipe_option
+from solepath.cli.common.parser import option
 from solepath.emulate.radio import Radio
 from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
@@ -41,7 +41,7 @@ from solepath.recording import PacketWriter
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 
-from ..options import option, seeds
+from ..options import seeds
 from ..processes import run_jobs
 from ..tables import markdown
 from .handling import CLUMSY, STEADY, Clumsiness, Handling
@@ -218,7 +218,7 @@ def _both(values: Floats) -> str:
 OPTIONS = (
     option("--sensors", metavar="N", type=int, default=SENSORS, help="of each kind in each hand; or 0"),
     seeds(WALKS, FIRST_SEED, may_be_none=True),
-    partial(add_recipe_name, action="append", default=[], help="may be given again"),
+    recipe_option(action="append", default=[], help="may be given again"),
     option("--record", metavar="FILE", type=Path, help="record a sensor in a hand instead"),
 )
 

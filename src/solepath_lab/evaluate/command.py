@@ -6,7 +6,6 @@ import argparse
 import os
 import sys
 from collections.abc import Iterator
-from functools import partial
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -14,11 +13,12 @@ from typing import Any
 from solepath.cli.common.closest import unknown
 from solepath.cli.common.failure import Failure, note
 from solepath.cli.common.files import Kind, OutputFile, add_force, check_outputs, write_json
-from solepath.cli.common.inputs import add_calibration, add_recipe_name, calibration_of
+from solepath.cli.common.inputs import add_calibration, calibration_of, recipe_option
+from solepath.cli.common.parser import option
 from solepath.recipes import DEFAULT, NAMES, by_name
 from solepath.show.tables.progress import print_above, progress_bar
 
-from ..options import JSON, ONLY, PROCESSES, option, seeds
+from ..options import JSON, ONLY, PROCESSES, seeds
 from ..tables.accuracy import accuracy_table
 from ..tables.scores import ablation_table, score_table
 from . import ablation
@@ -36,7 +36,7 @@ SCORES = Kind(rb'\A\{\}\n|\A\{\n "[^"\n]*": \{\n  "[^"\n]*": \{\n   "recordings"
 OPTIONS = (
     option("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})"),
     ONLY,
-    partial(add_recipe_name, action="append", default=[], help="this recipe only; may be given again"),
+    recipe_option(action="append", default=[], help="this recipe only; may be given again"),
     add_calibration,
     option(
         "--emulated",

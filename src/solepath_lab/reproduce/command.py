@@ -10,11 +10,12 @@ from pathlib import Path
 from solepath.cli.common.closest import unknown
 from solepath.cli.common.failure import Failure, parse_count, parse_whole_number, require
 from solepath.cli.common.files import Kind, OutputFile, add_force, check_outputs, write_json
+from solepath.cli.common.parser import option
 from solepath.cli.completion import complete_with
 from solepath.recording import printable
 from solepath.saving.files import replace_whole
 
-from ..options import JSON, PROCESSES, option
+from ..options import JSON, PROCESSES
 from ..tables.comparison import comparison_with_paper
 from . import footstep_tracker, kupt_dfpc, pressure_contour, shoe_sensing, walking_modes
 from .done_jobs import DoneJobs, DoneJobsError

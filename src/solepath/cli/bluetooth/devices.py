@@ -4,14 +4,15 @@ The times below were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError, Namespace
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...types import Site
 from ..common.closest import unknown
 from ..common.failure import Failure, has_terminal, note, parse_positive, require
 from ..common.own_devices import add_own_devices
+from ..common.parser import Option, option, together
 from ..completion import complete_with
 
 if TYPE_CHECKING:
@@ -27,26 +28,21 @@ SERVE_TIME = 600.0
 """Time for which emulated devices are served without a terminal and without --duration, s."""
 
 
-def add_via(command: ArgumentParser) -> None:
-    """Add --via, the Bluetooth to use, to a command."""
-    command.add_argument(
-        "--via",
-        metavar="tcp:HOST:PORT",
-        help="the emulated devices of `solepath emulate` there, instead of this machine's Bluetooth",
-    )
+def parse_at(text: str) -> tuple[Site, str]:
+    """Parse a value of --at: a site, and the device there."""
+    site, _, device = text.partition("=")
+    sites = [one.value for one in Site]
+    if site not in sites or not device:
+        raise ArgumentTypeError(f"{text!r} is not SITE=DEVICE: {unknown('site', site, sites)}")
+    return Site(site), device
 
 
-def add_feet(command: ArgumentParser) -> None:
-    """Add the options of the devices on the feet to a command."""
-    add_via(command)
-    command.add_argument("--left", metavar="DEVICE", help="address or name of the device on the left foot")
-    command.add_argument("--right", metavar="DEVICE", help="address or name of the device on the right foot")
-    command.set_defaults(at=[])
-    kind = command.add_argument(
-        "--profile", metavar="NAME", help="the kind of all these devices, where their names do not say it"
-    )
-    complete_with(kind, _profile_names)
-    command.add_argument("--pair", action="store_true", help="pair with the devices")
+add_via = option(
+    "--via",
+    metavar="tcp:HOST:PORT",
+    help="the emulated devices of `solepath emulate` there, instead of this machine's Bluetooth",
+)
+"""--via, the Bluetooth to use,."""
 
 
 def _profile_names() -> Iterable[str]:
@@ -55,24 +51,14 @@ def _profile_names() -> Iterable[str]:
     return BY_NAME
 
 
-def add_devices(command: ArgumentParser) -> None:
-    """Add the options of the devices and of the time to a command."""
-    add_feet(command)
-    add_own_devices(command)
-    command.add_argument(
-        "--at",
-        metavar="SITE=DEVICE",
-        type=parse_at,
-        action="append",
-        default=[],
-        help="a device elsewhere, for instance pelvis=NAME",
-    )
-    add_duration(command, LISTEN_TIME)
+def _add_profile(command: Any) -> None:
+    what = "the kind of all these devices, where their names do not say it"
+    complete_with(command.add_argument("--profile", metavar="NAME", help=what), _profile_names)
 
 
-def add_duration(command: ArgumentParser, unattended: float) -> None:
-    """Add --duration to a command; `unattended` is the time without a terminal, s."""
-    command.add_argument(
+def duration_option(unattended: float) -> Option:
+    """Return --duration; `unattended` is the time without a terminal, s."""
+    return option(
         "--duration",
         metavar="S",
         type=parse_positive,
@@ -80,13 +66,29 @@ def add_duration(command: ArgumentParser, unattended: float) -> None:
     )
 
 
-def parse_at(text: str) -> tuple[Site, str]:
-    """Parse a value of --at: a site, and the device there."""
-    site, _, device = text.partition("=")
-    sites = [one.value for one in Site]
-    if site not in sites or not device:
-        raise ArgumentTypeError(f"{text!r} is not SITE=DEVICE: {unknown('site', site, sites)}")
-    return Site(site), device
+add_feet = together(
+    add_via,
+    option("--left", metavar="DEVICE", help="address or name of the device on the left foot"),
+    option("--right", metavar="DEVICE", help="address or name of the device on the right foot"),
+    lambda command: command.set_defaults(at=[]),
+    _add_profile,
+    option("--pair", action="store_true", help="pair with the devices"),
+)
+"""Options of the devices on the feet."""
+add_devices = together(
+    add_feet,
+    add_own_devices,
+    option(
+        "--at",
+        metavar="SITE=DEVICE",
+        type=parse_at,
+        action="append",
+        default=[],
+        help="a device elsewhere, for instance pelvis=NAME",
+    ),
+    duration_option(LISTEN_TIME),
+)
+"""Options of the devices and of the time."""
 
 
 def profile_named(name: str | None, own: Iterable[Driver] = ()) -> Profile | None:

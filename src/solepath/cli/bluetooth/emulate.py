@@ -5,11 +5,10 @@ from __future__ import annotations
 from argparse import Namespace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from ..common.failure import parse_address, parse_number, parse_whole_number, require
-from ..common.parser import add_command
-from .devices import SERVE_TIME, add_duration
+from ..common.parser import command, option
+from .devices import SERVE_TIME, duration_option
 
 DEFAULT_ADDRESS = "127.0.0.1:9735"
 DEVICE_KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
@@ -22,50 +21,6 @@ def parse_mtu(text: str) -> int:
     return int(parse_number("an MTU from 23 to 517", 23.0, 517.0, text))
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands,
-        "emulate",
-        "serve emulated sensors over a true Bluetooth link",
-        "Serve emulated sensors on the feet of an emulated wearer: virtual Bluetooth controllers with the "
-        "true services of the devices, spoken to in HCI over TCP. The wearer begins to walk when the first device is "
-        "connected, and again when none was connected for ten seconds.",
-        "solepath emulate --listen 127.0.0.1:9735\n"
-        "solepath live --via tcp:127.0.0.1:9735            in another terminal",
-        run=run,
-    )
-    command.add_argument(
-        "--listen",
-        metavar="HOST:PORT",
-        type=parse_address,
-        default=DEFAULT_ADDRESS,
-        help=f"where to (default: {DEFAULT_ADDRESS}; port 0: any that is free)",
-    )
-    command.add_argument(
-        "--device", choices=DEVICE_KINDS, default="insole", help="what is worn on both feet (default: insole)"
-    )
-    command.add_argument(
-        "--distance",
-        metavar="M",
-        type=partial(parse_number, "a distance of at most 5000 m, as far as emulated wearers walk", 5e-324, 5000.0),
-        default=DEFAULT_DISTANCE,
-        help="how far to walk, m (default: 300)",
-    )
-    command.add_argument(
-        "--postures",
-        metavar="S",
-        type=partial(parse_number, "a time of at most 600 s for each posture", 5e-324, 600.0),
-        help="instead of walking, hold the shoes flat and in the postures of `calibrate shoe`, S seconds each",
-    )
-    command.add_argument(
-        "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
-    )
-    command.add_argument("--mtu", metavar="N", type=parse_mtu, default=247, help="MTU of insoles, bytes (default: 247)")
-    command.add_argument("--faults", metavar="FILE", type=Path, help="a script of what goes wrong")
-    add_duration(command, SERVE_TIME)
-
-
 def run(options: Namespace) -> int:
     """Serve the devices; return the exit status."""
     require("emulated Bluetooth needs", "loopback", "bleak", "bumble")
@@ -74,3 +29,39 @@ def run(options: Namespace) -> int:
 
     # the walk is computed before the loop starts, so that Ctrl-C can end the computing at once
     return run_to_end(partial(serve_devices, options, prepare_bench(options)))
+
+
+add_to = command(
+    "emulate",
+    "serve emulated sensors over a true Bluetooth link",
+    "Serve emulated sensors on the feet of an emulated wearer: virtual Bluetooth controllers with the "
+    "true services of the devices, spoken to in HCI over TCP. The wearer begins to walk when the first device is "
+    "connected, and again when none was connected for ten seconds.",
+    "solepath emulate --listen 127.0.0.1:9735\nsolepath live --via tcp:127.0.0.1:9735            in another terminal",
+    option(
+        "--listen",
+        metavar="HOST:PORT",
+        type=parse_address,
+        default=DEFAULT_ADDRESS,
+        help=f"where to (default: {DEFAULT_ADDRESS}; port 0: any that is free)",
+    ),
+    option("--device", choices=DEVICE_KINDS, default="insole", help="what is worn on both feet (default: insole)"),
+    option(
+        "--distance",
+        metavar="M",
+        type=partial(parse_number, "a distance of at most 5000 m, as far as emulated wearers walk", 5e-324, 5000.0),
+        default=DEFAULT_DISTANCE,
+        help="how far to walk, m (default: 300)",
+    ),
+    option(
+        "--postures",
+        metavar="S",
+        type=partial(parse_number, "a time of at most 600 s for each posture", 5e-324, 600.0),
+        help="instead of walking, hold the shoes flat and in the postures of `calibrate shoe`, S seconds each",
+    ),
+    option("--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"),
+    option("--mtu", metavar="N", type=parse_mtu, default=247, help="MTU of insoles, bytes (default: 247)"),
+    option("--faults", metavar="FILE", type=Path, help="a script of what goes wrong"),
+    duration_option(SERVE_TIME),
+    run=run,
+)

@@ -3,41 +3,17 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ...recording import printable
 from ...show.tables.table import table
 from ..common.failure import parse_positive
-from ..common.parser import add_command
+from ..common.parser import command, option
 from .devices import SCAN_TIME, add_via, need_bleak
 from .live_streams import need_lsl
 
 if TYPE_CHECKING:
     from ...ble import Advertisement
-
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = add_command(
-        commands,
-        "scan",
-        "list the sensors in range",
-        "List the sensors that advertise, the nearest first.",
-        "solepath scan --seconds 8",
-        run=run,
-    )
-    command.add_argument(
-        "--seconds",
-        metavar="S",
-        type=parse_positive,
-        default=SCAN_TIME,
-        help=f"how long to listen, s (default: {SCAN_TIME:g})",
-    )
-    command.add_argument(
-        "--lsl", action="store_true", help="list the streams of the lab streaming layer instead of sensors"
-    )
-    command.add_argument("--all", action="store_true", help="devices of kinds that are not known here too")
-    add_via(command)
 
 
 def run(options: Namespace) -> int:
@@ -85,3 +61,22 @@ def _print_devices(found: list[Advertisement], show_all: bool) -> None:
         print("no sensor is in range: switch it on, bring it near, and see that no other program or phone holds it")
     if not show_all and len(known) < len(found):
         print(f"{len(found) - len(known)} of other kinds (--all shows them)")
+
+
+add_to = command(
+    "scan",
+    "list the sensors in range",
+    "List the sensors that advertise, the nearest first.",
+    "solepath scan --seconds 8",
+    option(
+        "--seconds",
+        metavar="S",
+        type=parse_positive,
+        default=SCAN_TIME,
+        help=f"how long to listen, s (default: {SCAN_TIME:g})",
+    ),
+    option("--lsl", action="store_true", help="list the streams of the lab streaming layer instead of sensors"),
+    option("--all", action="store_true", help="devices of kinds that are not known here too"),
+    add_via,
+    run=run,
+)

@@ -13,7 +13,7 @@ from ...recording import printable
 from ...saving.files import identity
 from ..common.failure import Failure
 from ..common.files import CALIBRATION, OutputFile, check_outputs
-from ..common.parser import add_command
+from ..common.parser import command
 from .kinds import KINDS
 
 MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stays."
@@ -22,14 +22,13 @@ MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stay
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
-    command = add_command(
-        commands,
+    added = command(
         "calibrate",
         "learn about a wearer, shoes and insoles",
         f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGE_NOTE}",
         "solepath calibrate walk corridor.jsonl --out me.json\nsolepath calibrate walk --help",
-    )
-    kinds = command.add_subparsers(metavar="KIND", dest="kind", required=True)
+    )(commands)
+    kinds = added.add_subparsers(metavar="KIND", dest="kind", required=True)
     for add in KINDS:
         add(kinds)
     for kind in kinds.choices.values():

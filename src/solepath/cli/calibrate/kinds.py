@@ -5,16 +5,15 @@ from __future__ import annotations
 from argparse import Namespace
 from math import degrees
 from pathlib import Path
-from typing import Any
 
 from ...calibration import Calibration, InsoleCalibration
 from ...show.tables.table import number, table
 from ...types import Foot
 from ..common.failure import Failure, parse_count, parse_degrees, parse_share
-from ..common.inputs import add_recipe_name, check_pressure, source_of
+from ..common.inputs import check_pressure, recipe_option, source_of
 from ..common.own_devices import add_own_devices, drivers_of
-from ..common.parser import add_command
-from ..common.tables import add_tables, source_named
+from ..common.parser import command, option
+from ..common.tables import source_named, table_options
 from .limbs import add_limbs
 from .sensor import add_sensor
 from .shoe import add_shoe
@@ -22,25 +21,6 @@ from .toe_out import add_toe_out
 
 LearntCalibration = tuple[Calibration, list[str]]
 """A calibration that was learnt, and the lines that report it."""
-
-
-def _add_noise(kinds: Any) -> None:
-    command = add_command(
-        kinds,
-        "noise",
-        "what pressure cells show in the air, from a walk",
-        "From some 20 s of walking: what every cell shows while the foot swings, which is taken off later.",
-        "solepath calibrate noise walk.jsonl --out me.json",
-        learn=_noise,
-    )
-    add_tables(command, "RECORDING")
-    command.add_argument(
-        "--share",
-        metavar="SHARE",
-        type=parse_share,
-        default=0.15,
-        help="of the samples with the least load that are taken for swing (default: 0.15)",
-    )
 
 
 def _noise(options: Namespace, known: Calibration) -> LearntCalibration:
@@ -56,34 +36,6 @@ def _noise(options: Namespace, known: Calibration) -> LearntCalibration:
         for foot, insole in learnt.insoles.items()
     ]
     return learnt, [table(["foot", "cells", "mean noise", "largest"], rows)]
-
-
-def _add_square(kinds: Any) -> None:
-    command = add_command(
-        kinds,
-        "square",
-        "which way positions drift, from laps of a square over marks",
-        "From four to six laps of a square on whose edges every stride of one foot is marked, the same "
-        "marks in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
-        "solepath calibrate square laps.jsonl --out me.json",
-        learn=_square,
-    )
-    add_tables(command, "RECORDING")
-    command.add_argument(
-        "--marks",
-        metavar="MARKS",
-        type=Path,
-        help="a csv file of the visits, mark and t (s); without it they are counted",
-    )
-    command.add_argument(
-        "--steps", metavar="N", type=parse_count, default=40, help="marks around the square (default: 40)"
-    )
-    add_recipe_name(
-        command, default="pressure-contour", help="whose positions (default: pressure-contour; or gyroscope)"
-    )
-    command.add_argument(
-        "--whole", action="store_true", help="keep a drift that the laps do not agree on, as the paper"
-    )
 
 
 def _square(options: Namespace, known: Calibration) -> LearntCalibration:
@@ -111,20 +63,6 @@ def _square(options: Namespace, known: Calibration) -> LearntCalibration:
     ]
 
 
-def _add_newton(kinds: Any) -> None:
-    command = add_command(
-        kinds,
-        "newton",
-        "from an insole's counts to newtons, from what a gauge pressed",
-        "A cubic through what a gauge pressed and what the insole said: a csv file with the columns counts "
-        "and newtons.",
-        "solepath calibrate newton gauge.csv --foot left --out me.json",
-        learn=_newton,
-    )
-    command.add_argument("file", metavar="GAUGE", type=Path, help="the csv file")
-    command.add_argument("--foot", choices=["left", "right"], help="whose insole it is (default: both are alike)")
-
-
 def _newton(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.walking_modes.newton import fit_gauge
 
@@ -136,28 +74,6 @@ def _newton(options: Namespace, known: Calibration) -> LearntCalibration:
         f"{' and '.join(foot.value for foot in feet)}: N = {a:.4g} + {b:.4g} c + {c:.4g} c^2 + {d:.4g} c^3, "
         f"{fit.points} points, rms error {fit.residual:.2f} N, largest {fit.worst:.2f} N"
     ]
-
-
-def _add_modes(kinds: Any) -> None:
-    command = add_command(
-        kinds,
-        "modes",
-        "a wearer's own compensation of touchdowns, from walks over marks",
-        "From walks on marked points, straight on and along bends: what touchdowns are off by in each "
-        "walking mode. Each recording comes with a csv file of its marks: foot, x, y (m), mode, and t (s) or step. "
-        "Limbs and insoles that FILE knows already are used.",
-        "solepath calibrate modes straight.jsonl straight.csv bend.jsonl bend.csv --out me.json",
-        learn=_modes,
-    )
-    command.add_argument("files", metavar="RECORDING MARKS", nargs="+", type=Path, help="two files for each walk")
-    add_own_devices(command)
-    command.add_argument(
-        "--heading",
-        metavar="DEGREES",
-        type=parse_degrees,
-        help="where the wearer looks at the start, in the world that all sensors share; x of the marks must be that "
-        "direction (default: the first step says, and the marks may be in any frame)",
-    )
 
 
 def _modes(options: Namespace, known: Calibration) -> LearntCalibration:
@@ -180,20 +96,6 @@ def _modes(options: Namespace, known: Calibration) -> LearntCalibration:
     return learnt, [table(["foot", "mode", "forward cm", "left cm"], rows)]
 
 
-def _add_walk(kinds: Any) -> None:
-    command = add_command(
-        kinds,
-        "walk",
-        "how the heading of each foot drifts, from a walk there and back",
-        "From two minutes to and fro along one straight line of 10 m and more, for instance a corridor: by "
-        "how much the track of each foot turns in every stride and for every turn, which is taken off later. Stand for "
-        "fifteen seconds before and after it, walk as usual, and turn now to the left and now to the right.",
-        "solepath calibrate walk corridor.jsonl --out me.json",
-        learn=_walk,
-    )
-    add_tables(command, "RECORDING")
-
-
 def _walk(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...session.heading_walk import heading_calibration, heading_walk
 
@@ -212,19 +114,6 @@ def _walk(options: Namespace, known: Calibration) -> LearntCalibration:
     return heading_calibration(fits), [table(header, rows)]
 
 
-def _add_rest(kinds: Any) -> None:
-    command = add_command(
-        kinds,
-        "rest",
-        "the noise of a sensor, from a recording at rest",
-        "From a sensor that lies still for two minutes or more, best an hour: the noise of its "
-        "accelerometer and gyroscope, and how fast their biases change. pressure-contour and gyroscope use it.",
-        "solepath calibrate rest still.jsonl --out me.json",
-        learn=_rest,
-    )
-    add_tables(command, "RECORDING")
-
-
 def _rest(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.pressure_contour.rest import rest_calibration, rest_noise
     from ...recording.decoded import decode_recording
@@ -240,6 +129,85 @@ def _rest(options: Namespace, known: Calibration) -> LearntCalibration:
     return rest_calibration(fits), lines
 
 
+_add_noise = command(
+    "noise",
+    "what pressure cells show in the air, from a walk",
+    "From some 20 s of walking: what every cell shows while the foot swings, which is taken off later.",
+    "solepath calibrate noise walk.jsonl --out me.json",
+    table_options("RECORDING"),
+    option(
+        "--share",
+        metavar="SHARE",
+        type=parse_share,
+        default=0.15,
+        help="of the samples with the least load that are taken for swing (default: 0.15)",
+    ),
+    learn=_noise,
+)
+_add_square = command(
+    "square",
+    "which way positions drift, from laps of a square over marks",
+    "From four to six laps of a square on whose edges every stride of one foot is marked, the same "
+    "marks in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
+    "solepath calibrate square laps.jsonl --out me.json",
+    table_options("RECORDING"),
+    option(
+        "--marks",
+        metavar="MARKS",
+        type=Path,
+        help="a csv file of the visits, mark and t (s); without it they are counted",
+    ),
+    option("--steps", metavar="N", type=parse_count, default=40, help="marks around the square (default: 40)"),
+    recipe_option(default="pressure-contour", help="whose positions (default: pressure-contour; or gyroscope)"),
+    option("--whole", action="store_true", help="keep a drift that the laps do not agree on, as the paper"),
+    learn=_square,
+)
+_add_newton = command(
+    "newton",
+    "from an insole's counts to newtons, from what a gauge pressed",
+    "A cubic through what a gauge pressed and what the insole said: a csv file with the columns counts and newtons.",
+    "solepath calibrate newton gauge.csv --foot left --out me.json",
+    option("file", metavar="GAUGE", type=Path, help="the csv file"),
+    option("--foot", choices=["left", "right"], help="whose insole it is (default: both are alike)"),
+    learn=_newton,
+)
+_add_modes = command(
+    "modes",
+    "a wearer's own compensation of touchdowns, from walks over marks",
+    "From walks on marked points, straight on and along bends: what touchdowns are off by in each "
+    "walking mode. Each recording comes with a csv file of its marks: foot, x, y (m), mode, and t (s) or step. "
+    "Limbs and insoles that FILE knows already are used.",
+    "solepath calibrate modes straight.jsonl straight.csv bend.jsonl bend.csv --out me.json",
+    option("files", metavar="RECORDING MARKS", nargs="+", type=Path, help="two files for each walk"),
+    add_own_devices,
+    option(
+        "--heading",
+        metavar="DEGREES",
+        type=parse_degrees,
+        help="where the wearer looks at the start, in the world that all sensors share; x of the marks must be that "
+        "direction (default: the first step says, and the marks may be in any frame)",
+    ),
+    learn=_modes,
+)
+_add_walk = command(
+    "walk",
+    "how the heading of each foot drifts, from a walk there and back",
+    "From two minutes to and fro along one straight line of 10 m and more, for instance a corridor: by "
+    "how much the track of each foot turns in every stride and for every turn, which is taken off later. Stand for "
+    "fifteen seconds before and after it, walk as usual, and turn now to the left and now to the right.",
+    "solepath calibrate walk corridor.jsonl --out me.json",
+    table_options("RECORDING"),
+    learn=_walk,
+)
+_add_rest = command(
+    "rest",
+    "the noise of a sensor, from a recording at rest",
+    "From a sensor that lies still for two minutes or more, best an hour: the noise of its "
+    "accelerometer and gyroscope, and how fast their biases change. pressure-contour and gyroscope use it.",
+    "solepath calibrate rest still.jsonl --out me.json",
+    table_options("RECORDING"),
+    learn=_rest,
+)
 KINDS = (
     _add_noise, add_shoe, _add_square, add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, _add_rest, add_sensor
 )  # fmt: skip

@@ -4,38 +4,16 @@ from __future__ import annotations
 
 from argparse import Namespace
 from math import degrees
-from typing import Any
 
 from ...calibration import Calibration
 from ...show.tables.table import number, table
 from ..common.failure import parse_positive
 from ..common.own_devices import drivers_of
-from ..common.parser import add_command
-from ..common.tables import add_tables, source_named
+from ..common.parser import command, option
+from ..common.tables import source_named, table_options
 
 STEEPEST_TILT = 35.0
 """Tilt from which a sensor is hardly strapped on as intended, degrees; between two axes of a box it is 45."""
-
-
-def add_limbs(kinds: Any) -> None:
-    """Add the kind to the parser."""
-    command = add_command(
-        kinds,
-        "limbs",
-        "lengths of the limbs, and whether seven body sensors stood still, from a standing pose",
-        "From some seconds of standing upright, feet level and side by side, with all seven sensors worn "
-        "(docs/body-sensors.md): whether a walk can begin so. Lengths are shares of the stature, or as measured.",
-        "solepath calibrate limbs standing.jsonl --stature 1.72 --spines 0.235 --out me.json",
-        learn=_limbs,
-    )
-    add_tables(command, "RECORDING")
-    command.add_argument("--stature", metavar="M", type=parse_positive, required=True, help="of the wearer, m")
-    for name, what in (
-        ("spines", "distance of the bony points at the front of the hips (anterior iliac spines), m"),
-        ("thigh", "from the hip joint to the knee, m"),
-        ("shank", "from the knee to the ankle, m"),
-    ):
-        command.add_argument(f"--{name}", metavar="M", type=parse_positive, help=f"{what} (default: by the stature)")
 
 
 def _limbs(options: Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
@@ -59,3 +37,23 @@ def _limbs(options: Namespace, known: Calibration) -> tuple[Calibration, list[st
         f"{100.0 * limbs.shank:.1f} cm, foot ahead of the ankle {100.0 * limbs.foot:.1f} cm, ankle "
         f"{100.0 * limbs.ankle_height:.1f} cm high",
     ]
+
+
+add_limbs = command(
+    "limbs",
+    "lengths of the limbs, and whether seven body sensors stood still, from a standing pose",
+    "From some seconds of standing upright, feet level and side by side, with all seven sensors worn "
+    "(docs/body-sensors.md): whether a walk can begin so. Lengths are shares of the stature, or as measured.",
+    "solepath calibrate limbs standing.jsonl --stature 1.72 --spines 0.235 --out me.json",
+    table_options("RECORDING"),
+    option("--stature", metavar="M", type=parse_positive, required=True, help="of the wearer, m"),
+    *[
+        option(f"--{name}", metavar="M", type=parse_positive, help=f"{what} (default: by the stature)")
+        for name, what in (
+            ("spines", "distance of the bony points at the front of the hips (anterior iliac spines), m"),
+            ("thigh", "from the hip joint to the knee, m"),
+            ("shank", "from the knee to the ankle, m"),
+        )
+    ],
+    learn=_limbs,
+)

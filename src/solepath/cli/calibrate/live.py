@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from functools import partial
 
 from ..bluetooth.devices import add_feet, need_bleak
 from ..common.failure import Failure, reject_options
 from ..common.files import CALIBRATION, Kind, OutputFile, add_force, check_outputs
-from ..common.view import add_view, page_address_of
+from ..common.parser import Option, option, together
+from ..common.view import add_no_browser, page_address_of, view_option
 
 OF_LIVE = ("height", "heel", "via", "left", "right", "profile", "pair", "view", "no_browser")
 """Options that only --live uses."""
 
 
-def add_live(command: ArgumentParser, what: str, shown: str) -> None:
-    """Add --live, and the options that go with it, to a command; `shown` says what the page shows."""
-    command.add_argument("--live", action="store_true", help=what)
-    add_feet(command)
-    add_view(command, command, f"with --live: show {shown}")
-    add_force(command)
+def live_options(what: str, shown: str) -> Option:
+    """Return --live, and the options that go with it; `shown` says what the page shows."""
+    view = view_option(f"with --live: show {shown}")
+    return together(option("--live", action="store_true", help=what), add_feet, view, add_no_browser, add_force)
 
 
 def measure_live(options: Namespace, kind: Kind, purpose: str) -> None:

@@ -4,30 +4,13 @@ from __future__ import annotations
 
 from argparse import Namespace
 from math import degrees, hypot
-from typing import Any
 
 from ...calibration import Calibration
 from ...calibration.records import TriadCalibration, stale_feet
 from ...show.tables.table import number, table
 from ..common.own_devices import drivers_of
-from ..common.parser import add_command
-from ..common.tables import add_tables, source_named
-
-
-def add_sensor(kinds: Any) -> None:
-    """Add the kind to the parser."""
-    command = add_command(
-        kinds,
-        "sensor",
-        "scale, axes and bias of a sensor, from rests and turns by hand",
-        "From a sensor in the hand: twelve rests of three seconds in any orientations, and five turns "
-        "about each of two axes of the sensor that are held level, each from one rest to another. Every recipe then "
-        "corrects the readings of this sensor. A recording that does not show all of it is no calibration, and the "
-        "command says what is missing.",
-        "solepath calibrate sensor turns.jsonl --foot left --out me.json",
-        learn=_sensor,
-    )
-    add_tables(command, "RECORDING")
+from ..common.parser import command
+from ..common.tables import source_named, table_options
 
 
 def _sensor(options: Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
@@ -70,3 +53,16 @@ def _rows(foot: str, name: str, triad: TriadCalibration, factor: float) -> list[
         biases = [number(factor * bias, 3) for bias in (triad.bias[k], triad.bias_sigma[k])]
         rows.append([foot, name, axis, *map(number, figures), *biases])
     return rows
+
+
+add_sensor = command(
+    "sensor",
+    "scale, axes and bias of a sensor, from rests and turns by hand",
+    "From a sensor in the hand: twelve rests of three seconds in any orientations, and five turns "
+    "about each of two axes of the sensor that are held level, each from one rest to another. Every recipe then "
+    "corrects the readings of this sensor. A recording that does not show all of it is no calibration, and the "
+    "command says what is missing.",
+    "solepath calibrate sensor turns.jsonl --foot left --out me.json",
+    table_options("RECORDING"),
+    learn=_sensor,
+)

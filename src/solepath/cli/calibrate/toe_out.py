@@ -4,33 +4,15 @@ from __future__ import annotations
 
 from argparse import Namespace
 from math import degrees
-from typing import Any
 
 from ...calibration import Calibration
 from ...show.tables.table import number, table
 from ..common.failure import Failure, parse_positive
 from ..common.files import RECORDING
 from ..common.own_devices import drivers_of
-from ..common.parser import add_command
-from ..common.tables import add_tables, source_named
-from .live import add_live, measure_live
-
-
-def add_toe_out(kinds: Any) -> None:
-    """Add the kind to the parser."""
-    command = add_command(
-        kinds,
-        "toe-out",
-        "how far feet point beside their way, from a straight walk",
-        "From a straight walk: how far each foot points outwards of its way, which the recipe "
-        "footstep-tracker takes into account. With the length of the walk, the paper's angle is shown too. With "
-        "--live, the command says how to walk, shows strides and angles as they come, and writes the recording.",
-        "solepath calibrate toe-out corridor.jsonl --distance 20 --out me.json",
-        learn=_toe_out,
-    )
-    add_tables(command, "RECORDING")
-    command.add_argument("--distance", metavar="M", type=parse_positive, help="length of the walk, m")
-    add_live(command, "walk now, with the sensors in the shoes, and write RECORDING", "what to do, strides and angles")
+from ..common.parser import command, option
+from ..common.tables import source_named, table_options
+from .live import live_options, measure_live
 
 
 def _toe_out(options: Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
@@ -61,3 +43,17 @@ def _toe_out(options: Namespace, known: Calibration) -> tuple[Calibration, list[
     if len(unknown) == len(feet):
         raise Failure("\n".join([*lines, "nothing is learnt"]))
     return toe_out_calibration(feet), lines
+
+
+add_toe_out = command(
+    "toe-out",
+    "how far feet point beside their way, from a straight walk",
+    "From a straight walk: how far each foot points outwards of its way, which the recipe "
+    "footstep-tracker takes into account. With the length of the walk, the paper's angle is shown too. With "
+    "--live, the command says how to walk, shows strides and angles as they come, and writes the recording.",
+    "solepath calibrate toe-out corridor.jsonl --distance 20 --out me.json",
+    table_options("RECORDING"),
+    option("--distance", metavar="M", type=parse_positive, help="length of the walk, m"),
+    live_options("walk now, with the sensors in the shoes, and write RECORDING", "what to do, strides and angles"),
+    learn=_toe_out,
+)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from itertools import combinations
@@ -36,6 +36,7 @@ from ...show.output import (
     TRACK_FILE,
 )
 from .failure import Failure
+from .parser import option
 
 T = TypeVar("T")
 WRITTEN = {"out", "record", "report", "json", "figure", "resume", "dir"}
@@ -113,11 +114,10 @@ def replacements(outputs: Iterable[OutputFile]) -> FileReplacements:
     return FileReplacements(lambda path: by_path[path].check_again())
 
 
-def add_force(command: ArgumentParser) -> None:
-    """Add --force to a command."""
-    command.add_argument(
-        "--force", action="store_true", help="replace recordings and files of other programs under the names given, too"
-    )
+add_force = option(
+    "--force", action="store_true", help="replace recordings and files of other programs under the names given, too"
+)
+"""--force."""
 
 
 def files_of_track(out: Path | None, *, places: bool, plan: bool = False, outcomes: bool = False) -> list[OutputFile]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
@@ -16,6 +16,7 @@ from ...recording import RecordingError, Source, TableMapping, open_source, prin
 from ...types import Foot, Sample
 from ...types.registry import TABLE
 from .failure import Failure, finite, note, parse_degrees, parse_offset, parse_span
+from .parser import Option, one_of, option, together
 
 if TYPE_CHECKING:
     from ...floorplan.index import IndexedPlan
@@ -26,22 +27,20 @@ if TYPE_CHECKING:
     from ...recording.errors import Report
 
 
-def add_recipe_name(command: ArgumentParser, what: str = "how to compute", **more: Any) -> None:
-    """Add --recipe to a command; `what` says what the recipe is for."""
+def recipe_option(what: str = "how to compute", **more: Any) -> Option:
+    """Return --recipe; `what` says what the recipe is for."""
     given = {"default": "default", "help": f"{what} (default: default)"} | more
-    command.add_argument("--recipe", metavar="NAME", choices=list(TABLE["recipe"]), **given)
+    return option("--recipe", metavar="NAME", choices=list(TABLE["recipe"]), **given)
 
 
-def add_recipe(command: ArgumentParser, **more: Any) -> None:
-    """Add --recipe and --heading to a command."""
-    add_recipe_name(command, **more)
-    command.add_argument(
-        "--heading",
-        metavar="DEGREES",
-        type=parse_degrees,
-        help="where the wearer looks at the start, to the left of x of the world that all sensors share (for most "
-        "suits, north); for walking-modes with body sensors (default: the first steps say)",
-    )
+add_heading = option(
+    "--heading",
+    metavar="DEGREES",
+    type=parse_degrees,
+    help="where the wearer looks at the start, to the left of x of the world that all sensors share (for most "
+    "suits, north); for walking-modes with body sensors (default: the first steps say)",
+)
+"""--heading, for `recipes_of`."""
 
 
 def recipes_of(options: Namespace) -> list[Recipe]:
@@ -58,22 +57,22 @@ def recipes_of(options: Namespace) -> list[Recipe]:
         raise Failure(f"--heading: {error}") from None
 
 
-def add_clocks(command: ArgumentParser) -> None:
-    """Add --clock-offset and --shared-event to a command."""
-    one = command.add_mutually_exclusive_group()
-    one.add_argument(
+add_clocks = one_of(
+    option(
         "--clock-offset",
         metavar="S",
         type=parse_offset,
         help="feet recorded with separate clocks: seconds to add to the times of the right foot",
-    )
-    one.add_argument(
+    ),
+    option(
         "--shared-event",
         metavar="START,END",
         type=partial(parse_span, "START,END"),
         help="the same, with the offset from a lift ride or a jump from both feet between these times, s; the recording"
         " must be of samples",
-    )
+    ),
+)
+"""--clock-offset or --shared-event."""
 
 
 def undo_clocks(source: Source, options: Namespace) -> None:
@@ -162,14 +161,13 @@ def _has_pressure(source: Source, kinds: DeviceKinds) -> bool:
     return False
 
 
-def add_calibration(command: ArgumentParser) -> None:
-    """Add --calibration to a command."""
-    command.add_argument(
-        "--calibration",
-        metavar="FILE",
-        type=Path,
-        help="what is known of wearer, shoes and insoles, as `solepath calibrate` writes it",
-    )
+add_calibration = option(
+    "--calibration",
+    metavar="FILE",
+    type=Path,
+    help="what is known of wearer, shoes and insoles, as `solepath calibrate` writes it",
+)
+"""--calibration."""
 
 
 def calibration_of(options: Namespace) -> Calibration | None:
@@ -177,23 +175,6 @@ def calibration_of(options: Namespace) -> Calibration | None:
     from ...calibration.file import read_calibration
 
     return None if options.calibration is None else read_calibration(options.calibration)
-
-
-def add_floorplan(command: ArgumentParser) -> None:
-    """Add --floorplan and --start to a command."""
-    command.add_argument(
-        "--floorplan",
-        metavar="FILE",
-        type=Path,
-        help="find the wearer on this plan: GeoJSON, an IMDF archive or OpenStreetMap indoor tagging",
-    )
-    command.add_argument(
-        "--start",
-        metavar="LEVEL,X,Y[,HEADING]|heading=DEGREES",
-        type=start_of,
-        help="where on it the wearer sets out: m in the plan's frame, and the first heading in degrees, anticlockwise"
-        " from the plan's x axis, or that heading alone; without a place it is known after stairs or a lift",
-    )
 
 
 def floorplan_of(options: Namespace) -> tuple[IndexedPlan | None, Start | None]:
@@ -251,3 +232,21 @@ def _heading(text: str) -> float:
     if abs(finite(text)) > 360.0:
         raise Failure(f"--start: a heading can be -360 to 360 degrees, not {text}")
     return radians(finite(text))
+
+
+add_floorplan = together(
+    option(
+        "--floorplan",
+        metavar="FILE",
+        type=Path,
+        help="find the wearer on this plan: GeoJSON, an IMDF archive or OpenStreetMap indoor tagging",
+    ),
+    option(
+        "--start",
+        metavar="LEVEL,X,Y[,HEADING]|heading=DEGREES",
+        type=start_of,
+        help="where on it the wearer sets out: m in the plan's frame, and the first heading in degrees, anticlockwise"
+        " from the plan's x axis, or that heading alone; without a place it is known after stairs or a lift",
+    ),
+)
+"""--floorplan and --start."""

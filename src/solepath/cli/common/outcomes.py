@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError, Namespace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...recording import printable
 from .failure import Failure, finite, parse_span
+from .parser import option, together
 
 if TYPE_CHECKING:
     from ...show.outcomes.clinic import OutcomeRequest
@@ -16,39 +17,6 @@ if TYPE_CHECKING:
 
 MAX_AGE, HEIGHTS, WEIGHTS = 120.0, (50.0, 250.0), (10.0, 400.0)
 """Oldest age, years, and the heights, cm, and weights, kg, that --reference takes; others are slips of the pen."""
-
-
-def add_outcomes(command: ArgumentParser) -> None:
-    """Add --outcomes, --six-minute-walk, --timed-up-and-go and --reference to a command."""
-    command.add_argument(
-        "--outcomes",
-        action="store_true",
-        help="walking bouts and mobility outcomes by the rules of Mobilise-D, variability, asymmetry; with --out also "
-        "bouts.csv and outcomes.csv",
-    )
-    command.add_argument(
-        "--six-minute-walk",
-        metavar="START",
-        nargs="?",
-        type=_start,
-        default=False,
-        help="the six-minute walk from this time of the recording's clock, s (default: from the first step)",
-    )
-    command.add_argument(
-        "--timed-up-and-go",
-        metavar="START,STOP",
-        type=partial(parse_span, "START,STOP"),
-        help="the timed up and go between two times that an observer marked, s of the recording's clock",
-    )
-    command.add_argument(
-        "--reference",
-        metavar="AGE,SEX[,CM,KG]|FILE",
-        type=_reference,
-        action="append",
-        default=[],
-        help="compare with published values of healthy people, as in 72,female,162,68; height and weight are for the "
-        "six-minute walk; or, in the report, with the bands of a .json or .csv file; may be given for each",
-    )
 
 
 def has_outcomes(options: Namespace) -> bool:
@@ -113,3 +81,37 @@ def _reference(text: str) -> Person | Path:
     except ValueError:
         pass
     raise ArgumentTypeError(f"{printable(text, 80)} is not AGE,SEX[,CM,KG], as in 72,female,162,68")
+
+
+add_outcomes = together(
+    option(
+        "--outcomes",
+        action="store_true",
+        help="walking bouts and mobility outcomes by the rules of Mobilise-D, variability, asymmetry; with --out also "
+        "bouts.csv and outcomes.csv",
+    ),
+    option(
+        "--six-minute-walk",
+        metavar="START",
+        nargs="?",
+        type=_start,
+        default=False,
+        help="the six-minute walk from this time of the recording's clock, s (default: from the first step)",
+    ),
+    option(
+        "--timed-up-and-go",
+        metavar="START,STOP",
+        type=partial(parse_span, "START,STOP"),
+        help="the timed up and go between two times that an observer marked, s of the recording's clock",
+    ),
+    option(
+        "--reference",
+        metavar="AGE,SEX[,CM,KG]|FILE",
+        type=_reference,
+        action="append",
+        default=[],
+        help="compare with published values of healthy people, as in 72,female,162,68; height and weight are for the "
+        "six-minute walk; or, in the report, with the bands of a .json or .csv file; may be given for each",
+    ),
+)
+"""--outcomes, --six-minute-walk, --timed-up-and-go and --reference."""

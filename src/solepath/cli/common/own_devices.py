@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from contextlib import redirect_stdout
 from pathlib import Path
 from runpy import run_path
@@ -14,6 +14,7 @@ from ...link.kinds import make_kinds
 from ...recording import printable
 from .failure import Failure
 from .os_errors import file_error_text
+from .parser import option
 
 if TYPE_CHECKING:
     from ...link.driver import Driver
@@ -22,18 +23,17 @@ _RUN: set[str] = set()
 """Files of devices of one's own that were run."""
 
 
-def add_own_devices(command: ArgumentParser) -> None:
-    """Add --driver to a command."""
-    command.add_argument(
-        "--driver",
-        metavar="FILE.py",
-        dest="driver_files",
-        type=Path,
-        action="append",
-        default=[],
-        help="a device of your own: a Python program whose variables hold its Driver (docs/device.md); it is"
-        " run; may be given again",
-    )
+add_own_devices = option(
+    "--driver",
+    metavar="FILE.py",
+    dest="driver_files",
+    type=Path,
+    action="append",
+    default=[],
+    help="a device of your own: a Python program whose variables hold its Driver (docs/device.md); it is"
+    " run; may be given again",
+)
+"""--driver."""
 
 
 def drivers_of(options: Namespace) -> tuple[Driver, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any, NoReturn, TypeVar
 
@@ -22,6 +22,16 @@ OPTION_GROUPS = {
     "how to compute": ("--recipe", "--heading", "--calibration"),
     "floor plan": ("--floorplan", "--start"),
     "feet with separate clocks": ("--clock-offset", "--shared-event"),
+    "tables of samples": (
+        "--columns",
+        "track --units",
+        "check --units",
+        "convert --units",
+        "--rate",
+        "--format",
+        "--mapping",
+    ),
+    "the report": ("--title", "track --subject", "--date", "track --device", "--compare"),
     "clinical outcomes": ("--outcomes", "--six-minute-walk", "--timed-up-and-go", "--reference"),
     "sensors": ("--left", "--right", "--at", "--profile", "--pair", "--via", "--live"),
     "what is written": ("--out", "--record", "--report", "--json", "--figure", "--resume", "--force"),
@@ -66,7 +76,7 @@ class Parser(argparse.ArgumentParser):
     def _add_action(self, action: _Action) -> _Action:
         command = self.prog.rpartition(" ")[2]
         name = action.option_strings[0] if action.option_strings else ""
-        title = _TITLES.get(name) or _TITLES.get(f"{command} {name}")
+        title = _TITLES.get(f"{command} {name}") or _TITLES.get(name)
         if title is None:
             return super()._add_action(action)
         found = next((group for group in self._action_groups if group.title == title), None)
@@ -130,10 +140,34 @@ class Parser(argparse.ArgumentParser):
             raise argparse.ArgumentError(action, text)
 
 
-def add_command(
-    commands: Any, name: str, what: str, description: str, example: str, **defaults: Any
-) -> argparse.ArgumentParser:
-    """Add a command, or a kind, to a parser, with `what` as its line of help; return its own parser."""
-    command: argparse.ArgumentParser = commands.add_parser(name, help=what, description=description, example=example)
-    command.set_defaults(**defaults)
-    return command
+Option = Callable[[Any], object]
+"""Function that adds an option, or several, to the parser of a command."""
+
+
+def option(*names: str, **settings: Any) -> Option:
+    """Return an option with the arguments of `ArgumentParser.add_argument`."""
+    return lambda command: command.add_argument(*names, **settings)
+
+
+def together(*options: Option) -> Option:
+    """Return several options as one."""
+    return lambda command: [one(command) for one in options]
+
+
+def one_of(*options: Option) -> Option:
+    """Return options of which one may be given."""
+    return lambda command: together(*options)(command.add_mutually_exclusive_group())
+
+
+def command(
+    name: str, what: str, description: str, example: str, *options: Option, **defaults: Any
+) -> Callable[[Any], Parser]:
+    """Return what adds a command, or a kind of one, to a parser, and returns its own; `what` is its line of help."""
+
+    def add_to(commands: Any) -> Parser:
+        added: Parser = commands.add_parser(name, help=what, description=description, example=example)
+        together(*options)(added)
+        added.set_defaults(**defaults)
+        return added
+
+    return add_to

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...recording import Source, printable, read_start_time
 from .outcomes import band_files_of, person_of
+from .parser import option, together
 
 if TYPE_CHECKING:
     from ...floorplan.plan import FloorPlan
@@ -22,22 +23,21 @@ DETAILS = {
 """Options that only the report shows, with their help."""
 
 
-def add_report(command: ArgumentParser) -> None:
-    """Add --report and the options that go with it to a command."""
-    command.add_argument(
+add_report = together(
+    option(
         "--report", metavar="FILE", type=Path, help="write figures and the gait table into one HTML file, to be mailed"
-    )
-    group = command.add_argument_group("the report", "what --report shows besides the walk (docs/report.md)")
-    for name, text in DETAILS.items():
-        group.add_argument(f"--{name}", metavar="TEXT", help=text)
-    group.add_argument(
+    ),
+    *[option(f"--{name}", metavar="TEXT", help=text) for name, text in DETAILS.items()],
+    option(
         "--compare",
         metavar="BEFORE",
         type=Path,
         action="append",
         help="an earlier recording to compare with, run with the same recipe and calibration, without floor plan and "
         "with its clocks as they are; twice for the files of two feet",
-    )
+    ),
+)
+"""--report and the options that go with it."""
 
 
 def report_of(

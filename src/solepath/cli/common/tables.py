@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError, Namespace
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +14,7 @@ from ...types import Foot
 from .failure import Failure, note, parse_positive
 from .inputs import source_of
 from .own_devices import add_own_devices
+from .parser import Option, option, together
 
 if TYPE_CHECKING:
     from ...link.driver import Driver
@@ -23,33 +24,36 @@ MAPPING_OPTIONS = ("columns", "units", "mapping", "format", "rate")
 """Options from which a mapping is made."""
 
 
-def add_tables(command: ArgumentParser, metavar: str = "FILE") -> None:
-    """Add FILE... under this name, and the options for tables of samples and for own devices, to a command."""
-    add_own_devices(command)
-    command.add_argument(
-        "files",
-        metavar=metavar,
-        type=Path,
-        nargs="+",
-        help="the recording; of samples, one file or those of both feet or of several sensors (docs/tables.md)",
+def table_options(metavar: str = "FILE") -> Option:
+    """Return FILE... under this name, and the options for tables of samples and for own devices."""
+    return together(
+        add_own_devices,
+        option(
+            "files",
+            metavar=metavar,
+            type=Path,
+            nargs="+",
+            help="the recording; of samples, one file or those of both feet or of several sensors (docs/tables.md)",
+        ),
+        option(
+            "--foot",
+            metavar="FOOT[,FOOT...]",
+            type=parse_feet,
+            help="left or right: whose the samples of one foot are (default: by the name of the file, else right); of "
+            "other recordings, the foot to use; for several files, that of each in their order",
+        ),
+        option(
+            "--columns",
+            metavar="NAMES",
+            help="names of columns, as in t=Time,acc=AX,AY,-AZ,gyro=GX,GY,-GZ; - turns a sign",
+        ),
+        option("--units", metavar="UNITS", help="units that are not SI, as in g,deg/s,ms"),
+        option("--rate", metavar="HZ", type=parse_positive, help="samples a second, without a column of times"),
+        option(
+            "--format", metavar="NAME", choices=FORMATS, help="name of a known format that has lost its first lines"
+        ),
+        option("--mapping", metavar="FILE", type=Path, help="all of this from a TOML file"),
     )
-    command.add_argument(
-        "--foot",
-        metavar="FOOT[,FOOT...]",
-        type=parse_feet,
-        help="left or right: whose the samples of one foot are (default: by the name of the file, else right); of other"
-        " recordings, the foot to use; for several files, that of each in their order",
-    )
-    tables = command.add_argument_group("tables of samples", "what the columns mean, as far as a file does not say it")
-    tables.add_argument(
-        "--columns", metavar="NAMES", help="names of columns, as in t=Time,acc=AX,AY,-AZ,gyro=GX,GY,-GZ; - turns a sign"
-    )
-    tables.add_argument("--units", metavar="UNITS", help="units that are not SI, as in g,deg/s,ms")
-    tables.add_argument("--rate", metavar="HZ", type=parse_positive, help="samples a second, without a column of times")
-    tables.add_argument(
-        "--format", metavar="NAME", choices=FORMATS, help="name of a known format that has lost its first lines"
-    )
-    tables.add_argument("--mapping", metavar="FILE", type=Path, help="all of this from a TOML file")
 
 
 def source_named(options: Namespace, own: Iterable[Driver] = (), report: Report = note) -> Source:

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import os
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import AsyncExitStack, asynccontextmanager, contextmanager
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from attrs import frozen
 
 from ...recording import printable
 from .failure import PAGE_ADDRESS, Failure, has_terminal, note, parse_address, parse_positive, reject_options, require
 from .os_errors import address_error_text
+from .parser import Option, option
 
 if TYPE_CHECKING:
     from ...show.page.messages import Command
@@ -37,9 +38,9 @@ class PageAddress:
     browser: bool = False
 
 
-def add_view(command: ArgumentParser, group: Any, what: str) -> None:
-    """Add --view to `group` and --no-browser to `command`; `what` says what --view does, such as "play it"."""
-    group.add_argument(
+def view_option(what: str) -> Option:
+    """Return --view; `what` says what it does, such as "play it"."""
+    return option(
         "--view",
         metavar="HOST:PORT",
         nargs="?",
@@ -48,12 +49,15 @@ def add_view(command: ArgumentParser, group: Any, what: str) -> None:
         help=f"{what} on a page in the browser, served there (default: {PAGE_ADDRESS}, or another port when that is "
         "taken; port 0: any that is free)",
     )
-    command.add_argument("--no-browser", action="store_true", help="open no browser: only say where the page is")
 
 
-def add_speed(command: ArgumentParser, default: str) -> None:
-    """Add --speed to a command."""
-    command.add_argument("--speed", metavar="X", type=parse_positive, help=f"times real time (default: {default})")
+add_no_browser = option("--no-browser", action="store_true", help="open no browser: only say where the page is")
+"""--no-browser, which goes with --view."""
+
+
+def speed_option(default: str) -> Option:
+    """Return --speed."""
+    return option("--speed", metavar="X", type=parse_positive, help=f"times real time (default: {default})")
 
 
 def page_address_of(options: Namespace) -> PageAddress | None:
