@@ -84,8 +84,6 @@ MAX_CANDIDATES = 40
 """Largest number of candidates of a place; those with the largest weights are kept."""
 MAX_POINTS = 1500
 """Largest number of points of a drawn line; a walk of any length has no more."""
-HEIGHT_INTERVAL = 0.5
-"""Shortest time between two kept positions of a stationary foot, s."""
 
 
 def _of_each_foot() -> dict[Foot, ThinnedList[T]]:
@@ -180,8 +178,6 @@ class Walk:
     made_turns: ThinnedList[TurnMade] = field(factory=ThinnedList)
     rides: ThinnedList[LiftRidden] = field(factory=ThinnedList)
     """Final elevator rides."""
-    standing: dict[Foot, ThinnedList[FootMoved]] = field(factory=_of_each_foot)
-    """Positions of each foot while it was stationary, at most one each HEIGHT_INTERVAL."""
     wearer_track: ThinnedList[WearerMoved] = field(factory=ThinnedList)
     placed: ThinnedList[Placed | PlaceLost] = field(factory=ThinnedList)
     soles: dict[Foot, SoleLoads] = field(factory=dict)
@@ -263,10 +259,6 @@ class Walk:
                 if self.keeps_all:
                     self.positions[foot].append(event)
                 self.sample_span = _extend(self.sample_span, t)
-                last = self.standing[foot].last
-                is_due = last is None or not 0.0 <= t - last.t < HEIGHT_INTERVAL
-                if is_due and event.phase is Phase.STATIONARY:
-                    self.standing[foot].add(event, self._point_limit)
             case FootPressed(t=t, known_at=known_at, foot=foot):
                 link = self.link(SITE_OF_FOOT[foot])
                 link.add_sample(t, known_at)

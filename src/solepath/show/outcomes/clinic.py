@@ -84,8 +84,6 @@ class OutcomeSection:
     sentences: list[str]
     tables: list[OutcomeTable] = field(factory=list)
     notes: list[str] = field(factory=list)
-    minutes: Sequence[float] = ()
-    """Distances of the minutes of a six-minute walk, m."""
 
     def lines(self) -> list[str]:
         """Return the section as lines of plain text."""
@@ -123,11 +121,11 @@ class ClinicalResults:
         known = [(row.label, row.reference) for row in self.part(part) if row.reference is not None]
         return [f"Reference of {label}: {one.words} ({one.source})." for label, one in known]
 
-    def add_test(self, part: str, sentences: list[str], note: str, minutes: Sequence[float] = ()) -> None:
+    def add_test(self, part: str, sentences: list[str], note: str) -> None:
         """Add the section of a walk test, whose rows there are already."""
         title = part.capitalize()
         notes = [note, *self.sources(part)]
-        self.sections.append(OutcomeSection(title, sentences, [self.table(title, part)], notes, minutes))
+        self.sections.append(OutcomeSection(title, sentences, [self.table(title, part)], notes))
 
     def add_failure(self, part: str, sentence: str) -> None:
         """Add the section of a walk test of which there is no outcome, with the reason."""
@@ -176,7 +174,7 @@ class OutcomeRequest:
             results.add_failure(SIX_MINUTE_WALK, NO_WALK)
         else:
             results.rows += six_minute_rows(walk, self.person)
-            results.add_test(SIX_MINUTE_WALK, [six_minute_sentence(walk)], SIX_MINUTE_NOTE, walk.minutes)
+            results.add_test(SIX_MINUTE_WALK, [six_minute_sentence(walk)], SIX_MINUTE_NOTE)
 
     def _add_outcomes(self, results: ClinicalResults, events: list[Event]) -> None:
         bouts = results.bouts

@@ -1,4 +1,4 @@
-"""Draws the wearer's track from above, on the floor plan when there is one, and the height of the feet.
+"""Draws the wearer's track from above, on the floor plan when there is one.
 
 Sizes and limits were chosen by hand and not swept."""
 
@@ -15,14 +15,12 @@ from ...tables.plan import PANEL_GAP, PlanPicture
 from ...tables.svg import Point, View, add, line, ticks
 from ..content import ReportContent
 from ..markup import WIDTH, caption, drawing
-from .axes import PATH, Chart, grid, padded_range, square_ticks, write
+from .axes import PATH, grid, square_ticks, write
 
 MAX_HEIGHT = 366.0
 """Largest height of a track on its drawing, px."""
 WIDE_WIDTH, WIDE_HEIGHT = 840.0, 386.0
 """Width of the drawing for wide screens and paper, and largest height of the track on it, px."""
-MIN_RISE = 0.5
-"""Least range of heights that is drawn over time, m; below it the way is level."""
 MARGIN_SHARE, MIN_MARGIN = 0.06, 0.4
 """Margin around the track: as a share of its larger extent, and the least, m."""
 MIN_HEIGHT = 118.0
@@ -86,21 +84,6 @@ def _times(svg: Element, report: ReportContent, view: View) -> None:
             labelled.append((x, y))
             add(svg, "<circle cx='{}' cy='{}' r='2.4' class='time'/>", x, y)
             write(svg, x, y - 6.0, f"{words} {report.clock.unit}", "halo tick")
-
-
-def height_figure(parent: Element, report: ReportContent) -> None:
-    """Draw the height of each stationary foot over time, m; nothing when it is level."""
-    clock, curves = report.clock, {}
-    for foot, events in report.walk.standing.items():
-        if len(events):
-            curves[foot] = [(clock.axis_value(event.t), event.position[2]) for event in events]
-    values = [z for curve in curves.values() for _, z in curve]
-    if not values or max(values) - min(values) < MIN_RISE:
-        return
-    what = f"Height of the standing feet over time, {min(values):.2f} to {max(values):.2f} m from where they began."
-    title, note = "Height of the feet over time", "Of the foot on the ground, against where it began."
-    y, labels = padded_range(values, 1.0), (clock.label, "height, m")
-    Chart.of(parent, "height", title, what, clock.span, y, labels, note).curves(curves)
 
 
 def plan_figure(parent: Element, report: ReportContent) -> bool:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 from ...outcomes.clinic import ClinicalResults
-from ...tables.svg import add
-from ..figures.minutes import minutes_figure
 from ..markup import notes, paragraph, section, table
 
 
@@ -18,8 +16,5 @@ def clinical_sections(main: Element, results: ClinicalResults) -> None:
             paragraph(parent, sentence)
         for shown in one.tables:
             if shown.rows:
-                # the figure has the distances of the minutes
-                rows = [row for row in shown.rows if "in minute" not in row[0]]
-                table(parent, shown.caption, shown.header, rows)
-        minutes_figure(add(parent, "<div class='figures'/>"), one.minutes)
+                table(parent, shown.caption, shown.header, shown.rows)
         notes(parent, one.notes)

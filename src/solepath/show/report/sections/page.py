@@ -11,7 +11,7 @@ from ..figures.activity import activity_figure
 from ..figures.pressure import pressure_figures
 from ..figures.space import space_figure
 from ..figures.stride import stride_figures
-from ..figures.track import height_figure, plan_figure, track_figure
+from ..figures.track import plan_figure, track_figure
 from ..markup import paragraph, section, sentences, skeleton, table, whole_sentences
 from ..words import LINK_HEADER, link_rows, overview, sensors
 from .comparison import comparison
@@ -102,7 +102,6 @@ def _course(parent: Element, report: ReportContent, facts: Facts) -> None:
     if walk.placed.count:
         track_figure(figures, report, wide=False)
     space_figure(figures, report.track)
-    height_figure(figures, report)
 
 
 def _health(parent: Element, report: ReportContent) -> None:
