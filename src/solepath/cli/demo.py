@@ -144,7 +144,7 @@ def _print_progress(demo: Demo) -> None:
             due += REPORT_INTERVAL
             feet = (f"{foot} {counted(demo.found.foot(foot).strides, 'stride')}" for foot in Foot)
             print(f"{packet.t:6.1f} s  {', '.join(feet)}", flush=True)
-    picture = [line.rstrip() for line in plot(demo.found.track.points, 72, 16)]
+    picture = [line.rstrip() for line in plot(demo.found.track, 72, 16)]
     print("\n".join(["", *picture, "", *texts(demo.found, Concern.LINK)]))
 
 

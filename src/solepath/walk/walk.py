@@ -52,13 +52,12 @@ from ..events import (
     WearerMoved,
 )
 from ..link.decoder import Decoder
-from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Turn, Vec3, WalkingMode
+from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Turn, Vec2, Vec3, WalkingMode
 from .links import NO_DEVICE, SET_BACK_TOLERANCE, CoveredTime, LinkLedger, is_frame_fragment, is_sample_channel
 from .places import PlaceCounts
 from .soles import SoleLoads
 from .thinned import T, ThinnedList
 from .timeline import Timeline
-from .track import LiveTrack
 from .valid import has_valid_numbers
 
 GAIT_EVENTS: dict[type[Event], str] = {
@@ -144,7 +143,8 @@ class Walk:
     links: dict[Site, LinkLedger] = field(factory=dict)
     """Ledger of every site that has sent anything."""
     feet: dict[Foot, FootCounts] = field(factory=dict)
-    track: LiveTrack = field(factory=LiveTrack)
+    track: dict[Foot, ThinnedList[Vec2]] = field(factory=_of_each_foot)
+    """Live positions of each foot, world frame, m, evenly thinned: for a small picture."""
     timeline: Timeline = field(factory=Timeline)
     """Activities of the wearer over time."""
     gait: GaitMeans = field(factory=GaitMeans)
@@ -255,7 +255,7 @@ class Walk:
                 counts.start = counts.start or position
                 link.add_sample(t, known_at)
                 link.has_motion = True
-                self.track.add(foot, position[0], position[1])
+                self.track[foot].add(position[:2], self._point_limit)
                 if self.keeps_all:
                     self.positions[foot].append(event)
                 self.sample_span = _extend(self.sample_span, t)

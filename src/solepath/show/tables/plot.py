@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping
 
 from attrs import evolve
 
-from ...types import Foot
+from ...types import Foot, Vec2
 from .svg import View
 
 CHARACTER_ASPECT = 2.0
@@ -15,18 +15,19 @@ MARGIN = 1.0
 """Margin around the track, m, so that standing still is not magnified."""
 
 
-def plot(track: Sequence[tuple[Foot, float, float]], width: int, height: int) -> list[str]:
-    """Return a picture of the track of both feet, (foot, x, y) in m, as `height` lines of `width` characters.
+def plot(tracks: Mapping[Foot, Iterable[Vec2]], width: int, height: int) -> list[str]:
+    """Return a picture of the tracks of both feet, m, as `height` lines of `width` characters.
 
-    The track is seen from above, x to the right and y up, both with the same scale. Dots are positions, S is the start,
-    and L or R is the last position of each foot."""
+    They are seen from above, x to the right and y up, both with the same scale. Dots are positions, S is the start, and
+    L or R is the last position of each foot."""
     cells = [[" "] * width for _ in range(height)]
-    points = [(x, y / CHARACTER_ASPECT) for _, x, y in track]
+    feet = {foot: [(x, y / CHARACTER_ASPECT) for x, y in track] for foot, track in tracks.items()}
+    points = [point for track in feet.values() for point in track]
     if points:
         columns, rows = width - 1.0, height - 1.0
         view = evolve(View.fit(points, columns, rows, margin=MARGIN), width=columns, height=rows)
-        ends = {foot: (foot.value[0].upper(), point) for (foot, _, _), point in zip(track, points, strict=True)}
-        for letter, point in [*[(".", point) for point in points], ("S", points[0]), *ends.values()]:
+        ends = [(foot.value[0].upper(), track[-1]) for foot, track in feet.items() if track]
+        for letter, point in [*[(".", point) for point in points], ("S", points[0]), *ends]:
             column, row = view.at(point)
             cells[round(row)][round(column)] = letter
     return ["".join(row) for row in cells]

@@ -58,7 +58,7 @@ def picture(walk: Walk, title: str) -> Group:
     health = status(walk) + texts(walk, Concern.WEAR, Concern.LINK)
     return Group(
         Panel(feet, title=title, width=PLOT_SIZE[0] + 4),
-        Panel("\n".join(plot(walk.track.points, *PLOT_SIZE)), title="track", width=PLOT_SIZE[0] + 4),
+        Panel("\n".join(plot(walk.track, *PLOT_SIZE)), title="track", width=PLOT_SIZE[0] + 4),
         Panel(Text("\n".join(health)), title=f"link, {walk.item_count} packets", width=PLOT_SIZE[0] + 4),
     )
 
