@@ -46,7 +46,6 @@ def run(options: Namespace) -> int:
     """Run the demo; return the exit status."""
     from ..emulate.demo import radio
     from ..show.tables.gait import gait_lines
-    from ..show.tables.summary import latency
     from .demo_walk import make_demo
 
     if options.record is not None:
@@ -72,7 +71,7 @@ def run(options: Namespace) -> int:
             note(f"the live view needs rich: {install_hint('live')}; plain text without it")
         _print_progress(demo)
     print()
-    print("\n".join([*gait_lines(demo.found.gait), *[f"{one}\n" for one in demo.tables()], *latency(demo.found)]))
+    print("\n".join([*gait_lines(demo.found.gait), *[f"{one}\n" for one in demo.tables()]]))
     return 0
 
 

@@ -163,8 +163,6 @@ class Walk:
     elevator_rides: Counter[bool] = field(factory=Counter)
     """Number of elevator rides upwards (True) and downwards (False)."""
     turns: Counter[Turn] = field(factory=Counter)
-    latencies: dict[str, Counter[int]] = field(factory=lambda: {name: Counter() for name in GAIT_EVENTS.values()})
-    """For each gait event, by its name, how often each latency occurred; latencies are in units of 0.1 ms."""
     faults: dict[str, Fault] = field(factory=dict)
     """What is wrong: a fault for each defect of a site, and for each thing that another event says."""
     strides: dict[Foot, ThinnedList[StrideTaken]] = field(factory=_of_each_foot)
@@ -303,7 +301,6 @@ class Walk:
             self.foot(event.foot).events[name] += 1
             if self.keeps_all:
                 self.times[event.foot][name].append(event.t)
-            self.latencies[name][round(1e4 * (event.known_at - event.t))] += 1
 
     def _count_event(self, event: Event) -> None:
         match event:

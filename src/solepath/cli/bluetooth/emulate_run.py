@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 from argparse import Namespace
 from contextlib import AsyncExitStack, suppress
-from itertools import count
 
 from ...emulate.controllers import serve
 from ...emulate.demo import straight
@@ -27,8 +26,6 @@ MAX_FAULTS = 1_000_000
 """Largest size of a script of faults, bytes: some 30,000 lines."""
 RESTART_DELAY = 10.0
 """Time without a connection after which the next connection starts the walk again, s."""
-REPORT_INTERVAL = 10.0
-"""Time between two lines on the state, s."""
 POLL_INTERVAL = 0.01
 """Time between two checks of the connections, s."""
 SLOW_DISTANCE = 500.0
@@ -80,27 +77,14 @@ async def serve_devices(options: Namespace, bench: Bench, stop: asyncio.Event) -
         seconds = options.duration
         if seconds is None and not has_terminal():
             seconds = SERVE_TIME
-        tasks = [asyncio.create_task(work) for work in (_walk_when_connected(bench), _print_status(bench))]
+        walking = asyncio.create_task(_walk_when_connected(bench))
         try:
             with suppress(TimeoutError):
                 await asyncio.wait_for(stop.wait(), seconds)
         finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            walking.cancel()
+            await asyncio.gather(walking, return_exceptions=True)
     return 0
-
-
-async def _print_status(bench: Bench) -> None:
-    """Print the state every REPORT_INTERVAL s."""
-    for number in count(1):
-        await asyncio.sleep(REPORT_INTERVAL)
-        states = []
-        for peripheral in bench.peripherals:
-            link = "connected" if peripheral.is_connected else "not connected"
-            faults = f", {peripheral.faults.count} faults" if peripheral.faults.count else ""
-            states.append(f"{peripheral.site.words} {link}, {sum(peripheral.sent.values())} sent{faults}")
-        print(f"{number * REPORT_INTERVAL:6.0f} s  {'; '.join(states)}", flush=True)
 
 
 async def _walk_when_connected(bench: Bench) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from statistics import median
-
 from ...events import Placed
 from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
@@ -12,7 +10,7 @@ from ...walk.places import MAX_LISTED, PlaceCounts
 from ...walk.walk import GAIT_EVENTS, FootCounts, Walk
 from ..findings import Concern, links_of, texts
 from .gait import gait_lines
-from .table import counted, duration_text, milliseconds, number, table, times
+from .table import counted, duration_text, number, table, times
 from .words import activity_words, directions, turn_words
 
 NO_DATA = "no data from either foot"
@@ -31,7 +29,7 @@ def summary(walk: Walk, *, title: str, seconds: float) -> str:
     lines += activity_lines(walk, walk.now)
     if gait := gait_lines(walk.gait):
         lines += ["", *gait]
-    lines += texts(walk, Concern.WEAR, Concern.LINK, Concern.STRIDES) + latency(walk)
+    lines += texts(walk, Concern.WEAR, Concern.LINK, Concern.STRIDES)
     lines += [f"limitation, {what}" for what in texts(walk, Concern.LIMITATION)]
     samples = sum([walk.samples(foot) for foot in Foot])  # whole numbers
     if seconds > 0.0 and samples:
@@ -59,13 +57,6 @@ def activity_lines(walk: Walk, now: float) -> list[str]:
         "turns": [f"{walk.turns[turn]} {turn_words(turn)}" for turn in Turn if walk.turns[turn]],
     }
     return [f"{name}: {', '.join(texts)}" for name, texts in found.items() if texts]
-
-
-def latency(walk: Walk) -> list[str]:
-    """Return a line with the median latency of each gait event, radio included; none without events."""
-    medians = {name: median(counts.elements()) for name, counts in walk.latencies.items() if counts}
-    texts = [f"{name} {milliseconds(1e-4 * tenths)} ms" for name, tenths in medians.items()]
-    return [f"known after it happened, median: {', '.join(texts)}"] if texts else []
 
 
 def status(walk: Walk) -> list[str]:

@@ -31,6 +31,7 @@ from ....recording import printable
 from ....types import SITE_OF_FOOT, Activity, Site, Turn
 from ....walk.walk import Walk
 from ...findings import Concern, finding_of
+from ...tables.table import counted
 from .lists import GrowingList
 
 MAX_LINES = 50
@@ -104,23 +105,19 @@ def _line(event: Event) -> tuple[str, str]:
         case ClockReset(restarted=restarted):
             return "wear", "the sensor has restarted" if restarted else "its clock has jumped"
         case PacketsDropped(count=count):
-            return "wear", f"{_counted(count, 'packet')} came too fast to be used"
+            return "wear", f"{counted(count, 'packet')} came too fast to be used"
         case BatteryLevel(level=level) if level <= LOW_BATTERY:
             return "wear", f"the battery is at {100.0 * level:.0f} %"
         case TurnMade(turn=turn, angle=angle, final=True) if turn is not None:
             return "gait", f"{TURNS[turn]} by {abs(degrees(angle)):.0f} degrees"
         case FlightClimbed(up=up, steps=strides, height=height, final=True):
-            return "gait", f"stairs {UP[up]}: {_counted(strides, 'stride')}, {abs(height):.1f} m"
+            return "gait", f"stairs {UP[up]}: {counted(strides, 'stride')}, {abs(height):.1f} m"
         case ActivityChanged(activity=Activity.ELEVATOR_UP | Activity.ELEVATOR_DOWN as activity, final=True):
             return "gait", f"in a lift that goes {UP[activity is Activity.ELEVATOR_UP]}"
         case LiftRidden(up=up, height=height, final=True):
             return "gait", f"lift {UP[up]}{'' if height is None else f', {abs(height):.1f} m'}"
         case TrackRevised(by=by, turn=angle):
-            turned = _counted(round(abs(degrees(angle))), "degree")
+            turned = counted(round(abs(degrees(angle))), "degree")
             return "here", f"track revised: moved by {hypot(*by):.1f} m, turned by {turned}"
         case _:
             return "", ""
-
-
-def _counted(count: int, what: str) -> str:
-    return f"{count} {what}{'s' * (count != 1)}"
