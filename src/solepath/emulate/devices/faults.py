@@ -160,8 +160,6 @@ class FaultState:
         self._frozen_until = -inf
         self._hang_pending = False
         self._lost_at = inf
-        self.count = 0
-        """Number of faults that have happened."""
         self.must_disconnect = False
         """True when the link must end now."""
         self.mtu = inf
@@ -223,7 +221,6 @@ class FaultState:
         return left > 0
 
     def _start_fault(self, fault: Fault) -> None:
-        self.count += 1
         if fault.kind in (FaultKind.DISCONNECT, FaultKind.RESTART, FaultKind.VANISH):
             self.must_disconnect = True
         match fault.kind:
