@@ -172,8 +172,7 @@ def finding_of(event: Event, count: int = 1) -> Finding | None:
 
 def findings(walk: Walk) -> list[Finding]:
     """Return what is wrong with a walk, in the order of `Concern`."""
-    sentences = [finding_of(fault.event, fault.count) for fault in walk.faults.values()]
-    found = [_beside(one, walk) for one in sentences if one is not None]
+    found = reported(walk)
     for site, link in links_of(walk):
         found += [Finding(code, site, what, Concern.LINK, act) for code, what, act in _of_link(link, walk.now) if what]
     for foot, counts in walk.feet.items():
@@ -181,6 +180,13 @@ def findings(walk: Walk) -> list[Finding]:
         what = f"{counts.degraded} of {counted(counts.strides, 'stride')} degraded: {', '.join(flaws)}"
         found += [Finding("strides_degraded", SITE_OF_FOOT[foot], what, Concern.STRIDES)] if counts.degraded else []
     return sorted(found, key=lambda one: one.concern.value)
+
+
+def reported(walk: Walk, *, now: bool = False) -> list[Finding]:
+    """Return what events of a walk say is wrong: all of it, or what holds `now`."""
+    faults = [fault for fault in walk.faults.values() if fault.holds or not now]
+    sentences = [finding_of(fault.event, fault.count) for fault in faults]
+    return [_beside(one, walk) for one in sentences if one is not None]
 
 
 def texts(walk: Walk, *concerns: Concern) -> list[str]:

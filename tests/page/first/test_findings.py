@@ -38,3 +38,12 @@ def test_what_the_checks_found_stands_until_it_no_longer_holds() -> None:
     assert found(scene) == [("left foot", True), ("", True), ("right foot", False)]
     shown([Connected(t=7.0, known_at=7.0, site=Site.LEFT_FOOT, device="", name="Insole", signal=-50)], scene)
     assert found(scene) == [("", True), ("right foot", False)]
+
+
+def test_a_wrong_scale_comes_before_another_range_on_the_page_too() -> None:
+    scale = DefectFound(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, defect=Defect.WRONG_SCALE, what="it reads 4.9")
+    cut = "the accelerometer's peaks are cut off: choose a larger range"
+    clipped = DefectFound(t=2.0, known_at=2.0, site=Site.LEFT_FOOT, defect=Defect.CLIPPED, what=cut)
+    assert [one["what"] for one in frame(shown([clipped]))["findings"]] == [cut]
+    found = [one["what"] for one in frame(shown([scale, clipped]))["findings"]]
+    assert found == ["the accelerometer's peaks are cut off: correct its scale first", "it reads 4.9"]

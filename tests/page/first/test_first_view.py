@@ -39,7 +39,7 @@ async def test_what_needs_attention_is_at_the_top_the_worst_first(chromium: Brow
         assert not await view.tab.locator("#notice-all").is_visible()
         t = scene.now
         scene.take(None, [CellsFailed(t=t, known_at=t, site=RIGHT, fault=CellFault.DEAD, cells=(3,))])
-        await view.until(f"{words}.startsWith('Right foot: 1 cell shows no load') && {words}.endsWith('Details')")
+        await view.until(f"{words}.startsWith('Right foot: cell 3 shows no load') && {words}.endsWith('Details')")
         scene.take(None, [FeetSwapped(t=t, known_at=t), Disconnected(t=t, known_at=t, site=LEFT)])
         await view.until(f"{words}.startsWith('Left foot: no data') && {words}.endsWith('3 messages')")
         await view.tab.locator("#notice-all").click()

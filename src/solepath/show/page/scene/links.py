@@ -9,7 +9,7 @@ from ....recording import printable
 from ....types import SITE_OF_FOOT, Foot, Site
 from ....walk.links import LinkLedger
 from ....walk.walk import Walk
-from ...findings import Concern, Finding, finding_of
+from ...findings import Concern, Finding, reported
 from ..messages import members, plain
 
 BRIEF_OF_DEFECT = {
@@ -66,8 +66,7 @@ def standing_findings(walk: Walk) -> list[Finding]:
     """Return what is wrong with the data and with the sensors now: what somebody must act on first, the newest first.
 
     What is wrong with a link stands at the link."""
-    standing = [finding_of(fault.event) for fault in reversed(walk.faults.values()) if fault.holds]
-    found = [one for one in standing if one is not None and one.concern in (Concern.DATA, Concern.WEAR)]
+    found = [one for one in reported(walk, now=True) if one.concern in (Concern.DATA, Concern.WEAR)]
     return sorted(found, key=lambda one: (not one.act, -one.event.t if one.event else 0.0))
 
 
