@@ -62,7 +62,7 @@ def calibrated(path: Path) -> Calibration:
 
 def test_noise_of_a_walk_is_learnt_for_every_cell_of_both_feet(packets, tmp_path):
     out = tmp_path / "me.json"
-    result = run("calibrate", "noise", packets, "--share", "0.2", "--out", out)
+    result = run("calibrate", "noise", packets, "--out", out)
     assert result.returncode == 0 and result.stderr == ""
     header, _, left, right, last = result.stdout.splitlines()
     assert header.split() == ["foot", "cells", "mean", "noise", "largest"]
@@ -141,7 +141,6 @@ def test_unusable_input_is_rejected_in_one_line_and_nothing_is_written(packets, 
     odd.write_text("pitch_deg,L_r_m\n0,0.07\n")
     for arguments, complaint in [
         (("noise", bare), "no pressure cells in this recording"),
-        (("noise", packets, "--share", "0"), "--share 0"),
         (("shoe", odd), "odd.csv, line 1: needs one column L_p2t_m"),
         (("square", packets), "strides are less than 3 laps of 40 marks"),
         (("square", packets, "--recipe", "default"), "recipe default takes no drift off"),

@@ -9,11 +9,11 @@ from pathlib import Path
 from ...calibration import Calibration, InsoleCalibration
 from ...show.tables.table import number, table
 from ...types import Foot
-from ..common.failure import Failure, parse_count, parse_degrees, parse_share
+from ..common.failure import Failure, parse_count, parse_degrees
 from ..common.inputs import check_pressure, recipe_option, source_of
 from ..common.own_devices import add_own_devices, drivers_of
 from ..common.parser import command, option
-from ..common.tables import source_named, table_options
+from ..common.tables import samples_named, source_named, table_options
 from .limbs import add_limbs
 from .sensor import add_sensor
 from .shoe import add_shoe
@@ -25,12 +25,9 @@ LearntCalibration = tuple[Calibration, list[str]]
 
 def _noise(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.kupt_dfpc.noise import pressure_noise
-    from ...recording.decoded import decode_recording
 
-    if options.share == 0.0:
-        raise Failure("--share 0: of no samples at all nothing is learnt")
-    samples = decode_recording(source_named(options, drivers_of(options))).samples
-    learnt = pressure_noise(samples, options.share, known)
+    _, samples = samples_named(options)
+    learnt = pressure_noise(samples, known=known)
     rows = [
         [foot.value, str(len(insole.noise)), number(sum(insole.noise) / len(insole.noise)), number(max(insole.noise))]
         for foot, insole in learnt.insoles.items()
@@ -116,10 +113,9 @@ def _walk(options: Namespace, known: Calibration) -> LearntCalibration:
 
 def _rest(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.pressure_contour.rest import rest_calibration, rest_noise
-    from ...recording.decoded import decode_recording
 
-    source = source_named(options, drivers_of(options))
-    fits = rest_noise(decode_recording(source).samples, source.foot)
+    foot, samples = samples_named(options)
+    fits = rest_noise(samples, foot)
     lines = [
         f"{fit.foot} foot, {fit.duration:.0f} s: accelerometer {1e3 * fit.noise.acc_density:.3g} mm/s^2/sqrt(Hz), bias "
         f"steady within {1e3 * fit.acc_instability:.3g} mm/s^2; gyroscope {degrees(fit.noise.gyro_density):.2g} "
@@ -135,13 +131,6 @@ _add_noise = command(
     "From some 20 s of walking: what every cell shows while the foot swings, which is taken off later.",
     "solepath calibrate noise walk.jsonl --out me.json",
     table_options("RECORDING"),
-    option(
-        "--share",
-        metavar="SHARE",
-        type=parse_share,
-        default=0.15,
-        help="of the samples with the least load that are taken for swing (default: 0.15)",
-    ),
     learn=_noise,
 )
 _add_square = command(

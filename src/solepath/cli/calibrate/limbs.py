@@ -8,9 +8,8 @@ from math import degrees
 from ...calibration import Calibration
 from ...show.tables.table import number, table
 from ..common.failure import parse_positive
-from ..common.own_devices import drivers_of
 from ..common.parser import command, option
-from ..common.tables import source_named, table_options
+from ..common.tables import samples_named, table_options
 
 STEEPEST_TILT = 35.0
 """Tilt from which a sensor is hardly strapped on as intended, degrees; between two axes of a box it is 45."""
@@ -18,9 +17,9 @@ STEEPEST_TILT = 35.0
 
 def _limbs(options: Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
     from ...papers.walking_modes.limbs.standing import check_standing, limbs_of
-    from ...recording.decoded import decode_recording
 
-    stood = check_standing(decode_recording(source_named(options, drivers_of(options))).samples)
+    _, samples = samples_named(options)
+    stood = check_standing(samples)
     limbs = limbs_of(options.stature, options.spines, options.thigh, options.shank)
     rows = [
         [

@@ -8,17 +8,15 @@ from math import degrees, hypot
 from ...calibration import Calibration
 from ...calibration.records import TriadCalibration, stale_feet
 from ...show.tables.table import number, table
-from ..common.own_devices import drivers_of
 from ..common.parser import command
-from ..common.tables import source_named, table_options
+from ..common.tables import samples_named, table_options
 
 
 def _sensor(options: Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
-    from ...recording.decoded import decode_recording
     from .by_hand.sensor import fit_sensors, sensor_calibration
 
-    source = source_named(options, drivers_of(options))
-    fits = fit_sensors(decode_recording(source).samples, source.foot)
+    foot, samples = samples_named(options)
+    fits = fit_sensors(samples, foot)
     learnt = sensor_calibration(fits)
     lines, rows = [], []
     for fit in fits:

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from ...events import DefectFound, Event
 from ...recording import Source, TableMapping, read_mapping
 from ...recording.mapping.mapping import FORMATS
-from ...types import Foot
+from ...types import Foot, Sample
 from .failure import Failure, note, parse_positive
 from .inputs import source_of
-from .own_devices import add_own_devices
+from .own_devices import add_own_devices, drivers_of
 from .parser import Option, option, together
 
 if TYPE_CHECKING:
@@ -59,6 +59,14 @@ def table_options(metavar: str = "FILE") -> Option:
 def source_named(options: Namespace, own: Iterable[Driver] = (), report: Report = note) -> Source:
     """Open the recording of FILE... as the options of tables and --foot say; the errors are those of `source_of`."""
     return source_of(options.files, feet_of(options), mapping_of(options), own, report)
+
+
+def samples_named(options: Namespace) -> tuple[Foot | None, Iterable[Sample]]:
+    """Return the foot of --foot, if it is one, and the samples of the recording of FILE..., also those of packets."""
+    from ...recording.decoded import decode_recording
+
+    source = source_named(options, drivers_of(options))
+    return source.foot, decode_recording(source).samples
 
 
 def parse_feet(text: str) -> tuple[Foot, ...]:
