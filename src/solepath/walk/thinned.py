@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Generic, TypeVar
 
-from attrs import define, field
+from ..types.attrs import state, stateful
 
 T = TypeVar("T")
 
 
-@define
+@stateful
 class ThinnedList(Generic[T]):
     """The first and the last item of a sequence, and evenly spaced items between them."""
 
-    items: list[T] = field(factory=list, init=False)
-    interval: int = field(default=1, init=False)
+    items: list[T] = state(factory=list)
+    interval: int = 1
     """Number of added items from one of `items` to the next."""
-    count: int = field(default=0, init=False)
+    count: int = 0
     """Number of items that were ever added."""
-    last: T | None = field(default=None, init=False)
+    last: T | None = None
 
     def add(self, item: T, max_count: int | None) -> None:
         """Add one item; `items` then holds at most `max_count`, or all with None. With 0 the item is only counted."""

@@ -6,20 +6,19 @@ from bisect import bisect_right
 from itertools import pairwise
 from math import inf
 
-from attrs import define, field
-
 from ..events import ActivityChanged
 from ..types import Activity
+from ..types.attrs import state, stateful
 
 
-@define
+@stateful
 class Timeline:
     """The activities from the start until now."""
 
-    _starts: list[float] = field(factory=list, init=False)
+    _starts: list[float] = state(factory=list)
     """Start of each activity, s, in rising order."""
-    _activities: list[Activity] = field(factory=list, init=False)
-    _min_duration: float = field(default=1.0, init=False)
+    _activities: list[Activity] = state(factory=list)
+    _min_duration: float = 1.0
     """Duration below which `_coarsen` leaves an activity out, s; it doubles with each call."""
 
     def add(self, event: ActivityChanged, max_count: int | None = None) -> None:

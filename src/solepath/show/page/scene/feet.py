@@ -8,11 +8,10 @@ from base64 import b64encode
 from math import inf
 from typing import Any
 
-from attrs import define, field
-
 from ....events import FootMoved, FootPressed, StrideTaken
 from ....foot.phase import EVENT_OF_PHASE
 from ....types import Layout, Phase, Vec3
+from ....types.attrs import state, stateful
 from ....walk.walk import FootCounts
 from ..messages import members, plain
 from .bending import Bend, bent
@@ -31,27 +30,27 @@ PHASE_OF_EVENT: dict[type, Phase] = {event: phase for phase, event in EVENT_OF_P
 """Phase that starts with each gait event."""
 
 
-@define
+@stateful
 class FootScene:
     """The state of one foot on a page, from events alone.
 
     The track has one point at the first live position and one at the end of each stride, since live positions within a
     stride may still drift."""
 
-    has_data: bool = field(default=False, init=False)
-    phase: Phase | None = field(default=None, init=False)
-    phases: GrowingList[tuple[float, str | None]] = field(factory=lambda: GrowingList(MAX_PHASES), init=False)
+    has_data: bool = False
+    phase: Phase | None = None
+    phases: GrowingList[tuple[float, str | None]] = state(factory=lambda: GrowingList(MAX_PHASES))
     """Start of each recent phase, s, and its name; None for a time in which the foot sends nothing."""
-    position: Vec3 | None = field(default=None, init=False)
-    track: GrowingList[TrackPoint] = field(factory=new_track, init=False)
-    lag: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    position: Vec3 | None = None
+    track: GrowingList[TrackPoint] = state(factory=new_track)
+    lag: tuple[float, float] = (0.0, 0.0)
     """Correction by a reported position that the foot's own events have only after its next stride, m, world frame."""
-    lag_ends: bool = field(default=False, init=False)
+    lag_ends: bool = False
     """True after that stride: the live position of its last sample is the last one without the correction."""
-    layout: Layout | None = field(default=None, init=False)
-    pressed: FootPressed | None = field(default=None, init=False)
+    layout: Layout | None = None
+    pressed: FootPressed | None = None
     """Newest values of the cells; None while there are none."""
-    peak: float = field(default=0.0, init=False)
+    peak: float = 0.0
     """Value of the brightest colour, in the unit of the cells: the highest so far, at least MIN_PEAK_SHARE."""
 
     def add_position(self, event: FootMoved) -> None:
