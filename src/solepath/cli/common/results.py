@@ -90,8 +90,8 @@ class Results:
         """Complete files and report; return the lines of the summary.
 
         Raises Failure, and writes nothing, if no packet of the recording could be used."""
-        if self.walk.is_useless:
-            raise Failure(f"{self.title}: {'; '.join(self.urgent_links())}")
+        if self.walk.is_useless and (why := self.urgent_links()):
+            raise Failure(f"{self.title}: {'; '.join(why)}")
         lines = [summary(self.walk, title=self.title, seconds=self.seconds)]
         if self.plan is not None:
             lines += place_lines(self.walk.places)
