@@ -22,16 +22,7 @@ from .common.failure import (
 )
 from .common.files import RECORDING, OutputFile, add_force, check_outputs
 from .common.parser import command, one_of, option
-from .common.view import (
-    PageAddress,
-    add_no_browser,
-    compute_rest,
-    page_address_of,
-    play,
-    speed_of,
-    speed_option,
-    view_option,
-)
+from .common.view import PageAddress, add_no_browser, page_address_of, play, speed_of, speed_option, view_option
 
 if TYPE_CHECKING:
     from .demo_walk import Demo
@@ -97,8 +88,7 @@ def _show(demo: Demo, address: PageAddress, pace: float) -> None:
 
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
     player = Player(PackedItems(demo.walk.packets), demo.session, scene, demo.plan, on_events=demo.add_events)
-    play(player, address, pace)
-    compute_rest(player, "walk")
+    play(player, address, pace, "walk")
 
 
 def _record(demo: Demo, path: Path, force: bool) -> None:

@@ -32,16 +32,7 @@ from .common.own_devices import drivers_of
 from .common.parser import command, option
 from .common.report import DETAILS, add_report, report_of
 from .common.tables import feet_of, mapping_of, source_named, table_options
-from .common.view import (
-    PageAddress,
-    add_no_browser,
-    compute_rest,
-    page_address_of,
-    play,
-    speed_of,
-    speed_option,
-    view_option,
-)
+from .common.view import PageAddress, add_no_browser, page_address_of, play, speed_of, speed_option, view_option
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -210,11 +201,9 @@ def _run_on_page(
     session = results.session
     scene = Scene(recording.name, session.recipe.name, "recording", plan=results.plan, newtons=newtons_of(calibration))
     player = Player(items, session, scene, plan, fault=fault, on_events=results.add)
-    if shown:
-        if fault:
-            note(fault)
-        play(player, address, pace)
-    compute_rest(player, "recording")
+    if fault:
+        note(fault)
+    play(player, address, pace, "recording")
     return shown
 
 

@@ -146,10 +146,8 @@ class TrackFiles:
 
     def write(self, event: Event) -> None:
         """Write one event; an OSError names the directory."""
-        try:
+        with os_errors_naming(self.directory):
             self._write(event)
-        except OSError as error:  # the same as `os_errors_naming`, which would be slow for each event
-            raise OSError(error.errno, error.strerror, str(self.directory)) from None
 
     def _write(self, event: Event) -> None:
         if isinstance(event, FootMoved):

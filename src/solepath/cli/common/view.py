@@ -123,8 +123,10 @@ async def serve_page(
         yield page
 
 
-def play(player: Player, address: PageAddress, pace: float) -> None:
-    """Play `player` on a page, at `pace` times real time, until Ctrl-C; without a terminal until the recording ends."""
+def play(player: Player, address: PageAddress, pace: float, what: str) -> None:
+    """Play `player` on a page, at `pace` times real time, until Ctrl-C; without a terminal until the recording ends.
+
+    The rest is computed then, so that `on_events` gets all items; `what` names it, such as "walk"."""
     import asyncio
 
     from ...show.page.player.player_loop import play_on
@@ -139,13 +141,13 @@ def play(player: Player, address: PageAddress, pace: float) -> None:
         return 0
 
     player.playback.speed = pace
-    run_to_end(main)
+    if len(player.items):
+        run_to_end(main)
+    _compute_rest(player, what)
 
 
-def compute_rest(player: Player, what: str) -> None:
-    """Compute what was not played, so that `on_events` gets all items; `what` names it, such as "walk".
-
-    Another Ctrl-C raises KeyboardInterrupt, between two items."""
+def _compute_rest(player: Player, what: str) -> None:
+    """Compute what was not played; another Ctrl-C raises KeyboardInterrupt, between two items."""
     from ...show.tables.progress import progress_bar
     from .loop import stop_flag
 
