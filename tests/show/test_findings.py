@@ -49,6 +49,7 @@ def test_the_findings_of_run_json_are_those_of_summary_report_and_check(packets:
     tracked, checked = run("track", path, "--out", out, "--report", report), run("check", path)
     found = json.loads((out / "run.json").read_text())["findings"]
     codes = {(one["code"], one["site"]) for one in found}
+    assert all(one.keys() == {"code", "site", "text"} for one in found)
     assert {("foot_silent", "left_foot"), ("samples_missing", "left_foot"), ("packets_rejected", "right_foot")} <= codes
     page = unescape(re.sub("<[^>]*>", "", report.read_text()))
     for one in found:

@@ -23,7 +23,7 @@ from ..events import (
 )
 from ..events.foot import LONGEST_HARMLESS_GAP
 from ..recording import printable
-from ..types import SITE_OF_FOOT, Site
+from ..types import SITE_OF_FOOT, Foot, Site
 from ..walk.links import LinkLedger
 from ..walk.walk import Walk, site_of
 from .tables.table import counted, times
@@ -175,7 +175,8 @@ def findings(walk: Walk) -> list[Finding]:
     found = reported(walk)
     for site, link in links_of(walk):
         found += [Finding(code, site, what, Concern.LINK, act) for code, what, act in _of_link(link, walk.now) if what]
-    for foot, counts in walk.feet.items():
+    for foot in [foot for foot in Foot if foot in walk.feet]:
+        counts = walk.feet[foot]
         flaws = [f"{words} in {counts.flaws[flaw]}" for flaw, words in FLAWS.items() if counts.flaws[flaw]]
         what = f"{counts.degraded} of {counted(counts.strides, 'stride')} degraded: {', '.join(flaws)}"
         found += [Finding("strides_degraded", SITE_OF_FOOT[foot], what, Concern.STRIDES)] if counts.degraded else []
