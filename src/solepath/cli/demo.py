@@ -10,18 +10,9 @@ from typing import TYPE_CHECKING
 from ..recording import PacketWriter
 from ..types import Foot
 from ..types.extras import install_hint
-from .common.failure import (
-    Failure,
-    is_installed,
-    note,
-    parse_positive,
-    parse_seconds,
-    parse_share,
-    parse_whole_number,
-    tell,
-)
+from .common.failure import Failure, is_installed, note, parse_positive, parse_seconds, parse_share, tell
 from .common.files import RECORDING, OutputFile, add_force, check_outputs
-from .common.parser import command, one_of, option
+from .common.parser import add_seed, command, one_of, option
 from .common.view import PageAddress, add_no_browser, page_address_of, play, speed_of, speed_option, view_option
 
 if TYPE_CHECKING:
@@ -144,7 +135,7 @@ add_to = command(
     "live, on a page in the browser where aiohttp is installed; without a terminal it is computed as fast as it "
     "can be.",
     "solepath demo\nsolepath demo --building --record walk.jsonl",
-    option("--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"),
+    add_seed,
     one_of(
         option(
             "--distance",

@@ -74,9 +74,9 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
         if decided is None and one.decided and is_true[0]:
             decided = k
         if decided is None:
-            before += [(c.position[0], c.position[1]) for c in one.candidates]
+            before += [candidate.position[:2] for candidate in one.candidates]
         else:
-            track.append((one.position[0], one.position[1]))
+            track.append(one.position[:2])
         if not is_on_floor(truth, one.t):
             continue
         strides += 1

@@ -6,8 +6,8 @@ from argparse import Namespace
 from functools import partial
 from pathlib import Path
 
-from ..common.failure import parse_address, parse_number, parse_whole_number, require
-from ..common.parser import command, option
+from ..common.failure import parse_address, parse_number, require
+from ..common.parser import add_seed, command, option
 from .devices import SERVE_TIME, duration_option
 
 DEFAULT_ADDRESS = "127.0.0.1:9735"
@@ -59,7 +59,7 @@ add_to = command(
         type=partial(parse_number, "a time of at most 600 s for each posture", 5e-324, 600.0),
         help="instead of walking, hold the shoes flat and in the postures of `calibrate shoe`, S seconds each",
     ),
-    option("--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"),
+    add_seed,
     option("--mtu", metavar="N", type=parse_mtu, default=247, help="MTU of insoles, bytes (default: 247)"),
     option("--faults", metavar="FILE", type=Path, help="a script of what goes wrong"),
     duration_option(SERVE_TIME),

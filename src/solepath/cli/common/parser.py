@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import Any, NoReturn, TypeVar
 
 from .closest import closest, unknown
-from .failure import note
+from .failure import note, parse_whole_number
 
 WIDTH = 100
 """Largest number of characters in a line of the help."""
@@ -171,3 +171,9 @@ def command(
         return added
 
     return add_to
+
+
+add_seed = option(
+    "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
+)
+"""--seed of an emulated walk."""

@@ -6,7 +6,8 @@ from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...recording import Source, printable, read_start_time
+from ...recording import Source, printable
+from ...show.tables.words import moment_text
 from .outcomes import band_files_of, person_of
 from .parser import option, together
 
@@ -56,15 +57,9 @@ def report_of(
         printable(source.name),
         plan,
         recipe,
-        start_text(source),
+        moment_text(source.header),
         details=ReportDetails(**{name: getattr(options, name) or "" for name in DETAILS}),
         bands=bands,
         calibrated=options.calibration is not None,
         before=before,
     )
-
-
-def start_text(source: Source) -> str:
-    """Return the date and time at which the recording started, as text; "" if they are not known."""
-    moment = read_start_time(source.header)
-    return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"

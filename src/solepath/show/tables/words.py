@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
+from ...recording import read_start_time
 from ...types import Activity, Turn
 
 
@@ -15,6 +17,12 @@ def activity_words(activity: Activity) -> str:
 def turn_words(turn: Turn) -> str:
     """Return the direction of a turn in a sentence: "to the left", "to the right", "about"."""
     return "about" if turn is Turn.ABOUT else f"to the {turn.value.lower()}"
+
+
+def moment_text(header: Mapping[str, Any]) -> str:
+    """Return the date and time at which a recording with this header started; "" if they are not known."""
+    moment = read_start_time(header)
+    return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
 
 
 def directions(counts: Mapping[bool, int]) -> list[tuple[str, int]]:

@@ -9,11 +9,12 @@ from pathlib import Path
 from attrs import frozen
 
 from ...calibration.file import FORMAT as CALIBRATION_FORMAT
-from ...recording import RecordingError, read_packets, read_start_time
+from ...recording import RecordingError, read_packets
 from ...recording.errors import SAMPLE_SUFFIXES
 from ...recording.packets import FORMAT as RECORDING_FORMAT
 from ...recording.packets import read_header
 from ..page.player.packed_items import PackedItems
+from ..tables.words import moment_text
 
 MAX_START = 4096
 """Number of bytes from which the kind of a file is recognised."""
@@ -55,7 +56,6 @@ def open_recording(path: Path) -> Generator[float, None, OpenedRecording]:
 
     RecordingError is raised for a file without any packet that can be used. A flaw behind good packets is a note."""
     header = read_header(path)
-    moment = read_start_time(header)
     size, done, notes = max(1, path.stat().st_size), deque([0], maxlen=1), list[str]()
     items = PackedItems()
     try:
@@ -69,5 +69,4 @@ def open_recording(path: Path) -> Generator[float, None, OpenedRecording]:
         notes.append(str(error))
     if not len(items):
         raise RecordingError(path, "holds no packets")
-    when = "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
-    return OpenedRecording(items, path.name, when, tuple(notes[:NOTE_COUNT]))
+    return OpenedRecording(items, path.name, moment_text(header), tuple(notes[:NOTE_COUNT]))
