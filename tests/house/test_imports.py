@@ -266,3 +266,13 @@ def test_a_session_loads_little_and_amid_a_walk_nothing_is_imported_and_no_file_
         assert amid == []
         if name == "default" and number == 0:
             assert count <= 90, "`python tests/bench/way.py` says what importing takes"
+
+
+def test_a_name_of_a_module_is_given_one_value() -> None:
+    twice = []
+    for path in ROOT.rglob("*.py"):
+        statements = [one for one in ast.parse(path.read_text("utf-8")).body if isinstance(one, ast.Assign)]
+        targets = [node for one in statements for target in one.targets for node in ast.walk(target)]
+        stored = [node.id for node in targets if isinstance(node, ast.Name)]
+        twice += [f"{path.name}: {name}" for name in {*stored} if stored.count(name) > 1]
+    assert twice == []

@@ -156,7 +156,7 @@ def time_packets(packets: list[tuple[float, float]], stream: PeriodicClock) -> t
     """Return the errors of the assigned times, and the number of reported losses."""
     errors, lost_count = [], 0
     for true, arrival in packets:
-        sample_times = stream.add_packet(arrival)
+        sample_times = stream.add_packet(arrival, 5.0)
         errors.append(sample_times.times[0] - true)
         lost_count += sample_times.lost_count
     return errors, lost_count
@@ -169,6 +169,27 @@ def test_losses_without_counters_are_counted_by_their_holes(period: float, drift
     errors, lost_count = time_packets(packets, PeriodicClock(period))
     assert lost_count == int(60.0 / period) - len(packets)
     assert max(abs(e) for e in errors[len(errors) // 2 :]) < 0.003
+
+
+@pytest.mark.parametrize("drift", [0.0, 5e-5, -5e-5])
+@pytest.mark.parametrize("loss", [0.005, 0.02, 0.1])
+def test_losses_of_a_stream_that_is_faster_than_the_radio_are_counted_by_what_stays_behind(
+    loss: float, drift: float
+) -> None:
+    packets = make_slots(120.0, 0.01, loss=loss, drift=drift)
+    lost_count = time_packets(packets, PeriodicClock(0.01))[1]
+    assert lost_count == pytest.approx(12_000 - len(packets), rel=0.06)
+
+
+@pytest.mark.parametrize("drift", [0.0, 5e-5, 0.01, -0.02])
+def test_a_slow_or_fast_clock_of_such_a_stream_is_no_loss(drift: float) -> None:
+    assert time_packets(make_slots(120.0, 0.01, loss=0.0, drift=drift), PeriodicClock(0.01))[1] == 0
+
+
+def test_one_packet_of_two_hundred_is_partly_counted_and_never_more_than_lost() -> None:
+    packets = [one for k, one in enumerate(make_slots(120.0, 0.01, loss=0.0)) if k % 200 != 100]
+    lost_count = time_packets(packets, PeriodicClock(0.01))[1]
+    assert 0.25 * 60 < lost_count <= 60
 
 
 @pytest.mark.parametrize(("true", "assumed"), [(0.05, 0.1), (0.17, 0.1), (1.0, 0.1), (0.1, 0.05)])

@@ -89,7 +89,7 @@ def test_a_device_that_samples_again_after_a_pause_has_lost_nothing() -> None:
     decoder = fed_decoder()
     pause = packet(20.0, "insole/frame", insole_frame(5, ticks=round(10.0 * 32768)))
     outputs = decoder.feed(pause)
-    assert of(SampleGap, outputs) == []
+    assert [gap.count for gap in of(SampleGap, outputs)] == [0]
     assert of(Sample, outputs)[0].t == pytest.approx(20.0, abs=0.001)
 
 

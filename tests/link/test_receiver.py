@@ -14,6 +14,7 @@ from solepath import (
     PacketRejected,
     PacketsDropped,
     Rejection,
+    SampleGap,
     Session,
     StreamRestarted,
 )
@@ -102,6 +103,6 @@ def test_an_insole_that_restarts_soon_after_its_start_is_not_taken_for_late() ->
     decoder.feed(packet(0.9, "receiver/connected", build_connected(ConnectionFrame("", None))))
     first, *rest = decoder.feed(packet(1.0, "insole/frame", insole_frame(0)))
     assert isinstance(first, ClockReset) and first.restarted
-    assert [type(item) for item in rest] == [Sample]
+    assert [type(item) for item in rest] == [SampleGap, Sample]
     [sample] = decoder.feed(packet(1.01, "insole/frame", insole_frame(1)))
     assert isinstance(sample, Sample)

@@ -41,7 +41,7 @@ BothFeet._restart: common compass directions distance divergence errors* ground 
   tracks* width straight_ways.reset()
 BothFeet.reset: common* compass* directions distance divergence errors measured_at path placements started tracks* width
   apart compass.reset() straight_ways.reset()
-Cc2541Link.handle_reconnection: acc_clock calibration firmware gyro_clock
+Cc2541Link.handle_reconnection: acc_clock* calibration firmware gyro_clock*
 Cc2541Link.restart_clock: assembler* calibration firmware
 CellHealth.reset: count lively_windows
 Clipping.reset: axes* largest near_end_square
@@ -59,7 +59,7 @@ FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares r
   strike_height top tracked
 FootClocks._forget: feet* idle
 FootClocks.reset: feet* idle
-FootTracker.reset: corrector* cues* detector* gait* levelled limitations lost_count rest* rhythm sole* walk_scale*
+FootTracker.reset: corrector* cues* detector* gait* levelled lost_count* rest* rhythm sole* walk_scale*
   cues.reset() cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
 Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
@@ -99,7 +99,7 @@ StanceFinder._restart: duration force t turn
 StanceRhythm.reset: usual_stance usual_swing
 StraightWays.reset: straightness.reset()
 Straightness.reset: direction
-StreamLink.handle_reconnection: last_t newest_arrival off_rate_interval off_rate_packets packet_run* periodic
+StreamLink.handle_reconnection: last_t newest_arrival off_rate_interval off_rate_packets packet_run* periodic*
 StreamLink.restart_clock: off_rate_interval off_rate_packets packet_run* periodic*
 StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped first_pitch flat_pitch flaws heel_strike_pitch
   load_count load_sum next_pitch number peak_height peak_speed pitch pitch_high pitch_low pitches start t_heel_off

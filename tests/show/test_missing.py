@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
 
@@ -12,10 +13,10 @@ from commands import run
 from recordings import recorded
 from shown import frame, walked
 
-from solepath import Packet, Sample, SampleGap, Session, Site
+from solepath import Packet, Sample, SampleGap, Session, Site, recipes
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.sensortags import CC2541
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import emulate
 from solepath.show.page.scene.scene import Scene
 from solepath.walk import Walk
@@ -97,9 +98,9 @@ def test_what_made_the_files_is_written_beside_them(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "other" / "run.json").read_text())["recipe_sha256"] != one["recipe_sha256"]
 
 
-def followed(packets: list[Packet]) -> Walk:
-    """Return the walk of a session that was fed with the packets."""
-    session, walk = Session(poses=True), Walk()
+def followed(packets: Sequence[Packet | Sample], recipe: str = "default") -> Walk:
+    """Return the walk of a session of a recipe that was fed with the packets or samples."""
+    session, walk = Session(recipes.by_name(recipe), poses=True), Walk()
     for packet in packets:
         walk.take(packet, session.feed(packet))
     walk.take(None, session.finish())
@@ -134,11 +135,66 @@ def test_a_foot_that_falls_silent_until_the_end_is_absent_until_then() -> None:
     assert walk.links[LEFT].missing == 0
 
 
+@cache
+def tagged() -> list[Packet]:
+    """Return a walk in an inertial sensor without pressure cells, which loses one packet of fifty."""
+    route = Route().stand(2.0).walk(40.0, speed=1.2).stop(2.0)
+    packets = emulate(route, devices={LEFT: CC2650()}, radio=CLEAN, seed=2).packets
+    moved = [packet for packet in packets if packet.channel == "cc2650/movement"]
+    lost = {id(packet) for packet in moved[25::50]}
+    return [packet for packet in packets if id(packet) not in lost]
+
+
+@pytest.mark.parametrize("recipe", recipes.NAMES)
+def test_what_is_missing_is_the_same_for_every_recipe_whatever_sensors_it_needs(recipe: str) -> None:
+    sent = sum(packet.channel == "cc2650/movement" for packet in tagged())
+    link = followed(tagged(), recipe).links[LEFT]
+    assert (link.samples, link.missing) == (sent, len(range(25, sent + link.missing, 50))) and link.missing > 5
+
+
+@pytest.mark.parametrize("recipe", recipes.NAMES)
+def test_rows_that_are_missing_are_the_same_for_every_recipe(recipe: str) -> None:
+    link = followed(rows(100, lambda k: k % 50 != 25), recipe).links[LEFT]
+    assert (link.samples, link.missing) == (3920, 80)
+
+
+def rows(rate: int, keeps: Callable[[int], bool]) -> list[Sample]:
+    """Return 40 s of samples of a foot that stands, without packets."""
+    kept = [k for k in range(40 * rate) if keeps(k)]
+    return [Sample(k / rate, LEFT, (0.1, 0.2, 9.8), (0.01, 0.02, 0.03)) for k in kept]
+
+
 @pytest.mark.parametrize("rate", [10, 50, 100, 250, 400])
 def test_rows_are_counted_at_every_rate(rate: int) -> None:
-    session, walk = Session(poses=True), Walk()
-    for k in range(40 * rate):
-        if k % 50 != 25:
-            sample = Sample(k / rate, LEFT, (0.1, 0.2, 9.8), (0.01, 0.02, 0.03))
-            walk.take(sample, session.feed(sample))
-    assert walk.links[LEFT].missing == 40 * rate // 50
+    assert followed(rows(rate, lambda k: k % 50 != 25)).links[LEFT].missing == 40 * rate // 50
+
+
+@pytest.mark.parametrize("rate", [10, 50, 100, 250, 400])
+@pytest.mark.parametrize("burst", [0.5, 1.0, 1.8])
+def test_rows_of_a_burst_are_all_counted(rate: int, burst: float) -> None:
+    kept = rows(rate, lambda k: k < 20 or k % (4 * rate) >= round(burst * rate))
+    link = followed(kept).links[LEFT]
+    assert link.missing == 40 * rate - len(kept)
+    assert link.missing_time == pytest.approx(link.missing / rate, rel=1e-3)
+
+
+@pytest.mark.parametrize("every", [3, 4, 5])
+def test_rows_are_counted_where_many_are_lost(every: int) -> None:
+    kept = rows(100, lambda k: k % every != 1)
+    link = followed(kept).links[LEFT]
+    assert link.missing == pytest.approx(4000 - len(kept), abs=1)
+    assert link.missing_time == pytest.approx(0.01 * link.missing, rel=1e-2)
+
+
+def test_rows_without_every_second_one_are_rows_at_half_the_rate() -> None:
+    link = followed(rows(100, lambda k: k % 2 == 0)).links[LEFT]
+    assert (link.missing, link.missing_time, link.rate) == (0, 0.0, pytest.approx(50.0))
+
+
+def test_frames_are_counted_where_every_second_one_is_lost() -> None:
+    sent = [one for one in frames() if one.channel == "insole/frame"]
+    lost = {id(one) for one in sent[1::2]}
+    link = followed([one for one in frames() if id(one) not in lost]).links[LEFT]
+    assert (link.samples, link.missing) == (len(sent[::2]), len(sent[1:-1:2]))
+    assert link.missing_time == pytest.approx(0.01 * link.missing, rel=0.01)
+    assert link.rate == pytest.approx(100.0, rel=0.01)

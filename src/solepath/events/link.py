@@ -68,8 +68,9 @@ class SampleGap(BaseEvent):
     """Number of samples that the device took and that did not arrive; of a CC2541, values of either of its two streams.
 
     The device's counters give it, or the times of arrival if the device has no counters; for samples that were fed
-    without packets, the usual interval between them. It is 0 for an absence: the device was not connected, was silent
-    for longer than its profile allows, or took no samples."""
+    without packets, the usual interval between them, which is twice as long if every second one is always lost. It is 0
+    for an absence: the device was not connected, restarted, was silent for longer than its profile allows, or took no
+    samples."""
 
 
 @frozen(kw_only=True)

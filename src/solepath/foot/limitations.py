@@ -45,10 +45,14 @@ class Limitations:
 
     def report_lacking(self, text: str, t: float, known_at: float, events: list[Event]) -> None:
         """Report `text` once samples have lacked data for `LACKING_TIME`; call it for each such sample."""
+        if self.is_lacking(t):
+            self.report(text, t, known_at, events)
+
+    def is_lacking(self, t: float) -> bool:
+        """Return whether samples have lacked data for `LACKING_TIME`; call it only for a sample that lacks some."""
         if self.lacking_since is None:
             self.lacking_since = t
-        if t - self.lacking_since >= LACKING_TIME:
-            self.report(text, t, known_at, events)
+        return t - self.lacking_since >= LACKING_TIME
 
     def rejects_calibration(
         self, layout: Layout | None, noise: Floats, count: int, t: float, known_at: float, events: list[Event]

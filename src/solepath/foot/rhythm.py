@@ -34,9 +34,10 @@ FIRST_INTERVALS = 10
 
 @define
 class Rhythm:
-    """The usual interval between samples, learnt from them.
+    """The usual interval between samples, learnt from them; a gap does not change it.
 
-    Many gaps of equal length in a row mean a new sampling rate."""
+    Many gaps of equal length in a row mean a new sampling rate. Times do not show a loss that is always the same:
+    samples of which every second one is lost are samples at half the rate."""
 
     intervals: int = 0
     """Number of intervals so far, up to FIRST_INTERVALS + 1."""
@@ -55,8 +56,8 @@ class Rhythm:
             if usual_interval is None or (self.intervals <= FIRST_INTERVALS and dt * LEAST_GAP_RATIO < usual_interval):
                 self.usual_interval = dt
                 return False
-        self.usual_interval = follow(usual_interval, dt, USUAL_GAIN)
         if dt <= LEAST_GAP_RATIO * usual_interval or dt - usual_interval <= LEAST_GAP_DIFFERENCE:
+            self.usual_interval = follow(usual_interval, dt, USUAL_GAIN)
             self.gaps_in_a_row = 0
             return False
         if self.gaps_in_a_row == 0 or abs(dt - self.first_gap) > LARGEST_GAP_DEVIATION * self.first_gap:

@@ -17,7 +17,7 @@ from .attitude import Levelling, Rest, WalkScale
 from .cues.cues import Cues, TimedCue
 from .gait import FLAT_SPEED, Gait
 from .gap import SHORTEST_FILLED_GAP, NoInfill, find_infill
-from .limitations import LACKING_TIME, Limitations
+from .limitations import Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .phase import SWING
 from .rejection import rejected, rejection_reason
@@ -54,8 +54,8 @@ class FootTracker:
     """Newest load that came without acc or gyro and waits for the next inertial sample; None otherwise."""
     lost_count: int | None = None
     """Number of samples that the link has lost since the last gap; None where samples are fed without a link."""
-    lost_after: float = 0.0
-    """Time of the sample after which they were lost, s."""
+    lost_after: float | None = None
+    """Time of the sample before a gap that the link has found and that was not reported yet, s; None without one."""
     rhythm: Rhythm = state(factory=Rhythm)
     levelling: Levelling = state(factory=Levelling)
     levelled: bool = False
@@ -163,7 +163,7 @@ class FootTracker:
             self.corrector.bridge(inf)
         self.t = self.moved_at = self.partial_at = self.viewed_at = self.limitations.lacking_since = self.load = None
         self.limitations.mismatch_since = None
-        self.lost_count, self.lost_after = None if self.lost_count is None else 0, 0.0
+        self.lost_count, self.lost_after = None if self.lost_count is None else 0, None
         self.gait.reset()
         # Windows that hold old times would wait until the new times reach them. What was learnt stays.
         detector: Any = self.detector
@@ -199,20 +199,21 @@ class FootTracker:
         if sample.pressure or (sole is not None and sole.had_cells):
             sole = sole or self.make_sole()
             load = self._add_cells(sole, sample, known_at, events)
-        if load is None and self.settings.needs_pressure and (sole is None or not sole.had_cells):
-            text = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
-            self.limitations.report_lacking(text, t, known_at, events)
-            return events
         if not has_inertial:
             self.partial_at = t
-            if self.moved_at is not None and t - self.moved_at < LACKING_TIME:
+            if self.moved_at is not None and not self.limitations.is_lacking(t):
                 self.load = load  # cells and inertial sensor send separately: the next inertial sample uses this load
                 return events
         dt = 0.0 if t_last is None else t - t_last
         if t_last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
             dt = self._cross_gap(t_last, t, known_at, sample, events)
-        elif self.lost_count and t_last is not None and t > self.lost_after:  # what is missing was interpolated
-            self._report_gap(t_last, t, known_at, events)
+        elif self.lost_after is not None and t > self.lost_after:  # what is missing was interpolated, or reset
+            self._report_gap(self.lost_after if t_last is None else t_last, t, known_at, events)
+        if load is None and self.settings.needs_pressure and (sole is None or not sole.had_cells):
+            self.moved_at = t if has_inertial else self.moved_at
+            text = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
+            self.limitations.report_lacking(text, t, known_at, events)
+            return events
         if acc is None or gyro is None:
             text = f"no {'accelerometer' if acc is None else 'gyroscope'} on the {self.foot.value} foot"
             text = f"{text}: no steps and no track from it"
@@ -289,8 +290,8 @@ class FootTracker:
         count = 0
         if self.lost_count is None:
             count = self.rhythm.count_missing(t - t_last)
-        elif t > self.lost_after:
-            count, self.lost_count = self.lost_count, 0
+        elif self.lost_after is not None and t > self.lost_after:
+            count, self.lost_count, self.lost_after = self.lost_count, 0, None
         site = SITE_OF_FOOT[self.foot]
         events.append(SampleGap(t=t_last, known_at=known_at, site=site, duration=t - t_last, count=count))
 

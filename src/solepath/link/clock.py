@@ -40,8 +40,6 @@ MAX_SLEW, MAX_FAST_SLEW, LARGE_ERROR = 0.005, 0.02, 0.25
 """Largest relative slew, largest relative slew for a large error, and smallest large error (s)."""
 SLEW_TIME = 2.0
 """Time constant with which a small error is corrected, s."""
-MAX_EARLY_ARRIVAL = 0.15
-"""Largest time by which an assigned time may be after the arrival, s; without counters, one period is added."""
 MIN_INCREMENT = 1e-6
 """Smallest difference of two assigned times in a row, s."""
 MAX_EARLY_ARRIVAL, EARLY_ARRIVAL_GROWTH = 0.5, 0.01

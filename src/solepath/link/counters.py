@@ -14,6 +14,8 @@ from .clock import Clock
 
 REMEMBERED_PACKETS = 64
 """Number of the newest packets for which it is remembered whether they were accepted."""
+MIN_GAP = 1.5
+"""Smallest time from one sample to the next that is a gap, intervals; one tick is added, as ticks are whole."""
 MAX_OVERTAKING_TIME = 2.0
 """Longest time by which a packet may be overtaken, s, by the device's ticks and by the delay of its arrival.
 
@@ -50,26 +52,26 @@ class PacketPosition:
 
 @define
 class SampleTimes:
-    """The times of the samples of a packet, and the losses or the restart before the packet."""
+    """The times of the samples of a packet, and the gap or the restart before the packet."""
 
     times: list[float]
     """Time of each sample, s."""
     lost_count: int = 0
     """Number of samples that were lost directly before the packet."""
-    last_t: float = 0.0
-    """Time of the newest sample before the packet, s."""
+    gap_start: float | None = None
+    """Time of the newest sample before the packet, s, if there is a gap between them; None without a gap."""
     restarted: bool | None = None
     """True when a new fit started because the counters restarted, False for other new fits; None without a new fit."""
 
     def make_events(self, site: Site, arrival: float) -> list[SampleGap | ClockReset]:
         """Return the events that come before the packet's samples, in order."""
         events: list[SampleGap | ClockReset] = []
-        t, last_t, count = self.times[0], self.last_t, self.lost_count
-        if count:
-            known_at = max(arrival, last_t)
-            events.append(SampleGap(t=last_t, known_at=known_at, site=site, duration=t - last_t, count=count))
+        t, start = self.times[0], self.gap_start
         if self.restarted is not None:
             events.append(ClockReset(t=t, known_at=max(arrival, t), site=site, restarted=self.restarted))
+        if start is not None:
+            known_at, count = max(arrival, start), self.lost_count
+            events.append(SampleGap(t=start, known_at=known_at, site=site, duration=t - start, count=count))
         return events
 
 
@@ -107,11 +109,11 @@ class PacketRun:
         A duplicate or late packet raises WireError and changes nothing. `new_fit`: start a new fit with this packet,
         whatever its counters are."""
         packet_ticks = float(position.interval * position.samples)
-        clock, lost_count, last_t, restarted = self.clock, 0, 0.0, None
+        clock, lost_count, last_t, restarted = self.clock, 0, None, None
         if clock is None:
             clock = self._start_clock(position.ticks, rate, None)
         else:
-            packets, ticks = position.packets_after, position.ticks_after
+            packets, ticks, last_t = position.packets_after, position.ticks_after, clock.last_t
             # Sequence and ticks agree on how far the packet is from the newest one.
             same_run = abs(packets * self.packet_ticks - ticks) <= 2 * self.packet_ticks
             held_back = same_run and not self.after_reconnection
@@ -121,9 +123,9 @@ class PacketRun:
             other_clock = clock.rate != rate or clock.contradicts(last, arrival, held_back)
             if ticks <= 0 or packets <= 0 or new_fit or other_clock:
                 restarted = not 1 <= position.sequence_difference <= REMEMBERED_PACKETS
-                clock = self._start_clock(position.ticks, rate, clock.last_t + self.interval / clock.rate)
+                clock = self._start_clock(position.ticks, rate, last_t + self.interval / clock.rate)
             else:
-                lost_count, last_t = (packets - 1) * position.samples, clock.last_t
+                lost_count = (packets - 1) * position.samples
                 self.ticks += ticks
                 self.accepted_bits = (
                     (self.accepted_bits << packets | 1) & (1 << REMEMBERED_PACKETS) - 1
@@ -136,6 +138,8 @@ class PacketRun:
         times = []
         for j in range(position.samples):
             times.append(clock.assign_time(self.ticks + j * self.interval))
+        if last_t is not None and not lost_count and (times[0] - last_t) * rate <= MIN_GAP * self.interval + 1.0:
+            last_t = None
         return SampleTimes(times, lost_count, last_t, restarted)
 
     def _start_clock(self, ticks: int, rate: float, t_min: float | None) -> Clock:

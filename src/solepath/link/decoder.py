@@ -28,11 +28,10 @@ from ..events import (
     StreamResumed,
     StreamStale,
 )
-from ..types import Packet, Site
+from ..types import Packet, Sample, Site
 from ..types.attrs import NOT_SAVED, define, evolve, field, fields
 from ..types.records import MAX_TIME
 from ..wire.error import WireError
-from .clock import MAX_EARLY_ARRIVAL
 from .kinds import BUILT_IN_KINDS, DeviceKinds, DeviceLink, Output, is_address
 
 SET_BACK_PACKETS = 20
@@ -64,10 +63,10 @@ class Decoder:
     """Arrival of the newest packet of a channel that must not fall silent, s."""
     stale: bool = False
     """True from StreamStale until StreamResumed."""
-    absent_since: float | None = None
-    """Arrival of the newest packet of such a channel before the newest silence or new connection, s; None before any.
+    absent: bool = False
+    """True from a silence or a new connection until the first sample after it.
 
-    Samples that are missing after it were not sent to this receiver: they are an absence and no loss."""
+    Samples that are missing before that one were not sent to this receiver: they are an absence and no loss."""
     used: bool = field(default=False, init=False, eq=False, metadata=NOT_SAVED)
     """Flag: the packet of the last `feed` was used, though it may report an earlier one that was rejected."""
 
@@ -125,7 +124,7 @@ class Decoder:
 
         The next packet may have arrived earlier or later by the new clock; it starts a new fit."""
         out = self.finish()
-        self.newest_arrival, self.absent_since, self.backward_packets = None, None, 0
+        self.newest_arrival, self.absent, self.backward_packets = None, False, 0
         if self.newest_stream_arrival is not None:
             self.newest_stream_arrival = now
         if self.link is not None:
@@ -163,11 +162,10 @@ class Decoder:
         newest, limit = self.newest_stream_arrival, kind.profile.stale_after
         self.newest_stream_arrival = t
         is_long = newest is not None and t - newest > limit
-        if is_long or self.stale:
-            self.absent_since = newest
-        if self.absent_since is not None:
-            last = self.absent_since + MAX_EARLY_ARRIVAL
-            out = [evolve(item, count=0) if isinstance(item, SampleGap) and item.t <= last else item for item in out]
+        self.absent = self.absent or is_long or self.stale
+        if self.absent and any([isinstance(item, Sample) for item in out]):
+            out = [evolve(item, count=0) if isinstance(item, SampleGap) else item for item in out]
+            self.absent = False
         if newest is not None and (self.stale or (is_long and not link.may_be_silent)):
             resumed = StreamResumed(t=t, site=self.site, silent_for=t - newest)
             out[:0] = [resumed] if self.stale else [self._silence(newest, t, limit), resumed]
@@ -179,7 +177,7 @@ class Decoder:
 
         out = parse_receiver_event(packet)
         if any([isinstance(event, Connected) for event in out]):
-            self.absent_since = self.newest_stream_arrival
+            self.absent = True
             if self.link is not None:
                 self.link.handle_reconnection()
         return [*out]

@@ -17,10 +17,10 @@ from ..types.vector import unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
 from .clock import MIN_INCREMENT
-from .counters import PacketPosition, PacketRun, SampleTimes, signed_difference
+from .counters import MIN_GAP, PacketPosition, PacketRun, SampleTimes, signed_difference
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
-from .periodic import MIN_LOSS_GAP, PeriodicClock
+from .periodic import PeriodicClock
 
 TICKS_PER_SAMPLE = 100
 """Ticks that stand for one sample of a device that only counts; more than one, as a pause may end between samples."""
@@ -94,8 +94,12 @@ class StreamLink(DeviceLink):
             self.periodic = PeriodicClock(self.periodic.period)
 
     def handle_reconnection(self) -> None:
-        """Take counters that go back in the next packet as restarted: no packet is overtaken across two connections."""
+        """Take counters that go back in the next packet as restarted: no packet is overtaken across two connections.
+
+        Without counters, the slots restart with the next packet."""
         self.packet_run.after_reconnection = True
+        if self.periodic is not None:
+            self.periodic.newest_arrival = None
 
     def _check(self, driver: Driver, channel: str, reading: Reading) -> None:
         """Raise WireError when a reading cannot be used."""
@@ -160,7 +164,8 @@ class StreamLink(DeviceLink):
         rate = self.rate if reading.rate is None else reading.rate
         if axis is TimeAxis.ARRIVAL:
             self._set_rate(rate)
-            sample_times = self._time_by_arrival(len(reading.samples), rate, arrival)
+            longest_loss = 0.0 if self.may_be_silent else driver.profile.stale_after
+            sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss)
         elif axis is TimeAxis.TICKS:
             position = self._locate_by_ticks(driver, reading, rate)
             sample_times = self.packet_run.accept(position, driver.tick_rate, arrival)
@@ -204,7 +209,7 @@ class StreamLink(DeviceLink):
             difference, packets = run.count_packets(sequence, driver.sequence, ticks)
             return PacketPosition(sequence, int(reading.ticks), interval, count, difference, packets, ticks)
         if ticks > 0:  # ticks were cut to whole ones: the true distance may be up to one tick less
-            packets = round(ticks / run.packet_ticks) if ticks - 1 >= MIN_LOSS_GAP * run.packet_ticks else 1
+            packets = round(ticks / run.packet_ticks) if ticks - 1 >= MIN_GAP * run.packet_ticks else 1
         else:
             packets = 0 if ticks == 0 else min(-1, round(ticks / run.packet_ticks))
         return PacketPosition(0, int(reading.ticks), interval, count, packets, packets, ticks)
@@ -258,10 +263,10 @@ class StreamLink(DeviceLink):
             self.rate, self.off_rate_packets = driver.tick_rate / distance, 0
             self.packet_run.packet_ticks = float(position.ticks_after)
 
-    def _time_by_arrival(self, count: int, rate: float, arrival: float) -> SampleTimes:
+    def _time_by_arrival(self, count: int, rate: float, arrival: float, longest_loss: float) -> SampleTimes:
         if self.periodic is None:
             self.periodic = PeriodicClock(count / rate)
-        sample_times = self.periodic.add_packet(arrival, counts_losses=not self.may_be_silent)
+        sample_times = self.periodic.add_packet(arrival, longest_loss)
         (last,), interval = sample_times.times, self.periodic.period / count
         sample_times.times = [last - (count - 1 - j) * interval for j in range(count)]
         sample_times.lost_count *= count

@@ -149,8 +149,8 @@ class LinkLedger:
     channels, and of all others together under ""."""
     samples: int = 0
     """Number of used samples with different times. A sample of a foot counts when it was fed as a sample, or when the
-    session reported its position or pressure (FootMoved, FootPressed). For another site, all samples in its packets
-    count."""
+    session reported its position or pressure (FootMoved, FootPressed). For another site, and for a foot until the
+    session reports either, all samples in its packets count."""
     has_motion: bool = False
     """True from the first sample of an inertial sensor on."""
     has_pressure: bool = False
@@ -184,16 +184,10 @@ class LinkLedger:
     """True after the session has reported that nothing comes any more."""
     _absent_since: float | None = None
     """Arrival of the newest sample before the present absence, s; None while samples come."""
-    _absent_after: float | None = None
-    """Time of the newest sample before the newest absence that has ended, s, by its own clock."""
     _t: float | None = None
     """Time of the newest sample by its own clock, s."""
     _covered: CoveredTime = field(factory=CoveredTime)
-    """Time covered by the samples' own times; silences and restarted clocks split it into spans."""
-    _gaps_covered: int = 0
-    """Number of gaps that lie within a span of covered time."""
-    _gap_time_covered: float = 0.0
-    """Total duration of the gaps that lie within a span of covered time, s."""
+    """Time covered by the samples' own times; absences and restarted clocks split it into spans."""
     _recent: deque[float] = field(factory=lambda: deque(maxlen=MAX_RATE_SAMPLES))
     """Arrivals of the newest samples, s."""
     _recent_start: float = 0.0
@@ -209,9 +203,6 @@ class LinkLedger:
         """Add a used sample of time `t` that came at `known_at`, both s; a repeated `t` does not count."""
         if t == self._t:
             return
-        if self._absent_since is not None:
-            self.ended_absences += max(0.0, known_at - self._absent_since)
-            self._absent_after = self._t
         self._t, self.last_sample_at, self.is_counted, self._absent_since = t, known_at, True, None
         self.samples += 1
         self._losses.add(known_at, samples=1)
@@ -240,17 +231,16 @@ class LinkLedger:
                 self.gaps += 1
                 self.lost += count
                 self._losses.add(event.known_at, missing=count)
-                if self._covered.span_start is not None and event.t != self._absent_after:
-                    self.ended_absences += 0.0 if count else duration
-                    self._gaps_covered += 1
-                    self._gap_time_covered += duration
+                if count == 0:
+                    self.ended_absences += duration
+                    self._covered.close()
             case ClockReset():
                 self.clock_resets += 1
                 self._covered.close()
             case StreamStale():
                 self.silences += 1
                 self._stale = True
-                self._start_absence()
+                self._absent_since = self.last_sample_at
             case StreamResumed():
                 self._stale = False
             case StreamRestarted():
@@ -261,21 +251,16 @@ class LinkLedger:
                 self.broken_at, self._has_samples, self._stale = None, False, False
             case Disconnected():
                 self.broken_at, self._has_samples = event.known_at, False
-                self._start_absence()
+                self._absent_since = self.last_sample_at
             case BatteryLevel(level=level):
                 self.battery = level
             case LinkTrouble(what=what) | DefectFound(what=what, needs_action=True):
                 self.trouble = what
 
-    def _start_absence(self) -> None:
-        self._absent_since = self.last_sample_at
-        self._covered.close()
-
     @property
     def rate(self) -> float | None:
-        """Samples a second since the start, gaps and silences left out; None without two consecutive samples."""
-        time = self._covered.total - self._gap_time_covered
-        intervals = self.samples - self._covered.span_count - self._gaps_covered
+        """Samples that the device took a second while it was connected; None before the second one."""
+        time, intervals = self._covered.total, self.samples + self.missing - self._covered.span_count
         return intervals / time if time > 0.0 and intervals > 0 else None
 
     def recent_rate(self, now: float) -> float | None:

@@ -192,7 +192,9 @@ class Walk:
     activities: list[ActivityChanged] = field(factory=list)
     """Activities in the order in which they were reported; empty unless `keeps_all`."""
     _other_decoders: dict[Site, Decoder] = field(factory=dict)
-    """Decoders that count the samples of sites that are not feet; a session has no event for these samples."""
+    """Decoders that count the samples of sites for whose samples the session has no event.
+
+    These are other sites than feet, and a foot whose sensors are too few for its recipe."""
 
     @classmethod
     def of(cls, events: Iterable[Event]) -> Walk:
@@ -206,12 +208,12 @@ class Walk:
         """Add an item that the session was fed, and the events that it returned.
 
         None as the item means that nothing came: time passed or the session ended."""
-        self.count_item(item, events)
         for event in events:
             self.add(event)
+        self.count_item(item, events)
 
     def count_item(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """Count an item; its events are not counted here, but show whether it was used."""
+        """Count an item after its events, which show whether it was used."""
         if item is None:
             return
         self.item_count += 1
@@ -225,14 +227,16 @@ class Walk:
         if isinstance(item, Sample):
             self.link(item.site).add_sample(item.t, item.t if item.known_at is None else item.known_at)
             return
+        link = self.links.get(item.site)
         has_samples = any([isinstance(event, FootMoved | FootPressed) for event in events])
-        if is_sample_channel(item.channel) and (has_samples or not is_frame_fragment(item)):
-            self.link(item.site).add_packet(item.t)
-        if item.site.foot is None:
+        if link is None or not (link.has_motion or link.has_pressure):
             decoder = self._other_decoders.setdefault(item.site, Decoder(item.site))
             for record in decoder.feed(item):
-                if isinstance(record, Sample):
+                if isinstance(record, Sample) and any((record.acc, record.gyro, record.pressure, record.quat)):
                     self.link(item.site).add_sample(record.t, item.t)
+                    has_samples = True
+        if is_sample_channel(item.channel) and (has_samples or not is_frame_fragment(item)):
+            self.link(item.site).add_packet(item.t)
 
     def advance(self, now: float) -> None:
         """Advance the time to `now`, s, on the clock of the packets."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import radians
 from operator import attrgetter
@@ -97,7 +98,7 @@ class Series:
 
 
 @frozen(kw_only=True)
-class SensorTag:
+class SensorTag(ABC):
     """A SensorTag on a foot; its fields have defaults of either model."""
 
     rate: float = 10.0
@@ -124,13 +125,13 @@ class SensorTag:
     """Constant values by channel."""
 
     @property
+    @abstractmethod
     def sensors(self) -> tuple[TagSensor, ...]:
         """Sensors of the tag, with the configurations of this one."""
-        raise NotImplementedError
 
+    @abstractmethod
     def encode(self, channel: str, config: bytes, measured: Array) -> Iterable[bytes]:
         """Encode each row of measured values as data of the channel, with this configuration."""
-        raise NotImplementedError
 
     def draw(self, rng: Rng) -> tuple[DeviceClock, dict[str, float]]:
         """Return the clock of a tag, and the times from its first sample to the first one of each sensor, s."""

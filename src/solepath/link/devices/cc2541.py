@@ -171,10 +171,10 @@ class Cc2541Link(DeviceLink):
         match channel:
             case "cc2541/accelerometer":
                 acc = scaled(value.acc, GRAVITY / counts_per_g(self.firmware, self.code))
-                return self._add(channel, self.acc_clock, self.assembler.add_acc, acc, arrival)
+                return self._add(self.acc_clock, self.gyro_clock, self.assembler.add_acc, acc, arrival)
             case "cc2541/gyroscope":
                 gyro = scaled(value.gyro, GYRO_SCALE)
-                return self._add(channel, self.gyro_clock, self.assembler.add_gyro, gyro, arrival)
+                return self._add(self.gyro_clock, self.acc_clock, self.assembler.add_gyro, gyro, arrival)
             case "cc2541/magnetometer":
                 self.assembler.mag = scaled(value.mag, MAG_SCALE)
             case "cc2541/barometer":
@@ -205,12 +205,19 @@ class Cc2541Link(DeviceLink):
         self.gyro_clock = PeriodicClock(self.gyro_clock.period)
         self.assembler = Assembler(self.site)
 
+    def handle_reconnection(self) -> None:
+        """Restart the slots with the next packets."""
+        self.acc_clock.newest_arrival = self.gyro_clock.newest_arrival = None
+
     def flush(self, known_at: float) -> Output:
         return [*self.assembler.flush(known_at)]
 
-    def _add(self, channel: str, clock: PeriodicClock, add: Add, value: Vec3, arrival: float) -> Output:
-        sample_times = clock.add_packet(arrival)
-        (t,) = sample_times.times
+    def _add(self, clock: PeriodicClock, other: PeriodicClock, add: Add, value: Vec3, arrival: float) -> Output:
+        """Return the samples and events of a value; an absence is one of both streams."""
+        sample_times = clock.add_packet(arrival, PROFILE.stale_after)
+        (t,), newest = sample_times.times, other.newest_arrival
+        if not sample_times.lost_count and newest is not None and arrival - newest <= PROFILE.stale_after:
+            sample_times.gap_start = None
         out: Output = [*sample_times.make_events(self.site, arrival)]
         return out + [*add(t, value, clock.period, arrival)]
 

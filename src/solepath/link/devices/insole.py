@@ -179,7 +179,7 @@ class InsoleLink(DeviceLink):
         )
         sample_times = run.accept(position, float(self.rate), arrival)
         out: Output = []
-        if sample_times.lost_count or sample_times.restarted is not None:
+        if sample_times.gap_start is not None or sample_times.restarted is not None:
             out += sample_times.make_events(self.site, arrival)
         if self.layout is None:
             self.layout, self.cells = frame.layout, cells

@@ -89,10 +89,10 @@ class Scene:
         for event in events:
             if not isinstance(event, REJECTIONS):
                 self.tick(event.known_at)  # a silent foot is shown as silent before the event that ends it
-        self.walk.count_item(item, events)
         for event in events:
             if has_valid_numbers(event):
                 self._show(event)
+        self.walk.count_item(item, events)
         if not events:
             self._mark_silent_feet()
 
