@@ -72,6 +72,10 @@ class StrideFeatures:
 
     Mid-stance is still to come, so earlier stances show how far the sensor turns from foot-flat to mid-stance; the
     angle is None in the first stride."""
+    rest_share: float = 0.0
+    """Share of the stride's time in which the foot turned slower than 0.3 rad/s, or than 15 % of its greatest rate."""
+    force_range: float = 0.0
+    """Largest minus smallest specific force of the stride, m/s^2."""
     rise: float | None = None
     """Height of the stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
 

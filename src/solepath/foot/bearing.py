@@ -1,0 +1,123 @@
+"""Evidence that a foot carries its walker, from each of its strides and from how alike they are.
+
+A foot on a pedal, in a vehicle or below a chair comes to what looks like a foot-flat, too. Then the stride between two
+of them is not what a walk makes of it: in a walk the foot rests for a third of the time and is struck when it lands,
+its greatest speed is 1.2 times the mean speed of its swing, its height returns to the floor or to a tread, and the next
+stride is like it. Each of these adds to the logarithm of the likelihood ratio of a foot that carries to one that does
+not. The sum over strides decides, so that an odd stride of a walk counts and an odd one on a bicycle does not."""
+
+from __future__ import annotations
+
+from math import log
+
+from ..events import StrideTaken
+from ..types.attrs import define, evolve, field
+
+USUAL_SPEED_RATIO = 1.2
+"""Greatest speed of a swing divided by its length over its time, no unit: the median of level walks of 14 data sets."""
+SHORT_LENGTH = 0.4
+"""Length below which a stride is a shuffle or no stride, m."""
+FASTEST_SWING = 6.0
+"""Speed of a foot that only runners exceed, m/s: a walk at 2 m/s swings the foot at 5 (docs/accuracy.md)."""
+SWING_TIMES = (0.2, 1.2)
+"""Times of a swing that walkers and runners have, from the fastest to patients, s."""
+TREADS_RISE = 0.34
+"""Rise of a stride over two treads, m."""
+RISE_ERROR, RISE_ERROR_SHARE = 0.05, 0.08
+"""Standard deviation of a measured rise, m, and its growth with the length, no unit (body/activity/motion.py)."""
+LEAST_LENGTH, LEAST_FORCE_RANGE, LEAST_SWING = 0.03, 0.3, 0.02
+"""Smallest length, m, range of the specific force, m/s^2, and swing, s, whose logarithm counts."""
+
+OFFSET = -2.4
+"""Evidence of a stride whose features are all 0, a logarithm of a likelihood ratio.
+
+The weights and the offset are a logistic regression over features of strides (`solepath-lab train bearing`)."""
+WEIGHTS = (6.6, 3.0, -0.86, -1.8, -0.6, -2.8, -12.0, -3.0, -1.3)
+"""Weight of each of `features`."""
+
+MOST_FOR, MOST_AGAINST = 3.0, -3.0
+"""Limits of the evidence of one stride, so that none decides alone against those before it."""
+KNOWN, SUREST = 2.0, 5.0
+"""Evidence from which on a foot is known to carry its walker, and its largest value."""
+MOST_WAITING = 4
+"""Number of strides that wait until it is known whether the foot carries, the newest included."""
+LONGEST_WAIT = 5.0
+"""Longest time between two strides of one bout, s, and longest time for which a stride waits."""
+
+
+def features(stride: StrideTaken, previous: StrideTaken | None) -> tuple[float, ...]:
+    """Return what tells a stride of a walk from another motion, in the order of `WEIGHTS`.
+
+    `previous` is the stride before it in the same bout, if any. The features are: the share of the time at rest; the
+    logarithm of the range of the specific force; how far the greatest speed differs from that of a swing of this length
+    and time; shortness; the rise beyond the error of a floor or a tread; the time of the swing beyond usual ones; the
+    speed beyond that of a walk; and the change of length and of swing since the stride before."""
+    measured, length = stride.features, max(stride.length, LEAST_LENGTH)
+    swing = _swing(stride)
+    ratio = measured.peak_speed * (0.4 if swing is None else swing) / max(length, 0.05) / USUAL_SPEED_RATIO
+    rise = abs(stride.height_change if measured.rise is None else measured.rise)
+    off_floor = min(rise, abs(rise - TREADS_RISE)) / (RISE_ERROR + RISE_ERROR_SHARE * stride.length)
+    short, long = SWING_TIMES
+    change = (1.0, 1.0)
+    if previous is not None:
+        before = _swing(previous)
+        change = (
+            min(abs(log(length / max(previous.length, LEAST_LENGTH))), 1.0),
+            1.0 if swing is None or before is None else min(abs(log(swing / before)), 1.0),
+        )
+    return (
+        min(measured.rest_share, 0.45),
+        log(min(max(measured.force_range, LEAST_FORCE_RANGE), 20.0)),
+        min(abs(log(max(ratio, 0.05))), 2.0),
+        min(max(0.0, log(SHORT_LENGTH / length)), 1.5),
+        log(1.0 + min(off_floor, 10.0)),
+        0.0 if swing is None else 5.0 * max(0.0, short - swing) + min(max(0.0, swing - long), 2.0),
+        min(max(0.0, log(max(measured.peak_speed, 0.1) / FASTEST_SWING)), 2.0),
+        *change,
+    )
+
+
+def _swing(stride: StrideTaken) -> float | None:
+    """Return the time from toe-off to heel-strike, s; None when one of them is not known."""
+    if stride.t_toe_off is None or stride.t_heel_strike is None:
+        return None
+    return max(LEAST_SWING, stride.t_heel_strike - stride.t_toe_off)
+
+
+def evidence_of(stride: StrideTaken, previous: StrideTaken | None) -> float:
+    """Return the logarithm of the likelihood ratio of a foot that carries its walker to one that does not."""
+    total = OFFSET
+    for weight, value in zip(WEIGHTS, features(stride, previous), strict=True):
+        total += weight * value
+    return total
+
+
+@define
+class Bearing:
+    """Whether a foot carries its walker, and its strides for as long as that is not known.
+
+    Latency: none once it is known; else at most `MOST_WAITING` strides and `LONGEST_WAIT` s."""
+
+    evidence: float = 0.0
+    """Logarithm of the likelihood ratio over the strides so far, from -KNOWN to SUREST."""
+    waiting: list[StrideTaken] = field(factory=list)
+    """Strides of which it is not known yet whether the foot carried its walker, oldest first."""
+    previous: StrideTaken | None = None
+    """Newest stride of the bout; None before any."""
+
+    def add(self, stride: StrideTaken) -> tuple[list[StrideTaken], list[StrideTaken]]:
+        """Add a stride; return the strides that are known now, and those that were none."""
+        previous = self.previous
+        if previous is not None and stride.t_end - previous.t_end > LONGEST_WAIT:
+            previous, self.evidence = None, min(self.evidence, 0.0)
+        one = max(MOST_AGAINST, min(MOST_FOR, evidence_of(stride, previous)))
+        self.evidence = max(-KNOWN, min(SUREST, self.evidence + one))
+        self.previous = stride
+        waiting = [*self.waiting, stride]
+        if self.evidence >= KNOWN:
+            self.waiting = []
+            return [evolve(one, known_at=stride.known_at) for one in waiting], []
+        is_none = self.evidence <= -KNOWN
+        kept = [] if is_none else [one for one in waiting[-MOST_WAITING:] if stride.t_end - one.t_end < LONGEST_WAIT]
+        self.waiting = kept
+        return [], waiting[: len(waiting) - len(kept)]
