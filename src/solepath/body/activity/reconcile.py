@@ -1,0 +1,172 @@
+"""Strides and the likeliest sequence of activities, brought to agree: a closed stride is evidence that nothing outweighs.
+
+The sequence (hypotheses.py) is found from blocks of half a second, some of which are the slow stance of a patient, and
+some the legs of a cyclist. A stride that is reported is of a foot that carries its walker (foot/bearing.py). So the
+wearer walks, runs or is on stairs while a stride lasts, whatever its duration; and what looks like walking, but has no
+stride for longer than the pause of one bout, is not known."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import fsum, inf
+
+from ...events import StrideTaken
+from ...types import Activity
+from ...types.attrs import define, field
+from .chain import STAIRS_DOWN, STAIRS_UP
+from .hypotheses import ActivitySegment
+from .motion import slope_evidence
+
+Likely = tuple[ActivitySegment, float]
+"""An activity and its probability."""
+GAITS = (Activity.WALKING, Activity.RUNNING, Activity.STAIRS_UP, Activity.STAIRS_DOWN)
+"""Activities in which the feet carry the wearer from place to place."""
+BOUT_PAUSE = 3.0
+"""Longest pause within one bout of walking, s (Kluge et al., "Consensus based framework for digital mobility
+monitoring", PLoS ONE 16, 2021)."""
+EDGE = 1.5
+"""Time before the first and after the last stride of a bout that may belong to it, s: a half stride, and the reach of a
+block's window (`WINDOW_REACH`)."""
+STRIDE_JOINT = 1.0
+"""Longest time between two strides, of either foot, in which nobody stands, s: the stance of a usual stride."""
+LONGEST_STRIDE_RATIO = 2.0
+"""Ratio of a stride's time to the wearer's usual one from which on the stride contains standing."""
+STANCE_PER_SWING = 1.5
+"""Usual ratio of stance to swing: 60 to 40 % of a gait cycle (Perry 1992)."""
+FIRST_STRIDE_TIME, STRIDE_TIME_GAIN, LARGEST_RATIO = 1.2, 0.3, 1.5
+"""Usual time of a stride before any, s, weight of the newest one, and limit of its ratio to the usual one."""
+STAIRS_EVIDENCE = 1.0
+"""Mean evidence of strides, a logarithm of a likelihood ratio, from which on they are on stairs."""
+SETTLING_TIME = 6.0
+"""Time after which all strides of a moment are known, s: a patient's stride, and the wait of a bout's first ones."""
+CERTAINTY = 0.9
+"""Probability of what strides show: that of the evidence from which on a foot is known to carry its walker."""
+
+
+@define
+class StrideSpan:
+    """The time in which a stride moved the wearer, s, and what it shows."""
+
+    start: float
+    end: float
+    up: float
+    """Evidence of stairs up, and down, as logarithms of likelihood ratios."""
+    down: float
+    walks: bool
+    """Flag: the foot was on the ground for more than half of the stride, so that nobody ran."""
+
+
+@define
+class Strides:
+    """The strides of both feet that are newer than the last final activity."""
+
+    spans: list[StrideSpan] = field(factory=list)
+    usual_time: float = FIRST_STRIDE_TIME
+    """Usual time of a stride of this wearer, s."""
+    tracked: bool = False
+    """Flag: the feet have gyroscopes and are navigated, so that a walk has strides."""
+    gait_since: float | None = None
+    """Time since which the likeliest sequence has nothing but gaits, s; None when it ends with another activity."""
+
+    def add(self, stride: StrideTaken, length: float, rise: float) -> None:
+        """Add a stride of this length and rise, m."""
+        start, end, slope = stride.t_start, stride.t_end, slope_evidence(length, rise)
+        t_toe_off, t_heel_strike = stride.t_toe_off, stride.t_heel_strike
+        swing = 0.4 * self.usual_time if t_toe_off is None or t_heel_strike is None else t_heel_strike - t_toe_off
+        if end - start > LONGEST_STRIDE_RATIO * self.usual_time:
+            lifted = end - swing if t_toe_off is None else t_toe_off
+            start = max(start, lifted - STANCE_PER_SWING * max(swing, 0.0))
+        time = min(end - start, LARGEST_RATIO * self.usual_time)
+        self.usual_time += STRIDE_TIME_GAIN * (time - self.usual_time)
+        self.spans.append(StrideSpan(start, end, slope.up, slope.down, swing < 0.5 * (end - start)))
+        self.spans.sort(key=_start)
+
+    def forget(self, until: float) -> None:
+        """Forget the strides that ended before `until`, s."""
+        self.spans = [span for span in self.spans if span.end >= until]
+
+    def covered(self, start: float, end: float) -> float:
+        """Return the time between `start` and `end`, s, in which strides moved the wearer."""
+        parts = [min(end, last) - max(start, first) for first, last in self._joined(STRIDE_JOINT)]
+        return fsum([max(0.0, part) for part in parts])
+
+    def _joined(self, pause: float) -> list[tuple[float, float]]:
+        """Return the times of walking, s, whose pauses are longer than `pause`."""
+        joined: list[tuple[float, float]] = []
+        for span in self.spans:
+            if joined and span.start - joined[-1][1] <= pause:
+                joined[-1] = (joined[-1][0], max(joined[-1][1], span.end))
+            else:
+                joined.append((span.start, span.end))
+        return joined
+
+    def reconcile(self, likely: Sequence[Likely], now: float) -> list[Likely]:
+        """Return the activities that agree with the strides up to `now`, s; `likely` is the likeliest sequence."""
+        if not self.tracked:
+            return [*likely]
+        walked = self._joined(STRIDE_JOINT)
+        bouts = [(start - EDGE, end + EDGE) for start, end in self._joined(BOUT_PAUSE)]
+        # whoever walks now may be in a stride that has not ended, or whose foot is not known to carry yet
+        since = None
+        for segment, _ in likely:
+            since = None if segment.activity not in GAITS else segment.t if since is None else since
+        if since is None or self.gait_since is None:
+            self.gait_since = since
+        if self.gait_since is not None:
+            open_since = max([self.gait_since, *[span.end for span in self.spans]])
+            if now - open_since < SETTLING_TIME:
+                bouts.append((open_since, inf))
+        agreed: list[Likely] = []
+        for k, (segment, probability) in enumerate(likely):
+            end = likely[k + 1][0].t if k + 1 < len(likely) else inf
+            if segment.activity in GAITS:
+                for t, until, supported in _cut(segment.t, end, bouts):
+                    activity = self._gait(segment.activity, t, until) if supported else Activity.UNKNOWN
+                    _append(agreed, segment, t, activity, probability if supported else 1.0 - CERTAINTY)
+            else:
+                for t, until, supported in _cut(segment.t, end, walked):
+                    activity = self._gait(None, t, until) if supported else segment.activity
+                    _append(agreed, segment, t, activity, CERTAINTY if supported else probability)
+        return agreed
+
+    def _gait(self, likeliest: Activity | None, start: float, end: float) -> Activity:
+        """Return the gait from `start` to `end`, s; `likeliest` is that of the sequence, None if that has none."""
+        spans = [span for span in self.spans if span.start < end and span.end > start]
+        if likeliest is Activity.RUNNING and 2 * [span.walks for span in spans].count(True) > len(spans):
+            return Activity.WALKING
+        if likeliest is not None or not spans:
+            return likeliest or Activity.WALKING
+        up, down = [fsum(values) / len(spans) for values in zip(*[(span.up, span.down) for span in spans], strict=True)]
+        if max(up, down) < STAIRS_EVIDENCE:
+            return Activity.WALKING
+        return Activity.STAIRS_UP if up > down else Activity.STAIRS_DOWN
+
+
+def _start(span: StrideSpan) -> float:
+    return span.start
+
+
+def _cut(start: float, end: float, times: Sequence[tuple[float, float]]) -> list[tuple[float, float, bool]]:
+    """Return the parts of the time from `start` to `end`, s, each with whether it lies within one of `times`."""
+    parts: list[tuple[float, float, bool]] = []
+    for first, last in times:
+        first, last = max(first, start), min(last, end)
+        if first >= last:
+            continue
+        if first > start:
+            parts.append((start, first, False))
+        parts.append((first, last, True))
+        start = last
+    if start < end:
+        parts.append((start, end, False))
+    return parts
+
+
+def _append(agreed: list[Likely], segment: ActivitySegment, t: float, activity: Activity, probability: float) -> None:
+    """Append the activity from `t`, s, unless it goes on."""
+    if agreed and agreed[-1][0].activity is activity:
+        return
+    if activity is segment.activity and t == segment.t:
+        agreed.append((segment, probability))
+    else:
+        agreed.append((ActivitySegment(t, activity), probability))
