@@ -130,6 +130,7 @@ class Activities(ActivityPart):
             if events:
                 side.add_events(events, view.position[2])
                 for event in events:
+                    self.report.strides.add_event(event)
                     if isinstance(event, StrideTaken):
                         outputs += self._add_stride(event, floor(block_number))
         for event in events:  # a barometer that contradicts the strides is left out

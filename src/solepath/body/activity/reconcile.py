@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import fsum, inf
 
-from ...events import StrideTaken
-from ...types import Activity
+from ...events import Event, HeelStrike, StrideTaken, ToeOff
+from ...types import Activity, Foot
 from ...types.attrs import define, field
 from .chain import STAIRS_DOWN, STAIRS_UP
 from .hypotheses import ActivitySegment
@@ -27,13 +27,9 @@ monitoring", PLoS ONE 16, 2021)."""
 EDGE = 1.5
 """Time before the first and after the last stride of a bout that may belong to it, s: a half stride, and the reach of a
 block's window (`WINDOW_REACH`)."""
-STRIDE_JOINT = 1.0
-"""Longest time between two strides, of either foot, in which nobody stands, s: the stance of a usual stride."""
-LONGEST_STRIDE_RATIO = 2.0
-"""Ratio of a stride's time to the wearer's usual one from which on the stride contains standing."""
-STANCE_PER_SWING = 1.5
-"""Usual ratio of stance to swing: 60 to 40 % of a gait cycle (Perry 1992)."""
-FIRST_STRIDE_TIME, STRIDE_TIME_GAIN, LARGEST_RATIO = 1.2, 0.3, 1.5
+LONGEST_PHASE = 2.0
+"""Longest stance, and longest swing, of a gait cycle, s."""
+FIRST_STRIDE_TIME, STRIDE_TIME_GAIN, LARGEST_RATIO = 1.2, 0.5, 2.0
 """Usual time of a stride before any, s, weight of the newest one, and limit of its ratio to the usual one."""
 STAIRS_EVIDENCE = 1.0
 """Mean evidence of strides, a logarithm of a likelihood ratio, from which on they are on stairs."""
@@ -45,15 +41,13 @@ CERTAINTY = 0.9
 
 @define
 class StrideSpan:
-    """The time in which a stride moved the wearer, s, and what it shows."""
+    """The swing of a stride, s, and what the stride shows."""
 
     start: float
     end: float
     up: float
     """Evidence of stairs up, and down, as logarithms of likelihood ratios."""
     down: float
-    walks: bool
-    """Flag: the foot was on the ground for more than half of the stride, so that nobody ran."""
 
 
 @define
@@ -61,6 +55,12 @@ class Strides:
     """The strides of both feet that are newer than the last final activity."""
 
     spans: list[StrideSpan] = field(factory=list)
+    toe_offs: dict[Foot, float] = field(factory=dict)
+    """Time of the newest toe-off of each foot, s."""
+    contacts: dict[Foot, tuple[float, float]] = field(factory=dict)
+    """Time of the newest heel-strike of each foot, s, and time of the swing before it, s."""
+    cycles: list[tuple[float, bool]] = field(factory=list)
+    """Time of the end of each stance, s, and whether it was longer than the swing before it: nobody ran."""
     usual_time: float = FIRST_STRIDE_TIME
     """Usual time of a stride of this wearer, s."""
     tracked: bool = False
@@ -71,23 +71,32 @@ class Strides:
     def add(self, stride: StrideTaken, length: float, rise: float) -> None:
         """Add a stride of this length and rise, m."""
         start, end, slope = stride.t_start, stride.t_end, slope_evidence(length, rise)
-        t_toe_off, t_heel_strike = stride.t_toe_off, stride.t_heel_strike
-        swing = 0.4 * self.usual_time if t_toe_off is None or t_heel_strike is None else t_heel_strike - t_toe_off
-        if end - start > LONGEST_STRIDE_RATIO * self.usual_time:
-            lifted = end - swing if t_toe_off is None else t_toe_off
-            start = max(start, lifted - STANCE_PER_SWING * max(swing, 0.0))
-        time = min(end - start, LARGEST_RATIO * self.usual_time)
+        time = min(end - start, LARGEST_RATIO * self.usual_time, BOUT_PAUSE)
         self.usual_time += STRIDE_TIME_GAIN * (time - self.usual_time)
-        self.spans.append(StrideSpan(start, end, slope.up, slope.down, swing < 0.5 * (end - start)))
+        start = start if stride.t_toe_off is None else max(start, stride.t_toe_off)
+        end = end if stride.t_heel_strike is None else min(end, stride.t_heel_strike)
+        self.spans.append(StrideSpan(start, end, slope.up, slope.down))
         self.spans.sort(key=_start)
+
+    def add_event(self, event: Event) -> None:
+        """Add a heel-strike or a toe-off, which tell a run from a walk."""
+        if isinstance(event, HeelStrike):
+            self.contacts[event.foot] = (event.t, event.t - self.toe_offs.get(event.foot, -inf))
+        elif isinstance(event, ToeOff):
+            self.toe_offs[event.foot] = event.t
+            contact, swing = self.contacts.get(event.foot, (-inf, inf))
+            stance = event.t - contact
+            if max(stance, swing) < LONGEST_PHASE:
+                self.cycles.append((event.t, stance > swing))
 
     def forget(self, until: float) -> None:
         """Forget the strides that ended before `until`, s."""
         self.spans = [span for span in self.spans if span.end >= until]
+        self.cycles = [cycle for cycle in self.cycles if cycle[0] >= until]
 
     def covered(self, start: float, end: float) -> float:
         """Return the time between `start` and `end`, s, in which strides moved the wearer."""
-        parts = [min(end, last) - max(start, first) for first, last in self._joined(STRIDE_JOINT)]
+        parts = [min(end, last) - max(start, first) for first, last in self._joined(self.usual_time)]
         return fsum([max(0.0, part) for part in parts])
 
     def _joined(self, pause: float) -> list[tuple[float, float]]:
@@ -104,7 +113,7 @@ class Strides:
         """Return the activities that agree with the strides up to `now`, s; `likely` is the likeliest sequence."""
         if not self.tracked:
             return [*likely]
-        walked = self._joined(STRIDE_JOINT)
+        walked = self._joined(self.usual_time)
         bouts = [(start - EDGE, end + EDGE) for start, end in self._joined(BOUT_PAUSE)]
         # whoever walks now may be in a stride that has not ended, or whose foot is not known to carry yet
         since = None
@@ -131,9 +140,10 @@ class Strides:
 
     def _gait(self, likeliest: Activity | None, start: float, end: float) -> Activity:
         """Return the gait from `start` to `end`, s; `likeliest` is that of the sequence, None if that has none."""
+        if likeliest is Activity.RUNNING:
+            walked = [walks for t, walks in self.cycles if start <= t < end]
+            return Activity.WALKING if 2 * walked.count(True) > len(walked) else Activity.RUNNING
         spans = [span for span in self.spans if span.start < end and span.end > start]
-        if likeliest is Activity.RUNNING and 2 * [span.walks for span in spans].count(True) > len(spans):
-            return Activity.WALKING
         if likeliest is not None or not spans:
             return likeliest or Activity.WALKING
         up, down = [fsum(values) / len(spans) for values in zip(*[(span.up, span.down) for span in spans], strict=True)]
