@@ -37,6 +37,9 @@ WEIGHTS = (6.6, 3.0, -0.86, -1.8, -0.6, -2.8, -12.0, -3.0, -1.3)
 
 MOST_FOR, MOST_AGAINST = 3.0, -3.0
 """Limits of the evidence of one stride, so that none decides alone against those before it."""
+MOST_OF_FIRST = 1.5
+"""Limit of the evidence of the first stride of a bout, which is below `KNOWN`: a bout has two strides at least (Kluge et
+al., "Consensus based framework for digital mobility monitoring", PLoS ONE 16, 2021)."""
 KNOWN, SUREST = 2.0, 5.0
 """Evidence from which on a foot is known to carry its walker, and its largest value."""
 MOST_WAITING = 4
@@ -110,7 +113,8 @@ class Bearing:
         previous = self.previous
         if previous is not None and stride.t_end - previous.t_end > LONGEST_WAIT:
             previous, self.evidence = None, min(self.evidence, 0.0)
-        one = max(MOST_AGAINST, min(MOST_FOR, evidence_of(stride, previous)))
+        most = MOST_OF_FIRST if previous is None else MOST_FOR
+        one = max(MOST_AGAINST, min(most, evidence_of(stride, previous)))
         self.evidence = max(-KNOWN, min(SUREST, self.evidence + one))
         self.previous = stride
         waiting = [*self.waiting, stride]

@@ -8,9 +8,10 @@ stride for longer than the pause of one bout, is not known."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from math import fsum, inf
 
-from ...events import Event, HeelStrike, StrideTaken, ToeOff
+from ...events import Event, FootFlat, HeelOff, HeelStrike, StrideTaken, ToeOff
 from ...types import Activity, Foot
 from ...types.attrs import define, field
 from .chain import STAIRS_DOWN, STAIRS_UP
@@ -24,13 +25,15 @@ GAITS = (Activity.WALKING, Activity.RUNNING, Activity.STAIRS_UP, Activity.STAIRS
 BOUT_PAUSE = 3.0
 """Longest pause within one bout of walking, s (Kluge et al., "Consensus based framework for digital mobility
 monitoring", PLoS ONE 16, 2021)."""
+LONGEST_TURN = 6.0
+"""Longest time between two strides with a turn on the spot, s: a pause before it and one after it."""
+LEAST_LIFT = 0.3
+"""Shortest time for which a foot is lifted that moves, s; a foot at rest seems to leave the ground for less."""
 EDGE = 1.5
 """Time before the first and after the last stride of a bout that may belong to it, s: a half stride, and the reach of a
 block's window (`WINDOW_REACH`)."""
 LONGEST_PHASE = 2.0
 """Longest stance, and longest swing, of a gait cycle, s."""
-FIRST_STRIDE_TIME, STRIDE_TIME_GAIN, LARGEST_RATIO = 1.2, 0.5, 2.0
-"""Usual time of a stride before any, s, weight of the newest one, and limit of its ratio to the usual one."""
 STAIRS_EVIDENCE = 1.0
 """Mean evidence of strides, a logarithm of a likelihood ratio, from which on they are on stairs."""
 SETTLING_TIME = 6.0
@@ -61,8 +64,10 @@ class Strides:
     """Time of the newest heel-strike of each foot, s, and time of the swing before it, s."""
     cycles: list[tuple[float, bool]] = field(factory=list)
     """Time of the end of each stance, s, and whether it was longer than the swing before it: nobody ran."""
-    usual_time: float = FIRST_STRIDE_TIME
-    """Usual time of a stride of this wearer, s."""
+    heel_off: float = -inf
+    """Time of the newest heel-off of either foot, s."""
+    moved: list[float] = field(factory=list)
+    """Times at which a foot that was lifted came down again, with a stride or without, s."""
     tracked: bool = False
     """Flag: the feet have gyroscopes and are navigated, so that a walk has strides."""
     gait_since: float | None = None
@@ -71,16 +76,19 @@ class Strides:
     def add(self, stride: StrideTaken, length: float, rise: float) -> None:
         """Add a stride of this length and rise, m."""
         start, end, slope = stride.t_start, stride.t_end, slope_evidence(length, rise)
-        time = min(end - start, LARGEST_RATIO * self.usual_time, BOUT_PAUSE)
-        self.usual_time += STRIDE_TIME_GAIN * (time - self.usual_time)
         start = start if stride.t_toe_off is None else max(start, stride.t_toe_off)
         end = end if stride.t_heel_strike is None else min(end, stride.t_heel_strike)
         self.spans.append(StrideSpan(start, end, slope.up, slope.down))
         self.spans.sort(key=_start)
 
     def add_event(self, event: Event) -> None:
-        """Add a heel-strike or a toe-off, which tell a run from a walk."""
-        if isinstance(event, HeelStrike):
+        """Add an event of a foot: contacts tell a run from a walk, and a foot that is lifted ends a pause."""
+        if isinstance(event, HeelOff):
+            self.heel_off = event.t
+        elif isinstance(event, FootFlat):
+            if event.t - self.heel_off > LEAST_LIFT:
+                self.moved.append(event.t)
+        elif isinstance(event, HeelStrike):
             self.contacts[event.foot] = (event.t, event.t - self.toe_offs.get(event.foot, -inf))
         elif isinstance(event, ToeOff):
             self.toe_offs[event.foot] = event.t
@@ -93,28 +101,35 @@ class Strides:
         """Forget the strides that ended before `until`, s."""
         self.spans = [span for span in self.spans if span.end >= until]
         self.cycles = [cycle for cycle in self.cycles if cycle[0] >= until]
+        self.moved = [t for t in self.moved if t >= until]
 
     def covered(self, start: float, end: float) -> float:
         """Return the time between `start` and `end`, s, in which strides moved the wearer."""
-        parts = [min(end, last) - max(start, first) for first, last in self._joined(self.usual_time)]
+        parts = [min(end, last) - max(start, first) for first, last in self._bouts()]
         return fsum([max(0.0, part) for part in parts])
 
-    def _joined(self, pause: float) -> list[tuple[float, float]]:
-        """Return the times of walking, s, whose pauses are longer than `pause`."""
-        joined: list[tuple[float, float]] = []
+    def _bouts(self) -> list[tuple[float, float]]:
+        """Return the bouts, s: the times of walking with pauses of at most `BOUT_PAUSE`.
+
+        In a pause all feet are flat. A foot that turns on the spot between two strides pauses before and after it."""
+        bouts: list[tuple[float, float]] = []
         for span in self.spans:
-            if joined and span.start - joined[-1][1] <= pause:
-                joined[-1] = (joined[-1][0], max(joined[-1][1], span.end))
-            else:
-                joined.append((span.start, span.end))
-        return joined
+            if bouts:
+                start, end = bouts[-1]
+                moved = [t for t in self.moved if end < t < span.start]
+                pauses = [after - before for before, after in pairwise([end, *moved, span.start])]
+                if max(pauses) <= BOUT_PAUSE and span.start - end <= LONGEST_TURN:
+                    bouts[-1] = (start, max(end, span.end))
+                    continue
+            bouts.append((span.start, span.end))
+        return bouts
 
     def reconcile(self, likely: Sequence[Likely], now: float) -> list[Likely]:
         """Return the activities that agree with the strides up to `now`, s; `likely` is the likeliest sequence."""
         if not self.tracked:
             return [*likely]
-        walked = self._joined(self.usual_time)
-        bouts = [(start - EDGE, end + EDGE) for start, end in self._joined(BOUT_PAUSE)]
+        walked = self._bouts()
+        bouts = [(start - EDGE, end + EDGE) for start, end in walked]
         # whoever walks now may be in a stride that has not ended, or whose foot is not known to carry yet
         since = None
         for segment, _ in likely:
