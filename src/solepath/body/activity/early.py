@@ -258,7 +258,8 @@ def cue_of_block(
     `votes` are the log-likelihoods of `MOTIONS` and of an unknown one, `levels` the forces on the feet at rest."""
     best = max(range(len(votes)), key=votes.__getitem__)
     probability = 1.0 / fsum([exp(vote - votes[best]) for vote in votes])
-    push = None if best != STAND or levels is None else elevator.estimate_acceleration(levels)
+    stands = best == STAND and elevator.lean_cost < LEAST_MARGIN
+    push = None if not stands or levels is None else elevator.estimate_acceleration(levels)
     if push is not None and abs(push[0]) > LEAST_PUSH and push[1] < PUSH_VARIANCE and levels is not None:
         sign = 1.0 if push[0] > 0.0 else -1.0
         pulse = elevator.add_pulse(levels, sign * PULSE_ACCELERATION, PULSE_DEVIATION)[2]

@@ -42,6 +42,11 @@ MOVING_OUTLIER_SHARE = 0.2
 """Share of blocks of moving feet that deviate by `MOVING_OUTLIER`."""
 MOVING_OUTLIER = 8.0
 """Standard deviation of these blocks, m/s^2; it is 1 m/s^2 for other blocks of moving feet."""
+LEAN_DEVIATION, MOST_LEAN_COST = 0.1, 3.0
+"""Standard deviation of the horizontal part of the force on the steadier foot in an elevator, m/s^2, and the largest
+penalty (minus log-likelihood) that a block has by it.
+
+In elevators 1 % of half seconds have more than 0.1 m/s^2 (hugadb); in a car half have more than 0.3."""
 LEAST_DENSITY = 1e-6
 """Lowest probability density of an acceleration, s^2/m."""
 
@@ -56,6 +61,8 @@ class BlockForce:
     """Flag: the foot moved in the block."""
     resolution: float = 0.0
     """Resolution of the accelerometer, m/s^2 per count; 0 when it is not known."""
+    lean: float = 0.0
+    """Part of the force across its mean direction since the foot came to rest, m/s^2."""
 
     @property
     def first_variance(self) -> float:
@@ -108,6 +115,12 @@ class ElevatorEvidence:
         self.forces = forces
         # keys are ids of levels; they stay valid because tokens hold the levels longer than this object exists
         self.found: dict[tuple[object, ...], Any] = {}
+
+    @property
+    def lean_cost(self) -> float:
+        """Penalty (minus log-likelihood) of an elevator, whose acceleration is vertical, when the force leans."""
+        lean = min([block.lean for block in self.forces if block is not None], default=0.0) / LEAN_DEVIATION
+        return min(0.5 * lean * lean, MOST_LEAN_COST)
 
     @_once
     def add_rest(self, levels: RestLevels) -> tuple[RestLevels, float]:
