@@ -179,11 +179,14 @@ class Activities(ActivityPart):
             if self.walked:
                 pressure_scores = air.score_slope(index, BLOCK_DURATION)
             before, after = air.height(index - BLOCKS_BEFORE, index - 1), air.height(index, index + WINDOW_REACH)
+        forces = self._forces(index)
+        if (leans := ElevatorEvidence(forces).leans) is not None:
+            self.report.strides.forces.append((self._time(index), leans))
         self.hypotheses.update(
             BlockEvidence(
                 t=self._time(index),
                 motion_scores=motion_votes(model, features),
-                forces=self._forces(index),
+                forces=forces,
                 pressure_scores=pressure_scores,
                 before=before,
                 after=after,

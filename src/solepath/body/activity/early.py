@@ -100,7 +100,8 @@ class ActivityReport:
         events: list[Event] = []
         while self.rides and (ending or now - self.rides[0][1] >= SETTLING_TIME):
             ride, t_end = self.rides.pop(0)
-            if 2.0 * self.strides.covered(ride.t, t_end) < t_end - ride.t:
+            is_ridden = 2.0 * self.strides.covered(ride.t, t_end) < t_end - ride.t
+            if is_ridden and not self.strides.leans(ride.t, t_end):
                 events.append(_ride_event(ride, t_end, known_at))
         return events
 
@@ -258,8 +259,7 @@ def cue_of_block(
     `votes` are the log-likelihoods of `MOTIONS` and of an unknown one, `levels` the forces on the feet at rest."""
     best = max(range(len(votes)), key=votes.__getitem__)
     probability = 1.0 / fsum([exp(vote - votes[best]) for vote in votes])
-    stands = best == STAND and elevator.lean_cost < LEAST_MARGIN
-    push = None if not stands or levels is None else elevator.estimate_acceleration(levels)
+    push = None if best != STAND or levels is None else elevator.estimate_acceleration(levels)
     if push is not None and abs(push[0]) > LEAST_PUSH and push[1] < PUSH_VARIANCE and levels is not None:
         sign = 1.0 if push[0] > 0.0 else -1.0
         pulse = elevator.add_pulse(levels, sign * PULSE_ACCELERATION, PULSE_DEVIATION)[2]

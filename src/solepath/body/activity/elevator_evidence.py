@@ -42,11 +42,10 @@ MOVING_OUTLIER_SHARE = 0.2
 """Share of blocks of moving feet that deviate by `MOVING_OUTLIER`."""
 MOVING_OUTLIER = 8.0
 """Standard deviation of these blocks, m/s^2; it is 1 m/s^2 for other blocks of moving feet."""
-LEAN_DEVIATION, MOST_LEAN_COST = 0.1, 3.0
-"""Standard deviation of the horizontal part of the force on the steadier foot in an elevator, m/s^2, and the largest
-penalty (minus log-likelihood) that a block has by it.
+LARGEST_LEAN = 0.25
+"""Largest horizontal part of the force on a foot that rests in an elevator, m/s^2.
 
-In elevators 1 % of half seconds have more than 0.1 m/s^2 (hugadb); in a car half have more than 0.3."""
+In elevators 1 % of half seconds have more than 0.1 (hugadb); in a car half have more than 0.3."""
 LEAST_DENSITY = 1e-6
 """Lowest probability density of an acceleration, s^2/m."""
 
@@ -117,10 +116,10 @@ class ElevatorEvidence:
         self.found: dict[tuple[object, ...], Any] = {}
 
     @property
-    def lean_cost(self) -> float:
-        """Penalty (minus log-likelihood) of an elevator, whose acceleration is vertical, when the force leans."""
-        lean = min([block.lean for block in self.forces if block is not None], default=0.0) / LEAN_DEVIATION
-        return min(0.5 * lean * lean, MOST_LEAN_COST)
+    def leans(self) -> bool | None:
+        """Whether the force leans on all feet that rest, as no elevator makes it; None if none rests."""
+        leans = [block.lean > LARGEST_LEAN for block in self.forces if block is not None and not block.moved]
+        return all(leans) if leans else None
 
     @_once
     def add_rest(self, levels: RestLevels) -> tuple[RestLevels, float]:

@@ -362,10 +362,9 @@ def _score_path(
     motion = state
     if state in RIDE_STATES:
         motion = STAND
-        start_score = -elevator.lean_cost
         is_new = not token.path or token.path[-1].activity is not ACTIVITIES[state]
         if is_new and token.ride.standing_time < DWELL_TIME:
-            start_score -= SHORT_DWELL_COST
+            start_score = -SHORT_DWELL_COST
     if state in PULSES:
         levels, acceleration, log_likelihood = elevator.add_pulse(levels, *PULSES[state])
     elif motion == STAND:

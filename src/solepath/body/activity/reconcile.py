@@ -14,7 +14,7 @@ from math import fsum, inf
 from ...events import Event, FootFlat, HeelOff, HeelStrike, StrideTaken, ToeOff
 from ...types import Activity, Foot
 from ...types.attrs import define, field
-from .chain import STAIRS_DOWN, STAIRS_UP
+from .chain import ELEVATOR_ACTIVITIES
 from .hypotheses import ActivitySegment
 from .motion import slope_evidence
 
@@ -34,6 +34,8 @@ EDGE = 1.5
 block's window (`WINDOW_REACH`)."""
 LONGEST_PHASE = 2.0
 """Longest stance, and longest swing, of a gait cycle, s."""
+LEANING_SHARE = 0.2
+"""Share of the time in which the force leans from which on the wearer is in a vehicle and in no elevator."""
 STAIRS_EVIDENCE = 1.0
 """Mean evidence of strides, a logarithm of a likelihood ratio, from which on they are on stairs."""
 SETTLING_TIME = 6.0
@@ -68,6 +70,8 @@ class Strides:
     """Time of the newest heel-off of either foot, s."""
     moved: list[float] = field(factory=list)
     """Times at which a foot that was lifted came down again, with a stride or without, s."""
+    forces: list[tuple[float, bool]] = field(factory=list)
+    """Times of half seconds at rest, s, and whether the force on the feet leans in them."""
     tracked: bool = False
     """Flag: the feet have gyroscopes and are navigated, so that a walk has strides."""
     gait_since: float | None = None
@@ -102,6 +106,12 @@ class Strides:
         self.spans = [span for span in self.spans if span.end >= until]
         self.cycles = [cycle for cycle in self.cycles if cycle[0] >= until]
         self.moved = [t for t in self.moved if t >= until]
+        self.forces = [force for force in self.forces if force[0] >= until]
+
+    def leans(self, start: float, end: float) -> bool:
+        """Return whether the force on the feet leans so often between `start` and `end`, s, that they are in a vehicle."""
+        leaning = [leans for t, leans in self.forces if start <= t < end]
+        return leaning.count(True) > LEANING_SHARE * len(leaning)
 
     def covered(self, start: float, end: float) -> float:
         """Return the time between `start` and `end`, s, in which strides moved the wearer."""
@@ -148,8 +158,10 @@ class Strides:
                     activity = self._gait(segment.activity, t, until) if supported else Activity.UNKNOWN
                     _append(agreed, segment, t, activity, probability if supported else 1.0 - CERTAINTY)
             else:
+                in_vehicle = segment.activity in ELEVATOR_ACTIVITIES and self.leans(segment.t, end)
+                otherwise = Activity.UNKNOWN if in_vehicle else segment.activity
                 for t, until, supported in _cut(segment.t, end, walked):
-                    activity = self._gait(None, t, until) if supported else segment.activity
+                    activity = self._gait(None, t, until) if supported else otherwise
                     _append(agreed, segment, t, activity, CERTAINTY if supported else probability)
         return agreed
 
