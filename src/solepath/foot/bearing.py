@@ -44,6 +44,8 @@ KNOWN, SUREST = 2.0, 5.0
 """Evidence from which on a foot is known to carry its walker, and its largest value."""
 MOST_WAITING = 4
 """Number of strides that wait until it is known whether the foot carries, the newest included."""
+FARTHEST = 1e6
+"""Largest distance, m, by which a foot is moved back; values beyond it are those of a sensor that fails."""
 LONGEST_WAIT = 5.0
 """Longest time between two strides of one bout, s, and longest time for which a stride waits."""
 

@@ -10,7 +10,7 @@ from ..events import Event, StrideTaken
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import evolve, field, stateful
 from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub
-from .bearing import Bearing
+from .bearing import FARTHEST, Bearing, evidence_of
 from .cues.cues import Cues, TimedCue
 from .gap import Infill
 from .navigate.corrector import Corrector
@@ -167,9 +167,11 @@ class Gait:
     def _undo(self, dropped: Sequence[StrideTaken], corrector: Corrector) -> None:
         """Move a foot that carries nobody back to where the strides began that were none."""
         apply_shift = getattr(corrector, "shift", None)
-        if apply_shift is None:
+        # a lone stride is no bout, but it moved the foot all the same
+        moves = [one.displacement for one in dropped if evidence_of(one, None) < 0.0]
+        if apply_shift is None or not moves or not hypot(*[hypot(*move) for move in moves]) < FARTHEST:
             return
-        x, y, z = [-fsum(values) for values in zip(*[one.displacement for one in dropped], strict=True)]
+        x, y, z = [-fsum(values) for values in zip(*moves, strict=True)]
         apply_shift(0.0, self.shift(0.0, (x, y, z)))
         waiting = self.bearing.waiting
         self.bearing.waiting = [evolve(one, position=add(one.position, (x, y, z))) for one in waiting]

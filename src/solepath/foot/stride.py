@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from math import hypot, inf, sqrt
+from math import hypot, sqrt
 from typing import NamedTuple
 
 from ..events import Flaw, StrideFeatures, StrideTaken
 from ..events.foot import LONGEST_HARMLESS_GAP
 from ..types import Foot, Quat, Vec2, Vec3
 from ..types.attrs import define, field
-from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
+from ..types.vector import GRAVITY, IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .rhythm import follow
 from .view import FASTEST_RUN
@@ -102,9 +102,9 @@ class StrideBuilder:
     """Square of the largest angular rate of this stride and the one before, (rad/s)^2."""
     stride_rate: float = 0.0
     """Square of the largest angular rate of this stride, (rad/s)^2."""
-    least_force: float = inf
+    least_force: float = GRAVITY * GRAVITY
     """Square of the smallest specific force of the stride, (m/s^2)^2."""
-    most_force: float = 0.0
+    most_force: float = GRAVITY * GRAVITY
     """Square of the largest specific force of the stride, (m/s^2)^2."""
     t_heel_off: float | None = None
     """Time of heel-off, s; None before it."""
@@ -171,7 +171,8 @@ class StrideBuilder:
         self.peak_height = position[2]
         self.peak_speed = self.pitch = self.pitch_low = self.pitch_high = 0.0
         self.peak_rate, self.stride_rate = self.stride_rate, 0.0
-        self.rest_time, self.least_force, self.most_force = 0.0, inf, 0.0
+        self.rest_time, self.least_force = 0.0, GRAVITY * GRAVITY
+        self.most_force = self.least_force
         self.load_sum = 0.0
         self.load_count = 0
         self.cop = []
@@ -343,7 +344,7 @@ class StrideBuilder:
                 cop=tuple(self.cop),
                 error_index=corrector.error_index,
                 rest_share=min(1.0, self.rest_time / (t - self.t_start)) if t > self.t_start else 0.0,
-                force_range=sqrt(self.most_force) - sqrt(min(self.least_force, self.most_force)),
+                force_range=sqrt(self.most_force) - sqrt(self.least_force),
                 rise=rise,
             ),
         )

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from math import fsum, inf
 
-from ...events import Event, FootFlat, HeelOff, HeelStrike, StrideTaken, ToeOff
+from ...events import Event, FootFlat, GaitEvent, HeelOff, HeelStrike, StrideTaken, ToeOff
 from ...types import Activity, Foot
 from ...types.attrs import define, field
 from .chain import ELEVATOR_ACTIVITIES
@@ -60,14 +60,10 @@ class Strides:
     """The strides of both feet that are newer than the last final activity."""
 
     spans: list[StrideSpan] = field(factory=list)
-    toe_offs: dict[Foot, float] = field(factory=dict)
-    """Time of the newest toe-off of each foot, s."""
-    contacts: dict[Foot, tuple[float, float]] = field(factory=dict)
-    """Time of the newest heel-strike of each foot, s, and time of the swing before it, s."""
+    newest: dict[Foot, dict[str, float]] = field(factory=dict)
+    """Time of the newest event of each kind of each foot, s."""
     cycles: list[tuple[float, bool]] = field(factory=list)
     """Time of the end of each stance, s, and whether it was longer than the swing before it: nobody ran."""
-    heel_off: float = -inf
-    """Time of the newest heel-off of either foot, s."""
     moved: list[float] = field(factory=list)
     """Times at which a foot that was lifted came down again, with a stride or without, s."""
     forces: list[tuple[float, bool]] = field(factory=list)
@@ -87,19 +83,19 @@ class Strides:
 
     def add_event(self, event: Event) -> None:
         """Add an event of a foot: contacts tell a run from a walk, and a foot that is lifted ends a pause."""
-        if isinstance(event, HeelOff):
-            self.heel_off = event.t
-        elif isinstance(event, FootFlat):
-            if event.t - self.heel_off > LEAST_LIFT:
+        if not isinstance(event, GaitEvent):
+            return
+        times = self.newest.setdefault(event.foot, {})
+        if isinstance(event, FootFlat):
+            if event.t - times.get(HeelOff.__name__, event.t) > LEAST_LIFT:
                 self.moved.append(event.t)
-        elif isinstance(event, HeelStrike):
-            self.contacts[event.foot] = (event.t, event.t - self.toe_offs.get(event.foot, -inf))
         elif isinstance(event, ToeOff):
-            self.toe_offs[event.foot] = event.t
-            contact, swing = self.contacts.get(event.foot, (-inf, inf))
-            stance = event.t - contact
-            if max(stance, swing) < LONGEST_PHASE:
-                self.cycles.append((event.t, stance > swing))
+            lifted, contact = times.get(ToeOff.__name__), times.get(HeelStrike.__name__)
+            if lifted is not None and contact is not None and lifted < contact:
+                swing, stance = contact - lifted, event.t - contact
+                if max(stance, swing) < LONGEST_PHASE:
+                    self.cycles.append((event.t, stance > swing))
+        times[type(event).__name__] = event.t
 
     def forget(self, until: float) -> None:
         """Forget the strides that ended before `until`, s."""
