@@ -20,7 +20,7 @@ from .evaluate import command as evaluate
 from .evaluate import sensitivity
 from .options import FOLDER, ONLY, PROCESSES, Option, option
 from .reproduce import command as reproduce
-from .train import activities, footstep_activity, turns
+from .train import activities, bearing, footstep_activity, turns
 
 Command = tuple[str, ModuleType, tuple[Option, ...]]
 """What the help says of a command, its module, whose `run` is called, and its options."""
@@ -63,6 +63,7 @@ GROUPS: dict[str, tuple[str, dict[str, Command]]] = {
         "learn the parameters of a part again",
         {
             "activities": ("network of the activities", activities, (FOLDER,)),
+            "bearing": ("weights of what tells strides from other motions", bearing, (FOLDER, PROCESSES)),
             "turns": (
                 "weights of the classifier of turns", turns,
                 (option("--emulate", action="store_true", help="write turns.csv again"),),
