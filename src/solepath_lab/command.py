@@ -15,7 +15,7 @@ from solepath.cli.main import form, guarded
 
 from . import options
 from .damage import clocks, losses, sensors
-from .emulated import by_hand, evidence, north, other_motions, reliability, runs
+from .emulated import by_hand, evidence, north, other_motions, reliability, runs, slow_walkers
 from .evaluate import command as evaluate
 from .evaluate import sensitivity
 from .options import FOLDER, ONLY, PROCESSES, Option, option
@@ -57,6 +57,7 @@ GROUPS: dict[str, tuple[str, dict[str, Command]]] = {
             "north": ("worth of a compass on a plan that knows its north", north, (options.seeds(24, 7001),)),
             "runs": ("measures of runners against the truth", runs, (options.seeds(12, 1, "runs"),)),
             "other-motions": ("what is reported of motions that are not walking", other_motions, other_motions.OPTIONS),
+            "slow-walkers": ("what is found of patients who walk slowly", slow_walkers, other_motions.OPTIONS),
             "by-hand": ("worth of a calibration by hand", by_hand, (*by_hand.OPTIONS, PROCESSES)),
         },
     ),

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from heapq import merge
 from operator import attrgetter
@@ -105,7 +105,11 @@ def samples_of(motion: OtherMotion, seed: int, rate: float) -> list[Sample]:
     if motion.on_foot:
         mounting = (IN_SOLE, ON_INSTEP, ON_HEEL)[int(rng.integers(3))]
     posed = Posed(motion.make(rng, motion.duration), motion.duration, seed)
-    streams = [posed.samples(foot, rate, LSM6DSOX, mounting=mounting) for foot in Foot]
+    return in_order([posed.samples(foot, rate, LSM6DSOX, mounting=mounting) for foot in Foot])
+
+
+def in_order(streams: Sequence[Sequence[Sample]]) -> list[Sample]:
+    """Return the samples of both feet in the order of time."""
     return list(merge(*streams, key=attrgetter("t")))
 
 
@@ -127,7 +131,7 @@ OPTIONS = (
         default=100.0,
         help="samples a second (default: 100)",
     ),
-    only("motion, such as 'jumping'"),
+    only("row"),
     PROCESSES,
 )
 COLUMNS = ("strides /min", "m /min", "unknown %", "standing %", "walking %", "running %", "stairs %", "lifts %")

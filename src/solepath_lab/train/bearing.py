@@ -3,8 +3,9 @@
     solepath-lab train bearing DATA_DIR [--processes N]
 
 The recordings are taken apart into strides without any check that the foot carries its walker. Strides of the data
-sets of walks carry; those of bicycles, cars, chairs, elevators and of sensors that are not on a foot (`MOTIONS`)
-do not. Strides of both together have the same weight, and each kind of recording that of the root of its number.
+sets of walks carry; those of bicycles, cars, chairs, elevators (`MOTIONS`) and of sensors that are on no foot do not.
+Emulated patients and other motions are learnt too. Strides of both together have the same weight, and each kind of
+recording that of the root of its number.
 
 The tables show the share of strides that a session reports for each kind of recording, with weights that were learnt
 without the wearer of the recording, and with weights that were learnt without any recording of its kind. A kind with
@@ -13,7 +14,8 @@ one wearer is parted by recordings instead. The chosen offset is the fitted one 
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -30,9 +32,11 @@ from solepath.recording.samples.npz import read_arrays
 from solepath.session import Session
 from solepath.show.tables.table import table
 from solepath.show.tables.words import activity_words
-from solepath.types import Activity, Foot
+from solepath.types import Activity, Foot, Sample
+from solepath.types.vector import ZERO, add
 
-from ..descriptions import read_description
+from ..descriptions import KNOWN, read_description
+from ..emulated import other_motions, slow_walkers
 from ..evaluate.not_walking import MOTIONS
 from ..measures.alarms import NOT_ON_FEET
 from ..processes import run_jobs
@@ -48,6 +52,12 @@ WALKS = (
 """Data sets in which every stride without a label is one of a walk."""
 LABELLED_TIME = 1.2
 """Longest time before a stride's end in whose middle its label is read, s: one cycle, because a rest may come first."""
+EIGHT_TIMES = frozenset(KNOWN["hugadb_daily"]["gyroscope_eight_times"])
+"""Recordings of hugadb_daily that are learnt as they are and, as a kind of their own, with an eighth of the rates."""
+SEEDS = range(101, 105)
+"""Seeds of the emulated wearers; `solepath-lab emulated` scores others."""
+RATES = (100.0, 50.0, 200.0, 20.0)
+"""Sampling rates of the emulated wearers, in rotation, Hz."""
 FOLDS = 8
 """Number of parts into which wearers are divided."""
 MARGIN = 2.25
@@ -73,40 +83,69 @@ class Stride(NamedTuple):
 
 
 @frozen
-class StridesOfRecording:
-    """The strides of one recording, in their order of time for each foot."""
+class Source:
+    """A recording, or the emulated motion of a wearer, and where its samples come from."""
 
-    data_set: str
+    kind: str
+    """Name of the data set or of the emulated motion."""
     recording: str
     wearer: str
     """Name of the wearer; of the recording when it does not say who wore the sensors."""
+    samples: Callable[[], Iterable[Sample]]
+    carries: bool = True
+    """Flag: feet carry wherever no label says otherwise."""
+    path: Path | None = None
+    """File with the labels, if there is one."""
+
+
+@frozen
+class StridesOfRecording:
+    """The strides of one source, in their order of time for each foot."""
+
+    recording: str
+    wearer: str
     strides: tuple[Stride, ...] = ()
 
 
-def recordings_of(folder: Path) -> Iterator[tuple[Path, StridesOfRecording]]:
-    """Yield the files of the folder's data sets, and for each the record that is still without strides."""
+def sources_of(folder: Path) -> Iterator[Source]:
+    """Yield the recordings of the folder's data sets, then the emulated wearers."""
     for name in (*WALKS, *NOT_ON_FEET):
         about = folder / name / "dataset.json"
         entries = read_description(about)["recordings"] if about.is_file() else {}
         for recording in sorted(entries):
-            wearer = entries[recording].get("subject", recording)
+            path = about.with_name(f"{recording}.npz")
             # the wearers of hugadb_daily are those of hugadb
-            yield (
-                about.with_name(f"{recording}.npz"),
-                StridesOfRecording(name, recording, f"{name.removesuffix('_daily')} {wearer}"),
-            )
+            wearer = f"{name.removesuffix('_daily')} {entries[recording].get('subject', recording)}"
+            read = partial(_read, path)
+            yield Source(name, recording, wearer, read, name not in NOT_ON_FEET, path)
+            if recording in EIGHT_TIMES:
+                smaller = partial(_read, path, 0.125)
+                yield Source(f"{name}, gyroscope / 8", recording, wearer, smaller, path=path)
+    for seed in SEEDS:
+        for motion in other_motions.MOTIONS:
+            made = partial(other_motions.samples_of, motion, seed, RATES[seed % len(RATES)])
+            yield Source(f"emulated: {motion.name}", f"{motion.name} {seed}", f"emulated {seed}", made, False)
+        for gait in slow_walkers.GAITS:
+            made = partial(slow_walkers.samples_of, gait, seed, RATES[seed % len(RATES)])
+            yield Source(f"emulated: {gait.name}", f"{gait.name} {seed}", f"emulated {seed}", made)
 
 
-def collect(job: tuple[Path, StridesOfRecording]) -> StridesOfRecording:
-    """Return the record with all strides of the recording; without any when it cannot be read."""
-    path, about = job
+def _read(path: Path, factor: float = 1.0) -> list[Sample]:
+    """Return the samples of a recording, with angular rates times `factor`; none when it cannot be read."""
     try:
         samples = list(load_samples(path, report=lambda sentence: None))
-        truth = read_arrays(path, lambda key: key in ("t", "activity"))
     except (OSError, RecordingError):
-        return about
+        return []
+    if factor == 1.0:
+        return samples
+    return [evolve(one, gyro=None if one.gyro is None else add(ZERO, one.gyro, factor)) for one in samples]
+
+
+def collect(source: Source) -> StridesOfRecording:
+    """Return all strides of a source."""
     session = Session(evolve(recipes.DEFAULT, name="every stride", every_stride=True))
-    events = [event for sample in samples for event in session.feed(sample)] + list(session.finish())
+    events = [event for sample in source.samples() for event in session.feed(sample)] + list(session.finish())
+    truth = {} if source.path is None else read_arrays(source.path, lambda key: key in ("t", "activity"))
     last: dict[Foot, StrideTaken] = {}
     strides: list[Stride] = []
     for event in events:
@@ -115,22 +154,22 @@ def collect(job: tuple[Path, StridesOfRecording]) -> StridesOfRecording:
             if previous is not None and event.t_end - previous.t_end > bearing.LONGEST_WAIT:
                 previous = None
             last[event.foot] = event
-            strides.append(Stride(event, previous, *_kind(about.data_set, event, truth)))
-    return evolve(about, strides=tuple(strides))
+            strides.append(Stride(event, previous, *_kind(source, event, truth)))
+    return StridesOfRecording(source.recording, source.wearer, tuple(strides))
 
 
-def _kind(data_set: str, stride: StrideTaken, truth: Mapping[str, NDArray[Any]]) -> tuple[str, bool | None]:
+def _kind(source: Source, stride: StrideTaken, truth: Mapping[str, NDArray[Any]]) -> tuple[str, bool | None]:
     """Return the kind of recording that the stride belongs to, and whether a foot carries in it."""
     if "activity" not in truth:
-        return data_set, data_set not in NOT_ON_FEET
+        return source.kind, source.carries
     middle = 0.5 * (max(stride.t_start, stride.t_end - LABELLED_TIME) + stride.t_end)
     code = int(truth["activity"][min(int(np.searchsorted(truth["t"], middle)), len(truth["t"]) - 1)])
     if code in MOTIONS:
-        return f"{data_set}, {MOTIONS[code]}", False
+        return f"{source.kind}, {MOTIONS[code]}", False
     activity = LABELS.get(code, Activity.UNKNOWN)
     # who stands may step aside
     carries = None if activity in (Activity.UNKNOWN, Activity.STANDING) else True
-    return f"{data_set}, {activity_words(activity)}", carries
+    return f"{source.kind}, {activity_words(activity)}", carries
 
 
 def fit(rows: Floats, carries: Floats, weights: Floats) -> tuple[Floats, float]:
@@ -234,8 +273,8 @@ def released(recordings: Sequence[StridesOfRecording]) -> tuple[list[float], flo
 
 
 def collected(folder: Path, processes: int) -> list[StridesOfRecording]:
-    """Return the recordings of the folder that have strides."""
-    found = run_jobs(collect, list(recordings_of(folder)), processes=processes)
+    """Return the recordings of the folder, and the emulated ones, that have strides."""
+    found = run_jobs(collect, list(sources_of(folder)), processes=processes)
     return [one for one in found if one.strides]
 
 
