@@ -29,12 +29,12 @@ THIGHS = {Foot.LEFT: Site.LEFT_THIGH, Foot.RIGHT: Site.RIGHT_THIGH}
 
 def walker(rng: Rng, duration: float) -> Walker:
     """Return somebody who walks through corridors for so many seconds, and longer."""
-    speed = float(rng.uniform(0.9, 1.5))
+    speed = rng.uniform(0.9, 1.5)
     route = Route(speed=speed).stand(3.0)
     for _ in range(int(duration * speed / 12.0) + 1):
-        route = route.walk(float(rng.uniform(6.0, 18.0))).turn(float(rng.choice((0.5, -0.5, 1.0))) * pi, 0.8)
+        route = route.walk(rng.uniform(6.0, 18.0)).turn(float(rng.choice((0.5, -0.5, 1.0))) * pi, 0.8)
         if rng.uniform() < 0.2:
-            route = route.walk(2.0).stand(float(rng.uniform(2.0, 6.0)))
+            route = route.walk(2.0).stand(rng.uniform(2.0, 6.0))
     seed = int(rng.integers(1, 10**6))
     return Walker(route.walk(4.0).stop(3.0), wearer_of(seed), seed)
 
@@ -42,15 +42,15 @@ def walker(rng: Rng, duration: float) -> Walker:
 def _fixed(place: Vec3, rng: Rng) -> Pose:
     """Return the pose of a sensor that is fixed at a place of a segment, with any attitude, (1, 3) and (1, 3, 3)."""
     axis = unit(rng.standard_normal((1, 3)))
-    return np.array([place]), matrices(from_rotation_vectors(float(rng.uniform(0.0, pi)) * axis))
+    return np.array([place]), matrices(from_rotation_vectors(rng.uniform(0.0, pi) * axis))
 
 
 def on_trunk(rng: Rng, duration: float) -> Posing:
     """Return two sensors on the trunk of a walker: on the belt, and on the chest or back."""
     body = walker(rng, duration).body
     places: dict[Foot, Vec3] = {
-        Foot.LEFT: (0.1, float(rng.uniform(-0.15, 0.15)), 0.05),
-        Foot.RIGHT: (float(rng.choice((-0.12, 0.12))), float(rng.uniform(-0.1, 0.1)), float(rng.uniform(0.2, 0.45))),
+        Foot.LEFT: (0.1, rng.uniform(-0.15, 0.15), 0.05),
+        Foot.RIGHT: (float(rng.choice((-0.12, 0.12))), rng.uniform(-0.1, 0.1), rng.uniform(0.2, 0.45)),
     }
     fixed = {foot: _fixed(places[foot], rng) for foot in Foot}
     return lambda foot, t: carried(body.pelvis(t), fixed[foot])
@@ -59,21 +59,21 @@ def on_trunk(rng: Rng, duration: float) -> Posing:
 def in_pockets(rng: Rng, duration: float) -> Posing:
     """Return two sensors in the trouser pockets of a walker, a hand's breadth in front of the thighs."""
     body = walker(rng, duration).body
-    fixed = {foot: _fixed((0.07, 0.04 * SIDE_SIGNS[foot], float(rng.uniform(-0.22, -0.1))), rng) for foot in Foot}
+    fixed = {foot: _fixed((0.07, 0.04 * SIDE_SIGNS[foot], rng.uniform(-0.22, -0.1)), rng) for foot in Foot}
     return lambda foot, t: carried(body.segment(THIGHS[foot], t), fixed[foot])
 
 
 def in_hands(rng: Rng, duration: float) -> Posing:
     """Return a sensor in each hand of a walker."""
     one = walker(rng, duration)
-    body, reach, swing = one.body, float(rng.uniform(0.55, 0.65)), float(rng.uniform(0.2, 0.5))
+    body, reach, swing = one.body, rng.uniform(0.55, 0.65), rng.uniform(0.2, 0.5)
     arms: dict[Foot, Course] = {}
     wrists: dict[Foot, tuple[Course, Course]] = {}
     for foot in Foot:
         strikes = [(stride.heel_strike, -0.6 * swing) for stride in one.plan.strides[foot]]
         strikes += [(stride.heel_strike, swing) for stride in one.plan.strides[OTHER[foot]]]
         arms[foot] = Course.through(
-            (0.0, 0.05), *[(t, angle + 0.05 * float(rng.standard_normal())) for t, angle in sorted(strikes)]
+            (0.0, 0.05), *[(t, angle + 0.05 * rng.standard_normal()) for t, angle in sorted(strikes)]
         )
         wrists[foot] = _wandering(rng, one.duration), _wandering(rng, one.duration)
     fixed = {foot: _fixed((0.0, 0.0, -reach), rng) for foot in Foot}
@@ -92,6 +92,6 @@ def in_hands(rng: Rng, duration: float) -> Posing:
 def _wandering(rng: Rng, duration: float) -> Course:
     t, keys = 0.0, list[Key]()
     while t < duration:
-        keys.append((t, 0.3 * float(rng.standard_normal())))
-        t += float(rng.uniform(1.0, 4.0))
+        keys.append((t, 0.3 * rng.standard_normal()))
+        t += rng.uniform(1.0, 4.0)
     return Course.through(*keys)

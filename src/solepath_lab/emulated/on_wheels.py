@@ -89,32 +89,30 @@ def town_way(rng: Rng, duration: float, speeds: tuple[float, float], stops: tupl
 
     `speeds` are the least and largest speed, m/s, `stops` the shortest and longest stop, s. It speeds up at 0.7 to 2
     m/s^2 and brakes at 0.8 to 2.5."""
-    t, heading = float(rng.uniform(0.5, 3.0)), 0.0
+    t, heading = rng.uniform(0.5, 3.0), 0.0
     speed_keys, heading_keys = list[Key]([(0.0, 0.0)]), list[Key]([(0.0, 0.0)])
     while t < duration:
-        speed, pull, brake = float(rng.uniform(*speeds)), float(rng.uniform(0.7, 2.0)), float(rng.uniform(0.8, 2.5))
+        speed, pull, brake = rng.uniform(*speeds), rng.uniform(0.7, 2.0), rng.uniform(0.8, 2.5)
         speed_keys.append((t, 0.0))
         t += 1.9 * speed / pull  # the largest acceleration of a quintic is 1.9 times the mean
         speed_keys.append((t, speed))
         for _ in range(int(rng.integers(1, 4))):
-            t += float(rng.uniform(3.0, 10.0))
+            t += rng.uniform(3.0, 10.0)
             heading_keys.append((t, heading))
-            heading += float(rng.choice((-1.0, 1.0, 0.2))) * 0.5 * pi * float(rng.uniform(0.1, 1.0))
+            heading += float(rng.choice((-1.0, 1.0, 0.2))) * 0.5 * pi * rng.uniform(0.1, 1.0)
             t += 4.0 + 0.3 * speed
             heading_keys.append((t, heading))
-            speed_keys.append((t, speed * float(rng.uniform(0.8, 1.0))))
+            speed_keys.append((t, speed * rng.uniform(0.8, 1.0)))
         t += 1.9 * speed / brake
         speed_keys.append((t, 0.0))
-        t += float(rng.uniform(*stops))
+        t += rng.uniform(*stops)
     return Way.along(Course.through(*speed_keys), Course.through(*heading_keys), duration)
 
 
 def _car(rng: Rng, duration: float, *, bus: bool = False) -> Vehicle:
     way = town_way(rng, duration, (5.0, 12.0) if bus else (6.0, 22.0), (8.0, 20.0) if bus else (2.0, 15.0))
-    shaking = Vibration.drawn(road(float(rng.uniform(16e-6, 128e-6)), quarter_car), LEAST_FREQUENCY, 40.0, rng)
-    return Vehicle(
-        way, shaking, float(rng.uniform(0.008, 0.02)), float(rng.uniform(0.005, 0.015)), float(rng.uniform(0.02, 0.2))
-    )
+    shaking = Vibration.drawn(road(rng.uniform(16e-6, 128e-6), quarter_car), LEAST_FREQUENCY, 40.0, rng)
+    return Vehicle(way, shaking, rng.uniform(0.008, 0.02), rng.uniform(0.005, 0.015), rng.uniform(0.02, 0.2))
 
 
 def riding_along(rng: Rng, duration: float) -> Posing:
@@ -139,14 +137,14 @@ def driving(rng: Rng, duration: float) -> Posing:
     frames = Frames(x=0.0, y=-HALF_WIDTH, pitch=0.6, yaw=0.0)
     t, yaw = 1.0, 0.0
     while t < duration - LAST_MOVE:
-        move, pressed = float(rng.uniform(0.2, 0.8)), 0.6 - float(rng.uniform(0.0, 0.3))
+        move, pressed = rng.uniform(0.2, 0.8), 0.6 - rng.uniform(0.0, 0.3)
         if rng.uniform() < 0.33:
             frames.add(t + 0.25, yaw=yaw, pitch=0.65)
             yaw = 0.0 if yaw else 0.3
             t += 0.65
             frames.add(t, yaw=yaw, pitch=0.65)
         frames.add(t + move, pitch=pressed)
-        t += move + float(rng.uniform(1.0, 5.0))
+        t += move + rng.uniform(1.0, 5.0)
         frames.add(t - 0.01, pitch=pressed)
     right, left = posing({Foot.RIGHT: frames.motion()}), fidgeting(rng, duration, 15.0)
     return _inside(_car(rng, duration), lambda foot, t: (right if foot is Foot.RIGHT else left)(foot, t))
@@ -163,21 +161,21 @@ def cycling(rng: Rng, duration: float) -> Posing:
     pedal; then rides, and coasts for 3 to 8 s now and then with level cranks. The foot turns with the crank by 0.15 to
     0.35 rad about a toe that points down by 0.1 to 0.4 rad (Cavanagh and Sanderson 1986, The biomechanics of cycling),
     and a little about the other axes. The frame is a mass on tyres with 9 to 14 Hz."""
-    usual, gear = float(rng.uniform(50.0, 100.0)) / 60.0, float(rng.uniform(4.0, 6.5))
+    usual, gear = rng.uniform(50.0, 100.0) / 60.0, rng.uniform(4.0, 6.5)
     t, rates = 3.0, list[Key]([(0.0, 0.0), (3.0, 0.0)])
     rates.append((t + 4.0, 0.8 * usual))
     speeds: list[Key] = [(0.0, 0.0), (t, 0.0), (t + 6.0, usual * gear)]
     t += 8.0
     rates.append((t, usual))
     while t < duration:
-        pace, end = usual * float(rng.uniform(0.9, 1.1)), t + float(rng.uniform(10.0, 35.0))
+        pace, end = usual * rng.uniform(0.9, 1.1), t + rng.uniform(10.0, 35.0)
         rates.append((t + 1.5, pace))
         speeds.append((t + 4.0, pace * gear))
         rates.append((end, pace))
-        t = end + float(rng.uniform(0.6, 1.2))
+        t = end + rng.uniform(0.6, 1.2)
         speeds.append((end + 0.3, pace * gear))
         rates.append((t, 0.0))
-        t += float(rng.uniform(3.0, 8.0))
+        t += rng.uniform(3.0, 8.0)
         speeds.append((t, 0.85 * pace * gear))
         rates.append((t, 0.0))
         t += 1.0
@@ -185,16 +183,14 @@ def cycling(rng: Rng, duration: float) -> Posing:
     heading, bend = list[Key]([(0.0, 0.0)]), 0.0
     for at in np.arange(10.0, duration, 12.0).tolist():
         heading.append((at, bend))
-        bend += 0.6 * float(rng.standard_normal())
+        bend += 0.6 * rng.standard_normal()
         heading.append((at + 6.0, bend))
     way = Way.along(Course.through(*speeds), Course.through(*heading), duration)
-    shaking = Vibration.drawn(
-        road(float(rng.uniform(16e-6, 100e-6)), on_tyres(float(rng.uniform(9.0, 14.0)), 0.25)), 1.0, 60.0, rng
-    )
+    shaking = Vibration.drawn(road(rng.uniform(16e-6, 100e-6), on_tyres(rng.uniform(9.0, 14.0), 0.25)), 1.0, 60.0, rng)
     frame = Vehicle(way, shaking, lean=-1.0 / GRAVITY)
-    droop, ankling, lag = float(rng.uniform(0.1, 0.4)), float(rng.uniform(0.15, 0.35)), float(rng.uniform(-0.5, 0.5))
-    sway, toe, phase = float(rng.uniform(0.0, 0.05)), float(rng.uniform(0.0, 0.12)), float(rng.uniform(0.0, 2.0 * pi))
-    rocking = float(rng.uniform(0.05, 0.15))
+    droop, ankling, lag = rng.uniform(0.1, 0.4), rng.uniform(0.15, 0.35), rng.uniform(-0.5, 0.5)
+    sway, toe, phase = rng.uniform(0.0, 0.05), rng.uniform(0.0, 0.12), rng.uniform(0.0, 2.0 * pi)
+    rocking = rng.uniform(0.05, 0.15)
     out_of_saddle = Course.through((0.0, 1.0), (3.0, 1.0), (9.0, 0.0))  # 1 while the rider stands on the pedals
     mounts = Course.through((0.0, 0.0), (3.5, 0.0), (4.6, 1.0))  # the left foot goes from the ground to its pedal
 
@@ -224,29 +220,29 @@ def skating(rng: Rng, duration: float) -> Posing:
     A foot glides outwards for 70 to 78 % of the cycle, turned out by 0.2 to 0.4 rad, and leans on its inner edge at the
     end of the push; then it is lifted by 4 to 12 cm and set down beside the other one. Small wheels on asphalt shake it
     up to 50 Hz while it is on the ground, and it rolls without a stop."""
-    cycle, glide = float(rng.uniform(1.5, 2.4)), float(rng.uniform(0.70, 0.78))
-    top, out, width, lift = (float(rng.uniform(*one)) for one in ((3.0, 7.0), (0.2, 0.4), (0.25, 0.5), (0.04, 0.12)))
-    edge = float(rng.uniform(0.15, 0.4))
+    cycle, glide = rng.uniform(1.5, 2.4), rng.uniform(0.70, 0.78)
+    top, out, width, lift = (rng.uniform(*one) for one in ((3.0, 7.0), (0.2, 0.4), (0.25, 0.5), (0.04, 0.12)))
+    edge = rng.uniform(0.15, 0.4)
     way = Way.along(
         Course.through(
             (0.0, 0.0),
             (2.0, 0.0),
             (10.0, top),
-            *[(t, top * float(rng.uniform(0.9, 1.1))) for t in range(16, int(duration), 6)],
+            *[(t, top * rng.uniform(0.9, 1.1)) for t in range(16, int(duration), 6)],
         ),
         Course.through((0.0, 0.0), *[(t, float(0.3 * rng.standard_normal())) for t in range(10, int(duration), 8)]),
         duration,
     )
-    shaking = Vibration.drawn(road(float(rng.uniform(8e-6, 32e-6)), on_tyres(35.0, 0.4)), 3.0, 80.0, rng)
+    shaking = Vibration.drawn(road(rng.uniform(8e-6, 32e-6), on_tyres(35.0, 0.4)), 3.0, 80.0, rng)
     motions, grounded = {}, {}
     for foot in Foot:
         side, t = SIDE_SIGNS[foot], 2.0 + (0.5 * cycle if foot is Foot.RIGHT else 0.0)
         near, keys = side * 0.08, list[Key]([(0.0, 1.0)])
         frames = Frames(x=0.0, y=near, z=0.0, pitch=0.0, roll=0.0, yaw=0.0)
         while t < duration - LAST_MOVE:
-            period = cycle * float(rng.normal(1.0, 0.04))
+            period = cycle * rng.normal(1.0, 0.04)
             push, end = t + glide * period, t + period
-            far = near + side * width * float(rng.normal(1.0, 0.1))
+            far = near + side * width * rng.normal(1.0, 0.1)
             frames.add(t, x=0.1, y=near, z=0.0, pitch=0.0, yaw=side * 0.3 * out, roll=0.0)
             frames.add(push - 0.4, yaw=side * out, roll=0.0)
             frames.add(push, x=-0.15, y=far, z=0.0, roll=side * edge, pitch=-0.03)
@@ -275,7 +271,7 @@ def wheeling(rng: Rng, duration: float) -> Posing:
     Each push of 0.35 s speeds up by what rolling takes until the next one, 0.15 to 0.4 m/s (Vanlandewijck et al. 2001,
     Sports Med. 31). The chair turns on the spot, stops, and goes over thresholds of 0.5 to 2 cm, every 5 s or so; small
     solid wheels shake it. The feet are moved on the rests every 15 s or so."""
-    gap, usual, change = 1.0 / float(rng.uniform(0.6, 1.2)), float(rng.uniform(0.5, 1.4)), float(rng.uniform(0.15, 0.4))
+    gap, usual, change = 1.0 / rng.uniform(0.6, 1.2), rng.uniform(0.5, 1.4), rng.uniform(0.15, 0.4)
     t, heading, bump = 3.0, 0.0, 5.0
     speeds, headings = list[Key]([(0.0, 0.0)]), list[Key]([(0.0, 0.0)])
     while t < duration - LAST_MOVE:
@@ -283,24 +279,24 @@ def wheeling(rng: Rng, duration: float) -> Posing:
         for _ in range(int(rng.integers(6, 20))):
             low, high = usual - 0.5 * change, usual + 0.5 * change
             speeds += [(t + 0.35, high, -change / gap), (t + gap, low, -change / gap)]
-            t += gap * float(rng.uniform(1.0, 1.08))
+            t += gap * rng.uniform(1.0, 1.08)
         t += 1.2
         speeds.append((t, 0.0))
         if rng.uniform() < 0.6:
             headings.append((t + 0.3, heading))
-            heading += float(rng.uniform(-pi, pi))
-            t += 0.3 + 1.0 + float(rng.uniform(0.5, 1.5))
+            heading += rng.uniform(-pi, pi)
+            t += 0.3 + 1.0 + rng.uniform(0.5, 1.5)
             headings.append((t, heading))
-        t += float(rng.uniform(0.3, 2.5))
+        t += rng.uniform(0.3, 2.5)
     heights: list[Key] = [(0.0, 0.0)]
     while bump < duration:
-        height = float(rng.uniform(0.005, 0.02))
+        height = rng.uniform(0.005, 0.02)
         climb = sqrt(2.0 * CASTOR * height) / usual
         heights += [(bump, 0.0), (bump + climb, height), (bump + 2.0 * climb, 0.0)]
-        bump += float(rng.exponential(5.0)) + 0.5
+        bump += rng.exponential(5.0) + 0.5
     way = Way.along(Course.through(*speeds), Course.through(*headings), duration)
-    shaking = Vibration.drawn(road(float(rng.uniform(4e-6, 32e-6)), on_tyres(25.0, 0.3)), 3.0, 60.0, rng)
-    chair, jolts, rest = Vehicle(way, shaking), Course.through(*heights), float(rng.uniform(0.0, 0.5))
+    shaking = Vibration.drawn(road(rng.uniform(4e-6, 32e-6), on_tyres(25.0, 0.3)), 3.0, 60.0, rng)
+    chair, jolts, rest = Vehicle(way, shaking), Course.through(*heights), rng.uniform(0.0, 0.5)
     feet = fidgeting(rng, duration, 15.0)
 
     def pose(foot: Foot, t: Array) -> Pose:

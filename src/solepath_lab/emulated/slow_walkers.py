@@ -74,12 +74,12 @@ class Gait:
 def _slow(rng: Rng, wearer: Wearer) -> Wearer:
     return evolve(
         wearer,
-        walk_ratio=float(rng.uniform(0.0040, 0.0068)),
-        strike_pitch=wearer.strike_pitch * float(rng.uniform(0.4, 1.0)),
-        toe_off_pitch=wearer.toe_off_pitch * float(rng.uniform(0.6, 1.0)),
-        clearance=float(rng.uniform(0.008, 0.018)),
-        length_variation=float(rng.uniform(0.04, 0.08)),
-        time_variation=float(rng.uniform(0.03, 0.06)),
+        walk_ratio=rng.uniform(0.0040, 0.0068),
+        strike_pitch=wearer.strike_pitch * rng.uniform(0.4, 1.0),
+        toe_off_pitch=wearer.toe_off_pitch * rng.uniform(0.6, 1.0),
+        clearance=rng.uniform(0.008, 0.018),
+        length_variation=rng.uniform(0.04, 0.08),
+        time_variation=rng.uniform(0.03, 0.06),
         width_variation=0.02,
         wander=Wandering(0.05),
     )
@@ -87,13 +87,13 @@ def _slow(rng: Rng, wearer: Wearer) -> Wearer:
 
 def _shuffling(rng: Rng, wearer: Wearer) -> Wearer:
     # a step of l m at v m/s has 60 v / l steps a minute; the middle of the speeds stands for all of them
-    step = float(rng.uniform(0.10, 0.25))
+    step = rng.uniform(0.10, 0.25)
     return evolve(
         _slow(rng, wearer),
         walk_ratio=step**2 / (60.0 * 0.3),
-        strike_pitch=float(rng.uniform(0.0, 0.06)),
-        toe_off_pitch=float(rng.uniform(0.2, 0.5)),
-        clearance=float(rng.uniform(0.003, 0.008)),
+        strike_pitch=rng.uniform(0.0, 0.06),
+        toe_off_pitch=rng.uniform(0.2, 0.5),
+        clearance=rng.uniform(0.003, 0.008),
     )
 
 
@@ -149,12 +149,12 @@ def patient(gait: Gait, seed: int) -> Patient:
     """Return the patient of a seed with this gait."""
     rng = np.random.default_rng([seed, 61, GAITS.index(gait)])
     healthy, _ = random_wearer(rng)
-    speed = float(rng.uniform(*gait.speeds))
+    speed = rng.uniform(*gait.speeds)
     side = float(rng.choice((-1.0, 1.0)))
     route = Route(speed=speed).stand(4.0).walk(DISTANCE, speed).turn(side * pi, 0.5).walk(DISTANCE).stop(3.0)
     walker = Walker(route, gait.wearer(rng, healthy), seed)
     bad = list(Foot)[int(rng.integers(2))]
-    return Patient(walker, bad, float(rng.uniform(*gait.limp)), float(rng.uniform(*gait.halt)))
+    return Patient(walker, bad, rng.uniform(*gait.limp), rng.uniform(*gait.halt))
 
 
 def samples_of(gait: Gait, seed: int, rate: float) -> list[Sample]:

@@ -18,6 +18,7 @@ from ..emulated.heading_walks import KINDS, WITH_COMPASS
 from ..emulated.reports import TIMES, score_reports
 from ..emulated.walks import score_floors
 from ..measures.score import Scored
+from ..train.hugadb import EIGHT_TIMES
 from .activity import STAIR_SPANS, score_labelled, score_stairs
 from .not_walking import MOTIONS, score_alarms, score_not_walking, score_slow_walk
 from .run import Meta, RunSettings
@@ -129,6 +130,11 @@ DATASETS = (
     DataSet("slow_gait", "slow walks on the level, strides counted, one foot", score_slow_walk),
     DataSet(
         "hugadb_daily", "bicycling, sitting, in a car: no step, both feet", score_not_walking, has_truth=_takes_no_step,
+    ),
+    DataSet(
+        "hugadb_daily_corrected", "the same, an eighth of angular rates that are eight times too large",
+        partial(score_not_walking, true_rates=True), ("hugadb_daily",),
+        lambda name, meta: name in EIGHT_TIMES and _takes_no_step(name, meta),
     ),
     DataSet("sevivi_hops", "two sensors that are not on feet, for alarms", score_alarms),
 )  # fmt: skip

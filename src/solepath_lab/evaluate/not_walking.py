@@ -57,9 +57,11 @@ def walking_share(walk: Walk) -> float:
     return times.times[Activity.WALKING] / times.duration
 
 
-def score_not_walking(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score a recording of hugadb_daily in which the wearer takes no step."""
-    walk = run(path, settings, poses=False).walk
+def score_not_walking(path: Path, meta: Meta, settings: RunSettings, true_rates: bool = False) -> Scored:
+    """Score a recording of hugadb_daily in which the wearer takes no step.
+
+    `true_rates` corrects angular rates that are eight times too large."""
+    walk = run(path, settings, poses=False, true_rates=true_rates).walk
     motions = sorted({MOTIONS[int(code)] for code in meta["labels"]})
     return Scored(
         path.stem,

@@ -33,14 +33,13 @@ from solepath.session import Session
 from solepath.show.tables.table import table
 from solepath.show.tables.words import activity_words
 from solepath.types import Activity, Foot, Sample
-from solepath.types.vector import ZERO, add
 
-from ..descriptions import KNOWN, read_description
+from ..descriptions import read_description
 from ..emulated import other_motions, slow_walkers
 from ..evaluate.not_walking import MOTIONS
 from ..measures.alarms import NOT_ON_FEET
 from ..processes import run_jobs
-from .hugadb import LABELS
+from .hugadb import EIGHT_TIMES, LABELS, with_true_rates
 
 Floats = NDArray[np.float64]
 
@@ -52,8 +51,6 @@ WALKS = (
 """Data sets in which every stride without a label is one of a walk."""
 LABELLED_TIME = 1.2
 """Longest time before a stride's end in whose middle its label is read, s: one cycle, because a rest may come first."""
-EIGHT_TIMES = frozenset(KNOWN["hugadb_daily"]["gyroscope_eight_times"])
-"""Recordings of hugadb_daily that are learnt as they are and, as a kind of their own, with an eighth of the rates."""
 SEEDS = range(101, 105)
 """Seeds of the emulated wearers; `solepath-lab emulated` scores others."""
 RATES = (100.0, 50.0, 200.0, 20.0)
@@ -119,7 +116,7 @@ def sources_of(folder: Path) -> Iterator[Source]:
             read = partial(_read, path)
             yield Source(name, recording, wearer, read, name not in NOT_ON_FEET, path)
             if recording in EIGHT_TIMES:
-                smaller = partial(_read, path, 0.125)
+                smaller = partial(_read, path, true_rates=True)
                 yield Source(f"{name}, gyroscope / 8", recording, wearer, smaller, path=path)
     for seed in SEEDS:
         for motion in other_motions.MOTIONS:
@@ -130,15 +127,13 @@ def sources_of(folder: Path) -> Iterator[Source]:
             yield Source(f"emulated: {gait.name}", f"{gait.name} {seed}", f"emulated {seed}", made)
 
 
-def _read(path: Path, factor: float = 1.0) -> list[Sample]:
-    """Return the samples of a recording, with angular rates times `factor`; none when it cannot be read."""
+def _read(path: Path, true_rates: bool = False) -> list[Sample]:
+    """Return the samples of a recording, if wanted `with_true_rates`; none when it cannot be read."""
     try:
         samples = list(load_samples(path, report=lambda sentence: None))
     except (OSError, RecordingError):
         return []
-    if factor == 1.0:
-        return samples
-    return [evolve(one, gyro=None if one.gyro is None else add(ZERO, one.gyro, factor)) for one in samples]
+    return with_true_rates(samples) if true_rates else samples
 
 
 def collect(source: Source) -> StridesOfRecording:
