@@ -15,12 +15,12 @@ from solepath.cli.main import form, guarded
 
 from . import options
 from .damage import clocks, losses, sensors
-from .emulated import by_hand, evidence, north, reliability, runs
+from .emulated import by_hand, evidence, north, other_motions, reliability, runs, slow_walkers
 from .evaluate import command as evaluate
 from .evaluate import sensitivity
 from .options import FOLDER, ONLY, PROCESSES, Option, option
 from .reproduce import command as reproduce
-from .train import activities, footstep_activity, turns
+from .train import activities, bearing, footstep_activity, turns
 
 Command = tuple[str, ModuleType, tuple[Option, ...]]
 """What the help says of a command, its module, whose `run` is called, and its options."""
@@ -56,6 +56,8 @@ GROUPS: dict[str, tuple[str, dict[str, Command]]] = {
             ),
             "north": ("worth of a compass on a plan that knows its north", north, (options.seeds(24, 7001),)),
             "runs": ("measures of runners against the truth", runs, (options.seeds(12, 1, "runs"),)),
+            "other-motions": ("what is reported of motions that are not walking", other_motions, other_motions.OPTIONS),
+            "slow-walkers": ("what is found of patients who walk slowly", slow_walkers, other_motions.OPTIONS),
             "by-hand": ("worth of a calibration by hand", by_hand, (*by_hand.OPTIONS, PROCESSES)),
         },
     ),
@@ -63,6 +65,7 @@ GROUPS: dict[str, tuple[str, dict[str, Command]]] = {
         "learn the parameters of a part again",
         {
             "activities": ("network of the activities", activities, (FOLDER,)),
+            "bearing": ("weights of what tells strides from other motions", bearing, (FOLDER, PROCESSES)),
             "turns": (
                 "weights of the classifier of turns", turns,
                 (option("--emulate", action="store_true", help="write turns.csv again"),),
