@@ -96,8 +96,11 @@ class StrideBuilder:
     """Largest height of the sensor in the stride, navigation frame, m."""
     peak_speed: float = 0.0
     """Largest speed of the sensor in the stride, m/s."""
-    rest_time: float = 0.0
-    """Time of the stride in which the foot turned slower than `RESTING_RATE` or `RESTING_SHARE` of its peak, s."""
+    rest: Vec2 = (0.0, 0.0)
+    """Duration, s, of the rest under way, in which the foot turns slower than `RESTING_RATE` or `RESTING_SHARE` of its
+    peak, and the sum of the squared specific force over it, (m/s^2)^2 s."""
+    longest_rest: Vec2 = (0.0, 0.0)
+    """The same of the longest rest of the stride."""
     peak_rate: float = 0.0
     """Square of the largest angular rate of this stride and the one before, (rad/s)^2."""
     stride_rate: float = 0.0
@@ -171,7 +174,8 @@ class StrideBuilder:
         self.peak_height = position[2]
         self.peak_speed = self.pitch = self.pitch_low = self.pitch_high = 0.0
         self.peak_rate, self.stride_rate = self.stride_rate, 0.0
-        self.rest_time, self.least_force = 0.0, GRAVITY * GRAVITY
+        self.rest = self.longest_rest = (0.0, 0.0)
+        self.least_force = GRAVITY * GRAVITY
         self.most_force = self.least_force
         self.load_sum = 0.0
         self.load_count = 0
@@ -214,8 +218,13 @@ class StrideBuilder:
             self.stride_rate = rate
             if rate > self.peak_rate:
                 self.peak_rate = rate
-        elif rate < RESTING_RATE or rate < RESTING_SHARE * self.peak_rate:
-            self.rest_time += dt
+        duration, squares = self.rest
+        if rate < RESTING_RATE or rate < RESTING_SHARE * self.peak_rate:
+            self.rest = rest = (duration + dt, squares + force * dt)
+            if rest > self.longest_rest:
+                self.longest_rest = rest
+        elif duration:
+            self.rest = (0.0, 0.0)
         if height > self.peak_height:
             self.peak_height = height
         if speed > self.peak_speed:
@@ -343,7 +352,9 @@ class StrideBuilder:
                 contact_load=self.load_sum / self.load_count if self.load_count else None,
                 cop=tuple(self.cop),
                 error_index=corrector.error_index,
-                rest_share=min(1.0, self.rest_time / (t - self.t_start)) if t > self.t_start else 0.0,
+                longest_rest=self.longest_rest[0],
+                rest_force=sqrt(self.longest_rest[1] / self.longest_rest[0]) if self.longest_rest[0] > 0.0 else None,
+                peak_rate=sqrt(self.peak_rate),
                 force_range=sqrt(self.most_force) - sqrt(self.least_force),
                 rise=rise,
             ),
