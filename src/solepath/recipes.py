@@ -73,6 +73,8 @@ class Recipe:
     None stands for Particles, which is imported for such a session only."""
     needs_pressure: bool = False
     """True for a recipe that reports nothing without pressure cells."""
+    every_stride: bool = False
+    """True for a recipe that takes a foot on a pedal for one that walks, as published systems do."""
 
     def replace_part(self, kind: type, by: Part | None, name: str | None = None) -> Recipe:
         """Return the recipe with its part of this kind replaced by `by`, or removed if `by` is None.

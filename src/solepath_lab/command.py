@@ -46,6 +46,8 @@ GROUPS: dict[str, tuple[str, Kinds]] = {
             "reliability": ("weights of candidates and how often they are true", (seeds(25, 5001),)),
             "north": ("worth of a compass on a plan that knows its north", (seeds(24, 7001),)),
             "runs": ("measures of runners against the truth", (seeds(12, 1, "runs"),)),
+            "other-motions": ("what is reported of motions that are not walking", ()),
+            "slow-walkers": ("what is found of patients who walk slowly", ()),
             "by-hand": ("worth of a calibration by hand", (PROCESSES,)),
         },
     ),
@@ -53,6 +55,7 @@ GROUPS: dict[str, tuple[str, Kinds]] = {
         "learn the parameters of a part again",
         {
             "activities": ("network of the activities", (FOLDER,)),
+            "bearing": ("weights of what tells strides from other motions", (FOLDER, PROCESSES)),
             "turns": (
                 "weights of the classifier of turns",
                 (option("--emulate", action="store_true", help="write turns.csv again"),),

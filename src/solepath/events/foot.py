@@ -72,6 +72,14 @@ class StrideFeatures:
 
     Mid-stance is still to come, so earlier stances show how far the sensor turns from foot-flat to mid-stance; the
     angle is None in the first stride."""
+    longest_rest: float = 0.0
+    """Longest time in which the foot turned slower than 0.3 rad/s, or than 15 % of its peak rate, s."""
+    rest_force: float | None = None
+    """Root mean square of the specific force in that time, m/s^2; None when the foot did not rest."""
+    peak_rate: float = 0.0
+    """Largest angular rate of the stride and of the one before, rad/s."""
+    force_range: float = 0.0
+    """Largest minus smallest specific force of the stride, m/s^2."""
     rise: float | None = None
     """Height of the stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from math import hypot
+from collections.abc import Sequence
+from math import fsum, hypot
 
 from ..calibration import HeadingCalibration, usual_strides
-from ..events import Event
+from ..events import Event, StrideTaken
 from ..types import Foot, Phase, Vec3
-from ..types.attrs import field, state, stateful
+from ..types.attrs import evolve, field, state, stateful
 from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub
+from .bearing import FARTHEST, Bearing, evidence_of
 from .cues.cues import Cues, TimedCue
 from .gap import Infill
 from .navigate.corrector import Corrector
@@ -28,6 +30,8 @@ class Gait:
     foot: Foot = field()
     heading: HeadingCalibration | None = field()
     """Drift of the heading that is removed at the end of every stride; None when it was not calibrated."""
+    every_stride: bool = field()
+    """Report every stride at once, whether or not the foot carries its walker."""
     phase: Phase = Phase.STATIONARY
     phase_start: float | None = None
     """Start of the current phase, s; None before the first change of phase and after times restarted."""
@@ -40,6 +44,9 @@ class Gait:
     world: World = state(factory=World)
     heading_settled: bool = False
     """The heading of the world frame is final."""
+    bearing: Bearing = state(factory=Bearing)
+    number: int = 0
+    """Number of the last stride that was reported, counted from 1."""
 
     def __attrs_post_init__(self) -> None:
         self.stride = StrideBuilder(self.foot)
@@ -54,6 +61,7 @@ class Gait:
         self.phase_start = None
         self.stride.cut()
         self.template.reset()
+        self.bearing = Bearing()
 
     def start_walking(self, on_ground: bool) -> None:
         """Start with a foot that walks already; its first stride starts at the next foot-flat."""
@@ -139,13 +147,34 @@ class Gait:
         if not self.heading_settled and stride.t_toe_off is not None:
             # the first stride gives the final heading; until then it is the direction from the origin to the foot
             self.heading_settled = world.find_heading(corrector.position, SHORTEST_STRIDE)
-        stride_event = stride.finish(t, known_at, corrector, world, rise)
-        if stride_event is not None:
-            # a reported stride is final, so its frame must not change, even if it was too short to give a direction
+        ended = stride.finish(t, known_at, corrector, world, rise)
+        if ended is not None:
+            # the frame of a stride must not change, even if it was too short to give a direction
             self.heading_settled = True
             world.settle()
         stride.start_stride(t, corrector.position, corrector.attitude)
-        return [] if stride_event is None else [stride_event]
+        if ended is None:
+            return []
+        strides, dropped = ([ended], []) if self.every_stride else self.bearing.add(ended)
+        if dropped:
+            self._undo(dropped, corrector)
+        events: list[Event] = []
+        for one in strides:
+            self.number += 1
+            events.append(evolve(one, number=self.number))
+        return events
+
+    def _undo(self, dropped: Sequence[StrideTaken], corrector: Corrector) -> None:
+        """Move a foot that carries nobody back to where the strides began that were none."""
+        apply_shift = getattr(corrector, "shift", None)
+        # a lone stride is no bout, but it moved the foot all the same
+        moves = [one.displacement for one in dropped if evidence_of(one, None) < 0.0]
+        if apply_shift is None or not moves or not hypot(*[hypot(*move) for move in moves]) < FARTHEST:
+            return
+        x, y, z = [-fsum(values) for values in zip(*moves, strict=True)]
+        apply_shift(0.0, self.shift(0.0, (x, y, z)))
+        waiting = self.bearing.waiting
+        self.bearing.waiting = [evolve(one, position=add(one.position, (x, y, z))) for one in waiting]
 
     @staticmethod
     def _turn_back(heading: HeadingCalibration, corrector: Corrector, path: Vec3, turn: float) -> None:

@@ -43,6 +43,8 @@ class FootSettings:
     """The recipe needs pressure cells.
 
     A foot without cells then reports nothing, and an unknown layout of the cells is learnt."""
+    every_stride: bool = False
+    """Report the strides of a foot that carries nobody, too (bearing.py), as the published systems do."""
     heading: HeadingCalibration | None = None
     """Drift of the heading that is removed at the end of every stride; None when it was not calibrated."""
     insole: InsoleSettings = InsoleSettings()

@@ -9,7 +9,7 @@ from ..events import Flaw, StrideFeatures, StrideTaken
 from ..events.foot import LONGEST_HARMLESS_GAP
 from ..types import Foot, Quat, Vec2, Vec3
 from ..types.attrs import define, field
-from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
+from ..types.vector import GRAVITY, IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .rhythm import follow
 from .view import FASTEST_RUN
@@ -40,6 +40,10 @@ GUESSED_SPEED_SIGMA = 1.0
 """Standard deviation of the speed of a foot in a gap that no motion bridges, m/s (`solepath-lab damage losses`)."""
 MOST_GAPS = 8
 """Number of the newest gaps that are kept one by one, because a foot-flat may be dated back before them."""
+RESTING_RATE, RESTING_SHARE = 0.3**2, 0.15**2
+"""Squares of the angular rate below which a foot rests, rad/s, and of its share of the peak rate of the stride.
+
+A foot in stance has a median of 4 to 15 % of its peak, on a pedal 20 (docs/activities.md)."""
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
 
@@ -70,8 +74,6 @@ class StrideBuilder:
     """Collects the data of one foot's stride."""
 
     foot: Foot
-    number: int = 0
-    """Number of the last stride, counted from 1."""
     t_start: float | None = None
     """Time of the foot-flat that starts the stride, s; None before any."""
     start: Vec3 = ZERO
@@ -94,6 +96,19 @@ class StrideBuilder:
     """Largest height of the sensor in the stride, navigation frame, m."""
     peak_speed: float = 0.0
     """Largest speed of the sensor in the stride, m/s."""
+    rest: Vec2 = (0.0, 0.0)
+    """Duration, s, of the rest under way, in which the foot turns slower than `RESTING_RATE` or `RESTING_SHARE` of its
+    peak, and the sum of the squared specific force over it, (m/s^2)^2 s."""
+    longest_rest: Vec2 = (0.0, 0.0)
+    """The same of the longest rest of the stride."""
+    peak_rate: float = 0.0
+    """Square of the largest angular rate of this stride and the one before, (rad/s)^2."""
+    stride_rate: float = 0.0
+    """Square of the largest angular rate of this stride, (rad/s)^2."""
+    least_force: float = GRAVITY * GRAVITY
+    """Square of the smallest specific force of the stride, (m/s^2)^2."""
+    most_force: float = GRAVITY * GRAVITY
+    """Square of the largest specific force of the stride, (m/s^2)^2."""
     t_heel_off: float | None = None
     """Time of heel-off, s; None before it."""
     usual_motion: float = FIRST_MOTION
@@ -158,6 +173,10 @@ class StrideBuilder:
         self.older_gaps = GapSums()
         self.peak_height = position[2]
         self.peak_speed = self.pitch = self.pitch_low = self.pitch_high = 0.0
+        self.peak_rate, self.stride_rate = self.stride_rate, 0.0
+        self.rest = self.longest_rest = (0.0, 0.0)
+        self.least_force = GRAVITY * GRAVITY
+        self.most_force = self.least_force
         self.load_sum = 0.0
         self.load_count = 0
         self.cop = []
@@ -183,10 +202,29 @@ class StrideBuilder:
         self.t_start = self.t_contact = None
         self.flawed_until, self.newest_gaps, self.older_gaps = {}, (), GapSums()
 
-    def add_motion(self, t: float, dt: float, height: float, speed: float, sagittal: float, still: bool) -> None:
+    def add_motion(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, height: float, speed: float, sagittal: float, still: bool
+    ) -> None:
         """Add one sample: height in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown).
 
         `still` is True when zero-velocity evidence was accepted."""
+        (x, y, z), (u, v, w) = acc, gyro
+        force, rate = x * x + y * y + z * z, u * u + v * v + w * w
+        if force > self.most_force:
+            self.most_force = force
+        if force < self.least_force:
+            self.least_force = force
+        if rate > self.stride_rate:
+            self.stride_rate = rate
+            if rate > self.peak_rate:
+                self.peak_rate = rate
+        duration, squares = self.rest
+        if rate < RESTING_RATE or rate < RESTING_SHARE * self.peak_rate:
+            self.rest = rest = (duration + dt, squares + force * dt)
+            if rest > self.longest_rest:
+                self.longest_rest = rest
+        elif duration:
+            self.rest = (0.0, 0.0)
         if height > self.peak_height:
             self.peak_height = height
         if speed > self.peak_speed:
@@ -264,7 +302,7 @@ class StrideBuilder:
             self.cop_interval *= 2
 
     def finish(self, t: float, known_at: float, corrector: Corrector, world: World, rise: float) -> StrideTaken | None:
-        """Return the stride that ends at this foot-flat with the state of `corrector`; None if there is none.
+        """Return the stride that ends at this foot-flat with the state of `corrector`, without its number, or None.
 
         `rise` is the change of height, m, before the corrector has corrected it."""
         if self.t_start is None or self.t_toe_off is None or max(self.t_start, self.t_toe_off) > t:
@@ -274,7 +312,6 @@ class StrideBuilder:
         turn = heading_turned(self.attitude, corrector.attitude)
         if hypot(length, dz) < SHORTEST_STRIDE and abs(turn) < LEAST_STRIDE_TURN:
             return None
-        self.number += 1
         flaws, usual = self.flaws, self.usual_motion
         motion = usual if self.t_heel_off is None else t - self.t_heel_off
         if not flaws:  # also of a merged one, so that a wearer who walks ever slower is learnt
@@ -291,7 +328,7 @@ class StrideBuilder:
             t=t,
             known_at=known_at,
             foot=self.foot,
-            number=self.number,
+            number=0,
             t_start=self.t_start,
             t_end=t,
             displacement=displacement,
@@ -315,6 +352,10 @@ class StrideBuilder:
                 contact_load=self.load_sum / self.load_count if self.load_count else None,
                 cop=tuple(self.cop),
                 error_index=corrector.error_index,
+                longest_rest=self.longest_rest[0],
+                rest_force=sqrt(self.longest_rest[1] / self.longest_rest[0]) if self.longest_rest[0] > 0.0 else None,
+                peak_rate=sqrt(self.peak_rate),
+                force_range=sqrt(self.most_force) - sqrt(self.least_force),
                 rise=rise,
             ),
         )

@@ -66,7 +66,7 @@ class FootTracker:
     limitations: Limitations = field(init=False)
 
     def __attrs_post_init__(self) -> None:
-        self.gait = Gait(self.foot, self.settings.heading)
+        self.gait = Gait(self.foot, self.settings.heading, self.settings.every_stride)
         self.limitations = Limitations(self.foot)
 
     def make_sole(self) -> Sole:
@@ -258,7 +258,7 @@ class FootTracker:
         template, position = gait.template, corrector.position
         if template.t_heel_off is not None and t >= template.t_next_moment:
             template.add_moment(t, corrector.attitude, corrector.velocity, position, acc, gyro)
-        gait.stride.add_motion(t, dt, position[2], speed, cues.sagittal, still)
+        gait.stride.add_motion(t, dt, acc, gyro, position[2], speed, cues.sagittal, still)
         if timed_cues:
             for timed_cue in timed_cues:
                 self._apply_cue(timed_cue, known_at, events)

@@ -407,6 +407,7 @@ class SessionState:
             settings = FootSettings(
                 self.settings.poses,
                 recipe.needs_pressure,
+                recipe.every_stride,
                 calibration.headings.get(foot),
                 recipe.insole.calibrated(known),
                 known.layout,

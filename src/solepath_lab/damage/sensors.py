@@ -4,8 +4,8 @@
 
 prints the table of docs/checks.md as Markdown. DIR holds recorded data. Of every foot with at least 15 s of walking,
 the first 20 s of walking are damaged, with up to 3 s before them. Whole recordings are searched for alarms. A sensor
-that clips, repeats its values or does not close in the recording itself is listed in KNOWN. The run takes about 15
-minutes on two processors."""
+that clips, repeats its values or does not close in the recording itself is listed in measures/alarms.py. The run takes
+about 15 minutes on two processors."""
 
 from __future__ import annotations
 
@@ -27,19 +27,10 @@ from solepath.types import SITE_OF_FOOT, Foot, Sample, Vec3
 from solepath.types.vector import GRAVITY
 from solepath.validate.alignment import Floats
 
+from ..measures.alarms import KNOWN, alarms
 from ..processes import run_jobs
 from ..tables import markdown
 
-KNOWN: dict[str, set[Defect]] = {
-    "felius_2min_walk": {Defect.AXES},
-    "hugadb": {Defect.CLIPPED},
-    "smart_insole_35": {Defect.REPEATED},
-    "xio_closed_walks": {Defect.CLIPPED},
-}
-"""Defects that recordings of these data sets have.
-
-They are an accelerometer that clips at 2 g (hugadb) or 8 g (xio), values that are repeated (smart_insole_35), and a
-left foot whose strides close best with all axes of one sensor reversed, and then badly (felius)."""
 MS = 1e3
 """Number of ms in a second."""
 BEFORE, WALKING, LEAST_WALKING = 3.0, 20.0, 15.0
@@ -214,17 +205,14 @@ def pieces(folder: Path, only: Sequence[str] = ()) -> list[WalkingFoot]:
 
 def table(outcomes: Sequence[DefectOutcome]) -> list[str]:
     """Return the lines of the page: alarms on what is whole, and the table of damages."""
-    alarms = [
-        (outcome, event)
-        for outcome in outcomes
-        for event in outcome.whole
-        if event.defect not in KNOWN.get(outcome.piece.path.parent.name, set())
+    raised = [
+        (outcome, event) for outcome in outcomes for event in alarms(outcome.piece.path.parent.name, outcome.whole)
     ]
-    share = 100.0 * len({outcome.piece for outcome, _ in alarms}) / max(1, len(outcomes))
+    share = 100.0 * len({outcome.piece for outcome, _ in raised}) / max(1, len(outcomes))
     lines = [f"Alarms on {len(outcomes)} undamaged feet, without the known defects: {share:.1f} %."]
     lines += [
         f"- {outcome.piece.path.parent.name}/{outcome.piece.path.stem}, {outcome.piece.foot}: {event.what}"
-        for outcome, event in alarms
+        for outcome, event in raised
     ]
     rows = []
     for damage in _damages():

@@ -18,7 +18,9 @@ from ..emulated.heading_walks import KINDS, WITH_COMPASS
 from ..emulated.reports import TIMES, score_reports
 from ..emulated.walks import score_floors
 from ..measures.score import Scored
+from ..train.hugadb import EIGHT_TIMES
 from .activity import STAIR_SPANS, score_labelled, score_stairs
+from .not_walking import MOTIONS, score_alarms, score_not_walking, score_slow_walk
 from .run import Meta, RunSettings
 from .timing import score_borders, score_force, score_insoles, score_swings, score_switches, score_treadmill
 from .tracking import (
@@ -57,6 +59,10 @@ class DataSet:
 
 def _has_contacts(name: str, meta: Meta) -> bool:
     return "gt_ic_left" in meta["keys"]
+
+
+def _takes_no_step(name: str, meta: Meta) -> bool:
+    return all(int(code) in MOTIONS for code in meta["labels"])
 
 
 def _is_surveyed(name: str, meta: Meta) -> bool:
@@ -121,6 +127,16 @@ DATASETS = (
         "stairs", "stairs and level ways, and what of them is called stairs", score_stairs,
         ("gaitmap_examples", "xio_closed_walks"), lambda name, meta: name in STAIR_SPANS,
     ),
+    DataSet("slow_gait", "slow walks on the level, strides counted, one foot", score_slow_walk),
+    DataSet(
+        "hugadb_daily", "bicycling, sitting, in a car: no step, both feet", score_not_walking, has_truth=_takes_no_step,
+    ),
+    DataSet(
+        "hugadb_daily_corrected", "the same, an eighth of angular rates that are eight times too large",
+        partial(score_not_walking, true_rates=True), ("hugadb_daily",),
+        lambda name, meta: name in EIGHT_TIMES and _takes_no_step(name, meta),
+    ),
+    DataSet("sevivi_hops", "two sensors that are not on feet, for alarms", score_alarms),
 )  # fmt: skip
 
 EMULATED = (

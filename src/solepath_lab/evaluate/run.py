@@ -25,6 +25,8 @@ from solepath.validate.alignment import Floats
 from solepath.validate.foot_run import FootRun
 from solepath.walk.walk import Walk
 
+from ..train.hugadb import with_true_rates
+
 
 @frozen
 class RunSettings:
@@ -61,14 +63,16 @@ def run(
     settings: RunSettings,
     *,
     without_pressure: bool = False,
+    true_rates: bool = False,
     calibration: Calibration | None = None,
     poses: bool = True,
     body: bool = False,
 ) -> RecordingRun:
     """Run the recording at `path` through a session, sample by sample.
 
-    `without_pressure` hides from the session the pressure from which the truth was made. `calibration` has the
-    positions of the cells. `poses` requests each foot's live position at every sample, `body` the wearer's position."""
+    `without_pressure` hides from the session the pressure from which the truth was made. `true_rates` corrects angular
+    rates that are eight times too large (train/hugadb.py). `calibration` has the positions of the cells. `poses`
+    requests each foot's live position at every sample, `body` the wearer's position."""
     known = settings.calibration if calibration is None else merged(settings.calibration, calibration)
     recipe = (
         settings.recipe if settings.activity is None else settings.recipe.replace_part(ActivityPart, settings.activity)
@@ -78,6 +82,8 @@ def run(
     samples = list(recording)
     if without_pressure:
         samples = [attrs.evolve(sample, pressure=None) for sample in samples]
+    if true_rates:
+        samples = with_true_rates(samples)
     walk, wearer = run_session(session, samples, 0.0 if body else None)
     feet = {table.foot: FootRun.of(walk, table.foot) for table in recording.tables}
     return RecordingRun(feet, walk, wearer)

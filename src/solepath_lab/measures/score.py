@@ -13,6 +13,7 @@ from attrs import field, frozen
 from solepath.validate.matching import Errors, Matching
 
 from .confusion import ActivityScore
+from .not_walking import NotWalking
 from .strides import StrideScore
 
 Figures = dict[str, float | None]
@@ -36,6 +37,8 @@ class Scored:
     """Matched events by kind: heel_strike, toe_off."""
     strides: StrideScore | None = None
     activity: ActivityScore | None = None
+    idle: NotWalking | None = None
+    """What is reported of a wearer who takes no step."""
     errors: dict[str, Errors] = field(factory=dict)
     """Errors by kind: leg of the feet and body_leg of the wearer (relative), stride_time (s)."""
     groups: tuple[str, ...] = ("all",)
@@ -46,10 +49,9 @@ class Scored:
         flat = dict(self.figures)
         for kind, matching in self.events.items():
             flat |= {f"{kind}_{name}": getattr(matching, of) for name, of in EVENT_FIGURES.items()}
-        if self.strides is not None:
-            flat |= self.strides.figures
-        if self.activity is not None:
-            flat |= self.activity.figures
+        for score in (self.strides, self.activity, self.idle):
+            if score is not None:
+                flat |= score.figures
         for kind, pooled in self.errors.items():
             flat |= {
                 f"{kind}_count": len(pooled.values),
@@ -80,16 +82,16 @@ def summarise(scores: Sequence[Scored], group: str) -> Summary:
     keys = list(dict.fromkeys(key for score in members for key in score.figures))
     values = {key: [v for s in members if (v := s.figures.get(key)) is not None] for key in keys}
     events, errors = (_pooled([getattr(one, name) for one in members]) for name in ("events", "errors"))
-    strides, activity = (
+    strides, activity, idle = (
         reduce(add, found) if (found := [of for one in members if (of := getattr(one, name)) is not None]) else None
-        for name in ("strides", "activity")
+        for name in ("strides", "activity", "idle")
     )
     return Summary(
         group=group,
         count=len(members),
         mean={key: float(np.mean(v)) for key, v in values.items() if v},
         median={key: float(np.median(v)) for key, v in values.items() if v},
-        together=Scored(group, {}, events, strides, activity, errors).flat(),
+        together=Scored(group, {}, events, strides, activity, idle, errors).flat(),
         confusion=None if activity is None else activity.table,
     )
 

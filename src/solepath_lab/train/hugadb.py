@@ -6,15 +6,16 @@ standing up, bicycling and driving are none of the activities of this library, s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from attrs import frozen
+from attrs import evolve, frozen
 
 from solepath.recording import RecordingError
 from solepath.recording.samples.npz import read_arrays
-from solepath.types import Activity
+from solepath.types import Activity, Sample
+from solepath.types.vector import ZERO, add
 
 from ..descriptions import KNOWN, read_description
 
@@ -66,6 +67,15 @@ def labels(path: Path, corrected: bool = False) -> tuple[Sequence[float], list[A
     for start, end, activity in CORRECTIONS.get(path.stem, ()) if corrected else ():
         activities = [activity if start <= t < end else old for t, old in zip(times, activities, strict=True)]
     return times, activities
+
+
+EIGHT_TIMES = frozenset(KNOWN["hugadb_daily"]["gyroscope_eight_times"])
+"""Recordings of hugadb_daily whose angular rates are eight times too large."""
+
+
+def with_true_rates(samples: Iterable[Sample]) -> list[Sample]:
+    """Return the samples of one of EIGHT_TIMES with an eighth of their angular rates."""
+    return [evolve(one, gyro=None if one.gyro is None else add(ZERO, one.gyro, 0.125)) for one in samples]
 
 
 FOLDS = tuple([frozenset[int](wearers) for wearers in KNOWN["hugadb"]["folds"]])

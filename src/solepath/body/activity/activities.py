@@ -23,11 +23,11 @@ from ...types import Activity, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import evolve, field, frozen, state, stateful
 from ...types.vector import TIME_EPSILON, ZERO
 from ..part import ActivityPart, Inputs, Outputs, PartOutput
-from .early import ActivityCue, ActivityReport, BlockSigns, Early, cue_of_stride, follow, follow_block
+from .early import NO_ACTIVITY, ActivityCue, ActivityReport, BlockSigns, Early, cue_of_stride, follow, follow_block
 from .elevator_evidence import BlockForce, ElevatorEvidence
 from .flights import Flights, integrated_rise
 from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, FootBlocks
-from .hypotheses import BLOCKS_BEFORE, NO_EVIDENCE, ActivitySegment, BlockEvidence, Hypotheses, activity_at
+from .hypotheses import BLOCKS_BEFORE, NO_EVIDENCE, BlockEvidence, Hypotheses, activity_at
 from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
 
 if TYPE_CHECKING:
@@ -42,8 +42,6 @@ MAX_WAITING_STRIDES = 8
 NO_FEATURES = StrideFeatures(0.0, 0.0, 0.0)
 NO_COVARIANCE = (0.0,) * 6
 """Placeholders in `Activities.strides`: only the times and heights of these strides are used."""
-NO_ACTIVITY = ActivitySegment(-1e9, Activity.UNKNOWN)
-"""Placeholder for the newest activity before any."""
 STAIR_DIRECTIONS: dict[Activity | None, int] = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
 
 
@@ -125,12 +123,14 @@ class Activities(ActivityPart):
             if acc is not None:
                 if side.index is None or block_number >= side.index + 1:
                     side.close()
+                    self.report.strides.tracked = self.report.strides.tracked or side.tracked
                     side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
                     outputs += self._judge(t, view.known_at)
                 side.add(acc, sample.gyro, view.velocity if view.levelled else None, view.position[2])
             if events:
                 side.add_events(events, view.position[2])
                 for event in events:
+                    self.report.strides.add_event(event)
                     if isinstance(event, StrideTaken):
                         outputs += self._add_stride(event, floor(block_number))
         for event in events:  # a barometer that contradicts the strides is left out
@@ -179,11 +179,14 @@ class Activities(ActivityPart):
             if self.walked:
                 pressure_scores = air.score_slope(index, BLOCK_DURATION)
             before, after = air.height(index - BLOCKS_BEFORE, index - 1), air.height(index, index + WINDOW_REACH)
+        forces = self._forces(index)
+        if (leans := ElevatorEvidence(forces).leans) is not None:
+            self.report.strides.forces.append((self._time(index), leans))
         self.hypotheses.update(
             BlockEvidence(
                 t=self._time(index),
                 motion_scores=motion_votes(model, features),
-                forces=self._forces(index),
+                forces=forces,
                 pressure_scores=pressure_scores,
                 before=before,
                 after=after,
@@ -242,8 +245,9 @@ class Activities(ActivityPart):
         )
         if len(self.strides) > MAX_WAITING_STRIDES:
             self.strides.popleft()
-        rise = integrated_rise(stride)
-        cue = cue_of_stride(slope_evidence(min(stride.length, MAX_LENGTH), max(-MAX_RISE, min(MAX_RISE, rise))))
+        length, rise = min(stride.length, MAX_LENGTH), max(-MAX_RISE, min(MAX_RISE, integrated_rise(stride)))
+        self.report.strides.add(stride, length, rise)
+        cue = cue_of_stride(slope_evidence(length, rise))
         if cue is None:
             return []
         self.stride_cue = (block, *cue)

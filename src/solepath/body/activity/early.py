@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import StrEnum
-from math import exp, fsum
+from math import exp, fsum, inf
 
 from ...events import ActivityChanged, Event, LiftRidden
 from ...types import Activity, Floats
@@ -17,6 +17,7 @@ from .chain import ACTIVITIES, STAND, UNKNOWN, Chain
 from .elevator_evidence import PULSE_ACCELERATION, PULSE_DEVIATION, ElevatorEvidence, RestLevels
 from .hypotheses import ActivitySegment, Hypotheses
 from .motion import SlopeEvidence
+from .reconcile import BOUT_PAUSE, SETTLING_TIME, Strides
 
 # Activities that were reported and are not final yet, and the events by which they change.
 
@@ -24,6 +25,8 @@ START_TOLERANCE = 1.0
 """Largest change in the start of a provisional activity that is not reported as a revision, s."""
 ELEVATOR_GOES_UP = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
 """Flag for each elevator activity: the ride goes up."""
+NO_ACTIVITY = ActivitySegment(-1e9, Activity.UNKNOWN)
+"""Placeholder for the newest activity before any."""
 Early = tuple[ActivitySegment, float]
 """An activity after the likeliest sequence (early.py), and its probability."""
 
@@ -34,6 +37,13 @@ class ActivityReport:
 
     activity: Activity = Activity.UNKNOWN
     """The newest activity that was reported, final or not."""
+    strides: Strides = state(factory=Strides)
+    settled: list[Early] = state(factory=list)
+    """Settled segments of the sequence, oldest first, from that of the newest final activity on."""
+    rides: list[tuple[ActivitySegment, float]] = state(factory=list)
+    """Settled elevator rides that wait until all strides in them are known, each with its end, s."""
+    final: ActivitySegment = NO_ACTIVITY
+    """Newest activity that was reported as final."""
     provisional: list[Early] = state(factory=list)
     """Segments that were reported and are not final, oldest first, each with its newest probability."""
     withdrawn_at: float | None = None
@@ -44,17 +54,60 @@ class ActivityReport:
     ) -> list[Event]:
         """Return the events by which the likeliest sequence and the activities after it replace what was reported.
 
-        Segments that are certain at `settled_by`, s, are final; with `ending`, all are."""
-        events: list[Event] = []
-        for settled, ended, probability in hypotheses.settle(settled_by):
-            if ended is not None and ended.activity in ELEVATOR_GOES_UP:
-                events.append(_ride_event(ended, settled.t, known_at))
-            revises = self.provisional[0][0].t if self.provisional else self.withdrawn_at
-            events.append(self._event(settled, known_at, True, revises, probability))
-            self.provisional, self.withdrawn_at = [], None
+        Segments that are certain at `settled_by`, s, and whose strides are known, are final; with `ending`, all are."""
+        for segment, ended, probability in hypotheses.settle(settled_by):
+            if ended is not None:
+                self.settled[-1:] = [(ended, self.settled[-1][1])]
+                if ended.activity in ELEVATOR_GOES_UP:
+                    self.rides.append((ended, segment.t))
+            self.settled.append((segment, probability))
         best = hypotheses.best
         path = () if best is None else best.path if hypotheses.settled is None else best.path[1:]
-        newest = [*[(segment, hypotheses.probability(segment)) for segment in path], *early]
+        likely = [*self.settled, *[(segment, hypotheses.probability(segment)) for segment in path], *early]
+        agreed = self.strides.reconcile(likely, settled_by)
+        settled_until = self.settled[-1][0].t if self.settled else -inf
+        known_until = inf if ending else min(settled_until, settled_by - SETTLING_TIME)
+        events = self._report_rides(settled_by, known_at, ending)
+        newest = self._newest(agreed)
+        while newest and newest[0][0].t <= known_until:
+            segment, probability = newest.pop(0)
+            revises = self.provisional[0][0].t if self.provisional else self.withdrawn_at
+            events.append(self._event(segment, known_at, True, revises, probability))
+            self.provisional, self.withdrawn_at, self.final = [], None, segment
+        self._forget()
+        return events + self._report_newest(newest, known_at, ending)
+
+    def _newest(self, agreed: Sequence[Early]) -> list[Early]:
+        """Return the activities after the newest final one, which stays what it is."""
+        newest: list[Early] = []
+        for segment, probability in agreed:
+            after = segment
+            if segment.t <= self.final.t:
+                newest = []  # what was there before the newest final activity is settled
+                after = ActivitySegment(self.final.t + TIME_EPSILON, segment.activity)
+            if segment.activity is not (newest[-1][0] if newest else self.final).activity:
+                newest.append((after, probability))
+        return newest
+
+    def _forget(self) -> None:
+        """Forget what no later report needs."""
+        while len(self.settled) > 1 and self.settled[1][0].t <= self.final.t:
+            self.settled.pop(0)
+        self.strides.forget(self.final.t - BOUT_PAUSE)
+
+    def _report_rides(self, now: float, known_at: float, ending: bool) -> list[Event]:
+        """Return the rides whose strides are all known: whoever walked for most of one was in no elevator."""
+        events: list[Event] = []
+        while self.rides and (ending or now - self.rides[0][1] >= SETTLING_TIME):
+            ride, t_end = self.rides.pop(0)
+            is_ridden = 2.0 * self.strides.covered(ride.t, t_end) < t_end - ride.t
+            if is_ridden and not self.strides.leans(ride.t, t_end):
+                events.append(_ride_event(ride, t_end, known_at))
+        return events
+
+    def _report_newest(self, newest: Sequence[Early], known_at: float, ending: bool) -> list[Event]:
+        """Return the events by which activities that are not final replace those that were reported."""
+        events: list[Event] = []
         unchanged: list[Early] = []
         for (old, _), (new, probability) in zip(self.provisional, newest, strict=False):
             if old.activity is not new.activity or abs(old.t - new.t) > START_TOLERANCE:
@@ -65,25 +118,20 @@ class ActivityReport:
         self.provisional = unchanged
         if withdrawn and not changed:
             # no new activity takes the place of the withdrawn one: the activity before it continues
-            events.append(self._withdraw(hypotheses, withdrawn[0][0].t, known_at, False))
+            events.append(self._withdraw(withdrawn[0][0].t, known_at, False))
         for segment, probability in changed:
             events.append(self._event(segment, known_at, False, revised, probability))
             revised = self.withdrawn_at = None
         if ending and self.withdrawn_at is not None:
-            events.append(self._withdraw(hypotheses, self.withdrawn_at, known_at, True))
+            events.append(self._withdraw(self.withdrawn_at, known_at, True))
         self.provisional += changed
         return events
 
-    def _withdraw(self, hypotheses: Hypotheses, t: float, known_at: float, final: bool) -> ActivityChanged:
+    def _withdraw(self, t: float, known_at: float, final: bool) -> ActivityChanged:
         """Return the event by which the activity of time `t`, s, is withdrawn and the one before it continues."""
-        if self.provisional:
-            activity, probability = self.provisional[-1][0].activity, self.provisional[-1][1]
-            continued = ActivitySegment(t, activity)
-        else:
-            continued = ActivitySegment(t, hypotheses.settled or Activity.UNKNOWN)
-            probability = hypotheses.probability(continued)
+        continued, probability = self.provisional[-1] if self.provisional else (self.final, 1.0)
         self.withdrawn_at = None if final else t
-        return self._event(continued, known_at, final, t, probability)
+        return self._event(ActivitySegment(t, continued.activity), known_at, final, t, probability)
 
     def _event(
         self, segment: ActivitySegment, known_at: float, final: bool, revises: float | None, probability: float

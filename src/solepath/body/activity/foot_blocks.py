@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from math import log, sqrt
+from math import hypot, log, sqrt
 
 from ...events import FootFlat, HeelStrike, StrideTaken
 from ...types import Vec3
 from ...types.attrs import define, field
-from ...types.vector import ZERO
+from ...types.vector import ZERO, add, cross, sub
 from .flights import integrated_rise
 
 # Features of one foot's blocks (half seconds of samples), from which activities are recognised.
@@ -36,6 +36,10 @@ FIRST_STRIDE_FEATURE = FIRST_TRACK_FEATURE + 6
 """Index of the first feature of a stride."""
 FEATURE_COUNT = FIRST_STRIDE_FEATURE + 11
 """Number of features."""
+MOVING_VARIANCE = 1.0
+"""Least variance of |acc| of a foot that moves, (m/s^2)^2."""
+REST_BLOCKS = 10
+"""Number of blocks over which the specific force of a foot at rest is averaged: 5 s, longer than a car brakes."""
 MAX_LENGTH, MAX_RISE = 2.0, 0.6
 """Largest length of a stride and largest height change that features distinguish, m: two stairs at a time."""
 
@@ -52,6 +56,8 @@ class ActivityBlock:
     """Mean |acc|, the length of the specific force, m/s^2."""
     variance: float
     """Variance of |acc|, (m/s^2)^2."""
+    lean: float
+    """Part of the mean specific force across its mean direction since the foot came to rest, m/s^2; 0 if it moves."""
     acc_bins: tuple[int, ...]
     """Number of samples in each bin of |acc|, at most 255 each."""
     gyro_count: int
@@ -191,6 +197,12 @@ class FootBlocks:
 
     index: int | None = None
     """Number of the block under way."""
+    total: Vec3 = ZERO
+    """Sum of the specific forces of the block under way, m/s^2."""
+    rested: int = 0
+    """Number of blocks in `rest_force`, at most `REST_BLOCKS`."""
+    rest_force: Vec3 = ZERO
+    """Mean specific force since the foot came to rest, sensor frame, m/s^2."""
     force: float = 0.0
     """Sum of |acc| over the block under way, m/s^2."""
     squares: float = 0.0
@@ -232,6 +244,7 @@ class FootBlocks:
         A resolution of 0 means that it is not known."""
         self.index = index
         self.force = self.squares = self.rate_squares = 0.0
+        self.total = ZERO
         self.acc_bins = [0] * BIN_COUNT
         self.gyro_bins = [0] * BIN_COUNT
         self.bias = bias
@@ -245,6 +258,8 @@ class FootBlocks:
         `velocity`, m/s, and `height`, m, are those of the foot after it, z up; no velocity: the motion is not known."""
         x, y, z = acc
         length = sqrt(x * x + y * y + z * z)
+        a, b, c = self.total
+        self.total = (a + x, b + y, c + z)
         self.force += length
         self.squares += length * length
         self.acc_bins[int(length * 0.5) if length < ACC_LIMIT else BIN_COUNT - 1] += 1
@@ -289,12 +304,14 @@ class FootBlocks:
         if self.index is None or not n:
             return
         mean = self.force / n
+        variance = round(max(0.0, self.squares / n - mean * mean), 6)
         self.blocks.append(
             ActivityBlock(
                 self.index,
                 n,
                 round(mean, 6),
-                round(max(0.0, self.squares / n - mean * mean), 6),
+                variance,
+                self._lean(n, variance),
                 _limited(self.acc_bins),
                 rates,
                 round(self.rate_squares / rates, 6) if rates else 0.0,
@@ -307,6 +324,20 @@ class FootBlocks:
         )
         if len(self.blocks) > MAX_BLOCKS:
             self.blocks.popleft()
+
+    def _lean(self, n: int, variance: float) -> float:
+        """Return how far the mean force of the block under way leans, m/s^2, and add it to that of the foot at rest."""
+        if variance > MOVING_VARIANCE:
+            self.rested, self.rest_force = 0, ZERO
+            return 0.0
+        x, y, z = self.total
+        force = (x / n, y / n, z / n)
+        lean = 0.0
+        if self.rested:
+            lean = round(hypot(*cross(force, self.rest_force)) / (hypot(*self.rest_force) or 1.0), 6)
+        self.rested = min(self.rested + 1, REST_BLOCKS)
+        self.rest_force = add(self.rest_force, sub(force, self.rest_force), 1.0 / self.rested)
+        return lean
 
     def _add_stride(self, stride: StrideTaken) -> None:
         features = stride.features

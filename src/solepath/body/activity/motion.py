@@ -20,7 +20,7 @@ from ...types import Activity, Floats
 from ...types.attrs import frozen
 from .chain import Chain, Chances, Shifts, chain_of
 from .elevator_evidence import SWAY_DEVIATION, BlockForce
-from .foot_blocks import FIRST_GYRO_FEATURE, MAX_RISE, ActivityBlock, stride_of
+from .foot_blocks import FIRST_GYRO_FEATURE, MAX_RISE, MOVING_VARIANCE, ActivityBlock, stride_of
 
 # Evidence of the slope of a stride for stairs: its rise over its length, with the errors that both have.
 #
@@ -191,8 +191,6 @@ UNKNOWN_COST = 3.0
 """Penalty (minus log-likelihood) of an unknown activity for a foot of usual motion."""
 USUAL_STRANGENESS = 6.0
 """Largest `strangeness` of usual motion; above it, an unknown activity becomes likelier."""
-MOVING_VARIANCE = 1.0
-"""Least variance of |acc| of a foot that moves, (m/s^2)^2."""
 VARIANCE_SHARE = 0.05
 """Share of the variance of |acc| in a block that counts as variance of its mean."""
 MAX_STANDING_FORCE = 40.0
@@ -267,4 +265,4 @@ def block_force(block: ActivityBlock | None, resolution: float) -> BlockForce | 
     variance = (
         SWAY_DEVIATION * SWAY_DEVIATION + VARIANCE_SHARE * min(block.variance, 1e4) + resolution * resolution / 12.0
     )
-    return BlockForce(block.force, variance, block.variance > MOVING_VARIANCE, resolution)
+    return BlockForce(block.force, variance, block.variance > MOVING_VARIANCE, resolution, block.lean)

@@ -16,6 +16,7 @@ from ...events import (
     ToeOff,
 )
 from ...events.foot import LONGEST_HARMLESS_GAP
+from ...foot.bearing import LONGEST_WAIT
 from ...foot.view import FootView
 from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, per_foot
 from ...types.attrs import define, field, state, stateful
@@ -62,6 +63,8 @@ class Footfalls:
     """Time of the foot's newest sample, s; None before any."""
     tracked: bool = False
     """Flag: velocity and position of the foot are known."""
+    stride_at: float | None = None
+    """End of the foot's newest stride, s; None before any."""
     unsettled: float | None = None
     """Time up to which the clock of the foot cannot be compared with that of the other one, s; None: it can."""
     contact: float | None = None
@@ -118,6 +121,7 @@ class Footfalls:
 
     def add_stride(self, stride: StrideTaken) -> None:
         """Add a stride to the finished cycle that has the same heel-strike and toe-off."""
+        self.stride_at = stride.t_end
         contact = stride.t_end if stride.t_heel_strike is None else stride.t_heel_strike
         cycle = self.ended_cycle
         # a runner may have several cycles without foot-flat; the stride cannot be assigned then
@@ -143,8 +147,9 @@ class Footfalls:
 # - neither its time nor its length differs from that of the cycle before by a factor of `STEADY_FACTOR` or more,
 #   because a wearer who hesitates does not walk steadily;
 # - it turns by less than `MAX_TURN`, and its height changes by less than `MAX_SLOPE` of its length;
-# - a stride ends at the foot-flat after it, because stepping on the spot is not walking. This is checked only if the
-#   foot's position is known and there is such a foot-flat (a runner may have none).
+# - a stride ends at the foot-flat after it, because stepping on the spot is not walking. If there is no such foot-flat
+#   (a runner may have none), the foot's newest stride is one of the same bout. Both are checked only if the foot's
+#   position is known.
 #
 # A steady cycle enters the means when the next cycle of the foot follows, so the last cycle before a stop is left out.
 
@@ -223,7 +228,7 @@ def measure_cycle(
         turning_angle=turning,
         rise=rise,
         degraded=cycle.degraded,
-        steady=is_steady(cycle, time, previous, this.tracked),
+        steady=is_steady(cycle, time, previous, this),
     )
 
 
@@ -241,7 +246,7 @@ def is_contradictory(cycle: PendingCycle, other_contact: float | None, other_toe
     return min(initial, terminal) < -CLEAR_SUPPORT and max(initial, terminal) > CLEAR_SUPPORT
 
 
-def is_steady(cycle: PendingCycle, time: float, previous: GaitCycleMeasured | None, tracked: bool) -> bool:
+def is_steady(cycle: PendingCycle, time: float, previous: GaitCycleMeasured | None, foot: Footfalls) -> bool:
     """Return whether the cycle, whose duration is `time`, s, is steady by the rule above."""
     if cycle.degraded or not cycle.follows_cycle or previous is None or previous.t != cycle.start:
         return False
@@ -249,7 +254,8 @@ def is_steady(cycle: PendingCycle, time: float, previous: GaitCycleMeasured | No
         return False
     stride = cycle.stride
     if stride is None:
-        return not (tracked and cycle.foot_was_flat)
+        walks = foot.stride_at is not None and cycle.end - foot.stride_at < LONGEST_WAIT
+        return not foot.tracked or (walks and not cycle.foot_was_flat)
     length, before = stride.length, previous.stride_length
     if abs(stride.heading_change) > MAX_TURN or abs(stride.height_change) > MAX_SLOPE * length:
         return False

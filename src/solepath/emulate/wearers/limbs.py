@@ -20,6 +20,7 @@ Numbers without a source were chosen by hand for plausible motion and not swept.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import sqrt
 
 import numpy as np
@@ -147,26 +148,7 @@ class Body:
         t = np.asarray(t, dtype=np.float64)
         if site.foot is not None:
             return self.motions[site.foot].at(t, mounting)
-        return join_blocks([self._at(site, t[k : k + BLOCK], mounting) for k in range(0, max(len(t), 1), BLOCK)])
-
-    def _at(self, site: Site, t: Array, mounting: Mounting) -> Kinematics:
-        (p0, r0), (p1, r1), (p2, r2) = (self.segment(site, t + k * _DIFFERENCE_STEP) for k in (-1, 0, 1))
-        arm = np.array(mounting.position)
-        before, position, after = p0 + r0 @ arm, p1 + r1 @ arm, p2 + r2 @ arm
-        acceleration = (before - 2.0 * position + after) / _DIFFERENCE_STEP**2
-        # r0^T r2 minus its transpose is 4 steps times the matrix of the cross product with the rate.
-        rate = twice_axis(np.einsum("nji,njk->nik", r0, r2) / (4.0 * _DIFFERENCE_STEP))
-        force = np.einsum("nji,nj->ni", r1, acceleration + (0.0, 0.0, GRAVITY))
-        mounting_turn = matrices(np.array([mounting.attitude]))[0]
-        return Kinematics(
-            t=t,
-            position=position,
-            velocity=(after - before) / (2.0 * _DIFFERENCE_STEP),
-            acceleration=acceleration,
-            attitude=multiply_quaternions(quaternions(r1), np.array([mounting.attitude])),
-            rate=rate @ mounting_turn,
-            force=force @ mounting_turn,
-        )
+        return motion_of(lambda times: self.segment(site, times), t, mounting)
 
     def _interpolate(self, track: Array, t: Array) -> Array:
         """Return the values at `t`, s, of a table whose rows are the coefficients of uniform cubic B-splines."""
@@ -179,6 +161,34 @@ class Body:
             + (-3.0 * u**3 + 3.0 * u**2 + 3.0 * u + 1.0) / 6.0 * track[k + 1]
             + u**3 / 6.0 * track[k + 2]
         )
+
+
+def motion_of(pose: Callable[[Array], tuple[Array, Array]], t: Array, mounting: Mounting) -> Kinematics:
+    """Return the motion at times `t`, s, of a sensor on a rigid body, from differences of its pose over 2 ms.
+
+    `pose` returns the origin (N, 3), world, m, and the attitude (N, 3, 3), body to world, at increasing times."""
+    t = np.asarray(t, dtype=np.float64)
+    return join_blocks([_motion_of(pose, t[k : k + BLOCK], mounting) for k in range(0, max(len(t), 1), BLOCK)])
+
+
+def _motion_of(pose: Callable[[Array], tuple[Array, Array]], t: Array, mounting: Mounting) -> Kinematics:
+    (p0, r0), (p1, r1), (p2, r2) = (pose(t + k * _DIFFERENCE_STEP) for k in (-1, 0, 1))
+    arm = np.array(mounting.position)
+    before, position, after = p0 + r0 @ arm, p1 + r1 @ arm, p2 + r2 @ arm
+    acceleration = (before - 2.0 * position + after) / _DIFFERENCE_STEP**2
+    # r0^T r2 minus its transpose is 4 steps times the matrix of the cross product with the rate.
+    rate = twice_axis(np.einsum("nji,njk->nik", r0, r2) / (4.0 * _DIFFERENCE_STEP))
+    force = np.einsum("nji,nj->ni", r1, acceleration + (0.0, 0.0, GRAVITY))
+    mounting_turn = matrices(np.array([mounting.attitude]))[0]
+    return Kinematics(
+        t=t,
+        position=position,
+        velocity=(after - before) / (2.0 * _DIFFERENCE_STEP),
+        acceleration=acceleration,
+        attitude=multiply_quaternions(quaternions(r1), np.array([mounting.attitude])),
+        rate=rate @ mounting_turn,
+        force=force @ mounting_turn,
+    )
 
 
 def ankle_place(shoe: Shoe, limbs: Limbs) -> Vec3:

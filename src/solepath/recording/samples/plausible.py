@@ -32,6 +32,9 @@ SHARE_AT_REST = 0.2
 40 % of the time or more (docs/gait.md)."""
 NEAR = 0.2
 """Largest relative difference between specific force at rest and gravity for which a unit of it is offered."""
+STUCK_SHARE = 0.5
+"""Share of the samples from which on repeated values are those of a sensor that is stuck: one that measures at half the
+rate of its samples repeats every other one."""
 NO_GRAVITY = 0.3
 """Specific force at rest below which gravity was removed, m/s^2 or g: nothing else is so small in any unit."""
 
@@ -76,19 +79,36 @@ def find_wrong_units(table: FootTable) -> Iterator[WrongUnit]:
         yield WrongUnit("gyro", what, "deg/s" if is_degrees else "mdeg/s")
 
 
-def list_unit_problems(table: FootTable) -> list[UnusableValues]:
-    """Return an error for each quantity whose unit is certainly not SI, with what repairs it."""
-    wrong = list(find_wrong_units(table))
-    units = {one.quantity: one.unit for one in wrong if one.unit}
-    return [
-        UnusableValues(
-            table.path,
-            one.what,
-            table.names[one.quantity],
-            (table.mapping.write_units(one.quantity, units) if one.unit else "") + one.action,
-        )
-        for one in wrong
-    ]
+def list_unit_problems(tables: Sequence[FootTable]) -> list[UnusableValues]:
+    """Return an error for each quantity of a foot whose unit is certainly not SI, with what repairs it.
+
+    A sensor that is stuck is no error if that of the other foot is right: the session says what is wrong with it."""
+    wrong = [list(find_wrong_units(table)) for table in tables]
+    right = {
+        quantity
+        for table, found in zip(tables, wrong, strict=True)
+        for quantity in set(table.columns) - {one.quantity for one in found}
+    }
+    problems: list[UnusableValues] = []
+    for table, found in zip(tables, wrong, strict=True):
+        units = {one.quantity: one.unit for one in found if one.unit}
+        problems += [
+            UnusableValues(
+                table.path,
+                one.what,
+                table.names[one.quantity],
+                (table.mapping.write_units(one.quantity, units) if one.unit else "") + one.action,
+            )
+            for one in found
+            if one.quantity not in right or not _is_stuck(table, one.quantity)
+        ]
+    return problems
+
+
+def _is_stuck(table: FootTable, quantity: str) -> bool:
+    """Return whether most values of a quantity are exactly those of the sample before."""
+    rows = zip(*table.columns[quantity], strict=True)
+    return sum([before == after for before, after in pairwise(rows)]) > STUCK_SHARE * len(table)
 
 
 def _explain_times(t: Sequence[float], middle: float) -> str:

@@ -124,7 +124,7 @@ def load_files(files: Sequence[SampleFile], only: Foot | None, report: Report) -
     if not tables and not problems and only is not None:
         problems.append(RecordingError(paths[0], f"holds nothing of the {only.value} foot"))
     example = _name_feet(paths, unnamed, problems)
-    problems += [problem for table in tables for problem in list_unit_problems(table)]
+    problems += list_unit_problems(tables)
     start_time = _count_from_start(tables)
     joined = [] if problems else join_files(tables, problems)
     if problems:

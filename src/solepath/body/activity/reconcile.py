@@ -1,0 +1,205 @@
+"""Strides and the likeliest sequence of activities, brought to agree.
+
+The sequence (hypotheses.py) is found from blocks of half a second, some of which are the slow stance of a patient, and
+some the legs of a cyclist. A stride that is reported is of a foot that carries its walker (foot/bearing.py). So the
+wearer walks, runs or is on stairs while a stride lasts, whatever its duration; and what looks like walking, but has no
+stride for longer than the pause of one bout, is not known."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from math import fsum, inf
+
+from ...events import FootFlat, GaitEvent, HeelOff, HeelStrike, StrideTaken, ToeOff
+from ...types import Activity, Foot
+from ...types.attrs import define, field
+from .chain import ELEVATOR_ACTIVITIES
+from .hypotheses import ActivitySegment
+from .motion import slope_evidence
+
+Likely = tuple[ActivitySegment, float]
+"""An activity and its probability."""
+GAITS = (Activity.WALKING, Activity.RUNNING, Activity.STAIRS_UP, Activity.STAIRS_DOWN)
+"""Activities in which the feet carry the wearer from place to place."""
+BOUT_PAUSE = 3.0
+"""Longest pause within one bout of walking, s (Kluge et al., "Consensus based framework for digital mobility
+monitoring", PLoS ONE 16, 2021)."""
+LONGEST_TURN = 6.0
+"""Longest time between two strides with a turn on the spot, s: a pause before it and one after it."""
+LEAST_LIFT = 0.3
+"""Shortest time for which a foot is lifted that moves, s; a foot at rest seems to leave the ground for less."""
+EDGE = 1.5
+"""Time before the first and after the last stride of a bout that may belong to it, s: a half stride, and the reach of a
+block's window (`WINDOW_REACH`)."""
+LONGEST_PHASE = 2.0
+"""Longest stance, and longest swing, of a gait cycle, s."""
+LEANING_SHARE = 0.2
+"""Share of the time in which the force leans from which on the wearer is in a vehicle and in no elevator."""
+STAIRS_EVIDENCE = 1.0
+"""Mean evidence of strides, a logarithm of a likelihood ratio, from which on they are on stairs."""
+SETTLING_TIME = 6.0
+"""Time after which all strides of a moment are known, s: a patient's stride, and the wait of a bout's first ones."""
+CERTAINTY = 0.9
+"""Probability of what strides show: that of the evidence from which on a foot is known to carry its walker."""
+
+
+@define
+class StrideSpan:
+    """The swing of a stride, s, and what the stride shows."""
+
+    start: float
+    end: float
+    up: float
+    """Evidence of stairs up, and down, as logarithms of likelihood ratios."""
+    down: float
+
+
+@define
+class Strides:
+    """The strides of both feet that are newer than the last final activity."""
+
+    spans: list[StrideSpan] = field(factory=list)
+    newest: dict[Foot, dict[str, float]] = field(factory=dict)
+    """Time of the newest event of each kind of each foot, s."""
+    cycles: list[tuple[float, bool]] = field(factory=list)
+    """Time of the end of each stance, s, and whether it was longer than the swing before it: nobody ran."""
+    moved: list[float] = field(factory=list)
+    """Times at which a foot that was lifted came down again, with a stride or without, s."""
+    forces: list[tuple[float, bool]] = field(factory=list)
+    """Times of half seconds at rest, s, and whether the force on the feet leans in them."""
+    tracked: bool = False
+    """Flag: the feet have gyroscopes and are navigated, so that a walk has strides."""
+    gait_since: float | None = None
+    """Time since which the likeliest sequence has nothing but gaits, s; None when it ends with another activity."""
+
+    def add(self, stride: StrideTaken, length: float, rise: float) -> None:
+        """Add a stride of this length and rise, m."""
+        start, end, slope = stride.t_start, stride.t_end, slope_evidence(length, rise)
+        start = start if stride.t_toe_off is None else max(start, stride.t_toe_off)
+        end = end if stride.t_heel_strike is None else min(end, stride.t_heel_strike)
+        self.spans.append(StrideSpan(start, end, slope.up, slope.down))
+        self.spans.sort(key=_start)
+
+    def add_event(self, event: object) -> None:
+        """Add an event of a foot: contacts tell a run from a walk, and a foot that is lifted ends a pause."""
+        if not isinstance(event, GaitEvent):
+            return
+        times = self.newest.setdefault(event.foot, {})
+        if isinstance(event, FootFlat):
+            if event.t - times.get(HeelOff.__name__, event.t) > LEAST_LIFT:
+                self.moved.append(event.t)
+        elif isinstance(event, ToeOff):
+            lifted, contact = times.get(ToeOff.__name__), times.get(HeelStrike.__name__)
+            if lifted is not None and contact is not None and lifted < contact:
+                swing, stance = contact - lifted, event.t - contact
+                if max(stance, swing) < LONGEST_PHASE:
+                    self.cycles.append((event.t, stance > swing))
+        times[type(event).__name__] = event.t
+
+    def forget(self, until: float) -> None:
+        """Forget the strides that ended before `until`, s."""
+        self.spans = [span for span in self.spans if span.end >= until]
+        self.cycles = [cycle for cycle in self.cycles if cycle[0] >= until]
+        self.moved = [t for t in self.moved if t >= until]
+        self.forces = [force for force in self.forces if force[0] >= until]
+
+    def leans(self, start: float, end: float) -> bool:
+        """Return whether the force on the feet leans so often from `start` to `end`, s, that they are in a vehicle."""
+        leaning = [leans for t, leans in self.forces if start <= t < end]
+        return leaning.count(True) > LEANING_SHARE * len(leaning)
+
+    def covered(self, start: float, end: float) -> float:
+        """Return the time between `start` and `end`, s, in which strides moved the wearer."""
+        parts = [min(end, last) - max(start, first) for first, last in self._bouts()]
+        return fsum([max(0.0, part) for part in parts])
+
+    def _bouts(self) -> list[tuple[float, float]]:
+        """Return the bouts, s: the times of walking with pauses of at most `BOUT_PAUSE`.
+
+        In a pause all feet are flat. A foot that turns on the spot between two strides pauses before and after it."""
+        bouts: list[tuple[float, float]] = []
+        for span in self.spans:
+            if bouts:
+                start, end = bouts[-1]
+                moved = [t for t in self.moved if end < t < span.start]
+                pauses = [after - before for before, after in pairwise([end, *moved, span.start])]
+                if max(pauses) <= BOUT_PAUSE and span.start - end <= LONGEST_TURN:
+                    bouts[-1] = (start, max(end, span.end))
+                    continue
+            bouts.append((span.start, span.end))
+        return bouts
+
+    def reconcile(self, likely: Sequence[Likely], now: float) -> list[Likely]:
+        """Return the activities that agree with the strides up to `now`, s; `likely` is the likeliest sequence."""
+        if not self.tracked:
+            return [*likely]
+        walked = self._bouts()
+        bouts = [(start - EDGE, end + EDGE) for start, end in walked]
+        # whoever walks now may be in a stride that has not ended, or whose foot is not known to carry yet
+        since = None
+        for segment, _ in likely:
+            since = None if segment.activity not in GAITS else segment.t if since is None else since
+        if since is None or self.gait_since is None:
+            self.gait_since = since
+        if self.gait_since is not None:
+            open_since = max([self.gait_since, *[span.end for span in self.spans]])
+            if now - open_since < SETTLING_TIME:
+                bouts.append((open_since, inf))
+        agreed: list[Likely] = []
+        for k, (segment, probability) in enumerate(likely):
+            end = likely[k + 1][0].t if k + 1 < len(likely) else inf
+            if segment.activity in GAITS:
+                for t, until, supported in _cut(segment.t, end, bouts):
+                    activity = self._gait(segment.activity, t, until) if supported else Activity.UNKNOWN
+                    _append(agreed, segment, t, activity, probability if supported else 1.0 - CERTAINTY)
+            else:
+                in_vehicle = segment.activity in ELEVATOR_ACTIVITIES and self.leans(segment.t, end)
+                otherwise = Activity.UNKNOWN if in_vehicle else segment.activity
+                for t, until, supported in _cut(segment.t, end, walked):
+                    activity = self._gait(None, t, until) if supported else otherwise
+                    _append(agreed, segment, t, activity, CERTAINTY if supported else probability)
+        return agreed
+
+    def _gait(self, likeliest: Activity | None, start: float, end: float) -> Activity:
+        """Return the gait from `start` to `end`, s; `likeliest` is that of the sequence, None if that has none."""
+        if likeliest is Activity.RUNNING:
+            walked = [walks for t, walks in self.cycles if start <= t < end]
+            return Activity.WALKING if 2 * walked.count(True) > len(walked) else Activity.RUNNING
+        spans = [span for span in self.spans if span.start < end and span.end > start]
+        if likeliest is not None or not spans:
+            return likeliest or Activity.WALKING
+        up, down = [fsum(values) / len(spans) for values in zip(*[(span.up, span.down) for span in spans], strict=True)]
+        if max(up, down) < STAIRS_EVIDENCE:
+            return Activity.WALKING
+        return Activity.STAIRS_UP if up > down else Activity.STAIRS_DOWN
+
+
+def _start(span: StrideSpan) -> float:
+    return span.start
+
+
+def _cut(start: float, end: float, times: Sequence[tuple[float, float]]) -> list[tuple[float, float, bool]]:
+    """Return the parts of the time from `start` to `end`, s, each with whether it lies within one of `times`."""
+    parts: list[tuple[float, float, bool]] = []
+    for first, last in times:
+        first, last = max(first, start), min(last, end)
+        if first >= last:
+            continue
+        if first > start:
+            parts.append((start, first, False))
+        parts.append((first, last, True))
+        start = last
+    if start < end:
+        parts.append((start, end, False))
+    return parts
+
+
+def _append(agreed: list[Likely], segment: ActivitySegment, t: float, activity: Activity, probability: float) -> None:
+    """Append the activity from `t`, s, unless it goes on."""
+    if agreed and agreed[-1][0].activity is activity:
+        return
+    if activity is segment.activity and t == segment.t:
+        agreed.append((segment, probability))
+    else:
+        agreed.append((ActivitySegment(t, activity), probability))

@@ -1,0 +1,149 @@
+"""Evidence that a foot carries its walker, from each of its strides and from how alike they are.
+
+A foot on a pedal, in a vehicle or below a chair comes to what looks like a foot-flat, too. Then the stride between two
+of them is not what a walk makes of it: in a walk the foot rests for a third of the time without a break, feels nothing
+but gravity in that time, and is struck when it lands; its greatest speed is 1.2 times the mean speed of its swing, its
+height returns to the floor or to a tread, and the next stride is like it. Each of these adds to the logarithm of the
+likelihood ratio of a foot that carries to one that does not. The sum over strides decides, so that an odd stride of a
+walk counts and an odd one on a bicycle does not."""
+
+from __future__ import annotations
+
+from math import log
+
+from ..events import StrideTaken
+from ..types.attrs import define, evolve, field
+from ..types.vector import GRAVITY
+
+USUAL_SPEED_RATIO = 1.2
+"""Greatest speed of a swing divided by its length over its time, no unit: the median of level walks of 14 data sets."""
+LONGEST_TIME = 2.5
+"""Longest time of a stride of which the rest is a share, s; what is longer contains standing."""
+REST_RATES, REST_SHARES = (8.0, 13.0), (0.3, 0.05)
+"""Peak rates, rad/s, up to and from which the longest rest is expected to be these shares of a stride.
+
+Walkers rest for 0.28 to 0.5 of it, runners, with peaks of 14 rad/s, for 0.11; a crank has two rests of 0.05."""
+GRAVITY_RATES = (6.0, 10.0)
+"""Peak rates, rad/s, up to which the force at rest counts and from which on it does not: a runner pushes off in it."""
+SHORT_LENGTH = 0.4
+"""Length below which a stride is a shuffle or no stride, m."""
+FASTEST_SWING = 6.0
+"""Speed of a foot that only runners exceed, m/s: a walk at 2 m/s swings the foot at 5 (docs/accuracy.md)."""
+SWING_TIMES = (0.2, 1.2)
+"""Times of a swing that walkers and runners have, from the fastest to patients, s."""
+TREADS_RISE = 0.34
+"""Rise of a stride over two treads, m."""
+RISE_ERROR, RISE_ERROR_SHARE = 0.05, 0.08
+"""Standard deviation of a measured rise, m, and its growth with the length, no unit (body/activity/motion.py)."""
+LEAST_LENGTH, LEAST_FORCE_RANGE, LEAST_SWING = 0.03, 0.3, 0.02
+"""Smallest length, m, range of the specific force, m/s^2, and swing, s, whose logarithm counts."""
+
+OFFSET = 3.1
+"""Evidence of a stride whose features are all 0, a logarithm of a likelihood ratio.
+
+The weights and the offset are a logistic regression over features of strides (`solepath-lab train bearing`); the offset
+is 1.25 above the fitted one, because the sum over strides decides."""
+WEIGHTS = (-8.8, -4.1, 1.2, -1.1, -3.0, -0.6, -1.1, -9.4, -1.0, -2.5)
+"""Weight of each of `features`."""
+
+MOST_FOR, MOST_AGAINST = 3.0, -3.0
+"""Limits of the evidence of one stride, so that none decides alone against those before it."""
+MOST_OF_FIRST = 1.5
+"""Limit of the evidence of the first stride of a bout, which is below `KNOWN`: a bout has two strides at least (Kluge
+et al., "Consensus based framework for digital mobility monitoring", PLoS ONE 16, 2021)."""
+KNOWN, SUREST = 2.0, 5.0
+"""Evidence from which on a foot is known to carry its walker, and its largest value."""
+MOST_WAITING = 4
+"""Number of strides that wait until it is known whether the foot carries, the newest included."""
+FARTHEST = 1e6
+"""Largest distance, m, by which a foot is moved back; values beyond it are those of a sensor that fails."""
+LONGEST_WAIT = 5.0
+"""Longest time between two strides of one bout, s, and longest time for which a stride waits."""
+
+
+def features(stride: StrideTaken, previous: StrideTaken | None) -> tuple[float, ...]:
+    """Return what tells a stride of a walk from another motion, in the order of `WEIGHTS`.
+
+    `previous` is the stride before it in the same bout, if any. The features are: how much shorter the longest rest is
+    than that of a walker or runner; how far the force in it is from gravity; the logarithm of the range of the specific
+    force; how far the greatest speed differs from that of a swing of this length and time; shortness; the rise beyond
+    the error of a floor or a tread; the time of the swing beyond usual ones; the speed beyond that of a walk; and the
+    change of length and of swing since the stride before."""
+    measured, length = stride.features, max(stride.length, LEAST_LENGTH)
+    swing, time = _swing(stride), max(0.1, min(stride.t_end - stride.t_start, LONGEST_TIME))
+    off_gravity = 0.5 if measured.rest_force is None else min(4.0, abs(measured.rest_force - GRAVITY))
+    ratio = measured.peak_speed * (0.4 if swing is None else swing) / max(length, 0.05) / USUAL_SPEED_RATIO
+    rise = abs(stride.height_change if measured.rise is None else measured.rise)
+    off_floor = min(rise, abs(rise - TREADS_RISE)) / (RISE_ERROR + RISE_ERROR_SHARE * stride.length)
+    short, long = SWING_TIMES
+    change = (1.0, 1.0)
+    if previous is not None:
+        before = _swing(previous)
+        change = (
+            min(abs(log(length / max(previous.length, LEAST_LENGTH))), 1.0),
+            1.0 if swing is None or before is None else min(abs(log(swing / before)), 1.0),
+        )
+    return (
+        max(0.0, _falling(measured.peak_rate, REST_RATES, REST_SHARES) - measured.longest_rest / time),
+        off_gravity * _falling(measured.peak_rate, GRAVITY_RATES, (1.0, 0.0)),
+        log(min(max(measured.force_range, LEAST_FORCE_RANGE), 20.0)),
+        min(abs(log(max(ratio, 0.05))), 2.0),
+        min(max(0.0, log(SHORT_LENGTH / length)), 1.5),
+        log(1.0 + min(off_floor, 10.0)),
+        0.0 if swing is None else 5.0 * max(0.0, short - swing) + min(max(0.0, swing - long), 2.0),
+        min(max(0.0, log(max(measured.peak_speed, 0.1) / FASTEST_SWING)), 2.0),
+        *change,
+    )
+
+
+def _falling(value: float, ends: tuple[float, float], results: tuple[float, float]) -> float:
+    """Return the first result up to the first end, the second one from the second end on, and what lies between."""
+    share = max(0.0, min(1.0, (value - ends[0]) / (ends[1] - ends[0])))
+    return results[0] + share * (results[1] - results[0])
+
+
+def _swing(stride: StrideTaken) -> float | None:
+    """Return the time from toe-off to heel-strike, s; None when one of them is not known."""
+    if stride.t_toe_off is None or stride.t_heel_strike is None:
+        return None
+    return max(LEAST_SWING, stride.t_heel_strike - stride.t_toe_off)
+
+
+def evidence_of(stride: StrideTaken, previous: StrideTaken | None) -> float:
+    """Return the logarithm of the likelihood ratio of a foot that carries its walker to one that does not."""
+    total = OFFSET
+    for weight, value in zip(WEIGHTS, features(stride, previous), strict=True):
+        total += weight * value
+    return total
+
+
+@define
+class Bearing:
+    """Whether a foot carries its walker, and its strides for as long as that is not known.
+
+    Latency: none once it is known; else at most `MOST_WAITING` strides and `LONGEST_WAIT` s."""
+
+    evidence: float = 0.0
+    """Logarithm of the likelihood ratio over the strides so far, from -KNOWN to SUREST."""
+    waiting: list[StrideTaken] = field(factory=list)
+    """Strides of which it is not known yet whether the foot carried its walker, oldest first."""
+    previous: StrideTaken | None = None
+    """Newest stride of the bout; None before any."""
+
+    def add(self, stride: StrideTaken) -> tuple[list[StrideTaken], list[StrideTaken]]:
+        """Add a stride; return the strides that are known now, and those that were none."""
+        previous = self.previous
+        if previous is not None and stride.t_end - previous.t_end > LONGEST_WAIT:
+            previous, self.evidence = None, min(self.evidence, 0.0)
+        most = MOST_OF_FIRST if previous is None else MOST_FOR
+        one = max(MOST_AGAINST, min(most, evidence_of(stride, previous)))
+        self.evidence = max(-KNOWN, min(SUREST, self.evidence + one))
+        self.previous = stride
+        waiting = [*self.waiting, stride]
+        if self.evidence >= KNOWN:
+            self.waiting = []
+            return [evolve(one, known_at=stride.known_at) for one in waiting], []
+        is_none = self.evidence <= -KNOWN
+        kept = [] if is_none else [one for one in waiting[-MOST_WAITING:] if stride.t_end - one.t_end < LONGEST_WAIT]
+        self.waiting = kept
+        return [], waiting[: len(waiting) - len(kept)]
