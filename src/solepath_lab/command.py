@@ -75,13 +75,18 @@ def _modules(group: str) -> dict[str, ModuleType]:
 
             return {"sensors": sensors, "clocks": clocks, "losses": losses}
         case "emulated":
-            from .emulated import by_hand, evidence, north, reliability, runs
+            from .emulated import by_hand, evidence, north, other_motions, reliability, runs, slow_walkers
 
-            return {"evidence": evidence, "reliability": reliability, "north": north, "runs": runs, "by-hand": by_hand}
+            return {
+                "evidence": evidence, "reliability": reliability, "north": north, "runs": runs, "by-hand": by_hand,
+                "other-motions": other_motions, "slow-walkers": slow_walkers,
+            }  # fmt: skip
         case "train":
-            from .train import activities, footstep_activity, turns
+            from .train import activities, bearing, footstep_activity, turns
 
-            return {"activities": activities, "turns": turns, "footstep-activity": footstep_activity}
+            return {
+                "activities": activities, "bearing": bearing, "turns": turns, "footstep-activity": footstep_activity
+            }  # fmt: skip
     from .evaluate import command as evaluate
     from .evaluate import sensitivity
     from .reproduce import command as reproduce

@@ -28,7 +28,7 @@ def test_scan_lists_the_insoles_that_are_there(insoles: str) -> None:
 
 def test_live_reports_links_and_what_it_records_gives_the_same_events_again(insoles: str, tmp_path: Path) -> None:
     file, out, replayed = tmp_path / "walk.jsonl", tmp_path / "out", tmp_path / "replayed"
-    options = ["--left", "solepath L", "--right", "F0:5E:00:00:00:02", "--via", insoles, "--duration", 6]
+    options = ["--left", "solepath L", "--right", "F0:5E:00:00:00:02", "--via", insoles, "--duration", 8]
     result = run("live", *options, "--record", file, "--out", out)
     assert result.stderr == ""
     for foot in ("left", "right"):  # a busy machine delays a second's last packets

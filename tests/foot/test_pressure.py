@@ -62,15 +62,16 @@ def test_the_first_toe_off_of_a_walk_is_when_the_toe_leaves_the_ground() -> None
 
 
 def test_the_path_of_the_centre_of_pressure_runs_from_heel_to_toe() -> None:
-    events = of(StrideTaken, Session().feed(insoles(SHORT).packets))
-    paths = [stride.features.cop for stride in events[2:-2]]
+    strides = of(StrideTaken, Session().feed(insoles(SHORT).packets))
+    events = [stride for stride in strides if stride.number > 1][:-2]
+    paths = [stride.features.cop for stride in events]
     assert all(8 <= len(path) <= 32 for path in paths)
     for path in paths:
         assert path[0][0] < 0.09 and max(x for x, _ in path) > 0.20
         rising = [b[0] > a[0] - 0.003 for a, b in pairwise(path[:-3])]  # hardly any load is left at the very end
         assert all(rising)
         assert all(0.0 < x < 0.285 and abs(y) < 0.05 for x, y in path)
-    assert all(stride.features.contact_load > 200.0 for stride in events[2:-2])
+    assert all(stride.features.contact_load > 200.0 for stride in events)
 
 
 @cache

@@ -11,6 +11,7 @@ from solepath_lab.evaluate.changes import comparison_tables, read_scores, verdic
 from solepath_lab.tables.columns import FIGURES
 
 NEITHER = {
+    "share_standing", "share_unknown",
     "nees_return", "held_return",
     *(f"{figure}_{t}" for figure in ("nees", "held", "heading_nees") for t in CHECKED_TIMES),
     "nees_end", "held_end", "path", "authors", "most_frequent", "strides_true", "rides_true", "heel_strike_true",

@@ -16,8 +16,8 @@ from solepath.wire.receiver import PositionFrame, build_position  # internal: th
 
 MIRRORED = Change(mirrored=True)
 REPORTS = (
-    (2.5, PositionFrame((0.4, 0.1), 0.5)),
-    (3.5, PositionFrame(None, 1.0, "the gate")),
+    (3.6, PositionFrame((0.4, 0.1), 0.5)),
+    (3.8, PositionFrame(None, 1.0, "the gate")),
     (4.5, PositionFrame((3.3, 0.3), 0.3)),
     (6.0, PositionFrame(None, 5.0, "the gate")),
     (6.5, PositionFrame(None, 20.0)),

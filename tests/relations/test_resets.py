@@ -56,13 +56,14 @@ Decoder.restart_clock: firmware link* newest_stream_arrival* used link.restart_c
 DoubleFoot.reset: chosen error_balance paths* apart
 Flights.reset: level_stride_count stride_count t_end t_start trusted_rise
 FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares resolution sink speed squares
-  strike_height top tracked
+  strike_height top total tracked
 FootClocks._forget: feet* idle
 FootClocks.reset: feet* idle
 FootTracker.reset: corrector* cues* detector* gait* levelled lost_count* rest* rhythm sole* walk_scale*
   cues.reset() cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
-Footsteps.reset: idle paths
-Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
+Footsteps.reset: idle paths* restart_position restarts apart
+Gait.reset: anchor_position bearing* heading_settled number path phase stride* template* world stride.cut()
+  template.reset()
 GaitCues.reset: inertial* pressure sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
 GaitCycles.reset: feet* apart means.reset()
@@ -102,8 +103,9 @@ Straightness.reset: direction
 StreamLink.handle_reconnection: last_t newest_arrival off_rate_interval off_rate_packets packet_run* periodic*
 StreamLink.restart_clock: off_rate_interval off_rate_packets packet_run* periodic*
 StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped first_pitch flat_pitch flaws heel_strike_pitch
-  load_count load_sum next_pitch number peak_height peak_speed pitch pitch_high pitch_low pitches start t_heel_off
-  t_heel_strike t_mid_stance t_pitch t_toe_off toe_off_pitch usual_flat_pitch usual_motion
+  least_force load_count load_sum longest_rest most_force next_pitch peak_height peak_rate peak_speed pitch pitch_high
+  pitch_low pitches rest start stride_rate t_heel_off t_heel_strike t_mid_stance t_pitch t_toe_off toe_off_pitch
+  usual_flat_pitch usual_motion
 StrideTemplate.reset: age bridged first_position infilled last_stride longest_stride stance_duration straight_on*
   t_last_flat t_next_moment
 StrideTurn.reset: stride_turn
@@ -125,7 +127,7 @@ CommonError.start_stride: covariance estimates foot_biases
 Contact.start: last_load layout swing_time t_end
 Cycle._start_span: highs lows past_high past_low sensor_height shoe
 ErrorStateFilter.start: interval level recovery rhythm velocity_error
-FootBlocks.start_block: blocks bottom flat_height strides strike_height top
+FootBlocks.start_block: blocks bottom flat_height rest_force rested strides strike_height top
 GatedTilt.start: velocity_change
 Impact.start_swing: peak_shock_time
 Projection.start: largest_saturated least_saturated
@@ -133,7 +135,7 @@ Rest._start_span: bias bias_filter count grain last scale
 Sagittal.end_lift: forward pitch toe up
 SoftSwing.start: drift_scale drift_time heel_slide heel_strike_error_time interval interval_velocity pivot
   previous_interval scale_excess toe_off_error_time toe_slide
-StrideBuilder.start_stride: contact_time first_pitch flat_pitch flawed_until flaws newest_gaps next_pitch number
+StrideBuilder.start_stride: contact_time first_pitch flat_pitch flawed_until flaws newest_gaps next_pitch peak_rate
   pitches t_contact t_mid_stance t_pitch usual_flat_pitch usual_motion
 StrideTemplate.start_stride: age bridged first_position infilled last_stride longest_stride stance_duration straight_on
   t_flat t_last_flat

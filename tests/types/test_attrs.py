@@ -59,11 +59,11 @@ from solepath.foot.settings import CycleSettings
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.gait import Gait
 
-Cycle(), Cycle(CycleSettings()), Cycle(settings=CycleSettings()), Turns(), Sole(Foot.LEFT), Gait(Foot.LEFT, None)
+Cycle(), Cycle(CycleSettings()), Cycle(settings=CycleSettings()), Turns(), Sole(Foot.LEFT), Gait(Foot.LEFT, None, False)
 Cycle(previous=None)
 Turns(3)
 Sole(Foot.LEFT, had_cells=True)
-Gait(Foot.LEFT, heading=None, stride=None)
+Gait(Foot.LEFT, heading=None, every_stride=False, stride=None)
 Gait(Foot.LEFT)
 """
 """A line of calls that are right, and then one that is wrong in each line."""

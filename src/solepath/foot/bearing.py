@@ -13,7 +13,7 @@ from math import log
 
 from ..events import StrideTaken
 from ..types.attrs import define, evolve, field
-from ..types.vector import GRAVITY
+from ..types.vector import GRAVITY, TIME_EPSILON
 
 USUAL_SPEED_RATIO = 1.2
 """Greatest speed of a swing divided by its length over its time, no unit: the median of level walks of 14 data sets."""
@@ -53,6 +53,8 @@ MOST_OF_FIRST = 1.5
 et al., "Consensus based framework for digital mobility monitoring", PLoS ONE 16, 2021)."""
 KNOWN, SUREST = 2.0, 5.0
 """Evidence from which on a foot is known to carry its walker, and its largest value."""
+MOST_MISSING = 0.1
+"""Largest share of missing samples of a stride that can be evidence against a foot that carries."""
 MOST_WAITING = 4
 """Number of strides that wait until it is known whether the foot carries, the newest included."""
 FARTHEST = 1e6
@@ -133,10 +135,12 @@ class Bearing:
     def add(self, stride: StrideTaken) -> tuple[list[StrideTaken], list[StrideTaken]]:
         """Add a stride; return the strides that are known now, and those that were none."""
         previous = self.previous
-        if previous is not None and stride.t_end - previous.t_end > LONGEST_WAIT:
+        if previous is not None and stride.t_end - previous.t_end > LONGEST_WAIT + TIME_EPSILON:
             previous, self.evidence = None, min(self.evidence, 0.0)
         most = MOST_OF_FIRST if previous is None else MOST_FOR
         one = max(MOST_AGAINST, min(most, evidence_of(stride, previous)))
+        if stride.missing > MOST_MISSING:
+            one = max(0.0, one)  # what a gap hides speaks against nobody
         self.evidence = max(-KNOWN, min(SUREST, self.evidence + one))
         self.previous = stride
         waiting = [*self.waiting, stride]
@@ -144,6 +148,6 @@ class Bearing:
             self.waiting = []
             return [evolve(one, known_at=stride.known_at) for one in waiting], []
         is_none = self.evidence <= -KNOWN
-        kept = [] if is_none else [one for one in waiting[-MOST_WAITING:] if stride.t_end - one.t_end < LONGEST_WAIT]
+        kept = [] if is_none else [one for one in waiting[-MOST_WAITING:] if stride.t_end - one.t_end < LONGEST_WAIT - TIME_EPSILON]
         self.waiting = kept
         return [], waiting[: len(waiting) - len(kept)]

@@ -61,7 +61,7 @@ class Gait:
         self.phase_start = None
         self.stride.cut()
         self.template.reset()
-        self.bearing = Bearing()
+        self.bearing = Bearing(self.bearing.evidence)
 
     def start_walking(self, on_ground: bool) -> None:
         """Start with a foot that walks already; its first stride starts at the next foot-flat."""

@@ -66,7 +66,7 @@ class ActivityReport:
         likely = [*self.settled, *[(segment, hypotheses.probability(segment)) for segment in path], *early]
         agreed = self.strides.reconcile(likely, settled_by)
         settled_until = self.settled[-1][0].t if self.settled else -inf
-        known_until = inf if ending else min(settled_until, settled_by - SETTLING_TIME)
+        known_until = inf if ending else min(settled_until, settled_by - SETTLING_TIME) + TIME_EPSILON
         events = self._report_rides(settled_by, known_at, ending)
         newest = self._newest(agreed)
         while newest and newest[0][0].t <= known_until:
@@ -74,7 +74,7 @@ class ActivityReport:
             revises = self.provisional[0][0].t if self.provisional else self.withdrawn_at
             events.append(self._event(segment, known_at, True, revises, probability))
             self.provisional, self.withdrawn_at, self.final = [], None, segment
-        self._forget()
+        self._trim()
         return events + self._report_newest(newest, known_at, ending)
 
     def _newest(self, agreed: Sequence[Early]) -> list[Early]:
@@ -89,16 +89,16 @@ class ActivityReport:
                 newest.append((after, probability))
         return newest
 
-    def _forget(self) -> None:
-        """Forget what no later report needs."""
+    def _trim(self) -> None:
+        """Drop what no later report needs."""
         while len(self.settled) > 1 and self.settled[1][0].t <= self.final.t:
             self.settled.pop(0)
-        self.strides.forget(self.final.t - BOUT_PAUSE)
+        self.strides.drop_before(self.final.t - BOUT_PAUSE)
 
     def _report_rides(self, now: float, known_at: float, ending: bool) -> list[Event]:
         """Return the rides whose strides are all known: whoever walked for most of one was in no elevator."""
         events: list[Event] = []
-        while self.rides and (ending or now - self.rides[0][1] >= SETTLING_TIME):
+        while self.rides and (ending or now - self.rides[0][1] >= SETTLING_TIME - TIME_EPSILON):
             ride, t_end = self.rides.pop(0)
             is_ridden = 2.0 * self.strides.covered(ride.t, t_end) < t_end - ride.t
             if is_ridden and not self.strides.leans(ride.t, t_end):

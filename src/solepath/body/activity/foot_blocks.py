@@ -364,6 +364,7 @@ class FootBlocks:
     def restart(self) -> None:
         """Discard all blocks and strides, because the clock restarts or another device is worn."""
         self.index = None
+        self.rested, self.rest_force = 0, ZERO
         self.acc_bins = [0] * BIN_COUNT
         self.blocks.clear()
         self.strides.clear()

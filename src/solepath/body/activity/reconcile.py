@@ -14,6 +14,7 @@ from math import fsum, inf
 from ...events import FootFlat, GaitEvent, HeelOff, HeelStrike, StrideTaken, ToeOff
 from ...types import Activity, Foot
 from ...types.attrs import define, field
+from ...types.vector import TIME_EPSILON
 from .chain import ELEVATOR_ACTIVITIES
 from .hypotheses import ActivitySegment
 from .motion import slope_evidence
@@ -87,18 +88,18 @@ class Strides:
             return
         times = self.newest.setdefault(event.foot, {})
         if isinstance(event, FootFlat):
-            if event.t - times.get(HeelOff.__name__, event.t) > LEAST_LIFT:
+            if event.t - times.get(HeelOff.__name__, event.t) > LEAST_LIFT + TIME_EPSILON:
                 self.moved.append(event.t)
         elif isinstance(event, ToeOff):
             lifted, contact = times.get(ToeOff.__name__), times.get(HeelStrike.__name__)
             if lifted is not None and contact is not None and lifted < contact:
                 swing, stance = contact - lifted, event.t - contact
-                if max(stance, swing) < LONGEST_PHASE:
-                    self.cycles.append((event.t, stance > swing))
+                if max(stance, swing) < LONGEST_PHASE - TIME_EPSILON:
+                    self.cycles.append((event.t, stance > swing + TIME_EPSILON))
         times[type(event).__name__] = event.t
 
-    def forget(self, until: float) -> None:
-        """Forget the strides that ended before `until`, s."""
+    def drop_before(self, until: float) -> None:
+        """Drop what ended before `until`, s."""
         self.spans = [span for span in self.spans if span.end >= until]
         self.cycles = [cycle for cycle in self.cycles if cycle[0] >= until]
         self.moved = [t for t in self.moved if t >= until]
@@ -106,7 +107,7 @@ class Strides:
 
     def leans(self, start: float, end: float) -> bool:
         """Return whether the force on the feet leans so often from `start` to `end`, s, that they are in a vehicle."""
-        leaning = [leans for t, leans in self.forces if start <= t < end]
+        leaning = [leans for t, leans in self.forces if start <= t + TIME_EPSILON < end]
         return leaning.count(True) > LEANING_SHARE * len(leaning)
 
     def covered(self, start: float, end: float) -> float:
@@ -124,7 +125,7 @@ class Strides:
                 start, end = bouts[-1]
                 moved = [t for t in self.moved if end < t < span.start]
                 pauses = [after - before for before, after in pairwise([end, *moved, span.start])]
-                if max(pauses) <= BOUT_PAUSE and span.start - end <= LONGEST_TURN:
+                if max(pauses) <= BOUT_PAUSE + TIME_EPSILON and span.start - end <= LONGEST_TURN + TIME_EPSILON:
                     bouts[-1] = (start, max(end, span.end))
                     continue
             bouts.append((span.start, span.end))
@@ -144,7 +145,7 @@ class Strides:
             self.gait_since = since
         if self.gait_since is not None:
             open_since = max([self.gait_since, *[span.end for span in self.spans]])
-            if now - open_since < SETTLING_TIME:
+            if now - open_since < SETTLING_TIME - TIME_EPSILON:
                 bouts.append((open_since, inf))
         agreed: list[Likely] = []
         for k, (segment, probability) in enumerate(likely):
@@ -184,13 +185,13 @@ def _cut(start: float, end: float, times: Sequence[tuple[float, float]]) -> list
     parts: list[tuple[float, float, bool]] = []
     for first, last in times:
         first, last = max(first, start), min(last, end)
-        if first >= last:
+        if first >= last - TIME_EPSILON:
             continue
-        if first > start:
+        if first > start + TIME_EPSILON:
             parts.append((start, first, False))
         parts.append((first, last, True))
         start = last
-    if start < end:
+    if start < end - TIME_EPSILON:
         parts.append((start, end, False))
     return parts
 

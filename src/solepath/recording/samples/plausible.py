@@ -35,6 +35,8 @@ NEAR = 0.2
 STUCK_SHARE = 0.5
 """Share of the samples from which on repeated values are those of a sensor that is stuck: one that measures at half the
 rate of its samples repeats every other one."""
+LEAST_STUCK = 100
+"""Least number of samples of a sensor that is stuck."""
 NO_GRAVITY = 0.3
 """Specific force at rest below which gravity was removed, m/s^2 or g: nothing else is so small in any unit."""
 
@@ -106,9 +108,9 @@ def list_unit_problems(tables: Sequence[FootTable]) -> list[UnusableValues]:
 
 
 def _is_stuck(table: FootTable, quantity: str) -> bool:
-    """Return whether most values of a quantity are exactly those of the sample before."""
+    """Return whether most values of a quantity are exactly those of the sample before, of a second and more."""
     rows = zip(*table.columns[quantity], strict=True)
-    return sum([before == after for before, after in pairwise(rows)]) > STUCK_SHARE * len(table)
+    return len(table) >= LEAST_STUCK and sum([before == after for before, after in pairwise(rows)]) > STUCK_SHARE * len(table)
 
 
 def _explain_times(t: Sequence[float], middle: float) -> str:
