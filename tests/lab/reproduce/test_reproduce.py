@@ -56,7 +56,7 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure_and_are_not_walked_agai
     assert done.stdout.endswith(f"figure drawn in {name}.png\n")
     assert Path(f"{name}.png").read_bytes().startswith(b"\x89PNG")
     table = json.loads(Path("table.json").read_text(), parse_constant=pytest.fail)
-    assert list(table) == ["name", "emulated", "table", "paper"]
+    assert list(table) == ["name", "emulated", "table", "paper", "claims"]
     assert table["name"] == name and table["emulated"] is True
     assert list(table["table"]) == list(table["paper"])
     assert all(list(of) == FIVE for part in ("table", "paper") for of in table[part].values())
