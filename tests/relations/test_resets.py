@@ -48,7 +48,7 @@ Clipping.reset: axes* largest near_end_square
 Compass.reset: distance disturbance first apart trust.reset()
 CompassTrust.reset: apart
 Contours.reset: cells levels per_area points rays
-CopCues.reset: foot_centre inertial* sagittal stage_t_start* inertial.reset()
+CopCues.reset: foot_centre inertial* sagittal stage_t_start* touch inertial.reset()
 CopCues.restart: foot_centre inertial* sagittal touch* inertial.reset() inertial.restart() touch.restart()
 CriticalCues.reset:
 CriticalCues.restart:
@@ -131,8 +131,7 @@ Impact.start_swing: peak_shock_time
 Projection.start: largest_saturated least_saturated
 Rest._start_span: bias bias_filter count grain last scale
 Sagittal.end_lift: forward pitch toe up
-SoftSwing.start: drift_scale drift_time heel_slide heel_strike_error_time interval interval_velocity pivot
-  previous_interval scale_excess toe_off_error_time toe_slide
+SoftSwing.start: drift_time interval interval_velocity scale_excess
 StrideBuilder.start_stride: contact_time first_pitch flat_pitch flawed_until flaws newest_gaps next_pitch number
   pitches t_contact t_mid_stance t_pitch usual_flat_pitch usual_motion
 StrideTemplate.start_stride: age bridged first_position infilled last_stride longest_stride stance_duration straight_on

@@ -157,7 +157,7 @@ class Claim:
         low, high = self.interval
         mean = float(np.mean(self.margins or (0.0,)))
         return (
-            f"{self.sentence}: by {mean:.3g} {self.unit} (95 % interval {low:.2g} to {high:.2g}, n = "
+            f"{self.sentence}: by {mean:.2g} {self.unit} (95 % interval {low:.2g} to {high:.2g}, n = "
             f"{len(self.margins)}), so it {self.verdict}."
         )
 
