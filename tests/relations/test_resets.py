@@ -127,6 +127,7 @@ Cycle._start_span: highs lows past_high past_low sensor_height shoe
 ErrorStateFilter.start: interval level recovery rhythm velocity_error
 FootBlocks.start_block: blocks bottom flat_height strides strike_height top
 GatedTilt.start: velocity_change
+GyroscopeMagnitude._start_span: highs lows past_high past_low shoe
 Impact.start_swing: peak_shock_time
 Projection.start: largest_saturated least_saturated
 Rest._start_span: bias bias_filter count grain last scale

@@ -101,7 +101,7 @@ def _square(options: Namespace, known: Calibration) -> LearntCalibration:
     x, y = drift.slope
     if drift.agreed:
         verdict = "the laps agree on it, and it is taken off later"
-    elif options.whole or not drift.gated:
+    elif options.whole:
         verdict = "the laps do not agree on it, and it is taken off all the same"
     else:
         verdict = "the laps do not agree on it, so that nothing is taken off (--whole does all the same)"

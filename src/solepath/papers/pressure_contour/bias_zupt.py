@@ -37,9 +37,6 @@ class BiasZuptSettings(DedriftSettings):
     estimate_bias: bool = True
     """Flag: the bias of the accelerometer is estimated (7) to (10); the paper's "calibrated position" (figs. 14
     and 15) has both this bias and the laps' slope (`drift`), its "position" has neither."""
-    gate_drift: bool = True
-    """Flag: the slope of calibration laps is used only if it is larger than chance explains (square.py). The paper uses
-    every slope."""
     turn_error: float = 0.0175
     """Heading error of the attitude that a device reports, rad: 1 degree in the InertiaCube3's data sheet."""
 

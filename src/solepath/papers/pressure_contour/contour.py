@@ -31,7 +31,7 @@ from __future__ import annotations
 from collections import deque
 from itertools import combinations
 from math import cos, fsum, hypot, inf, pi, sin
-from operator import mul, sub
+from operator import mul
 
 from ...types import Cell, Layout
 from ...types.attrs import define, field, frozen
@@ -61,6 +61,8 @@ sigma_r, is that of the pressure divided by its slope. A cell of 12-bit resistiv
 (emulate/sensors/parts.py). This is 0.8 kPa on 1.6 cm^2, and half a kPa as weighted mean of three cells. A heel that
 bears 200 N has a slope of 2 kPa/mm, so sigma_r is 0.25 mm. Over all rays that makes 0.14 mm. sigma_v is below the
 paper's 4 mm/s from 36 ms on; 50 ms are used."""
+NO_CONTOUR = 100.0
+"""Speed without a contour, m/s: faster than any foot."""
 NO_RADIUS = -1.0
 """Value in the place of a radius when the contour does not cross the ray."""
 
@@ -76,7 +78,7 @@ class ContourSettings:
     """Levels as shares of the present mean pressure of the heel's cells. 1.4 is well below the peak pressure. 0.4 lies
     at the edge of the loaded area, where a heel that leans has its only contours."""
     pascals: tuple[float, ...] | None = None
-    """Fixed levels, Pa, used instead of `shares` if the scale of the cells is known; None for shares."""
+    """Fixed levels, Pa, used instead of `shares`; they need cells of known scale. None for shares."""
 
 
 @define
@@ -95,9 +97,7 @@ class Contours:
     rays: list[tuple[int, float]] = field(factory=list, init=False)
     """Number of points on each ray, and their distance, m."""
     levels: tuple[float, ...] = field(default=(), init=False)
-    """Levels in falling order, in Pa if `levels_in_pascals`, otherwise as shares."""
-    levels_in_pascals: bool = field(default=False, init=False)
-    """Flag: the levels are pressures, not shares."""
+    """Levels in falling order, in Pa or as shares, as in `settings`."""
     history: deque[tuple[float, tuple[float, ...]]] = field(factory=deque, init=False)
     """Samples of the last `COMPARISON_TIME`, each with its time, s, and the radii, m, of all levels ray by ray."""
 
@@ -110,8 +110,9 @@ class Contours:
             return f"{len(heel)} pressure cells under the heel have no contour, {FEWEST_CELLS} are the fewest"
         self.cells = [i for i, cell in enumerate(layout.cells) if cell.x < CONTOUR_SHARE * layout.length]
         shares, pascals = self.settings.shares, self.settings.pascals
-        self.levels_in_pascals = pascals is not None and layout.scale is not None
-        self.levels = tuple(sorted(pascals if self.levels_in_pascals and pascals else shares, reverse=True))
+        if pascals is not None and layout.scale is None:
+            return "pressure cells of unknown scale have no contours of 20 to 70 kPa"
+        self.levels = tuple(sorted(pascals or shares, reverse=True))
         used = [layout.cells[i] for i in self.cells]
         self.per_area = [
             1.0 / (max(cell.area, 1e-9) * len(heel)) if cell.x < HEEL_SHARE * layout.length else 0.0 for cell in used
@@ -126,6 +127,11 @@ class Contours:
     def reset(self) -> None:
         """Discard the radii of earlier samples."""
         self.history.clear()
+
+    def speed(self, t: float, cells: list[float]) -> float:
+        """Return the speed of the contours' centre, m/s; `NO_CONTOUR` without contours. Arguments as for `velocity`."""
+        velocity = self.velocity(t, cells)
+        return NO_CONTOUR if velocity is None else min(hypot(*velocity), NO_CONTOUR)
 
     def velocity(self, t: float, cells: list[float]) -> tuple[float, float] | None:
         """Return the velocity (forward, left) of the contours' centre, foot frame, m/s; None without contours.
@@ -154,7 +160,7 @@ class Contours:
     def _radii(self, cells: list[float]) -> tuple[float, ...]:
         """Return the radii r(theta), m, ray by ray, each for all levels."""
         pressures = [a * cells[i] + b * cells[j] + c * cells[k] for i, j, k, a, b, c in self.points]
-        mean = 1.0 if self.levels_in_pascals else fsum(map(mul, self.per_area, cells))
+        mean = 1.0 if self.settings.pascals else fsum(map(mul, self.per_area, cells))
         levels = [share * mean for share in self.levels]
         count = len(levels)
         middle = pressures[0]
@@ -187,31 +193,13 @@ class Contours:
         self, radii: tuple[float, ...], earlier_radii: tuple[float, ...], rate: float
     ) -> tuple[float, float] | None:
         """Return the mean over all levels of the centre's velocity (1)(2), m/s; `rate` is 1 / dt, 1/s."""
-        sum_x = sum_y = 0.0
-        contours = 0
         count = len(self.levels)
-        for level in range(count):
-            present, past = radii[level::count], earlier_radii[level::count]
-            if max(present) < 0.0 or max(past) < 0.0:
-                continue
-            if min(present) >= 0.0 and min(past) >= 0.0:
-                # with all rays the matrix of the normal equations is RAY_PAIRS times the identity
-                radius_changes = list(map(sub, present, past))
-                sum_x += fsum(map(mul, radius_changes, _COS)) / RAY_PAIRS
-                sum_y += fsum(map(mul, radius_changes, _SIN)) / RAY_PAIRS
-                contours += 1
-                continue
-            displacement = _fit_pairs(present, past)
-            if displacement is None and not self.levels_in_pascals:  # fixed contours shrink as the weight leaves
-                displacement = _fit_rays(present, past)
-            if displacement is not None:
-                sum_x += displacement[0]
-                sum_y += displacement[1]
-                contours += 1
-        if not contours:
+        fits = [_displacement(radii[level::count], earlier_radii[level::count]) for level in range(count)]
+        found = [fit for fit in fits if fit is not None]
+        if not found:
             return None
-        k = rate / contours
-        return sum_x * k, sum_y * k
+        k = rate / len(found)
+        return fsum([x for x, _ in found]) * k, fsum([y for _, y in found]) * k
 
     def _set_rays(self, used: list[Cell], centre: tuple[float, float]) -> None:
         """Set the points on the rays from the centre (x, y), foot frame, m."""
@@ -232,39 +220,25 @@ class Contours:
             self.rays.append((len(self.points) - first_point, step))
 
 
-_COS = [cos(pi * k / RAY_PAIRS) for k in range(2 * RAY_PAIRS)]
-"""Cosine of each ray's direction."""
-_SIN = [sin(pi * k / RAY_PAIRS) for k in range(2 * RAY_PAIRS)]
-"""Sine of each ray's direction."""
-_RAYS = [(c, s, c * c, c * s, s * s) for c, s in zip(_COS, _SIN, strict=True)]
-"""Direction of each ray, and its terms of the normal equations."""
+_RAYS = [(cos(pi * k / RAY_PAIRS), sin(pi * k / RAY_PAIRS)) for k in range(RAY_PAIRS)]
+"""Direction of the first ray of each pair."""
 
 
-def _fit_pairs(radii: tuple[float, ...], earlier_radii: tuple[float, ...]) -> tuple[float, float] | None:
-    """Return the displacement of one level's contour, m, by those of its rays whose opposite has a radius, too."""
-    opposites = zip(
-        radii[:RAY_PAIRS], radii[RAY_PAIRS:], earlier_radii[:RAY_PAIRS], earlier_radii[RAY_PAIRS:], strict=True
-    )
-    return _least_squares([0.5 * (r - p - q + o) if min(r, q, p, o) >= 0.0 else None for r, q, p, o in opposites])
+def _displacement(radii: tuple[float, ...], earlier_radii: tuple[float, ...]) -> tuple[float, float] | None:
+    """Return the displacement of one level's contour, m: the vector u that fits u . r_hat to the radii best (2).
 
-
-def _fit_rays(radii: tuple[float, ...], earlier_radii: tuple[float, ...]) -> tuple[float, float] | None:
-    """Return the displacement of one level's contour, m, by all its rays that have a radius."""
-    return _least_squares([r - p if r >= 0.0 and p >= 0.0 else None for r, p in zip(radii, earlier_radii, strict=True)])
-
-
-def _least_squares(radius_changes: list[float | None]) -> tuple[float, float] | None:
-    """Return the vector u, m, that fits u . r_hat to the changes of the first rays' radii, m, by least squares.
-
-    It is None if too few rays have a change, or all of them have nearly the same direction."""
+    It is that by the pairs of opposite rays of which both have a radius, by least squares; None if they are too few, or
+    all of them have nearly the same direction."""
     xx = xy = yy = bx = by = 0.0
-    for (c, s, cc, cs, ss), radius_change in zip(_RAYS, radius_changes, strict=False):
-        if radius_change is not None:
-            xx += cc
-            xy += cs
-            yy += ss
-            bx += radius_change * c
-            by += radius_change * s
+    for k, (c, s) in enumerate(_RAYS):
+        near, far, old_near, old_far = radii[k], radii[k + RAY_PAIRS], earlier_radii[k], earlier_radii[k + RAY_PAIRS]
+        if min(near, far, old_near, old_far) >= 0.0:
+            change = 0.5 * (near - old_near - far + old_far)
+            xx += c * c
+            xy += c * s
+            yy += s * s
+            bx += change * c
+            by += change * s
     determinant = xx * yy - xy * xy
     if determinant < 1.0:  # it is 1.5 for three neighbouring directions, 9 for all six axes
         return None

@@ -73,13 +73,11 @@ class SquareDrift:
     """Number of marks that were visited often enough."""
     visits: int
     """Number of visits of all these marks."""
-    gated: bool = True
-    """Flag: the recipe does not use a slope that chance explains."""
 
     @property
     def kept(self) -> tuple[float, float]:
-        """Slope for a calibration (x, y), m/s: `slope` if `agreed` or not `gated`, otherwise zero."""
-        return self.slope if self.agreed or not self.gated else (0.0, 0.0)
+        """Slope for a calibration (x, y), m/s: `slope` if `agreed`, otherwise zero. The paper uses every slope."""
+        return self.slope if self.agreed else (0.0, 0.0)
 
 
 def square_drift(
@@ -90,15 +88,13 @@ def square_drift(
     steps_per_lap: int = STRIDES_PER_LAP,
     recipe: Recipe = PRESSURE_CONTOUR,
     calibration: Calibration | None = None,
-    lenient: bool = False,
 ) -> SquareDrift:
     """Run the laps through a session, and fit a line to the positions of each mark.
 
     With `marks` a visit is the stride that ends nearest to its time. Without them every `steps_per_lap`-th stride is on
     the same mark. `foot` is the foot to use; None selects the right foot if it was recorded. Raises CalibrationError
     when there are too few laps, when they are not laps of a square (`check_laps`), or when the recipe cannot use a
-    drift. If `lenient`, marks at which no stride ends are left out, and laps that do not close are used: an experiment
-    shows with it what a recipe does that loses strides."""
+    drift."""
     if not isinstance(recipe.corrector, BiasZupt):
         raise CalibrationError(f"recipe {recipe.name} takes no drift off")
     known = Calibration() if calibration is None else calibration
@@ -111,9 +107,7 @@ def square_drift(
     if not strides[chosen]:
         raise CalibrationError(f"no stride of the {chosen.value} foot in the recording")
     visits = (
-        _visits_by_count(strides[chosen], steps_per_lap)
-        if marks is None
-        else _visits_by_marks(strides[chosen], marks, lenient)
+        _visits_by_count(strides[chosen], steps_per_lap) if marks is None else _visits_by_marks(strides[chosen], marks)
     )
     tracker = session.feet[chosen]
     # strides are in the world frame, but a drift is in the navigation frame or in that of the device
@@ -122,9 +116,8 @@ def square_drift(
     north = tracker.gait.world.north or (1.0, 0.0)
     to_drift_frame = -atan2(north[1], north[0]) - (heading_offset or 0.0)
     drift = fit_drift(chosen, visits, to_drift_frame)
-    if not lenient:
-        check_laps(drift, visits)
-    return evolve(drift, gated=recipe.corrector.settings.gate_drift)
+    check_laps(drift, visits)
+    return drift
 
 
 def read_marks(path: Path | str) -> tuple[CornerMark, ...]:
@@ -152,14 +145,12 @@ def _visits_by_count(strides: Sequence[StrideTaken], steps_per_lap: int) -> Visi
     return visits
 
 
-def _visits_by_marks(strides: Sequence[StrideTaken], marks: Sequence[CornerMark], lenient: bool) -> Visits:
+def _visits_by_marks(strides: Sequence[StrideTaken], marks: Sequence[CornerMark]) -> Visits:
     visits: Visits = {}
     ends = np.array([stride.t for stride in strides])
     for mark in marks:
         nearest = int(np.argmin(np.abs(ends - mark.t)))
         if abs(ends[nearest] - mark.t) > MARK_TOLERANCE:
-            if lenient:
-                continue
             raise CalibrationError(f"no stride ends at mark {mark.name} near {mark.t:.2f} s")
         visits.setdefault(mark.name, []).append((strides[nearest].t, strides[nearest].position))
     return visits

@@ -15,12 +15,10 @@ from solepath.events import StrideTaken
 from solepath.papers.shoe_sensing.steepness import angle_per_metre, steepness
 from solepath.types import Foot
 from solepath.validate.alignment import ALIGNMENT_LENGTH, Floats
-from solepath.validate.matching import pairs
 
 from ..tables import Values
+from ..walks import MATCHING_TIME, matched
 
-MATCHING_TIME = 0.3
-"""Largest time between the ends of a found stride and the true one that it matches, s."""
 TWO_RISERS = 0.25
 """Height change that only a stride over two risers of 0.16 m exceeds, m."""
 LEAST_LEVEL_LENGTH = 0.3
@@ -50,12 +48,6 @@ def states_of(truth: Truth, foot: Foot) -> list[str | None]:
         else:
             states.append("jogging" if planned.kind is StrideKind.RUN else "walking")
     return states
-
-
-def matched(found: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tuple[StrideTaken, TrueStride]]:
-    """Return the pairs of a found and a true stride whose ends are at most MATCHING_TIME apart, one to one."""
-    ends = [one.t_end for one in true], [stride.t_end for stride in found]
-    return [(found[j], true[i]) for i, j in pairs(*ends, MATCHING_TIME)]
 
 
 def score_strides(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> Scores:
