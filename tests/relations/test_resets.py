@@ -34,7 +34,7 @@ Activities._restart: feet flights strides
 Activities.reset: feet* apart flights.reset() left.feet.restart() right.feet.restart()
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now*
-AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* apart flights.reset()
+AnglePerMetre.reset: activity limitation_reported apart flights.reset()
 BiasFilter.forget: before bias* noise rate
 BiasFilter.reset: before bias* noise rate
 BothFeet._restart: common compass directions distance divergence errors* ground measured_at path placements started

@@ -34,7 +34,6 @@ TABLE: dict[str, dict[str, str]] = {
         "footstep-tracker-printed": "solepath.papers.footstep_tracker.recipe:FOOTSTEP_TRACKER_PRINTED",
         "shoe-sensing": "solepath.papers.shoe_sensing.recipe:SHOE_SENSING",
         "shoe-sensing-printed": "solepath.papers.shoe_sensing.recipe:SHOE_SENSING_PRINTED",
-        "acceleration-magnitude": "solepath.papers.shoe_sensing.recipe:SHOE_MAGNITUDE",
     },
     # classes of parts; a saved state names only these and those of an app
     "part": _by_class(
@@ -76,7 +75,6 @@ TABLE: dict[str, dict[str, str]] = {
         "solepath.papers.footstep_tracker.snake:SnakeGame",
         "solepath.papers.footstep_tracker.snake:PrintedSnake",
         "solepath.papers.shoe_sensing.short_time_energy:ShortTimeEnergy",
-        "solepath.papers.shoe_sensing.short_time_energy:AccelerationMagnitude",
         "solepath.papers.shoe_sensing.printed:GatedTilt",
         "solepath.papers.shoe_sensing.gated_tilt:ShoeSensing",
         "solepath.papers.shoe_sensing.walking_state:AnglePerMetre",

@@ -85,15 +85,14 @@ def score_legs(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> Scor
     """Return the figures of all legs: strides on the level between turns on the spot.
 
     "legs" and "true legs": distances from their starts to their ends, m; "courses": direction error of each matched
-    stride, degrees, after alignment over its leg's first two metres; "heading": direction of the last leg minus the
-    true one, degrees, positive to the left; the first leg is aligned with it."""
+    stride, degrees, after alignment over its leg's first two metres."""
     legs: list[list[TrueStride]] = [[]]
     for one, state in zip(truth.strides(foot), states_of(truth, foot), strict=True):
         if state is not None:
             legs[-1].append(one)
         elif legs[-1]:
             legs.append([])
-    found, courses, headings = [], [], []
+    found, courses = [], []
     for leg in [leg for leg in legs if leg]:
         start, end = leg[0].t_start, leg[-1].t_end
         inside = [stride for stride in strides if start + 0.05 < stride.t_end < end + MATCHING_TIME]
@@ -101,10 +100,8 @@ def score_legs(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> Scor
             ours, true = (np.sum([one.displacement for one in part], axis=0) for part in (inside, leg))
             found.append([float(hypot(*way[:2])) for way in (ours, true)])
             courses += _courses(matched(inside, leg))
-            headings.append(_angle(ours) - _angle(true))
     lengths, true_lengths = zip(*found, strict=True) if found else ((), ())
-    heading = tuple([degrees(_wrapped(headings[-1] - headings[0]))]) if headings else ()
-    return {"legs": lengths, "true legs": true_lengths, "courses": tuple(courses), "heading": heading}
+    return {"legs": lengths, "true legs": true_lengths, "courses": tuple(courses)}
 
 
 def _angle(displacement: Sequence[float]) -> float:
