@@ -120,7 +120,7 @@ What stays is what was learnt of wearer, device and mounting (axis, bias, scale,
 what was reported of it, and counts; and values that are set again before they are read, with a field that was reset."""
 STARTS = ("start", "start_stride", "start_swing", "start_block", "_start_span", "end_lift", "forget_corner")
 STARTED = """
-BiasZupt.start: motion_acc
+BiasZupt.start: bias motion_acc
 CommonError.start_stride: covariance estimates foot_biases
 Contact.start: last_load layout swing_time t_end
 Cycle._start_span: highs lows past_high past_low sensor_height shoe

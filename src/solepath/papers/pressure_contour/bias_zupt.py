@@ -14,8 +14,8 @@ from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
 from ...types import Foot, Quat, Vec3
-from ...types.attrs import define, evolve, field, frozen
-from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
+from ...types.attrs import evolve, field, frozen, stateful
+from ...types.vector import GRAVITY, ZERO, add, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
 from .acc_bias import AccelerometerBias, BiasNoise
 
 STANDING_DELAY = 1.0
@@ -37,11 +37,13 @@ class BiasZuptSettings(DedriftSettings):
     estimate_bias: bool = True
     """Flag: the bias of the accelerometer is estimated (7) to (10); the paper's "calibrated position" (figs. 14
     and 15) has both this bias and the laps' slope (`drift`), its "position" has neither."""
+    noise: BiasNoise = BiasNoise()
+    """Noise of the accelerometer and its bias, which a recording of the sensor at rest gives (rest.py)."""
     turn_error: float = 0.0175
     """Heading error of the attitude that a device reports, rad: 1 degree in the InertiaCube3's data sheet."""
 
 
-@define
+@stateful
 class BiasZupt(LinearDedrift):
     """Corrector: strapdown navigation with zero-velocity updates, an accelerometer bias and a calibrated drift.
 
@@ -54,27 +56,29 @@ class BiasZupt(LinearDedrift):
     bias only."""
 
     settings: BiasZuptSettings = BiasZuptSettings()
-    bias: AccelerometerBias = field(factory=AccelerometerBias)
-    device_attitude: Quat | None = field(default=None, init=False)
+    bias: AccelerometerBias = field(init=False)
+    """Bias of the accelerometer."""
+    device_attitude: Quat | None = None
     """Attitude that the device reports for the next sample."""
-    heading_offset: float | None = field(default=None, init=False)
+    heading_offset: float | None = None
     """Heading of navigation minus the device's heading, rad, left positive; None before the device's first attitude."""
-    motion_acc: Vec3 = field(default=ZERO, init=False)
+    motion_acc: Vec3 = ZERO
     """Acceleration a_m of the last sample, without gravity, sensor frame, m/s^2."""
-    standing_time: float = field(default=0.0, init=False)
+    standing_time: float = 0.0
     """Time for which the foot has stood without a break, s."""
-    last_dt: float = field(default=0.0, init=False)
+    last_dt: float = 0.0
     """Time between the last two samples, s."""
-    integrated: bool = field(default=True, init=False)
+    integrated: bool = True
     """Flag: the attitude of the last sample is integrated, not reported by the device."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> BiasZupt:
-        drift, rest = calibration.drift.get(foot), calibration.rest.get(foot)
-        settings = self.settings if drift is None else evolve(self.settings, drift=drift)
-        bias = self.bias
-        if rest is not None:
-            bias = AccelerometerBias(BiasNoise(rest.acc_density * sqrt(0.5 * rest.rate), rest.acc_wander))
-        return self if drift is None and rest is None else evolve(self, settings=settings, bias=bias)
+        rest, settings = calibration.rest.get(foot), self.settings
+        noise = settings.noise if rest is None else BiasNoise(rest.acc_density * sqrt(0.5 * rest.rate), rest.acc_wander)
+        drift = calibration.drift.get(foot, settings.drift)
+        return evolve(self, settings=evolve(settings, drift=drift, noise=noise))
+
+    def __attrs_post_init__(self) -> None:
+        self.bias = AccelerometerBias(self.settings.noise)
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         LinearDedrift.start(self, attitude, tilt_sigma)
@@ -86,9 +90,7 @@ class BiasZupt(LinearDedrift):
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         self.bias.propagate(dt)
-        bx, by, bz = self.bias.bias
-        ax, ay, az = acc
-        unbiased = (ax + bx, ay + by, az + bz)  # (6), and (10) with the sign of (6): R (acc + a_b) - g = a_m + R a_b
+        unbiased = add(acc, self.bias.bias)  # (6), and (10) with the sign of (6): R (acc + a_b) - g = a_m + R a_b
         self.integrated = self.device_attitude is None
         if self.device_attitude is None:
             LinearDedrift.predict(self, dt, unbiased, gyro, saturated)
@@ -105,8 +107,7 @@ class BiasZupt(LinearDedrift):
             dx, dy = drift
             if self.heading_offset is not None:
                 dx, dy, _ = rotate(from_yaw(self.heading_offset), (dx, dy, 0.0))
-            x, y, z = self.position
-            self.position = (x - dx * dt, y - dy * dt, z)
+            self.position = add(self.position, (dx, dy, 0.0), -dt)
         self.last_dt = dt
 
     def correct(self, t: float, stance: Stance) -> bool:

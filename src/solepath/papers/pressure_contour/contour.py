@@ -29,12 +29,12 @@ a source were chosen by hand."""
 from __future__ import annotations
 
 from collections import deque
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import cos, fsum, hypot, inf, pi, sin
 from operator import mul
 
 from ...types import Cell, Layout
-from ...types.attrs import define, field, frozen
+from ...types.attrs import field, frozen, stateful
 from ...types.vector import TIME_EPSILON
 
 HEEL_SHARE = 0.33
@@ -81,24 +81,24 @@ class ContourSettings:
     """Fixed levels, Pa, used instead of `shares`; they need cells of known scale. None for shares."""
 
 
-@define
+@stateful
 class Contours:
     """Measures the velocity of the heel's pressure contours from the loads of the cells while the heel is loaded.
 
     Latency: the velocity is the mean over the last `COMPARISON_TIME`."""
 
     settings: ContourSettings = ContourSettings()
-    cells: list[int] = field(factory=list, init=False)
+    cells: list[int] = field(factory=list)
     """Indices in the layout of the cells used here, in the order of `per_area`; `points` has indices in this list."""
-    per_area: list[float] = field(factory=list, init=False)
+    per_area: list[float] = field(factory=list)
     """Weight of each cell's load in the heel's mean pressure, 1/m^2."""
-    points: list[WeightedCells] = field(factory=list, init=False)
+    points: list[WeightedCells] = field(factory=list)
     """The centre, followed by the points of each ray from the inside out."""
-    rays: list[tuple[int, float]] = field(factory=list, init=False)
+    rays: list[tuple[int, float]] = field(factory=list)
     """Number of points on each ray, and their distance, m."""
-    levels: tuple[float, ...] = field(default=(), init=False)
+    levels: tuple[float, ...] = ()
     """Levels in falling order, in Pa or as shares, as in `settings`."""
-    history: deque[tuple[float, tuple[float, ...]]] = field(factory=deque, init=False)
+    history: deque[tuple[float, tuple[float, ...]]] = field(factory=deque)
     """Samples of the last `COMPARISON_TIME`, each with its time, s, and the radii, m, of all levels ray by ray."""
 
     def set_layout(self, layout: Layout) -> str | None:
@@ -162,30 +162,11 @@ class Contours:
         pressures = [a * cells[i] + b * cells[j] + c * cells[k] for i, j, k, a, b, c in self.points]
         mean = 1.0 if self.settings.pascals else fsum(map(mul, self.per_area, cells))
         levels = [share * mean for share in self.levels]
-        count = len(levels)
-        middle = pressures[0]
-        first = 0
-        while first < count and middle <= levels[first]:
-            first += 1
-        missing = (NO_RADIUS,) * first
-        levels.append(-inf)  # sentinel that no pressure is below
         radii: list[float] = []
         next_point = 1
         for points, step in self.rays:
-            radii += missing
-            level, target, inner, r = first, levels[first], middle, 0.0
-            for outer in pressures[next_point : next_point + points]:
-                if outer < target:
-                    along = step / (inner - outer)
-                    while outer < target:
-                        radii.append(r + (inner - target) * along)
-                        level += 1
-                        target = levels[level]
-                    if level == count:
-                        break
-                inner = outer
-                r += step
-            radii += (NO_RADIUS,) * (count - level)
+            along = [pressures[0], *pressures[next_point : next_point + points]]
+            radii += [_crossing(along, level, step) for level in levels]
             next_point += points
         return tuple(radii)
 
@@ -245,25 +226,39 @@ def _displacement(radii: tuple[float, ...], earlier_radii: tuple[float, ...]) ->
     return (yy * bx - xy * by) / determinant, (xx * by - xy * bx) / determinant
 
 
+def _crossing(along: list[float], level: float, step: float) -> float:
+    """Return the distance, m, at which the pressures at every `step` m of a ray first fall below a level, Pa."""
+    for k, (inner, outer) in enumerate(pairwise(along)):
+        if inner <= level:
+            return NO_RADIUS
+        if outer < level:
+            return step * (k + (inner - level) / (inner - outer))
+    return NO_RADIUS
+
+
+def _twice_area(a: complex, b: complex, c: complex) -> float:
+    """Return twice the area of a triangle, positive when its corners are counter-clockwise."""
+    return ((b - a).conjugate() * (c - a)).imag
+
+
 def _triangle(cells: list[Cell], x: float, y: float) -> WeightedCells | None:
     """Return the smallest triangle of cells around a point, with the weights that turn their loads into its pressure.
 
     It is None if no cells surround the point. The smallest triangle is that of least perimeter."""
-    order = sorted(range(len(cells)), key=lambda i: (hypot(cells[i].x - x, cells[i].y - y), i))[:NEAREST_CELLS]
+    point, places = complex(x, y), [complex(cell.x, cell.y) for cell in cells]
+    order = sorted(range(len(cells)), key=lambda i: (abs(places[i] - point), i))[:NEAREST_CELLS]
     tightest: WeightedCells | None = None
-    least_perimeter = 0.0
+    least_perimeter = inf
     for i, j, k in combinations(order, 3):
-        a, b, c = cells[i], cells[j], cells[k]
-        area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)
+        a, b, c = places[i], places[j], places[k]
+        area = _twice_area(a, b, c)
         if abs(area) < 1e-7:  # m^2: the cells lie in one line
             continue
-        first = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) / area
-        second = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) / area
-        third = 1.0 - first - second
-        if min(first, second, third) < -1e-9:
-            continue
-        perimeter = hypot(a.x - b.x, a.y - b.y) + hypot(b.x - c.x, b.y - c.y) + hypot(c.x - a.x, c.y - a.y)
-        if tightest is None or perimeter < least_perimeter - 1e-9:
+        first, second = _twice_area(point, b, c) / area, _twice_area(point, c, a) / area
+        shares = (first, second, 1.0 - first - second)
+        perimeter = abs(a - b) + abs(b - c) + abs(c - a)
+        if min(shares) >= -1e-9 and perimeter < least_perimeter - 1e-9:
             least_perimeter = perimeter
-            tightest = (i, j, k, first / max(a.area, 1e-9), second / max(b.area, 1e-9), third / max(c.area, 1e-9))
+            u, v, w = [share / max(cells[n].area, 1e-9) for share, n in zip(shares, (i, j, k), strict=True)]
+            tightest = (i, j, k, u, v, w)
     return tightest

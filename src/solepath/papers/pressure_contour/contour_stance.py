@@ -13,7 +13,7 @@ from ...foot.stance.cycle import Cycle
 from ...foot.stance.shoe import ShoeDetector
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Layout, Phase, Quat, Vec3
-from ...types.attrs import define, field, stateful
+from ...types.attrs import field, stateful
 from ...types.vector import IDENTITY, TIME_EPSILON, ZERO
 from .contour import PAPER_LEVELS, Contours, ContourSettings
 
@@ -71,7 +71,7 @@ class GyroscopeMagnitude(Cycle):
         return Cycle.update(self, t, dt, acc, gyro, None, attitude)
 
 
-@define
+@stateful
 class PrintedContour(Detector):
     """Detector as printed: the shoe stands while the contours of 20 to 70 kPa are slower than 4 mm/s (3).
 
@@ -84,8 +84,8 @@ class PrintedContour(Detector):
 
     settings: ContourSettings = ContourSettings(pascals=PAPER_LEVELS)
     contours: Contours = field(init=False)
-    gyroscope: GyroscopeMagnitude = field(factory=GyroscopeMagnitude, init=False)
-    lacking: str | None = field(default=None, init=False)
+    gyroscope: GyroscopeMagnitude = field(factory=GyroscopeMagnitude)
+    lacking: str | None = None
     """Sentence about what this detector cannot do; None if nothing is known."""
 
     def __attrs_post_init__(self) -> None:
@@ -105,7 +105,7 @@ class PrintedContour(Detector):
         return Stance(ZERO, SIGMA, speed, Phase.STATIONARY) if speed <= THRESHOLD else Stance(ZERO, inf, speed, None)
 
 
-@define
+@stateful
 class ContourVelocity(PrintedContour):
     """Detector: the shoe stands while the contours of the loaded heel are slower than a threshold (3).
 
@@ -124,45 +124,51 @@ class ContourVelocity(PrintedContour):
     If loads are less frequent than inertial samples, the last evidence is used for up to `LOAD_VALID_TIME`."""
 
     settings: ContourSettings = ContourSettings()
-    tare: list[float] = field(factory=list, init=False)
+    tare: list[float] = field(factory=list)
     """Mean values of the cells that contours use while the foot is in the air, unit of the samples."""
-    tare_count: int = field(default=0, init=False)
+    tare_count: int = 0
     """Number of samples in the air, up to `TARE_SAMPLES`."""
-    standing: bool = field(default=False, init=False)
+    standing: bool = False
     """Flag: the contours of the loaded heel are slow."""
-    landed_t: float | None = field(default=None, init=False)
+    landed_t: float | None = None
     """Time from which the heel has been loaded, s; None if it is not."""
-    slow_t: float | None = field(default=None, init=False)
+    slow_t: float | None = None
     """Last time with slow contours, or the time of the first load, s."""
-    evidence: Stance | None = field(default=None, init=False)
-    """Evidence of the last load; None while the gyroscope decides."""
-    evidence_t: float = field(default=0.0, init=False)
+    decides: bool = False
+    """Flag: the last load decides; if False, the gyroscope does."""
+    speed: float = 0.0
+    """Speed of the contours by the last load, m/s; 0 without load on the heel."""
+    airborne: bool = False
+    """Flag: the foot is in the air by the last load."""
+    load_t: float = 0.0
     """Time of the last load, s."""
 
     def set_layout(self, layout: Layout) -> None:
         PrintedContour.set_layout(self, layout)
         self.lacking = None if self.lacking == PRINTED_LIMIT else self.lacking
         self.tare, self.tare_count = [0.0] * len(self.contours.cells), 0
-        self.standing, self.landed_t = False, None
-        self.slow_t = self.evidence = None
+        self.standing = self.decides = False
+        self.landed_t = self.slow_t = None
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
         by_rate = self.gyroscope.update(t, dt, acc, gyro, None, attitude)
         if load is not None:
-            used = self.contours.points and max(self.contours.cells) < len(load.cells)
-            self.evidence = None if load.heel is None or not used else self._judge(t, load, load.heel)
-            self.evidence_t = t
-        if self.evidence is None or not self.evidence_t <= t < self.evidence_t + LOAD_VALID_TIME:
+            used = bool(self.contours.points) and max(self.contours.cells) < len(load.cells)
+            self.load_t, self.airborne = t, load.airborne
+            self.decides = load.heel is not None and used and self._judge(t, load, load.heel)
+        if not self.decides or not self.load_t <= t < self.load_t + LOAD_VALID_TIME:
             return by_rate
-        return self.evidence
+        if self.standing:
+            return Stance(ZERO, SIGMA, self.speed, Phase.STATIONARY)
+        return Stance(ZERO, inf, self.speed, Phase.SWING if self.airborne else None)
 
-    def _judge(self, t: float, load: Load, heel: float) -> Stance | None:
-        """Return the evidence of a load; None if the gyroscope decides."""
+    def _judge(self, t: float, load: Load, heel: float) -> bool:
+        """Add a load and return whether it decides; if not, the gyroscope does."""
         if self.slow_t is None or self.slow_t > t:
             self.slow_t = t
-        cells, speed = [load.cells[i] for i in self.contours.cells], 0.0
+        cells, self.speed = [load.cells[i] for i in self.contours.cells], 0.0
         if heel < HEEL_LOADED:
             self.standing, self.landed_t = False, None
             self.contours.reset()
@@ -171,16 +177,12 @@ class ContourVelocity(PrintedContour):
                 k = 1.0 / self.tare_count
                 self.tare = [zero + k * (value - zero) for value, zero in zip(cells, self.tare, strict=True)]
         else:
-            speed = self.contours.speed(t, [value - zero for value, zero in zip(cells, self.tare, strict=True)])
+            self.speed = self.contours.speed(t, [value - zero for value, zero in zip(cells, self.tare, strict=True)])
             if self.landed_t is None or self.landed_t > t:
                 self.landed_t = t
-            if speed <= (LEAVE if self.standing else THRESHOLD):
+            if self.speed <= (LEAVE if self.standing else THRESHOLD):
                 self.standing, self.slow_t = True, t
             self.standing = self.standing and t - self.slow_t <= HOLD_TIME + TIME_EPSILON
-            if self.standing:
-                return Stance(ZERO, SIGMA, speed, Phase.STATIONARY)
-            if t - max(self.slow_t, self.landed_t) >= NO_CONTOUR_TIME - TIME_EPSILON:
-                return None
-        if t - self.slow_t >= STANCE_OVERDUE:
-            return None
-        return Stance(ZERO, inf, speed, Phase.SWING if load.airborne else None)
+            if not self.standing and t - max(self.slow_t, self.landed_t) >= NO_CONTOUR_TIME - TIME_EPSILON:
+                return False
+        return t - self.slow_t < STANCE_OVERDUE

@@ -12,7 +12,6 @@ of nine means is still known to a third."""
 from __future__ import annotations
 
 from collections.abc import Iterable
-from itertools import combinations
 from math import sqrt
 
 import numpy as np
@@ -37,8 +36,6 @@ LARGEST_GRAVITY_ERROR, LARGEST_RATE_BIAS = 1.0, 0.5
 
 Recorded sensors at rest read 9.5 to 10.5 m/s^2. The gyroscope of the SensorTag CC2541 may have 20 degrees/s by its data
 sheet."""
-LEAST_TIMES = 3
-"""Least number of averaging times at which a variance is known: there are three terms to fit."""
 LONGEST_GAP = 3.0
 """Longest time between two samples that is no gap, in usual intervals."""
 
@@ -95,10 +92,7 @@ def _fit_foot(foot: Foot, samples: list[Sample]) -> RestFit:
     _check_rest(foot, t, acc, gyro, max(1, round(1.0 / interval)))
     tau, acc_variance = allan_variance(acc, interval)
     _, gyro_variance = allan_variance(gyro, interval)
-    (acc_density, acc_wander), (gyro_density, gyro_wander) = (
-        fit_noise(tau, variance, duration) for variance in (acc_variance, gyro_variance)
-    )
-    noise = RestNoise(acc_density, acc_wander, gyro_density, gyro_wander, 1.0 / interval)
+    noise = RestNoise(*fit_noise(tau, acc_variance), *fit_noise(tau, gyro_variance), 1.0 / interval)
     return RestFit(foot, noise, duration, sqrt(float(acc_variance.min())), sqrt(float(gyro_variance.min())))
 
 
@@ -143,26 +137,12 @@ def allan_variance(values: Values, interval: float) -> tuple[Values, Values]:
     return interval * np.array(counts, dtype=np.float64), np.array(variances)
 
 
-def fit_noise(tau: Values, variance: Values, duration: float) -> tuple[float, float]:
-    """Return the density, u/sqrt(Hz), and the walk, u/sqrt(s), that fit an Allan variance, u^2, best.
+def fit_noise(tau: Values, variance: Values) -> tuple[float, float]:
+    """Return the density, u/sqrt(Hz), and the walk, u/sqrt(s), that an Allan variance, u^2, shows at its two ends.
 
-    The terms 1/tau, 1 and tau have no negative factor. Each variance has a relative error of sqrt(tau / duration). A
-    variance of 0 says only that the noise is below the sensor's resolution, and is left out; CalibrationError is raised
-    when fewer than `LEAST_TIMES` are left."""
-    seen = variance > 0.0
-    tau, variance = tau[seen], variance[seen]
-    if len(tau) < LEAST_TIMES:
+    The shortest tau shows the density. What its noise does not explain at the longest tau is a walk. CalibrationError
+    is raised when the variance at the shortest tau is 0: the noise is below the sensor's resolution."""
+    white, longest = float(variance[0] * tau[0]), float(tau[-1])
+    if white <= 0.0:
         raise CalibrationError("a sensor at rest reads the same all the time: its noise is below its resolution")
-    terms = np.stack((1.0 / tau, np.ones_like(tau), tau), axis=1)
-    weight = 1.0 / (variance * np.sqrt(tau / duration))
-    best, best_cost = np.zeros(3), np.inf
-    for size in (1, 2, 3):
-        for chosen in combinations(range(3), size):
-            columns = terms[:, chosen]
-            found = np.linalg.lstsq(columns * weight[:, None], variance * weight, rcond=None)[0]
-            cost = float(np.sum(((columns @ found - variance) * weight) ** 2))
-            if (found >= 0.0).all() and cost < best_cost:
-                best, best_cost = np.zeros(3), cost
-                best[list(chosen)] = found
-    white, flicker, walk = best.tolist()
-    return sqrt(2.0 * white), sqrt(3.0 * (walk + flicker / float(tau[-1])))
+    return sqrt(2.0 * white), sqrt(3.0 * max(float(variance[-1]) - white / longest, 0.0) / longest)

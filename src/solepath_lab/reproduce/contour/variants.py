@@ -55,7 +55,7 @@ SWING_DRIFT_ROW, KPA_ROW = "Pressure, swing drift stays", "Pressure, levels in k
 WITHOUT_BIAS_ROW = "Pressure as printed, no bias filter"
 LESS: dict[str, Recipe] = {
     SWING_DRIFT_ROW: evolve(PRESSURE_CONTOUR, corrector=BiasZupt(BiasZuptSettings(remove_swing_drift=False))),
-    KPA_ROW: evolve(PRESSURE_CONTOUR, detector=ContourVelocity(ContourSettings(pascals=PAPER_LEVELS))),
+    KPA_ROW: evolve(PRESSURE_CONTOUR, detector=ContourVelocity(settings=ContourSettings(pascals=PAPER_LEVELS))),
     WITHOUT_BIAS_ROW: evolve(PRESSURE_CONTOUR_PRINTED, corrector=BiasZupt(evolve(AS_PRINTED, estimate_bias=False))),
 }
 """Ours without one of its additions, and the printed one without the filter of (4) to (10)."""
