@@ -70,12 +70,6 @@ def _add_square(kinds: Any) -> None:
     )
     add_tables(command, "RECORDING")
     command.add_argument(
-        "--marks",
-        metavar="MARKS",
-        type=Path,
-        help="a csv file of the visits, mark and t (s); without it they are counted",
-    )
-    command.add_argument(
         "--steps", metavar="N", type=parse_count, default=40, help="marks around the square (default: 40)"
     )
     add_recipe_name(
@@ -87,17 +81,14 @@ def _add_square(kinds: Any) -> None:
 
 
 def _square(options: Namespace, known: Calibration) -> LearntCalibration:
-    from ...papers.pressure_contour.square import read_marks, square_drift
+    from ...papers.pressure_contour.square import square_drift
     from ...recipes import by_name
 
     recipe = by_name(options.recipe)
-    marks = read_marks(options.marks) if options.marks else None
     drivers = drivers_of(options)
     source = source_named(options, drivers)
     check_pressure(recipe, source, drivers)
-    drift = square_drift(
-        source, foot=source.foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known
-    )
+    drift = square_drift(source, foot=source.foot, steps_per_lap=options.steps, recipe=recipe, calibration=known)
     x, y = drift.slope
     if drift.agreed:
         verdict = "the laps agree on it, and it is taken off later"

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from math import atan2, hypot, inf
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +29,6 @@ from ...session import Session
 from ...types import Foot, Packet, Sample, Vec3
 from ...types.attrs import evolve, frozen
 from ...types.vector import from_yaw, rotate
-from ..tables import read_rows
 from .bias_zupt import BiasZupt
 from .recipe import PRESSURE_CONTOUR
 
@@ -46,17 +44,6 @@ CLOSURE_SHARE = 0.25
 """Distance by which a mark may move per lap in addition to the drift, as a share of the square's diagonal.
 
 The laps of a square of 11.7 m then end within 4 m, which is 9 % of the distance walked."""
-MARK_TOLERANCE = 1.0
-"""Longest time between the end of a stride and a mark's time in the file, s."""
-
-
-@frozen
-class CornerMark:
-    """A visit of a mark by the foot."""
-
-    name: str
-    t: float
-    """Time of the visit, s."""
 
 
 @frozen
@@ -85,17 +72,15 @@ def square_drift(
     items: Iterable[Packet | Sample],
     *,
     foot: Foot | None = None,
-    marks: Sequence[CornerMark] | None = None,
     steps_per_lap: int = STRIDES_PER_LAP,
     recipe: Recipe = PRESSURE_CONTOUR,
     calibration: Calibration | None = None,
 ) -> SquareDrift:
     """Run the laps through a session, and fit a line to the positions of each mark.
 
-    With `marks` a visit is the stride that ends nearest to its time. Without them every `steps_per_lap`-th stride is on
-    the same mark. `foot` is the foot to use; None selects the right foot if it was recorded. Raises CalibrationError
-    when there are too few laps, when they are not laps of a square (`check_laps`), or when the recipe cannot use a
-    drift."""
+    Every `steps_per_lap`-th stride is on the same mark. `foot` is the foot to use; None selects the right foot if it
+    was recorded. Raises CalibrationError when there are too few laps, when they are not laps of a square
+    (`check_laps`), or when the recipe cannot use a drift."""
     if not isinstance(recipe.corrector, BiasZupt):
         raise CalibrationError(f"recipe {recipe.name} takes no drift off")
     known = Calibration() if calibration is None else calibration
@@ -105,7 +90,7 @@ def square_drift(
     strides = [one for one in taken if one.foot is chosen]
     if not strides:
         raise CalibrationError(f"no stride of the {chosen.value} foot in the recording")
-    visits = _visits_by_count(strides, steps_per_lap) if marks is None else _visits_by_marks(strides, marks)
+    visits = _visits_by_count(strides, steps_per_lap)
     tracker = session.feet[chosen]
     # strides are in the world frame, but a drift is in the navigation frame or in that of the device
     corrector = tracker.corrector
@@ -115,16 +100,6 @@ def square_drift(
     drift = fit_drift(chosen, visits, to_drift_frame)
     check_laps(drift, visits)
     return drift
-
-
-def read_marks(path: Path | str) -> tuple[CornerMark, ...]:
-    """Read marks from a .csv with the columns `mark` and `t`, s, one row for every visit.
-
-    Raises CalibrationError when the file does not have that form."""
-    rows = read_rows(path, ("mark", "t"))
-    if not rows:
-        raise CalibrationError(f"{path}: no visits of marks")
-    return tuple([CornerMark(row.word("mark"), row.number("t")) for row in rows])
 
 
 Values = NDArray[np.float64]
@@ -140,17 +115,6 @@ def _visits_by_count(strides: Sequence[StrideTaken], steps_per_lap: int) -> Visi
     visits: Visits = {}
     for number, stride in enumerate(strides):
         visits.setdefault(str(number % steps_per_lap), []).append((stride.t, stride.position))
-    return visits
-
-
-def _visits_by_marks(strides: Sequence[StrideTaken], marks: Sequence[CornerMark]) -> Visits:
-    visits: Visits = {}
-    ends = np.array([stride.t for stride in strides])
-    for mark in marks:
-        nearest = int(np.argmin(np.abs(ends - mark.t)))
-        if abs(ends[nearest] - mark.t) > MARK_TOLERANCE:
-            raise CalibrationError(f"no stride ends at mark {mark.name} near {mark.t:.2f} s")
-        visits.setdefault(mark.name, []).append((strides[nearest].t, strides[nearest].position))
     return visits
 
 

@@ -23,13 +23,13 @@ from solepath.emulate.walk import SampledWalk, sampled
 from solepath.emulate.wearers.truth import Truth
 from solepath.events import StrideTaken
 from solepath.foot.navigate.dedrift import LinearDedrift
-from solepath.papers.pressure_contour.square import CornerMark, square_drift
+from solepath.papers.pressure_contour.square import square_drift
 from solepath.recipes import Recipe
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Layout, Sample
 from solepath.validate.alignment import Floats
 
-from ...emulated.laps import MARKS_PER_LAP, field_walk, square
+from ...emulated.laps import field_walk, square
 from ..published import PUBLISHED
 from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults
 from ..walks import align_track, final_strides, find_halt, join_routes, matched, thin_out
@@ -160,13 +160,12 @@ def walk(job: ContourJob) -> WalkResults:
     cells, shoe = setup.device.cells, setup.wearer.shoe
     insole = cells if isinstance(cells, Layout) else sole_layout(cells, FOOT, shoe.length, shoe.width)
     known = Calibration(insoles={FOOT: InsoleCalibration(layout=insole)})
-    marks = _marks(walked, t_halt)
     true_strides = [one for one in walked.truth.strides(FOOT) if one.t_start > t_halt]
     shown: dict[str, ContourRun] = {}
     values: Values = {"number": (float(job.number),), "distance": (whole.length - laps.length,)}
     panels = stance_curves(walked, insole, FOOT, t_halt)
     for name in job.variants:
-        drift = _drift(VARIANTS[name], before, known, marks, is_printed="printed" in name)
+        drift = _drift(VARIANTS[name], before, known, is_printed="printed" in name)
         run = run_foot(VARIANTS[name], FOOT, after, merged(known, Calibration(drift={FOOT: drift})))
         velocities = stance_velocities(run, walked.truth, FOOT, t_halt)
         found, pairs = velocities[~np.isnan(velocities)], matched(run.strides, true_strides)
@@ -186,20 +185,12 @@ def walk(job: ContourJob) -> WalkResults:
     return WalkResults(values, (Plot("", _tracks(walked, t_halt, shown), marks=(("start", 0.0, 0.0),)), *panels))
 
 
-def _marks(walked: SampledWalk, t_halt: float) -> tuple[CornerMark, ...]:
-    """Return the visits of the marks in the laps: every fortieth stride of the foot is on the same mark."""
-    strides = [one for one in walked.truth.strides(FOOT) if one.t_end < t_halt]
-    return tuple([CornerMark(str(k % MARKS_PER_LAP), one.t_end) for k, one in enumerate(strides)])
-
-
-def _drift(
-    recipe: Recipe, laps: list[Sample], known: Calibration, marks: tuple[CornerMark, ...], is_printed: bool
-) -> XY:
+def _drift(recipe: Recipe, laps: list[Sample], known: Calibration, is_printed: bool) -> XY:
     """Return the drift of a recipe by the laps, m/s; zero if it lost strides in them, so that nobody can tell.
 
     As printed every slope is used; ours uses one that is larger than chance explains."""
     try:
-        drift = square_drift(laps, foot=FOOT, marks=marks, recipe=recipe, calibration=known)
+        drift = square_drift(laps, foot=FOOT, recipe=recipe, calibration=known)
     except CalibrationError:
         return (0.0, 0.0)
     return drift.slope if is_printed else drift.kept
