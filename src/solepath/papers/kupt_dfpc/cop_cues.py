@@ -163,25 +163,18 @@ class CopCues(Cues):
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[TimedCue]:
         """Return the cues of one sample of an insole alone (`Cues`); a foot is stationary when both areas are loaded.
 
-        Without a layout there are no areas; then a heel-strike is reported at once, and foot-flat never."""
-        if load.heel is None or load.forefoot is None:
-            self.areas_loaded = False
-            cues = self._add_load(t, False, self.touch.update(t, load), load)
-            if self.stage is StrideStage.LANDING:
-                cues += self._with_times((Cue.CONTACT,), t)
-            return cues
-        self.areas_loaded = min(load.heel, load.forefoot) >= (AREA_OFF if self.areas_loaded else AREA_ON)
+        Without a layout there are no areas; then a heel-strike is reported `LONGEST_LANDING` late, and foot-flat
+        never."""
+        least = min(load.heel or 0.0, load.forefoot or 0.0)
+        self.areas_loaded = least >= (AREA_OFF if self.areas_loaded else AREA_ON)
         return self._add_load(t, self.areas_loaded, self.touch.update(t, load), load)
 
     def _start(self, t: float, airborne: bool, phase: Phase) -> list[TimedCue]:
         """Return the cues at the first sample with a known load, when the foot swings or has just landed."""
         if airborne:
-            moving_t_start = self.touch.moving_since
-            self.stage = StrideStage.FLYING
-            self.airborne_t_start = t - REST_TIME
-            return (
-                [] if phase is Phase.SWING else [TimedCue(Cue.CLEAR, t if moving_t_start is None else moving_t_start)]
-            )
+            self.stage, self.airborne_t_start = StrideStage.FLYING, t - REST_TIME
+            moved_t = t if self.touch.moving_since is None else self.touch.moving_since
+            return [] if phase is Phase.SWING else [TimedCue(Cue.CLEAR, moved_t)]
         if phase is Phase.SWING:
             self._enter(StrideStage.LANDING, t)
             self.largest_jump, self.candidate_t = LARGEST_JUMP, t  # report this sample, but never set a mark
@@ -242,10 +235,8 @@ class CopCues(Cues):
         for cue in cues:
             cue_t: float | None = t
             if cue is Cue.CONTACT:
-                cue_t, self.contact_reported = (
-                    None if self.contact_reported else self.candidate_t,
-                    self.contact_reported or self.candidate_t is not None,
-                )
+                cue_t = None if self.contact_reported else self.candidate_t
+                self.contact_reported = self.contact_reported or self.candidate_t is not None
             elif cue is Cue.CLEAR:
                 landing = self.stage is StrideStage.LANDING  # then the candidate is one for heel-strike
                 cue_t = self.candidate_t if self.candidate_t is not None and not landing else self.ground_t

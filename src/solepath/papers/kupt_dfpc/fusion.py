@@ -40,7 +40,7 @@ from ...foot.pressure.insole import centre
 from ...foot.view import FootPose, FootView
 from ...types import OTHER, Foot, Site, Vec3
 from ...types.attrs import define, field
-from ...types.vector import ZERO, sub
+from ...types.vector import ZERO, add, sub
 
 KEPT_STRIDES = 3
 """Number of latest strides kept of each foot: samples of one foot may arrive a stride later than the other's."""
@@ -102,8 +102,7 @@ class DoubleFoot(TrackPart):
 
     The live position is the end of the chosen foot's calibrated path plus the motion of that foot's own track since
     then. While the chosen foot is absent, the other foot is used. So the live position stands still with that foot, and
-    jumps by half a stride when the choice changes. The covariance is that of the foot's own track plus the square of
-    the shift by calibration, because either path may be the right one."""
+    jumps by half a stride when the choice changes. The covariance is that of the foot's own track."""
 
     needs_samples: ClassVar[bool] = True
     idle = True
@@ -189,10 +188,8 @@ class DoubleFoot(TrackPart):
         if path.other_strides >= ABSENT_STRIDES:
             path.end, path.distance = other_path.end, other_path.distance
         dx, dy, dz = taken.displacement
-        own_length = taken.length
-        k = length / own_length if own_length > LEAST_LENGTH else 1.0
-        x, y, z = path.end
-        path.end = (x + k * dx, y + k * dy, z + dz)
+        k = length / taken.length if taken.length > LEAST_LENGTH else 1.0
+        path.end = add(path.end, (k * dx, k * dy, dz))
         path.distance += abs(length)
         path.foot_position, path.other_strides = taken.position, 0
         other_path.other_strides = min(other_path.other_strides + 1, ABSENT_STRIDES)
@@ -212,11 +209,7 @@ class DoubleFoot(TrackPart):
         present = [foot for foot, pose in feet.items() if newest - pose.t < ABSENT_AFTER]
         chosen = self.chosen if self.chosen in present else present[0]
         path, pose = self.paths[chosen], feet[chosen]
-        dx, dy, dz = sub(pose.position, path.foot_position)
-        x, y, z = path.end
-        xx, xy, xz, yy, yz, zz = pose.covariance
-        sx, sy, _ = sub(path.end, path.foot_position)
-        return Position(newest, (x + dx, y + dy, z + dz), (xx + sx * sx, xy + sx * sy, xz, yy + sy * sy, yz, zz))
+        return Position(newest, add(path.end, sub(pose.position, path.foot_position)), pose.covariance)
 
 
 def resample_cop(taken: StrideTaken, foot_centre: float) -> tuple[float, ...]:

@@ -12,7 +12,7 @@ nobody can trust only the zero velocity at the end is left, as in ZUPT: KUPT fal
 
 from __future__ import annotations
 
-from math import hypot
+from math import fsum, hypot
 from typing import ClassVar
 
 from ...types import Quat, Vec3
@@ -74,31 +74,24 @@ class DriftParts:
 
     def measure(self, count: int, error: Vec3, noise: float) -> None:
         """Use a measured sum of the first `count` parts, m/s along x and y, with this variance, m^2/s^2."""
-        rows, first = self.covariance, range(count)
-        with_sum = [0.0, 0.0, 0.0]
-        for k, row in enumerate(rows):
-            for j in first:
-                with_sum[k] += row[j]
-        variance, rest = noise, complex(error[0], error[1])
-        for k in first:
-            variance += with_sum[k]
-            rest -= self.parts[k]
-        for k in range(3):
+        with_sum = [fsum(row[:count]) for row in self.covariance]
+        variance, rest = noise + fsum(with_sum[:count]), complex(error[0], error[1])
+        for part in self.parts[:count]:
+            rest -= part
+        for k, row in enumerate(self.covariance):
             gain = with_sum[k] / variance
             self.parts[k] += gain * rest
-            for j in range(3):
-                rows[k][j] -= gain * with_sum[j]
+            self.covariance[k] = [value - gain * other for value, other in zip(row, with_sum, strict=True)]
 
     def displacement(self, ages: Parts) -> tuple[complex, float]:
         """Return the error of the displacement x + iy, m, and its variance along either axis, m^2.
 
         `ages` are the times since the parts arose, s."""
-        moved, variance = 0j, 0.0
-        for k in range(3):
-            moved += ages[k] * self.parts[k]
-            for j in range(3):
-                variance += ages[k] * ages[j] * self.covariance[k][j]
-        return moved, variance
+        moved, variances = 0j, []
+        for age, part, row in zip(ages, self.parts, self.covariance, strict=True):
+            moved += age * part
+            variances += [age * other * value for other, value in zip(ages, row, strict=True)]
+        return moved, fsum(variances)
 
 
 @stateful
