@@ -203,35 +203,7 @@ def _walk(options: Namespace, known: Calibration) -> LearntCalibration:
     return heading_calibration(fits), [table(header, rows)]
 
 
-def _add_rest(kinds: Any) -> None:
-    command = add_command(
-        kinds,
-        "rest",
-        "the noise of a sensor, from a recording at rest",
-        "From a sensor that lies still for two minutes or more, best an hour: the noise of its "
-        "accelerometer and gyroscope, and how fast their biases change. pressure-contour and gyroscope use it.",
-        "solepath calibrate rest still.jsonl --out me.json",
-        learn=_rest,
-    )
-    add_tables(command, "RECORDING")
-
-
-def _rest(options: Namespace, known: Calibration) -> LearntCalibration:
-    from ...papers.pressure_contour.rest import rest_calibration, rest_noise
-    from ...recording.decoded import decode_recording
-
-    source = source_named(options, drivers_of(options))
-    fits = rest_noise(decode_recording(source).samples, source.foot)
-    lines = [
-        f"{fit.foot} foot, {fit.duration:.0f} s: accelerometer {1e3 * fit.noise.acc_density:.3g} mm/s^2/sqrt(Hz), bias "
-        f"steady within {1e3 * fit.acc_instability:.3g} mm/s^2; gyroscope {degrees(fit.noise.gyro_density):.2g} "
-        f"degrees/s/sqrt(Hz), bias steady within {3600.0 * degrees(fit.gyro_instability):.3g} degrees/h"
-        for fit in fits
-    ]
-    return rest_calibration(fits), lines
-
-
 KINDS = (
-    _add_noise, add_shoe, _add_square, add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, _add_rest, add_sensor
+    _add_noise, add_shoe, _add_square, add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, add_sensor
 )  # fmt: skip
 """Functions that add the kinds to the parser, in the order of the help text."""

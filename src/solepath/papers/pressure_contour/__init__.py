@@ -6,7 +6,7 @@ paper's sections, in their order:
     IV       contours and their velocity (1) (2), figs. 3, 4  contour.py
              zero velocity (3)                                contour_stance.py
     V.A      acceleration and position (4) to (6), fig. 8     bias_zupt.py, foot/navigate/strapdown.py
-             bias filter (7) to (10)                          acc_bias.py; its covariances from an hour at rest: rest.py
+             bias filter (7) to (10)                          acc_bias.py
     V.B      square laps (figs. 11, 12)                       square.py
     V.C, D   experiments                                      solepath_lab/reproduce/pressure_contour.py
 

@@ -6,7 +6,7 @@ that calibration laps have shown (papers/pressure_contour/square.py) is subtract
 
 from __future__ import annotations
 
-from math import atan2, inf, sqrt
+from math import atan2, inf
 
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
@@ -16,7 +16,7 @@ from ...foot.stance.stance import Stance
 from ...types import Foot, Quat, Vec3
 from ...types.attrs import evolve, field, frozen, stateful
 from ...types.vector import GRAVITY, ZERO, add, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
-from .acc_bias import AccelerometerBias, BiasNoise
+from .acc_bias import AccelerometerBias
 
 STANDING_DELAY = 1.0
 """Time after the start of a stance from which the calibrated drift is no longer subtracted, s; chosen by hand."""
@@ -37,8 +37,6 @@ class BiasZuptSettings(DedriftSettings):
     estimate_bias: bool = True
     """Flag: the bias of the accelerometer is estimated (7) to (10); the paper's "calibrated position" (figs. 14
     and 15) has both this bias and the laps' slope (`drift`), its "position" has neither."""
-    noise: BiasNoise = BiasNoise()
-    """Noise of the accelerometer and its bias, which a recording of the sensor at rest gives (rest.py)."""
     turn_error: float = 0.0175
     """Heading error of the attitude that a device reports, rad: 1 degree in the InertiaCube3's data sheet."""
 
@@ -56,7 +54,7 @@ class BiasZupt(LinearDedrift):
     bias only."""
 
     settings: BiasZuptSettings = BiasZuptSettings()
-    bias: AccelerometerBias = field(init=False)
+    bias: AccelerometerBias = field(factory=AccelerometerBias)
     """Bias of the accelerometer."""
     device_attitude: Quat | None = None
     """Attitude that the device reports for the next sample."""
@@ -72,13 +70,8 @@ class BiasZupt(LinearDedrift):
     """Flag: the attitude of the last sample is integrated, not reported by the device."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> BiasZupt:
-        rest, settings = calibration.rest.get(foot), self.settings
-        noise = settings.noise if rest is None else BiasNoise(rest.acc_density * sqrt(0.5 * rest.rate), rest.acc_wander)
-        drift = calibration.drift.get(foot, settings.drift)
-        return evolve(self, settings=evolve(settings, drift=drift, noise=noise))
-
-    def __attrs_post_init__(self) -> None:
-        self.bias = AccelerometerBias(self.settings.noise)
+        drift = calibration.drift.get(foot)
+        return self if drift is None else evolve(self, settings=evolve(self.settings, drift=drift))
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         LinearDedrift.start(self, attitude, tilt_sigma)
