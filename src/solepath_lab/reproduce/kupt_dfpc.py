@@ -13,6 +13,7 @@ goes once around the inner block of a floor (solepath_lab/emulated/laps.py)."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
 
 import numpy as np
 from attrs import frozen
@@ -22,7 +23,7 @@ from solepath.events import Event, StrideFused
 from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC, ZUPT
 from solepath.recipes import Recipe
 from solepath.types import Foot
-from solepath.validate.alignment import Floats
+from solepath.types.vector import ZERO
 
 from .kupt.figures import coverage, panels, watch
 from .kupt.walks import (
@@ -51,7 +52,7 @@ from .tables import (
     pooled,
     row_of,
 )
-from .walks import align_track, final_strides, run_session, thin_out
+from .walks import final_strides, run_session, thin_out
 
 NAME = KUPT_DFPC.name
 WALKS = 20
@@ -233,32 +234,15 @@ def _fused_distance(events: list[Event]) -> float:
 
 
 def _tracks(truth: Truth, t_halt: float, zupt: list[Event], known: list[Event]) -> tuple[list[PictureTrack], Values]:
-    """Return tracks of stride ends, aligned with the truth over two metres, and distances from start to end, m."""
+    """Return tracks of stride ends, which begin along the true way, and their distances from start to end, m."""
     ends = {
-        f"ZUPT-{letter}": [(stride.t_end, foot, stride.position) for stride in final_strides(zupt, foot)]
+        f"ZUPT-{letter}": [stride.position for stride in final_strides(zupt, foot)]
         for letter, foot in zip("LR", Foot, strict=True)
     }
     # after each stride the position is the end of the chosen foot's path, which changes only at that foot's strides
-    ends["KUPT+DFPC"] = [
-        (one.t, one.foot, one.position) for one in known if isinstance(one, StrideFused) and one.foot is one.chosen
-    ]
+    ends["KUPT+DFPC"] = [one.position for one in known if isinstance(one, StrideFused) and one.foot is one.chosen]
     t = np.arange(t_halt, truth.duration, 0.2)
-    path = 0.5 * (_true_places(truth, Foot.LEFT, t) + _true_places(truth, Foot.RIGHT, t))
-    start = path[0].copy()
-    tracks, distances = [PictureTrack("true path", thin_out(path - start), DrawStyle.TRUTH)], Values()
-    for name, places in ends.items():
-        if len(places) < 2:
-            continue
-        track = np.array([(0.0, 0.0), *((x, y) for _, _, (x, y, _) in places)])
-        true = np.array(
-            [_true_places(truth, foot, t)[0] for t, foot in [(t_halt, places[0][1]), *(p[:2] for p in places)]]
-        )
-        tracks.append(PictureTrack(name, thin_out(align_track(track, true) - start), DrawStyle.DOTS))
-        distances[f"end: {name}"] = (float(np.linalg.norm(track[-1] - track[0])),)
-    return tracks, distances
-
-
-def _true_places(truth: Truth, foot: Foot, t: float | Floats) -> Floats:
-    """Return the true positions (x, y) of the foot's sensor on the floor at `t` s, (n, 2), m."""
-    places: Floats = truth.pose(foot, t).position[:, :2] + truth.feet[foot].origin[:2]
-    return places
+    path = np.mean([truth.pose(foot, t).position + truth.feet[foot].origin for foot in Foot], axis=0)
+    tracks = [PictureTrack("true path", thin_out(path - path[0]), DrawStyle.TRUTH)]
+    tracks += [PictureTrack(name, thin_out([ZERO, *of]), DrawStyle.DOTS) for name, of in ends.items()]
+    return tracks, {f"end: {name}": (hypot(*of[-1][:2]) if of else 0.0,) for name, of in ends.items()}
