@@ -15,7 +15,7 @@ from __future__ import annotations
 from math import fsum, hypot
 from typing import ClassVar
 
-from ...types import Quat, Vec3
+from ...types import Vec3
 from ...types.attrs import evolve, field, stateful
 from ...types.vector import GRAVITY, add, sub
 from .kinematics import up_direction
@@ -39,10 +39,6 @@ BIAS_SHARE = 0.8
 
 The remainder is an error of its scale. Typical zero-g offsets in data sheets (LSM6DSOX, MPU-9250, MPU-6050) are twice
 as large as 1 g times the tolerance of the scale; so four fifths of the variance of that difference are offset."""
-BRIDGE = 1.0 / 12.0
-"""Variance of the mean of a Brownian bridge over the variance that the motion gains in the same time.
-
-It is what a drift does between two instants at which it is known."""
 TIME_SPREAD, TIME_MISMATCH = 0.3, 0.2
 """Standard deviation of the mean time of the drift before the first stride, and of its difference between the vertical
 and the horizontal axes, as shares of the swing.
@@ -83,15 +79,12 @@ class DriftParts:
             self.parts[k] += gain * rest
             self.covariance[k] = [value - gain * other for value, other in zip(row, with_sum, strict=True)]
 
-    def displacement(self, ages: Parts) -> tuple[complex, float]:
-        """Return the error of the displacement x + iy, m, and its variance along either axis, m^2.
-
-        `ages` are the times since the parts arose, s."""
-        moved, variances = 0j, []
-        for age, part, row in zip(ages, self.parts, self.covariance, strict=True):
+    def displacement(self, ages: Parts) -> complex:
+        """Return the error of the displacement x + iy, m; `ages` are the times since the parts arose, s."""
+        moved = 0j
+        for age, part in zip(ages, self.parts, strict=True):
             moved += age * part
-            variances += [age * other * value for other, value in zip(ages, row, strict=True)]
-        return moved, fsum(variances)
+        return moved
 
 
 @stateful
@@ -120,11 +113,6 @@ class DriftTime:
         """Share for the horizontal velocity."""
         return 0.5 + TIME_WEIGHT * (self.vertical - 0.5)
 
-    @property
-    def share_variance(self) -> float:
-        """Variance of `share`."""
-        return (1.0 - TIME_WEIGHT) * TIME_SPREAD**2 + TIME_WEIGHT * TIME_WEIGHT * self.vertical_variance
-
     def add(self, rise: float, slope: float) -> None:
         """Add a stride with this rise, m, if all of the drift came at toe-off; `slope` is its change per share, m."""
         error = rise - self.rise - slope * self.vertical
@@ -145,10 +133,9 @@ class SoftSwing(SwingDedrift):
     """Corrector that weighs the velocities of the rolling shoe, and learns the time of the drift.
 
     Latency as in `SwingDedrift`: the position is corrected in one jump at motion end. In a motion without toe-off,
-    without heel-strike or with a gap one linear drift is removed. The covariance of a stretch is that of its motions,
-    and `path_error` of the path for scale errors, which no stance shows. While the foot moves, the live position
-    follows the velocity of the rolling shoe horizontally, and the raw velocity vertically: the vertical rolling
-    velocity is about L_r times the pitch rate, so a pivot that is 1 cm off at toe-off errs by 8 cm/s there."""
+    without heel-strike or with a gap one linear drift is removed. While the foot moves, the live position follows the
+    velocity of the rolling shoe horizontally, and the raw velocity vertically: the vertical rolling velocity is about
+    L_r times the pitch rate, so a pivot that is 1 cm off at toe-off errs by 8 cm/s there."""
 
     slide_time: ClassVar[float] = 0.02
     """Time after heel-strike in which the heel slides and the sole gives way, which (4) does not model, s."""
@@ -169,13 +156,6 @@ class SoftSwing(SwingDedrift):
     """Upward direction in the sensor frame at motion start."""
     scale_excess: float = 0.0
     """Difference from 1 g at rest that is taken for a bias, as a share of 1 g."""
-    motion_variance: float = 0.0
-    """Variance of the displacement of the motions since the last anchor, along each horizontal axis, m^2."""
-
-    def start(self, attitude: Quat, tilt_sigma: float) -> None:
-        SwingDedrift.start(self, attitude, tilt_sigma)
-        self.motion_variance = 0.0
-        self.upright = up_direction(attitude)
 
     def scaled(self, scale: float) -> None:
         self.scale_excess = BIAS_SHARE * (1.0 / scale - 1.0)
@@ -205,9 +185,7 @@ class SoftSwing(SwingDedrift):
 
     def _calibrated_displacement(self, duration: float) -> Vec3 | None:
         toe_off, landed = self.toe_off, self.heel_strike
-        vx, vy, vz = self.raw_velocity
         if self.has_gap or toe_off is None or landed is None or landed.elapsed <= toe_off.elapsed:
-            self.motion_variance += BRIDGE * 0.5 * (vx * vx + vy * vy) * duration * duration
             return None
         before, flight, after = toe_off.elapsed, landed.elapsed - toe_off.elapsed, duration - landed.elapsed
         first, swing, last = variances = (
@@ -220,15 +198,12 @@ class SoftSwing(SwingDedrift):
         parts = DriftParts(variances)
         self._use_rolling(parts, toe_off)
         parts.measure(3, self.raw_velocity, ZERO_VELOCITY_NOISE)
-        off, variance = parts.displacement(ages)
-        variance += 0.5 * abs(parts.parts[1]) ** 2 * flight * flight * time.share_variance
-        variance += BRIDGE * (first * before * before + swing * flight * flight + last * after * after)
-        self.motion_variance += variance
-        x, y, rise = self.raw_displacement
-        weight = vz / (first + swing + last)
+        off = parts.displacement(ages)
+        (x, y, rise), climb = self.raw_displacement, self.raw_velocity[2]
+        weight = climb / (first + swing + last)
         early_rise = weight * (first * ages[0] + swing * (after + flight) + last * ages[2])
         time.add(rise - early_rise, -weight * swing * flight)
-        return (x - off.real, y - off.imag, rise - 0.5 * vz * duration)
+        return (x - off.real, y - off.imag, rise - 0.5 * climb * duration)
 
     def _use_rolling(self, parts: DriftParts, toe_off: MotionMoment) -> None:
         """Use the velocities of the rolling shoe, and set the error index (10)."""
@@ -241,12 +216,3 @@ class SoftSwing(SwingDedrift):
             last_error = roll.error
             parts.measure(2, last_error, ROLLING_NOISE)
         self.last_error_index = hypot(toe_off.error[0] + last_error[0], toe_off.error[1] + last_error[1])
-
-    def anchor(self) -> tuple[float, ...]:
-        stretch = SwingDedrift.anchor(self)
-        self.motion_variance = 0.0
-        return stretch
-
-    def covariance(self) -> tuple[float, ...]:
-        xx, xy, xz, yy, yz, zz, yaw = SwingDedrift.covariance(self)
-        return (xx + self.motion_variance, xy, xz, yy + self.motion_variance, yz, zz, yaw)

@@ -37,8 +37,6 @@ class BiasZuptSettings(DedriftSettings):
     estimate_bias: bool = True
     """Flag: the bias of the accelerometer is estimated (7) to (10); the paper's "calibrated position" (figs. 14
     and 15) has both this bias and the laps' slope (`drift`), its "position" has neither."""
-    turn_error: float = 0.0175
-    """Heading error of the attitude that a device reports, rad: 1 degree in the InertiaCube3's data sheet."""
 
 
 @stateful
@@ -125,14 +123,6 @@ class BiasZupt(LinearDedrift):
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         LinearDedrift.infill(self, dt, attitude, velocity, position)
         self.standing_time = 0.0
-
-    def covariance(self) -> tuple[float, ...]:
-        covariance = LinearDedrift.covariance(self)
-        if self.heading_offset is None:
-            return covariance
-        # after every anchor the heading error starts again, so it moves the track sideways only from there on
-        variance = covariance[0] + (self.settings.turn_error * self.length) ** 2
-        return (variance, 0.0, 0.0, variance, 0.0, variance, 0.0)
 
     def _to_navigation_frame(self, device_attitude: Quat) -> Quat:
         """Return the device's own attitude in the navigation frame."""

@@ -140,22 +140,22 @@ class Contours:
         above tare of the cells in `self.cells`."""
         if not self.points:
             return None
-        radii = self._radii(cells)
-        history = self.history
-        if history and history[-1][0] >= t:  # the clock has restarted
+        radii, history = self._radii(cells), self.history
+        if history and not 0.0 < t - history[-1][0] <= 3.0 * COMPARISON_TIME:  # the clock restarted, or a gap
             history.clear()
-        earlier_radii = None
-        while history and history[0][0] <= t - COMPARISON_TIME + TIME_EPSILON:
-            earlier_radii = history.popleft()
         history.append((t, radii))
-        if earlier_radii is None:
-            return None
-        history.appendleft(earlier_radii)
-        elapsed = t - earlier_radii[0]
-        if elapsed > 3.0 * COMPARISON_TIME:  # a gap; even slow samples are nearer
+        while len(history) > 1 and history[1][0] <= t - COMPARISON_TIME + TIME_EPSILON:
             history.popleft()
+        elapsed = t - history[0][0]
+        if elapsed < COMPARISON_TIME - TIME_EPSILON:
             return None
-        return self._centre_velocity(radii, earlier_radii[1], 1.0 / elapsed)
+        count = len(self.levels)
+        fits = [_displacement(radii[level::count], history[0][1][level::count]) for level in range(count)]
+        found = [fit for fit in fits if fit is not None]
+        if not found:
+            return None
+        k = 1.0 / (elapsed * len(found))
+        return fsum([x for x, _ in found]) * k, fsum([y for _, y in found]) * k
 
     def _radii(self, cells: list[float]) -> tuple[float, ...]:
         """Return the radii r(theta), m, ray by ray, each for all levels."""
@@ -169,18 +169,6 @@ class Contours:
             radii += [_crossing(along, level, step) for level in levels]
             next_point += points
         return tuple(radii)
-
-    def _centre_velocity(
-        self, radii: tuple[float, ...], earlier_radii: tuple[float, ...], rate: float
-    ) -> tuple[float, float] | None:
-        """Return the mean over all levels of the centre's velocity (1)(2), m/s; `rate` is 1 / dt, 1/s."""
-        count = len(self.levels)
-        fits = [_displacement(radii[level::count], earlier_radii[level::count]) for level in range(count)]
-        found = [fit for fit in fits if fit is not None]
-        if not found:
-            return None
-        k = rate / len(found)
-        return fsum([x for x, _ in found]) * k, fsum([y for _, y in found]) * k
 
     def _set_rays(self, used: list[Cell], centre: tuple[float, float]) -> None:
         """Set the points on the rays from the centre (x, y), foot frame, m."""
