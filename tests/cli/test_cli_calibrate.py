@@ -104,7 +104,6 @@ def there_and_back() -> Route:
     ("kind", "route", "devices", "learnt"),
     [
         ("square", square(3), {Site.RIGHT_FOOT: boot(Foot.RIGHT, 50.0)}, "drift"),
-        ("rest", Route().stand(130.0), {Site.RIGHT_FOOT: Insole(rate=50.0)}, "rest"),
         ("walk", there_and_back(), dict.fromkeys(FEET, Insole()), "headings"),
         ("modes", marked(WalkingMode.STRAIGHT, 14), dict.fromkeys(FEET, Insole(rate=50.0)), "modes"),
     ],

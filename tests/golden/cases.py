@@ -45,7 +45,6 @@ from solepath.calibration.records import (
     InsoleCalibration,
     Limbs,
     Newtons,
-    RestNoise,
     SensorCalibration,
     ShoeGeometry,
     TriadCalibration,
@@ -91,7 +90,6 @@ def known(count: int = 12) -> Calibration:
             Foot.LEFT: HeadingCalibration(0.002, 0.01, 1e-3, 2e-3),
             Foot.RIGHT: HeadingCalibration(-0.001, 0.0, 1e-3, 3e-3),
         },
-        rest={foot: RestNoise(1e-3, 2e-4, 1e-4, 1e-5, 100.0) for foot in Foot},
         sensors={Foot.LEFT: SensorCalibration(triad, rates), Foot.RIGHT: SensorCalibration(triad, rates)},
     )
 

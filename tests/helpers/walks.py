@@ -235,7 +235,6 @@ RECIPES = (
     "footstep-tracker-printed",
     "shoe-sensing",
     "shoe-sensing-printed",
-    "acceleration-magnitude",
 )
 """Recipes with a part that no other recipe has."""
 
@@ -294,7 +293,6 @@ SELDOM = {
     "touchdown-pressure",
     "footstep-tracker-printed",
     "shoe-sensing-printed",
-    "acceleration-magnitude",
     "cc2541 at 20 Hz",
     "LinearDedrift with pressure",
 }

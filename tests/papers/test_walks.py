@@ -23,7 +23,7 @@ BOUNDS = {
     "footstep-tracker": (0.03, 0.045), "shoe-sensing": (0.02, 0.03), "shoe-sensing-printed": (0.025, 0.035),
 }  # fmt: skip
 """Share of the way, and root mean square of the strides, m, by which a recipe may be off. Of the others,
-pressure-contour-printed, footstep-tracker-printed and acceleration-magnitude lose strides or way as printed."""
+pressure-contour-printed and footstep-tracker-printed lose strides or way as printed."""
 NEAR = {"kupt": 0.04, "pressure-contour": 0.1, "footstep-tracker": 0.06, "shoe-sensing": 0.09}
 """Largest distance of an event from the truth, s."""
 

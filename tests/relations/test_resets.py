@@ -34,7 +34,7 @@ Activities._restart: feet flights strides
 Activities.reset: feet* apart flights.reset() left.feet.restart() right.feet.restart()
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now*
-AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* apart flights.reset()
+AnglePerMetre.reset: activity limitation_reported apart flights.reset()
 BiasFilter.forget: before bias* noise rate
 BiasFilter.reset: before bias* noise rate
 BothFeet._restart: common compass directions distance divergence errors* ground measured_at path placements started
@@ -48,7 +48,7 @@ Clipping.reset: axes* largest near_end_square
 Compass.reset: distance disturbance first apart trust.reset()
 CompassTrust.reset: apart
 Contours.reset: cells levels per_area points rays
-CopCues.reset: foot_centre inertial* sagittal stage_t_start* inertial.reset()
+CopCues.reset: foot_centre inertial* sagittal stage_t_start* touch inertial.reset()
 CopCues.restart: foot_centre inertial* sagittal touch* inertial.reset() inertial.restart() touch.restart()
 CriticalCues.reset:
 CriticalCues.restart:
@@ -122,19 +122,19 @@ What stays is what was learnt of wearer, device and mounting (axis, bias, scale,
 what was reported of it, and counts; and values that are set again before they are read, with a field that was reset."""
 STARTS = ("start", "start_stride", "start_swing", "start_block", "_start_span", "end_lift", "forget_corner")
 STARTED = """
-BiasZupt.start: motion_acc
+BiasZupt.start: bias motion_acc
 CommonError.start_stride: covariance estimates foot_biases
 Contact.start: last_load layout swing_time t_end
 Cycle._start_span: highs lows past_high past_low sensor_height shoe
 ErrorStateFilter.start: interval level recovery rhythm velocity_error
 FootBlocks.start_block: blocks bottom flat_height rest_force rested strides strike_height top
 GatedTilt.start: velocity_change
+GyroscopeMagnitude._start_span: highs lows past_high past_low shoe
 Impact.start_swing: peak_shock_time
 Projection.start: largest_saturated least_saturated
 Rest._start_span: bias bias_filter count grain last scale
 Sagittal.end_lift: forward pitch toe up
-SoftSwing.start: drift_scale drift_time heel_slide heel_strike_error_time interval interval_velocity pivot
-  previous_interval scale_excess toe_off_error_time toe_slide
+SoftSwing.start: drift_time interval interval_velocity scale_excess
 StrideBuilder.start_stride: contact_time first_pitch flat_pitch flawed_until flaws newest_gaps next_pitch peak_rate
   pitches t_contact t_mid_stance t_pitch usual_flat_pitch usual_motion
 StrideTemplate.start_stride: age bridged first_position infilled last_stride longest_stride stance_duration straight_on

@@ -37,11 +37,6 @@ headings.left.drift | -0.05 | 0.05
 headings.left.turning | -0.1 | 0.1
 headings.left.drift_sigma | 1e-6 | 0.05
 headings.left.turning_sigma | 1e-6 | 0.2
-rest.left.acc_density | 1e-6 | 1
-rest.left.acc_wander | 0 | 0.1
-rest.left.gyro_density | 1e-7 | 0.1
-rest.left.gyro_wander | 0 | 0.01
-rest.left.rate | 1 | 10000
 sensors.left.acc.matrix.048 | 0.7 | 1.3
 sensors.left.gyro.matrix.048 | 0.7 | 1.3
 sensors.left.acc.matrix.123567 | -0.3 | 0.3
@@ -67,7 +62,6 @@ FULL: dict[str, Any] = json.loads("""{
           "pivot_to_toe": [0.09, 0.0, 0.0, 0.0, 0.0, 0.0], "steepest": 0.1},
  "drift": {"right": [0.001, -0.002]}, "toe_out": {"left": 0.1},
  "headings": {"left": {"drift": 0.01, "turning": 0.01, "drift_sigma": 0.01, "turning_sigma": 0.01}},
- "rest": {"left": {"acc_density": 0.01, "acc_wander": 0, "gyro_density": 0.01, "gyro_wander": 0, "rate": 100.0}},
  "sensors": {"left": {"acc": {"matrix": [1, 0, 0, 0, 1, 0, 0, 0, 1], "bias": [0, 0, 0],
                               "matrix_sigma": [0, 0, 0, 0, 0, 0, 0, 0, 0], "bias_sigma": [0, 0, 0]},
                       "gyro": {"matrix": [1, 0, 0, 0, 1, 0, 0, 0, 1], "bias": [0, 0, 0],

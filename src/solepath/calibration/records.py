@@ -146,22 +146,6 @@ class HeadingCalibration:
 
 
 @frozen
-class RestNoise:
-    """Noise of one sensor at rest (`solepath calibrate rest`), for the filter of Bebek et al. 2010."""
-
-    acc_density: float = field(metadata=limits(1e-6, 1.0, "m/s^2/sqrt(Hz)"))
-    """Density of the accelerometer's white noise, m/s^2/sqrt(Hz), as in data sheets."""
-    acc_wander: float = field(metadata=limits(0.0, 0.1, "m/s^2/sqrt(s)"))
-    """Standard deviation by which the accelerometer's bias changes in one second, m/s^2/sqrt(s)."""
-    gyro_density: float = field(metadata=limits(1e-7, 0.1, "rad/s/sqrt(Hz)"))
-    """Density of the gyroscope's white noise, rad/s/sqrt(Hz)."""
-    gyro_wander: float = field(metadata=limits(0.0, 0.01, "rad/s/sqrt(s)"))
-    """Standard deviation by which the gyroscope's bias changes in one second, rad/s/sqrt(s)."""
-    rate: float = field(metadata=limits(1.0, 10_000.0, "Hz"))
-    """Sampling rate of the recording, Hz."""
-
-
-@frozen
 class TriadCalibration:
     """Correction of a three-axis sensor: the true values are `matrix` times (reading - `bias`)."""
 
@@ -231,8 +215,6 @@ class Calibration:
     (1))."""
     headings: dict[Foot, HeadingCalibration] = field(factory=dict)
     """Drift of the heading of each foot."""
-    rest: dict[Foot, RestNoise] = field(factory=dict)
-    """Noise of each foot's sensor at rest."""
     sensors: dict[Foot, SensorCalibration] = field(factory=dict)
     """Scale, axes and bias of each foot's sensor, which correct its samples for any recipe."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import time
 from functools import partial
 from pathlib import Path
 
@@ -40,15 +41,20 @@ FIGURE = Kind(
 """A figure of `reproduce` (.png, .eps, .ps, .pdf, .svg), whose metadata name the program that drew it."""
 NAMES = tuple(EXPERIMENTS)
 """Names of the experiments."""
+CLOCK_SEEDS = 100_000
+"""Number of seeds among which the clock draws one."""
 
 
 OPTIONS = (
     lambda parser: complete_with(parser.add_argument("name", metavar="NAME", help=", ".join(NAMES)), lambda: NAMES),
     option("--walks", metavar="N", type=parse_count, help="so many walks, or wearers (default: as many as the paper)"),
     option(
-        "--seed", metavar="N", type=parse_whole_number, default=1, help="other walks and other sensors (default: 1)"
+        "--seed",
+        metavar="N",
+        type=parse_whole_number,
+        help="draws walks and sensors; the table names it (default: another one each time, by the clock)",
     ),
-    option("--seeds", metavar="N", type=parse_count, default=1, help="so many seeds, from --seed on (default: 1)"),
+    option("--seeds", metavar="N", type=parse_count, default=1, help="so many seeds, one after the other (default: 1)"),
     option(
         "--resume",
         metavar="FILE",
@@ -82,9 +88,12 @@ def run(options: argparse.Namespace) -> int:
     if options.resume is not None and options.resume.resolve() in [output.path.resolve() for output in outputs]:
         raise Failure(f"{printable(str(options.resume))}: --resume needs a file of its own")
 
+    if options.resume is not None and options.seed is None:
+        raise Failure("--resume needs the --seed of the walks with which it goes on")
+    first = time.time_ns() // 10**6 % CLOCK_SEEDS if options.seed is None else options.seed
     done_jobs = None if options.resume is None else DoneJobs(options.resume, options.name)
     runner = Runner(options.processes, partial(print, file=sys.stderr, flush=True), done_jobs)
-    seeds = range(options.seed, options.seed + options.seeds)
+    seeds = range(first, first + options.seeds)
     try:
         if done_jobs is not None:
             done_jobs.open_file()

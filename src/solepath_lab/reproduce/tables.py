@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from enum import Enum
+from math import inf, sqrt
 from typing import Any
 
 import attrs
@@ -35,6 +36,11 @@ class PictureTrack:
     name: str
     points: Points = field(converter=to_points)
     style: DrawStyle = DrawStyle.LINE
+
+
+def to_numbers(values: Iterable[float]) -> tuple[float, ...]:
+    """Return numbers of any kind as a claim has them."""
+    return tuple([float(value) for value in values])
 
 
 def to_tracks(tracks: Iterable[PictureTrack]) -> tuple[PictureTrack, ...]:
@@ -119,6 +125,56 @@ class FigureRow:
     """Number of digits after the point, as the paper prints it."""
 
 
+STUDENT = (1.589534, 2.555850, 2.822499, 2.372271, 1.959964)
+"""Factors of the powers of 1 / freedom in the 97.5 % point of Student's t, the highest power first."""
+
+
+@frozen
+class Claim:
+    """A comparing sentence of the documents, with its margin in each walk or of each wearer, positive where it is true.
+
+    It holds if the 95 % interval of the mean margin is above zero, fails if it is below, and is open if zero is in
+    it."""
+
+    sentence: str
+    """What is claimed, without a full stop: "KUPT errs less than ZUPT"."""
+    margins: tuple[float, ...] = field(converter=to_numbers)
+    unit: str = "m"
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Interval in which the mean margin lies with 95 %, by Student's t over independent walks or wearers."""
+        count, mean = len(self.margins), float(np.mean(self.margins or (0.0,)))
+        if count < 2:
+            return -inf, inf
+        reach = _student(count - 1) * float(np.std(self.margins, ddof=1)) / sqrt(count)
+        return mean - reach, mean + reach
+
+    @property
+    def verdict(self) -> str:
+        """ "holds", "fails" or "is open"."""
+        low, high = self.interval
+        return "holds" if low > 0.0 else "fails" if high < 0.0 else "is open"
+
+    def __str__(self) -> str:
+        low, high = self.interval
+        mean = float(np.mean(self.margins or (0.0,)))
+        return (
+            f"{self.sentence}: by {mean:.2g} {self.unit} (95 % interval {low:.2g} to {high:.2g}, n = "
+            f"{len(self.margins)}), so it {self.verdict}."
+        )
+
+
+def claim(sentence: str, more: Iterable[float], less: Iterable[float], unit: str = "m") -> Claim:
+    """Return the claim that the figures `less` of each walk are smaller than those of the same walk in `more`."""
+    return Claim(sentence, np.subtract(tuple(more), tuple(less)), unit)
+
+
+def _student(freedom: int) -> float:
+    """Return the 97.5 % point of Student's t, by its expansion in 1 / freedom (Abramowitz and Stegun 26.7.5)."""
+    return float(np.polyval(STUDENT, 1.0 / freedom))
+
+
 Values = dict[str, tuple[float, ...]]
 
 
@@ -157,8 +213,8 @@ class Reproduction:
     panels: tuple[Panel, ...] = ()
     """Panels of the paper's main figure."""
     notes: tuple[str, ...] = ()
-    by_seed: tuple[tuple[int, Table], ...] = ()
-    """Statistics of each seed's values by row; empty for a single seed."""
+    claims: tuple[Claim, ...] = ()
+    """Comparisons that the documents make."""
 
     @property
     def table(self) -> Table:
@@ -172,17 +228,16 @@ class Reproduction:
 
 
 def as_json(reproduction: Reproduction) -> dict[str, Any]:
-    """Return {"name", "emulated": true, "table": {row: {"mean", "std", "q1", "median", "q3"}}, "paper": ...}.
+    """Return {"name", "emulated": true, "table": {row: {"mean", "std", "q1", "median", "q3"}}, "paper": ..., "claims"}.
 
     "paper" has the form of "table". Null stands for a statistic of too few walks, or one that is not in the paper.
-    With several seeds, "seeds" has such a table for each seed."""
-    seeds = {str(seed): _table_as_json(table) for seed, table in reproduction.by_seed}
+    "claims" is {sentence: verdict}."""
     return {
         "name": reproduction.name,
         "emulated": True,
         "table": _table_as_json(reproduction.table),
         "paper": _table_as_json(reproduction.paper),
-        **({"seeds": seeds} if seeds else {}),
+        "claims": {one.sentence: one.verdict for one in reproduction.claims},
     }
 
 

@@ -11,6 +11,7 @@ from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.path import Stand
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import EmulatedWalk
+from solepath.emulate.wearers.truth import TrueStride
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, StrideTaken
 from solepath.floorplan.plan import FloorPlan
@@ -19,6 +20,10 @@ from solepath.recording.decoded import decode_recording
 from solepath.session import Session
 from solepath.types import Foot, Packet, Sample
 from solepath.validate.alignment import ALIGNMENT_LENGTH, Floats, align
+from solepath.validate.matching import pairs
+
+MATCHING_TIME = 0.3
+"""Largest time between the ends of a found stride and the true one that it matches, s."""
 
 
 def join_routes(first: Route, second: Route) -> Route:
@@ -83,3 +88,9 @@ def thin_out(points: Iterable[Sequence[float]], max_points: int = 4000) -> tuple
     positions = [(float(p[0]), float(p[1])) for p in points]
     interval = -(-len(positions) // max_points) or 1
     return tuple(positions[::-1][::interval][::-1])
+
+
+def matched(found: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tuple[StrideTaken, TrueStride]]:
+    """Return the pairs of a found and a true stride whose ends are at most MATCHING_TIME apart, one to one."""
+    ends = [one.t_end for one in true], [stride.t_end for stride in found]
+    return [(found[j], true[i]) for i, j in pairs(*ends, MATCHING_TIME)]

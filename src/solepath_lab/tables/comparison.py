@@ -8,7 +8,7 @@ from ..reproduce.tables import STATISTICS, FigureRow, Reproduction, Statistics, 
 
 
 def comparison_with_paper(reproduction: Reproduction) -> str:
-    """Return the table of our figures beside the paper's, with the notes on lines below it."""
+    """Return the table of our figures beside the paper's, with the claims and the notes on lines below it."""
     first, *others = STATISTICS
     header = [reproduction.unit, f"ours: {first}", *others, f"paper: {first}", *others]
     rows = [[row.name, *_cells(statistics(row.values), row), *_cells(row.paper, row)] for row in reproduction.rows]
@@ -16,19 +16,9 @@ def comparison_with_paper(reproduction: Reproduction) -> str:
         f"{reproduction.name}: ours is emulated ({reproduction.emulation}), "
         f"theirs was walked ({reproduction.paper_title})."
     )
-    seeds = [] if not reproduction.by_seed else ["", _seeds_table(reproduction)]
+    claims = [] if not reproduction.claims else ["", "Claims:", *[str(one) for one in reproduction.claims]]
     notes = [] if not reproduction.notes else ["", *reproduction.notes]
-    return "\n".join([title, "", table(header, rows), *seeds, *notes])
-
-
-def _seeds_table(reproduction: Reproduction) -> str:
-    """Return the table of the mean of each row by seed."""
-    header = ["mean by seed", *(str(seed) for seed, _ in reproduction.by_seed)]
-    rows = [
-        [row.name, *(number(by_row[row.name].mean, row.digits) for _, by_row in reproduction.by_seed)]
-        for row in reproduction.rows
-    ]
-    return table(header, rows)
+    return "\n".join([title, "", table(header, rows), *claims, *notes])
 
 
 def _cells(shown: Statistics, row: FigureRow) -> list[str]:

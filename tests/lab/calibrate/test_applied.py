@@ -8,7 +8,7 @@ from attrs import evolve
 from walks import of, samples
 
 from solepath import Calibration, Foot, HeelStrike, Sample, Session, StrideTaken, recipes
-from solepath.calibration import HeadingCalibration, RestNoise, SensorCalibration
+from solepath.calibration import HeadingCalibration, SensorCalibration
 from solepath.calibration.records import TriadCalibration, merged, stale_feet
 
 NO_SIGMA = ((0.0,) * 9, (0.0, 0.0, 0.0))
@@ -47,12 +47,10 @@ def test_a_session_goes_on_with_its_correction_after_a_snapshot_and_packed() -> 
 
 
 def test_what_was_learnt_without_the_correction_is_forgotten() -> None:
-    heading, noise = HeadingCalibration(0.001, 0.0, 1e-3, 1e-3), RestNoise(0.01, 1e-3, 1e-4, 1e-5, 100.0)
-    known = Calibration(
-        headings=dict.fromkeys(Foot, heading), drift=dict.fromkeys(Foot, (0.01, 0.0)), rest={Foot.LEFT: noise}
-    )
+    heading = HeadingCalibration(0.001, 0.0, 1e-3, 1e-3)
+    known = Calibration(headings=dict.fromkeys(Foot, heading), drift=dict.fromkeys(Foot, (0.01, 0.0)))
     result = merged(known, CALIBRATION)
     assert stale_feet(known, CALIBRATION) == [Foot.LEFT]
-    assert list(result.headings) == list(result.drift) == [Foot.RIGHT] and result.rest == known.rest
+    assert list(result.headings) == list(result.drift) == [Foot.RIGHT]
     assert result.sensors == CALIBRATION.sensors and stale_feet(result, CALIBRATION) == []
     assert merged(result, Calibration(headings={Foot.LEFT: heading})).headings[Foot.LEFT] == heading

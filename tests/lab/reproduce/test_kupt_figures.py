@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from attrs import evolve
 
-from solepath import StrideFused
+from solepath import HeelStrike, StrideFused, ToeOff
 from solepath.types import Foot
 from solepath_lab.reproduce.kupt.figures import KnownSample, coverage, panels, without_drift
 
@@ -49,7 +50,7 @@ def test_kupt_takes_the_line_of_equation_8_out_of_the_swing_alone() -> None:
     assert [v for _, v in velocity[8:10]] == pytest.approx([0.5, 0.0])
 
 
-def test_figure_11_has_the_weights_and_adds_up_the_strides_and_figure_14_shows_three_strides() -> None:
+def test_figures_10_and_11_are_drawn_for_both_feet_and_figure_14_shows_three_strides() -> None:
     fused = [
         StrideFused(
             t=float(k),
@@ -68,15 +69,25 @@ def test_figure_11_has_the_weights_and_adds_up_the_strides_and_figure_14_shows_t
         for k in range(3)
         for foot in Foot
     ]
-    seen = dict.fromkeys(Foot, tuple(series(8)))
-    velocity, weights, distance, drift = panels(seen, {"ZUPT": [], "KUPT+DFPC": [*fused]}, [*fused])
-    similarity, index, coefficient = (curve.points for curve in weights.tracks)
-    assert similarity == ((0.0, 0.9), (1.0, 0.9), (2.0, 0.9)) and index == ((1.0, 0.1), (2.0, 0.2))
-    assert coefficient == ((0.0, 0.6), (1.0, 0.6), (2.0, 0.6))
-    sums = {curve.name: curve.points for curve in distance.tracks}
-    assert sums["KUPT + 1st stage DFPC"] == ((0.0, 1.3), (1.0, 2.6), (2.0, pytest.approx(3.9)))
-    assert sums["KUPT+DFPC"] == ((0.0, 0.0), (1.0, 1.3), (2.0, 2.6))
-    (raw, reference, zupt, kupt), (shown, *_) = velocity.tracks, drift.tracks
-    assert [one.name for one in (raw, reference, zupt, kupt)] == ["V-raw", "V-ref", "ZUPT", "KUPT"]
+    events = [kind(t=t, known_at=t, foot=Foot.RIGHT) for kind, t in ((HeelStrike, 0.85), (ToeOff, 0.25))]
+    seen = {foot: [evolve(one, cop=0.1 * one.t) for one in series(8)] for foot in Foot}
+    drawn = {panel.title: panel.tracks for panel in panels(seen, [*fused, *events], [], [*fused])}
+    assert [title.split("(fig. ")[1] for title in drawn] == [
+        "10 a)", "10 b)", "11 a)", "11 c)", "11 e)", "11 b)", "11 d)", "11 f)", "14)",
+    ]  # fmt: skip
+    strikes, lifts = drawn["right foot (fig. 10 b)"][2:]
+    assert strikes.points == (pytest.approx((0.85, 0.085)),) and lifts.points == (pytest.approx((0.25, 0.025)),)
+    assert all(not curve.points for curve in drawn["left foot (fig. 10 a)"][2:])
+    for letters in ("ce", "df"):
+        weights, distance = (of for title, of in drawn.items() for letter in letters if title.endswith(f"11 {letter})"))
+        similarity, index, coefficient = (curve.points for curve in weights)
+        assert similarity == ((0.0, 0.9), (1.0, 0.9), (2.0, 0.9)) and index == ((1.0, 0.1), (2.0, 0.2))
+        assert coefficient == ((0.0, 0.6), (1.0, 0.6), (2.0, 0.6))
+        sums = {curve.name: curve.points for curve in distance}
+        assert sums["KUPT + 1st stage DFPC"] == ((0.0, 1.3), (1.0, 2.6), (2.0, pytest.approx(3.9)))
+        # the choice between the feet (13) is drawn after each stride of either foot
+        assert sums["KUPT+DFPC"] == ((0.0, 0.0), (0.0, 0.0), (1.0, 1.3), (1.0, 1.3), (2.0, 2.6), (2.0, 2.6))
+    shown, *_ = drawn["drift in three strides (fig. 14)"]
+    assert [one.name for one in drawn["velocity (fig. 11 a)"]] == ["V-raw", "V-ref", "ZUPT", "KUPT"]
     stands = [t for t, v in shown.points if v == 0.0]
     assert len(stands) == 7 and shown.points[-1][0] - shown.points[0][0] == pytest.approx(3.0)

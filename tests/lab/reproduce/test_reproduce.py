@@ -43,7 +43,6 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure_and_are_not_walked_agai
     monkeypatch.setattr(kupt_walks, "CORRIDOR_LENGTH", 20.0)
     monkeypatch.setattr(kupt_walks, "NOISE_WALK", straight(6.0, kupt_walks.SPEED).stand(4.0))
     monkeypatch.setattr(kupt_dfpc, "SETTINGS", ())
-    monkeypatch.setattr(kupt_dfpc, "ABLATIONS", {name: kupt_dfpc.ABLATIONS[name] for name in ("KUPT (+ bias)",)})
     monkeypatch.setattr(shoe_sensing, "SETUPS", shoe_sensing.SETUPS[:1])
     monkeypatch.setattr(shoe_walks, "LAPS", 1)
     monkeypatch.setattr(shoe_walks, "MANY_ROUNDS", 3)
@@ -56,7 +55,7 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure_and_are_not_walked_agai
     assert done.stdout.endswith(f"figure drawn in {name}.png\n")
     assert Path(f"{name}.png").read_bytes().startswith(b"\x89PNG")
     table = json.loads(Path("table.json").read_text(), parse_constant=pytest.fail)
-    assert list(table) == ["name", "emulated", "table", "paper"]
+    assert list(table) == ["name", "emulated", "table", "paper", "claims"]
     assert table["name"] == name and table["emulated"] is True
     assert list(table["table"]) == list(table["paper"])
     assert all(list(of) == FIVE for part in ("table", "paper") for of in table[part].values())

@@ -7,16 +7,22 @@ Takes half an hour or more on two cores. A claim that is not reproduced is not a
 
 from __future__ import annotations
 
-import re
+import time
 
 import numpy as np
 import pytest
 
-from solepath_lab.reproduce import footstep_tracker, kupt_dfpc, pressure_contour, walking_modes
+from solepath_lab.reproduce import footstep_tracker, kupt_dfpc, pressure_contour, shoe_sensing, walking_modes
 from solepath_lab.reproduce.runner import Runner
+from solepath_lab.reproduce.seeds import Experiment
 from solepath_lab.reproduce.tables import Reproduction
 
 pytestmark = pytest.mark.long
+
+
+def seed_of_today() -> int:
+    """Return a seed that nobody has chosen."""
+    return time.time_ns() // 10**6 % 100_000
 
 
 def values(found: Reproduction, row: str) -> np.ndarray:
@@ -24,38 +30,33 @@ def values(found: Reproduction, row: str) -> np.ndarray:
     return np.array(one.values)
 
 
-def rms(off: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(off**2)))
+def verdicts(found: Reproduction) -> dict[str, str]:
+    return {one.sentence: one.verdict for one in found.claims}
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_known_velocity_scatters_and_errs_less_than_zero_velocity_and_the_fusion_less_still(seed: int) -> None:
-    found = kupt_dfpc.reproduce(None, seed, Runner(processes=2))
-    both = values(found, "KUPT+DFPC")
-    for foot in "LR":
-        zupt, kupt = values(found, f"ZUPT-{foot}"), values(found, f"KUPT-{foot}")
-        assert kupt.std() < zupt.std() and both.std() < kupt.std()
-        assert rms(kupt - 20.0) < rms(zupt - 20.0) and rms(both - 20.0) < rms(kupt - 20.0)
-    (corridor,) = (note for note in found.notes if note.startswith("91 m of corridors, KUPT+DFPC"))
-    (share,) = re.findall(r"([\d.]+) % of it on average", corridor)
-    assert float(share) <= 1.0
-    for setting in ("pivot -1 cm", "pivot +1 cm", "impact 50 ms", "no low pass"):
-        zero, known = (
-            np.concatenate([values(found, f"{setting}: {method}-{foot}") for foot in "LR"])
-            for method in ("ZUPT", "KUPT")
-        )
-        assert rms(known - 20.0) < rms(zero - 20.0)
-        assert rms(values(found, f"{setting}: KUPT+DFPC") - 20.0) < rms(known - 20.0)
-    for foot in "LR":
-        zero, known = (values(found, f"pivot +2 cm: {method}-{foot}") for method in ("ZUPT", "KUPT"))
-        assert rms(known - 20.0) <= 1.05 * rms(zero - 20.0)
+def test_known_velocity_with_our_additions_errs_less_than_zero_velocity_without_them() -> None:
+    found = verdicts(kupt_dfpc.reproduce(None, seed_of_today(), Runner(processes=2)))
+    for setting in ("", "rigid sole: ", "pivot +2 cm: ", "slip 2 cm: ", "no low pass: ", "MPU-9250: "):
+        assert found[f"{setting}KUPT errs less than ZUPT"] == "holds"
+    assert found["KUPT errs less than KUPT, no bias"] == "holds"
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_half_hour_loops_end_nearer_than_the_papers(seed: int) -> None:
-    found = pressure_contour.reproduce(None, seed, Runner(processes=2))
-    assert values(found, "Pressure m").mean() <= 4.3
-    assert values(found, "Gyroscope m").mean() <= 4.87
+HELD = {
+    pressure_contour.reproduce: (
+        "loops end nearer than the paper's 4.30 m", "short: ours finds more strides than the printed one",
+    ),
+    shoe_sensing.reproduce: (
+        "walking: lengths err less with ours than as printed", "jogging: ours finds more strides than printed",
+        "ramps and kerbs: heights err less with ours than with level by angle",
+    ),
+}  # fmt: skip
+"""Claims that hold, by experiment."""
+
+
+@pytest.mark.parametrize("experiment", HELD, ids=["contours", "shoe"])
+def test_what_the_pages_claim_holds_with_the_seed_of_today(experiment: Experiment) -> None:
+    found = verdicts(experiment(None, seed_of_today(), Runner(processes=2)))
+    assert {found[sentence] for sentence in HELD[experiment]} == {"holds"}
 
 
 def test_a_wearers_own_compensation_brings_three_corners_nearer_and_the_closed_walks_end_not() -> None:

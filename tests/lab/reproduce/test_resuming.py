@@ -8,7 +8,7 @@ from solepath_lab.command import main as lab
 from solepath_lab.reproduce.done_jobs import DoneJobs, DoneJobsError
 from solepath_lab.reproduce.runner import Runner
 from solepath_lab.reproduce.seeds import reproduce_seeds
-from solepath_lab.reproduce.tables import FigureRow, Reproduction, Statistics, as_json
+from solepath_lab.reproduce.tables import Claim, FigureRow, Reproduction, Statistics, as_json, claim
 from solepath_lab.tables.comparison import comparison_with_paper
 
 
@@ -72,23 +72,47 @@ def test_a_file_of_something_else_stays_as_it_is(tmp_path, content, words):
     with pytest.raises(DoneJobsError, match=words):
         runner_of(file)
     assert file.read_bytes() == content
-    line = run_failing("reproduce", "kupt-dfpc", "--walks", 1, "--resume", file, program=lab)
+    line = run_failing("reproduce", "kupt-dfpc", "--walks", 1, "--seed", 1, "--resume", file, program=lab)
     assert line.startswith(f"solepath: {file}: ") and words in line and line.count("\n") == 1
 
 
 def of_seed(walks, seed, runner):
     runner.report(f"{runner.title}walked")
     rows = (FigureRow("ZUPT-L", (10.0 * seed, 10.0 * seed + walks), Statistics(3.0)),)
-    return Reproduction("kupt-dfpc", "a paper", "2 walks", "m", rows, notes=(f"{seed} m.", "For all."))
+    claims = (claim("KUPT errs less", (1.0 * seed,), (0.9,)),)
+    return Reproduction("kupt-dfpc", "a paper", "2 walks", "m", rows, notes=(f"{seed} m.", "For all."), claims=claims)
 
 
-def test_several_seeds_are_one_table_with_the_mean_of_each():
+def test_several_seeds_are_one_table_and_one_list_of_claims():
     lines: list[str] = []
     pooled = reproduce_seeds(of_seed, 2, (1, 2), Runner(report=lines.append))
     assert lines == ["seed 1, walked", "seed 2, walked"]
     assert pooled.rows[0].values == (10.0, 12.0, 20.0, 22.0)
+    assert pooled.claims[0].margins == pytest.approx((0.1, 1.1))
     assert pooled.notes == ("Seed 1: 1 m.", "Seed 2: 2 m.", "For all.")
-    text = comparison_with_paper(pooled).splitlines()
-    assert text[0].startswith("kupt-dfpc: ours is emulated (2 walks; seeds 1, 2)")
-    assert [line.split() for line in text[6:9:2]] == [["mean", "by", "seed", "1", "2"], ["ZUPT-L", "11.00", "21.00"]]
-    assert [as_json(pooled)["seeds"][seed]["ZUPT-L"]["mean"] for seed in ("1", "2")] == [11.0, 21.0]
+    text = comparison_with_paper(pooled)
+    assert text.startswith("kupt-dfpc: ours is emulated (2 walks; seed 1, 2)")
+    assert "\nKUPT errs less: by 0.6 m (95 % interval " in text
+
+
+@pytest.mark.parametrize(
+    ("margins", "half_width", "verdict"),
+    [
+        ((1.0, 2.0, 3.0, 4.0, 5.0), 2.776 * 2.5**0.5 / 5**0.5, "holds"),
+        ((-1.0, -1.2, -1.0), None, "fails"),
+        ((1.0, -1.0, 0.5, -0.4, 0.0, 0.1), 2.571 * 0.6947 / 6**0.5, "is open"),
+        ((1.0,), None, "is open"),
+    ],
+)
+def test_a_claim_holds_if_the_interval_of_its_mean_margin_is_above_zero(margins, half_width, verdict):
+    # half the width is the 97.5 % point of Student's t (tables) times the standard error
+    of_walks = Claim("nearer", margins)
+    low, high = of_walks.interval
+    assert half_width is None or 0.5 * (high - low) == pytest.approx(half_width, rel=2e-3)
+    assert of_walks.verdict == verdict and str(of_walks).endswith(f"n = {len(margins)}), so it {verdict}.")
+    assert as_json(Reproduction("kupt-dfpc", "", "", "m", (), claims=(of_walks,)))["claims"] == {"nearer": verdict}
+
+
+def test_walks_that_go_on_need_the_seed_with_which_they_began(tmp_path):
+    line = run_failing("reproduce", "kupt-dfpc", "--resume", tmp_path / "walks.jsonl", program=lab)
+    assert line == "solepath: --resume needs the --seed of the walks with which it goes on\n"

@@ -10,11 +10,11 @@ import pytest
 from solepath.calibration import Calibration, ShoeGeometry
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.phase import Cue
+from solepath.foot.settings import DedriftSettings
 from solepath.foot.stance.stance import Load, Stance
 from solepath.papers.kupt_dfpc.kinematics import Sagittal
 from solepath.papers.kupt_dfpc.known_velocity import KnownVelocity
-from solepath.papers.kupt_dfpc.swing.dedrift import SwingDedrift
-from solepath.papers.kupt_dfpc.swing.settings import SwingSettings
+from solepath.papers.kupt_dfpc.swing_drift import SwingDedrift
 from solepath.types import Cell, Foot, Layout, Phase, Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 
@@ -144,8 +144,13 @@ def corrector_after(corrector: LinearDedrift, step: tuple[tuple[Stance, Cue | No
     return corrector
 
 
-def new_corrector(slide: float = 0.0) -> SwingDedrift:
-    return SwingDedrift(SwingSettings(slide_time=slide, tilt_rate=0.0))
+class SlidingSwing(SwingDedrift):
+    """Corrector of a heel that slides for 0.1 s."""
+
+    slide_time = 0.1
+
+
+NO_TILT = DedriftSettings(tilt_rate=0.0)
 
 
 def test_only_the_swing_loses_a_line_as_in_equation_8_and_the_error_index_is_that_of_equation_10() -> None:
@@ -153,7 +158,7 @@ def test_only_the_swing_loses_a_line_as_in_equation_8_and_the_error_index_is_tha
     # up to toe-off     (0.01 + 0.11) x 0.1 = 0.012
     # swing 0.2 to 0.5  raw 0.35 x 0.3 = 0.105, less 0.04 x 0.3 + 0.275 (0.35^2 - 0.05^2) / 2 = 0.012 + 0.0165
     # from heel-strike  0.40 x 0.1 + 0.50 x 0.1, and the last 0.1 s with the same error: (0.75 - 0.15) x 0.1 = 0.06
-    corrector = corrector_after(new_corrector())
+    corrector = corrector_after(SwingDedrift(NO_TILT))
     assert corrector.position[0] == pytest.approx(0.012 + 0.0765 + 0.15)
     assert corrector.velocity == ZERO
     assert corrector.error_index == pytest.approx(0.04 + 0.15)
@@ -163,14 +168,14 @@ def test_a_heel_that_never_rolls_leaves_the_line_to_run_to_motion_end() -> None:
     step = tuple((LANDED if stance.hint is Phase.LOADING else stance, cue) for stance, cue in STEP)
     # error 0.8 at 0.8 s; drift rate (0.8 - 0.04) / (0.8 - 0.15) = 1.1692; swing 0.2 to 0.8:
     # raw 0.32 - 0.02 = 0.30, less 0.04 x 0.6 + 1.1692 (0.65^2 - 0.05^2) / 2 = 0.024 + 0.2455
-    corrector = corrector_after(new_corrector(), step)
+    corrector = corrector_after(SwingDedrift(NO_TILT), step)
     assert corrector.position[0] == pytest.approx(0.012 + 0.0305, abs=1e-4)
     assert corrector.error_index == pytest.approx(0.84)
 
 
 def test_a_heel_that_slides_first_is_compared_once_it_rolls() -> None:
     # with slide 0.1 s the first interval that counts is the second: k_h at 0.6 s, error 0.65 - 0.50 = 0.15 there too
-    corrector = corrector_after(new_corrector(slide=0.1))
+    corrector = corrector_after(SlidingSwing(NO_TILT))
     assert corrector.error_index == pytest.approx(0.19)
     # rate 0.11 / 0.5; swing 0.2 to 0.6: 0.40 x 0.4 - 0.04 x 0.4 - 0.22 (0.45^2 - 0.05^2) / 2 = 0.16 - 0.016 - 0.022
     assert corrector.position[0] == pytest.approx(0.012 + 0.122 + 0.05 + 0.06)

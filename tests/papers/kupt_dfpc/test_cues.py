@@ -8,12 +8,10 @@ import pytest
 
 from solepath.emulate.routes.route import Route
 from solepath.foot.cues.cues import TimedCue
-from solepath.foot.cues.touch import Touch
 from solepath.foot.phase import PHASES, Cue
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.stance.stance import Load, Stance
-from solepath.papers.kupt_dfpc.cop_cues import CopCues, CopCuesSettings
-from solepath.papers.kupt_dfpc.stages import StrideStage
+from solepath.papers.kupt_dfpc.cop_cues import CopCues, StrideStage
 from solepath.types import Cell, Foot, Layout, Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
 
@@ -31,9 +29,9 @@ FLIGHT: list[Row] = [(None, False)] * 12
 LANDING: list[Row] = [(0.05, False), (0.06, False), (0.08, False)]
 
 
-def cues_with_load(signed: bool = False) -> CopCues:
+def cues_with_load() -> CopCues:
     """Return the cues of a standing foot whose cells are reliable."""
-    cues = CopCues(CopCuesSettings(signed=signed), touch=Touch())
+    cues = CopCues()
     cues.set_layout(FOUR_CELLS)
     cues.touch.trusted, cues.touch.load_unknown = True, False
     cues.stage = StrideStage.STANDING
@@ -60,9 +58,9 @@ def watch(
     return seen, marks
 
 
-def cues_of(rows: list[Row], signed: bool = False) -> list[tuple[Cue, int, int]]:
+def cues_of(rows: list[Row]) -> list[tuple[Cue, int, int]]:
     """Return (cue, number of the sample that it names, number of the sample at which it was reported)."""
-    return [(one.cue, round(one.t / 0.01), k) for one, k in watch(rows, cues_with_load(signed))[0]]
+    return [(one.cue, round(one.t / 0.01), k) for one, k in watch(rows)[0]]
 
 
 def test_the_centre_of_pressure_is_the_mean_of_places_weighted_by_pressure() -> None:
@@ -88,19 +86,17 @@ def test_heel_strike_is_the_sample_after_the_jump_from_the_foots_centre_and_know
     assert cues[2:] == [(Cue.CONTACT, 17, 20), (Cue.FLAT, 20, 20)]
 
 
-def test_as_printed_a_heel_strike_is_the_largest_jump_towards_the_heel() -> None:
+def test_a_heel_strike_is_the_largest_jump_towards_the_heel() -> None:
     # from the centre 0.10 to the heel 0.07 at sample 17, then a larger jump back towards the toes, 0.125
     landing: list[Row] = [(0.07, False), (0.125, False), (0.12, False)]
     rows = STANCE + PUSH + FLIGHT + landing + STANCE
-    assert cues_of(rows, signed=True)[2] == (Cue.CONTACT, 17, 20)
-    assert cues_of(rows)[2] == (Cue.CONTACT, 18, 20)
+    assert cues_of(rows)[2] == (Cue.CONTACT, 17, 20)
 
 
-def test_as_printed_a_toe_off_is_not_where_the_load_moves_quickly_to_the_toes() -> None:
+def test_a_toe_off_is_not_where_the_load_moves_quickly_to_the_toes() -> None:
     # from heel to toe in one sample, 0.06 to 0.14, a jump of 0.08; from 0.15 to the centre a jump of 0.05 only
     rows = [(0.06, True), (0.06, True), (0.14, False), (0.15, False), (0.15, False), *FLIGHT]
-    assert cues_of(rows, signed=True) == [(Cue.LIFT, 2, 2), (Cue.CLEAR, 4, 5)]
-    assert cues_of(rows) == [(Cue.LIFT, 2, 2), (Cue.CLEAR, 1, 5)]
+    assert cues_of(rows) == [(Cue.LIFT, 2, 2), (Cue.CLEAR, 4, 5)]
 
 
 WALK = Route().stand(2.0).walk(12.0, 1.2).stop(1.5)

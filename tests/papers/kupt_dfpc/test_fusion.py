@@ -10,13 +10,11 @@ from strides import stride
 
 from solepath.emulate.routes.route import Route
 from solepath.events import StrideFeatures, StrideFused, StrideTaken
-from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
-from solepath.papers.kupt_dfpc.similarity import POINTS, correlation, own_share, resample_cop
+from solepath.papers.kupt_dfpc.fusion import POINTS, DoubleFoot, correlation, own_share, resample_cop
 from solepath.types import Foot
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 CENTRE = 0.14
-BY_ERROR_INDEX = FusionSettings(by_variance=False)
 COP_PATH = tuple((0.09 + 0.13 * k / 15, 0.0) for k in range(16))
 """A centre of pressure that rolls evenly from the arch to the toes."""
 
@@ -40,7 +38,7 @@ def stride_of(
 
 
 def walked(*steps: StrideTaken) -> tuple[DoubleFoot, list[StrideFused]]:
-    body = DoubleFoot(BY_ERROR_INDEX)
+    body = DoubleFoot()
     return body, [body.add_stride(one, CENTRE) for one in steps]
 
 
@@ -105,9 +103,19 @@ def test_each_step_is_calibrated_by_the_step_before_it_as_the_other_foot_measure
     assert [one.stride_length for one in fused] == pytest.approx([1.2, 1.3, 1.3])
 
 
+def test_half_a_stride_is_not_similar_to_a_whole_one_as_at_both_ends_of_the_walk_of_figure_11() -> None:
+    _, fused = walked(stride_of(LEFT, 2.0, 0.65, index=0.1), stride_of(RIGHT, 2.55, 1.3, index=0.1))
+    assert (fused[1].similarity, fused[1].coefficient, fused[1].stride_length) == (0.0, 1.0, 1.3)
+
+
+def test_a_stride_without_an_error_index_counts_for_neither_foot_in_equation_13() -> None:
+    body, fused = walked(stride_of(LEFT, 2.0, index=None), stride_of(RIGHT, 2.55, index=0.1))
+    assert body.error_balance == 0.0 and fused[1].coefficient == 1.0
+
+
 def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> None:
     pairs = [(0.3, 0.1, 1.1, 1.4), (0.1, 0.2, 1.2, 1.2), (0.1, 0.5, 1.2, 1.2)]
-    body, expected, chosen = DoubleFoot(BY_ERROR_INDEX), 0.0, set[Foot]()
+    body, expected, chosen = DoubleFoot(), 0.0, set[Foot]()
     for k, (left, right, d_left, d_right) in enumerate(pairs):
         t = 2.0 + 1.1 * k
         a = body.add_stride(stride_of(LEFT, t, d_left, index=left, number=k + 1), CENTRE)

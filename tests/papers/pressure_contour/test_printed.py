@@ -9,17 +9,19 @@ import numpy as np
 import pytest
 from attrs import evolve
 
+from solepath import Session
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.walk import SampledWalk, sampled
+from solepath.events import DefectFound, Limitation, StrideTaken
 from solepath.foot.stance.stance import Load
-from solepath.papers.pressure_contour.printed import PrintedContour
+from solepath.papers.pressure_contour.contour_stance import PRINTED_LIMIT, PrintedContour
 from solepath.recipes import by_name
 from solepath.types import SITE_OF_FOOT, Foot, Phase
 from solepath.types.vector import GRAVITY
 from solepath_lab.emulated.boot import heel_array
-from solepath_lab.emulated.laps import square
-from solepath_lab.reproduce.contour.runs import ContourRun, found_share, run_foot, sign_test, stance_velocities
+from solepath_lab.emulated.laps import square, straight
 from solepath_lab.reproduce.contour.variants import TABLE
+from solepath_lab.reproduce.contour.walks import ContourRun, run_foot, stance_velocities
 
 RIGHT = Foot.RIGHT
 KNOWN = Calibration(insoles={RIGHT: InsoleCalibration(layout=heel_array(RIGHT))})
@@ -48,7 +50,7 @@ def cone(x: float, tip: float = 120e3, slope: float = 4e6) -> Load:
 def test_a_heel_whose_contours_move_slower_than_4_mm_a_second_stands(speed: float, stands: bool) -> None:
     detector = PrintedContour()
     detector.set_layout(heel_array(RIGHT))
-    assert detector.lacking is None
+    assert detector.lacking == PRINTED_LIMIT
     for k in range(31):
         stance = detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0), cone(0.045 + 0.01 * k * speed))
         assert (stance.hint is Phase.STATIONARY) is (stands and k >= 5) and (stance.sigma < inf) is (stands and k >= 5)
@@ -65,12 +67,25 @@ def test_a_heel_without_20_kilopascal_has_no_contour_and_does_not_stand_however_
 
 
 @pytest.mark.long
-def test_the_heel_is_slower_at_the_zero_velocities_of_pressure_than_at_those_of_the_gyroscope() -> None:
-    gyroscope, ours, printed = (
-        stance_velocities(walked(name), lap().truth, RIGHT)
-        for name in ("gyroscope", "pressure-contour", "pressure-contour-printed")
-    )
-    assert found_share(ours) == found_share(gyroscope) == 1.0 and found_share(printed) > 0.9
-    assert ours.mean() < 0.5e-3 < 1.0e-3 < gyroscope.mean()
-    assert sign_test(ours, gyroscope).probability < 1e-6
-    assert np.nanmedian(printed) < 0.004
+def test_ours_finds_every_stride_and_the_heel_hardly_moves_where_it_is_taken_to_be_at_rest() -> None:
+    ours = stance_velocities(walked("pressure-contour"), lap().truth, RIGHT)
+    assert not np.isnan(ours).any() and ours.mean() < 1e-3
+    assert len(walked("pressure-contour").strides) >= len(lap().truth.strides(RIGHT))
+
+
+@cache
+def brisk() -> SampledWalk:
+    insoles = {SITE_OF_FOOT[RIGHT]: TABLE.device}
+    return sampled(straight(60.0, 1.3), wearer=TABLE.wearer, insoles=insoles, seed=5)
+
+
+@pytest.mark.long
+def test_as_printed_missed_stances_are_a_limit_of_the_recipe_and_not_a_fault_of_the_data() -> None:
+    session = Session(by_name("pressure-contour-printed"), calibration=KNOWN)
+    events = session.feed(brisk().samples) + session.finish()
+    strides = [one for one in events if isinstance(one, StrideTaken)]
+    assert len(strides) < 0.5 * len(brisk().truth.strides(RIGHT)), "what this test is about"
+    assert not [one for one in events if isinstance(one, DefectFound)]
+    said = [one.what for one in events if isinstance(one, Limitation)]
+    assert PRINTED_LIMIT in said and f"a stride cannot be right: {PRINTED_LIMIT}" in said
+    assert all(one.degraded for one in strides if one.length > 5.6)

@@ -4,27 +4,17 @@ from __future__ import annotations
 
 from functools import cache
 from math import pi, sqrt
-from pathlib import Path
 
 import pytest
 from attrs import evolve
-from walks import of, run_session
 
-from solepath import StrideTaken
 from solepath.calibration import Calibration, CalibrationError
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import AttitudeErrors
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from solepath.papers.pressure_contour.recipe import GYROSCOPE
-from solepath.papers.pressure_contour.square import (
-    CornerMark,
-    SquareDrift,
-    check_laps,
-    fit_drift,
-    read_marks,
-    square_drift,
-)
+from solepath.papers.pressure_contour.square import SquareDrift, check_laps, fit_drift, square_drift
 from solepath.recipes import DEFAULT, Recipe
 from solepath.recording.decoded import decode_recording
 from solepath.types import Foot, Packet, Sample, Site, Vec3
@@ -73,10 +63,9 @@ def test_a_known_slope_comes_out_in_the_frame_of_the_device_and_is_kept_if_all_l
     without, with_it = measured(), measured(0.04, -0.025)
     assert with_it.slope[0] - without.slope[0] == pytest.approx(0.04, abs=2e-4)
     assert with_it.slope[1] - without.slope[1] == pytest.approx(-0.025, abs=2e-4)
-    assert with_it.marks == MARKS_PER_LAP and with_it.foot is LEFT and with_it.gated
+    assert with_it.marks == MARKS_PER_LAP and with_it.foot is LEFT
     assert with_it.agreed and with_it.kept == with_it.slope
     assert not without.agreed and without.kept == (0.0, 0.0)
-    assert evolve(without, gated=False).kept == without.slope
 
 
 def test_laps_agree_when_a_wandering_foot_would_do_so_once_in_a_hundred_times() -> None:
@@ -93,14 +82,9 @@ def test_laps_agree_when_a_wandering_foot_would_do_so_once_in_a_hundred_times() 
     assert agreed(0.40) and not agreed(0.42)
 
 
-def test_marks_by_time_give_the_same_as_counted_steps_whatever_drift_was_known_before() -> None:
-    steps = of(StrideTaken, run_session(samples(), GYROSCOPE))
-    marks = [CornerMark(str(k % MARKS_PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
+def test_a_drift_that_was_known_before_changes_nothing() -> None:
     known = Calibration(drift={LEFT: (0.5, 0.5)})
-    assert square_drift(samples(), marks=marks, recipe=GYROSCOPE, calibration=known) == measured()
-    late = [*marks, CornerMark("nowhere", steps[-1].t + 1.01)]
-    assert square_drift(samples(), marks=late, recipe=GYROSCOPE, lenient=True) == measured()
-    assert "no stride ends at mark nowhere near" in failure_of(marks=late)
+    assert square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE, calibration=known) == measured()
 
 
 def test_slope_and_scatter_of_two_marks_in_four_laps_by_hand() -> None:
@@ -178,26 +162,4 @@ def test_an_unusable_walk_is_reported_in_one_line() -> None:
     assert failure_of(items=()) == "no stride of the left foot in the recording"
     assert failure_of(foot=Foot.RIGHT) == "no stride of the right foot in the recording"
     assert failure_of(recipe=DEFAULT) == "recipe default takes no drift off"
-    assert failure_of(marks=[CornerMark("a", 5.0)]) == "no mark was stood on 3 times"
     assert failure_of(steps_per_lap=3) == "3 marks are no square"
-
-
-def test_marks_are_read_from_a_table(tmp_path: Path) -> None:
-    file = tmp_path / "marks.csv"
-    file.write_text("mark,t\nA1,3.5\nA2,4.75\n")
-    assert read_marks(file) == (CornerMark("A1", 3.5), CornerMark("A2", 4.75))
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("mark,t\nA1,soon\n", "line 2: t is 'soon', not a number"),
-        ("mark,t\nA1,1.0\n,2.0\n", "line 3: nothing in column mark"),
-        ("mark,t\n", "no visits of marks"),
-    ],
-)
-def test_a_table_of_something_else_is_named(tmp_path: Path, text: str, message: str) -> None:
-    file = tmp_path / "marks.csv"
-    file.write_text(text)
-    with pytest.raises(CalibrationError, match=message):
-        read_marks(file)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from math import radians
+from math import inf, pi, radians, sin
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.foot.pressure.insole import InsoleLoads as Cells
 from solepath.foot.stance.stance import Load
 from solepath.link.decoder import Decoder
-from solepath.papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude, GyroscopeSettings
+from solepath.papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude
 from solepath.papers.pressure_contour.recipe import PRESSURE_CONTOUR
 from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
 from solepath.types.vector import GRAVITY, ZERO
@@ -36,28 +36,22 @@ def walk_with(device: Insole) -> EmulatedWalk:
 DEVICES = {"96 cells": Insole(), "35 cells": Insole(cells=35), "24 cells under the heel": boot(LEFT)}
 
 
-def standing_flags(detector: GyroscopeMagnitude, *values: float) -> list[bool]:
-    stances = [
-        detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, value, 0.0), None) for k, value in enumerate(values)
-    ]
-    assert all(stance.v_ref == ZERO for stance in stances)
-    assert [stance.statistic for stance in stances] == [abs(value) for value in values]
-    return [stance.hint is Phase.STATIONARY for stance in stances]
+def standing_flags(cycles: int, low: float, high: float) -> list[bool]:
+    """Return whether a foot stands, at 100 Hz, whose angular rate is `low` in each stance and up to `high` in swing."""
+    detector, flags = GyroscopeMagnitude(), []
+    rates = [low] * 40 + [low + (high - low) * sin(pi * k / 40) for k in range(40)] + [low] * 20
+    for k, rate in enumerate(rates * cycles):
+        stance = detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, rate, 0.0), None)
+        assert stance.v_ref == ZERO
+        flags.append(stance.sigma < inf)
+    return flags
 
 
-def test_a_rate_that_stays_low_is_a_standing_foot() -> None:
-    assert standing_flags(GyroscopeMagnitude(), 3.0, 0.1, 0.1, 0.1, 0.1) == [False, False, False, False, True]
-
-
-def immediate_detector() -> GyroscopeMagnitude:
-    return GyroscopeMagnitude(GyroscopeSettings(lasting=0.0))
-
-
-def test_a_stance_lasts_until_the_foot_turns_much_faster_than_at_its_lowest_rate() -> None:
-    # 0.2 rad/s is less than `below` 0.25: the stance ends at 1.6 times 0.25
-    assert standing_flags(immediate_detector(), 0.6, 0.2, 0.39, 0.41, 0.6) == [False, True, True, False, False]
-    # and where 0.45 rad/s was the lowest rate, at 1.6 times that
-    assert standing_flags(immediate_detector(), 0.6, 0.45, 0.71, 0.73) == [False, True, True, False]
+@pytest.mark.parametrize(("low", "high"), [(0.02, 5.0), (0.5, 5.0)])
+def test_a_foot_stands_where_it_turns_slowly_for_its_own_gait_cycle(low: float, high: float) -> None:
+    """A tied shoe hardly turns in stance; a loose one turns at half a radian a second."""
+    last = standing_flags(4, low, high)[-100:]
+    assert all(last[10:39]) and not any(last[50:70]) and all(last[90:])
 
 
 def evidence(detector: ContourVelocity, device: Insole) -> tuple[list[float], list[bool]]:

@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from math import inf, sin
 
 import pytest
-from attrs import evolve
 from hypothesis import strategies as st
 
 from solepath.foot.stance.stance import Stance
-from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing, ShoeSensingSettings
+from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing
 from solepath.types import Phase, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector, multiply
 
@@ -21,10 +20,15 @@ UNCERTAIN = Stance(ZERO, 0.03, 9.0, None)
 DT = 0.01
 
 
-def standing_corrector(**changes: float | bool) -> ShoeSensing:
-    """Return the corrector of a foot that has stood for a while, by default without additions to the paper."""
-    plain: dict[str, float | bool] = {"detector_delay": 0.0, "tilt_share": 0.0}
-    one = ShoeSensing(evolve(ShoeSensingSettings(), **{**plain, **changes}))
+class PlainCorrector(ShoeSensing):
+    """Corrector that sees the end of a stance at once and leaves the tilt alone."""
+
+    detector_delay = tilt_share = 0.0
+
+
+def standing_corrector() -> ShoeSensing:
+    """Return the corrector of a foot that has stood for a while."""
+    one = PlainCorrector()
     one.start(IDENTITY, 0.02)
     feed_accelerations(one, [ZERO] * 20, STILL)
     return one
@@ -61,7 +65,7 @@ def feed_flat_stride(one: ShoeSensing, length: float, height: float, turn: float
 
 def test_a_constant_error_of_the_acceleration_leaves_the_foot_where_it_stood() -> None:
     # e~ = b: V = b t - e~ t = 0, so S = 0; without the removal 0.3 m/s^2 over 0.8 s makes 0.096 m
-    one = standing_corrector(eliminate=False)
+    one = standing_corrector()
     feed_accelerations(one, [(0.3, -0.2, 0.1)] * 80, MOVING)
     assert one.velocity[0] == pytest.approx(0.24, rel=0.01)
     assert one.position[0] == pytest.approx(0.096, rel=0.02)
@@ -71,7 +75,7 @@ def test_a_constant_error_of_the_acceleration_leaves_the_foot_where_it_stood() -
 
 
 def test_a_stride_with_a_linear_drift_of_velocity_is_as_long_as_it_was() -> None:
-    one = standing_corrector(eliminate=False)
+    one = standing_corrector()
     feed_stride(one, 1.2, 0.32, (0.3, 0.2, -0.2))
     assert one.position == pytest.approx((1.2, 0.0, 0.32), abs=5e-3)
 

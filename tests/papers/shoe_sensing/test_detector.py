@@ -8,10 +8,11 @@ import pytest
 from hypothesis import strategies as st
 
 from solepath.foot.stance.stance import Stance
-from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude, EnergySettings, ShortTimeEnergy
+from solepath.papers.shoe_sensing.short_time_energy import EnergySettings, ShortTimeEnergy
 from solepath.papers.shoe_sensing.steepness import DOWNSTAIRS_THRESHOLD, UPSTAIRS_THRESHOLD, angle_per_metre, steepness
 from solepath.types import Phase
 from solepath.types.vector import GRAVITY, ZERO
+from solepath_lab.reproduce.shoe.variants import AccelerationMagnitude
 
 
 def last_evidence(

@@ -14,7 +14,7 @@ from solepath.emulate.wearers.shoe import ON_INSTEP
 from solepath.emulate.wearers.truth import Truth
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import ActivityChanged, Event, FlightClimbed, StrideTaken
-from solepath.papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING, SHOE_SENSING_PRINTED
+from solepath.papers.shoe_sensing.recipe import SHOE_SENSING, SHOE_SENSING_PRINTED
 from solepath.types import Activity, Foot, Sample
 
 LEVEL = Route().stand(3.0).walk(30.0, 1.3).stop(2.0)
@@ -30,10 +30,8 @@ def samples_and_truth(route: Route, seed: int, rate: float = 100.0) -> tuple[tup
 
 
 @cache
-def events_of(route: Route, seed: int, rate: float = 100.0, energy: bool = True) -> tuple[Event, ...]:
-    return tuple(
-        run_session(samples_and_truth(route, seed, rate)[0], SHOE_SENSING_PRINTED if energy else SHOE_MAGNITUDE)
-    )
+def events_of(route: Route, seed: int, rate: float = 100.0) -> tuple[Event, ...]:
+    return tuple(run_session(samples_and_truth(route, seed, rate)[0], SHOE_SENSING_PRINTED))
 
 
 @cache

@@ -36,21 +36,18 @@ def _noise(options: Namespace, known: Calibration) -> LearntCalibration:
 
 
 def _square(options: Namespace, known: Calibration) -> LearntCalibration:
-    from ...papers.pressure_contour.square import read_marks, square_drift
+    from ...papers.pressure_contour.square import square_drift
     from ...recipes import by_name
 
     recipe = by_name(options.recipe)
-    marks = read_marks(options.marks) if options.marks else None
     drivers = drivers_of(options)
     source = source_named(options, drivers)
     check_pressure(recipe, source, drivers)
-    drift = square_drift(
-        source, foot=source.foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known
-    )
+    drift = square_drift(source, foot=source.foot, steps_per_lap=options.steps, recipe=recipe, calibration=known)
     x, y = drift.slope
     if drift.agreed:
         verdict = "the laps agree on it, and it is taken off later"
-    elif options.whole or not drift.gated:
+    elif options.whole:
         verdict = "the laps do not agree on it, and it is taken off all the same"
     else:
         verdict = "the laps do not agree on it, so that nothing is taken off (--whole does all the same)"
@@ -111,20 +108,6 @@ def _walk(options: Namespace, known: Calibration) -> LearntCalibration:
     return heading_calibration(fits), [table(header, rows)]
 
 
-def _rest(options: Namespace, known: Calibration) -> LearntCalibration:
-    from ...papers.pressure_contour.rest import rest_calibration, rest_noise
-
-    foot, samples = samples_named(options)
-    fits = rest_noise(samples, foot)
-    lines = [
-        f"{fit.foot} foot, {fit.duration:.0f} s: accelerometer {1e3 * fit.noise.acc_density:.3g} mm/s^2/sqrt(Hz), bias "
-        f"steady within {1e3 * fit.acc_instability:.3g} mm/s^2; gyroscope {degrees(fit.noise.gyro_density):.2g} "
-        f"degrees/s/sqrt(Hz), bias steady within {3600.0 * degrees(fit.gyro_instability):.3g} degrees/h"
-        for fit in fits
-    ]
-    return rest_calibration(fits), lines
-
-
 _add_noise = command(
     "noise",
     "what pressure cells show in the air, from a walk",
@@ -140,12 +123,6 @@ _add_square = command(
     "marks in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
     "solepath calibrate square laps.jsonl --out me.json",
     table_options("RECORDING"),
-    option(
-        "--marks",
-        metavar="MARKS",
-        type=Path,
-        help="a csv file of the visits, mark and t (s); without it they are counted",
-    ),
     option("--steps", metavar="N", type=parse_count, default=40, help="marks around the square (default: 40)"),
     recipe_option(default="pressure-contour", help="whose positions (default: pressure-contour; or gyroscope)"),
     option("--whole", action="store_true", help="keep a drift that the laps do not agree on, as the paper"),
@@ -188,16 +165,7 @@ _add_walk = command(
     table_options("RECORDING"),
     learn=_walk,
 )
-_add_rest = command(
-    "rest",
-    "the noise of a sensor, from a recording at rest",
-    "From a sensor that lies still for two minutes or more, best an hour: the noise of its "
-    "accelerometer and gyroscope, and how fast their biases change. pressure-contour and gyroscope use it.",
-    "solepath calibrate rest still.jsonl --out me.json",
-    table_options("RECORDING"),
-    learn=_rest,
-)
 KINDS = (
-    _add_noise, add_shoe, _add_square, add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, _add_rest, add_sensor
+    _add_noise, add_shoe, _add_square, add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, add_sensor
 )  # fmt: skip
 """Functions that add the kinds to the parser, in the order of the help text."""

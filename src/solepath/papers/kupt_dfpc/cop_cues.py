@@ -8,14 +8,16 @@ and B of the figure), stays there in the air, and jumps to the heel when the foo
 - Toe-off (A) is the sample before the largest jump between motion start and the first sample of swing.
 - Heel-strike (D) is the sample after the largest jump between swing and motion end.
 - A jump is the "maximum of COP differential signal" of the paper's copY, which grows from toe to heel; `x` here grows
-  from heel to toe. As printed only jumps towards the heel count (`CopCuesSettings.signed`).
+  from heel to toe.
 - A swing is normal if the CoP stayed at the foot's centre for `REST_TIME` s. A stride without a normal swing is
   abnormal (section IV.A, the first left step of fig. 10): "toe-off and heel-strike were not extracted for that step".
   Its phases follow one another without a heel-strike. It has no mark of one, so it does not calibrate anything.
 
 The inertial cues are used while the load is unknown, that is until it has fallen and risen once. A foot that slides
-away without leaving the ground has its toe-off where it became fast, if it stays fast for `SHUFFLE_TIME`. The table of
-stages.py gives the next stage for each cue of the cells. Numbers without a source were chosen by hand."""
+away without leaving the ground has its toe-off where it became fast, if it stays fast for `SHUFFLE_TIME`. `STAGES`
+gives the next stage for each cue of the cells. A stage is not a phase: a toe-off is known as soon as the foot is in the
+air, a heel-strike only when the foot lies flat, and a foot that was in the air for less than a swing has not left the
+ground yet. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -24,14 +26,13 @@ from typing import ClassVar
 
 from ...foot.cues.cues import Cues, TimedCue
 from ...foot.cues.inertial import SHUFFLE_SPEED, InertialCues
-from ...foot.cues.touch import Touch
+from ...foot.cues.touch import Touch, TouchSettings
 from ...foot.phase import Cue
 from ...foot.pressure.insole import centre
 from ...foot.stance.stance import Load, Stance
-from ...types import Layout, Phase, Vec3
-from ...types.attrs import define, field, frozen
+from ...types import Layout, Phase, ValueEnum, Vec3
+from ...types.attrs import field, stateful
 from ...types.vector import TIME_EPSILON
-from .stages import STAGES, CellCue, StrideStage
 
 LARGEST_JUMP = 1e3
 """Jump that the centre of pressure cannot exceed, m."""
@@ -49,16 +50,43 @@ LOAD_VALID_TIME = 0.05
 """Longest time, s, for which samples without a load are skipped, because cells are read less often than the IMU."""
 
 
-@frozen
-class CopCuesSettings:
-    """Settings of `CopCues`."""
+class StrideStage(ValueEnum):
+    """The stage of a stride by the pressure cells."""
 
-    signed: bool = False
-    """Flag: only a jump of the CoP towards the heel counts, as printed. Ours takes a jump either way, because a foot
-    that lands on its forefoot moves the CoP from the centre to the toes."""
+    STANDING = "standing"  # stationary
+    LEAVING = "leaving"  # moving, but not yet in swing
+    FLYING = "flying"  # in the air
+    LANDING = "landing"  # on the ground again after a normal swing
 
 
-@define
+class CellCue(ValueEnum):
+    """A cue from the pressure cells of one sample."""
+
+    STANDS = "stands"  # the foot lies still on the ground
+    MOVES = "moves"  # the foot does not lie still
+    LEAVES = "leaves"  # the foot is in the air
+    BRUSHES = "brushes"  # the foot is on the ground again, too soon for a swing
+    LANDS = "lands"  # the foot is on the ground again after a normal swing
+    LINGERS = "lingers"  # the foot landed long ago and does not lie still
+
+
+_STANDING, _LEAVING, _FLYING, _LANDING = StrideStage
+STAGES: dict[tuple[StrideStage, CellCue], tuple[StrideStage, tuple[Cue, ...]]] = {
+    (_STANDING, CellCue.MOVES): (_LEAVING, (Cue.LIFT,)),
+    (_STANDING, CellCue.LEAVES): (_FLYING, (Cue.LIFT, Cue.CLEAR)),
+    (_LEAVING, CellCue.STANDS): (_STANDING, (Cue.FLAT,)),
+    (_LEAVING, CellCue.LEAVES): (_FLYING, (Cue.CLEAR,)),
+    (_FLYING, CellCue.STANDS): (_STANDING, (Cue.FLAT,)),
+    (_FLYING, CellCue.BRUSHES): (_LEAVING, ()),  # no swing yet: a better candidate for toe-off may come
+    (_FLYING, CellCue.LANDS): (_LANDING, ()),
+    (_LANDING, CellCue.STANDS): (_STANDING, (Cue.CONTACT, Cue.FLAT)),
+    (_LANDING, CellCue.LEAVES): (_FLYING, (Cue.CONTACT, Cue.CLEAR)),  # never flat: toe walking, running
+    (_LANDING, CellCue.LINGERS): (_LANDING, (Cue.CONTACT,)),
+}
+"""Next stage and reported cues; a cue of a stage that is not here changes nothing."""
+
+
+@stateful
 class CopCues(Cues):
     """Reports toe-off and heel-strike from the centre of pressure.
 
@@ -67,38 +95,41 @@ class CopCues(Cues):
 
     uses_centre: ClassVar[bool] = True
 
-    settings: CopCuesSettings = CopCuesSettings()
-    inertial: InertialCues = field(factory=InertialCues, init=False)
-    touch: Touch = field(factory=Touch)
-    sagittal: float = field(default=0.0, init=False)
+    settings: TouchSettings = TouchSettings()
+    inertial: InertialCues = field(factory=InertialCues)
+    touch: Touch = field(init=False)
+    sagittal: float = 0.0
     """Rate about the axis to the wearer's left in the last sample, positive toe down, rad/s (`Cues`)."""
-    mark: Cue | None = field(default=None, init=False)
+    mark: Cue | None = None
     """Mark of the last sample, None without one. `Cue.CLEAR` means that the sample before it is the best candidate so
     far for toe-off, `Cue.CONTACT` that the last sample is the best candidate for heel-strike."""
-    foot_centre: float | None = field(default=None, init=False)
+    foot_centre: float | None = None
     """Coordinate x of the foot's centre, foot frame, m; None without a layout."""
-    stage: StrideStage = field(default=StrideStage.LEAVING, init=False)
+    stage: StrideStage = StrideStage.LEAVING
     """Stage of the stride by the cells."""
-    cop: float | None = field(default=None, init=False)
+    cop: float | None = None
     """Coordinate x of the centre of pressure in the last sample, foot frame, m."""
-    load_t: float | None = field(default=None, init=False)
+    load_t: float | None = None
     """Time of the last sample with a load, s."""
-    largest_jump: float = field(default=-1.0, init=False)
+    largest_jump: float = -1.0
     """Largest jump of the CoP so far in this stage, m; before the first a jump that no CoP can make."""
-    candidate_t: float | None = field(default=None, init=False)
+    candidate_t: float | None = None
     """Time of the best candidate for toe-off or heel-strike, s."""
-    ground_t: float | None = field(default=None, init=False)
+    ground_t: float | None = None
     """Time of the last sample on the ground, s."""
-    stage_t_start: float = field(default=0.0, init=False)
+    stage_t_start: float = 0.0
     """Start of the stage, s."""
-    airborne_t_start: float | None = field(default=None, init=False)
+    airborne_t_start: float | None = None
     """Start of the time in the air, s; None on the ground."""
-    contact_reported: bool = field(default=False, init=False)
+    contact_reported: bool = False
     """Flag: the heel-strike of this landing was reported."""
-    fast_t_start: float | None = field(default=None, init=False)
+    fast_t_start: float | None = None
     """Time since which the foot has been fast, s; None while it is not."""
-    areas_loaded: bool = field(default=False, init=False)
+    areas_loaded: bool = False
     """Flag, for an insole alone: both areas are loaded."""
+
+    def __attrs_post_init__(self) -> None:
+        self.touch = Touch(self.settings)
 
     def set_layout(self, layout: Layout) -> None:
         self.foot_centre = centre(layout)
@@ -132,25 +163,18 @@ class CopCues(Cues):
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[TimedCue]:
         """Return the cues of one sample of an insole alone (`Cues`); a foot is stationary when both areas are loaded.
 
-        Without a layout there are no areas; then a heel-strike is reported at once, and foot-flat never."""
-        if load.heel is None or load.forefoot is None:
-            self.areas_loaded = False
-            cues = self._add_load(t, False, self.touch.update(t, load), load)
-            if self.stage is StrideStage.LANDING:
-                cues += self._with_times((Cue.CONTACT,), t)
-            return cues
-        self.areas_loaded = min(load.heel, load.forefoot) >= (AREA_OFF if self.areas_loaded else AREA_ON)
+        Without a layout there are no areas; then a heel-strike is reported `LONGEST_LANDING` late, and foot-flat
+        never."""
+        least = min(load.heel or 0.0, load.forefoot or 0.0)
+        self.areas_loaded = least >= (AREA_OFF if self.areas_loaded else AREA_ON)
         return self._add_load(t, self.areas_loaded, self.touch.update(t, load), load)
 
     def _start(self, t: float, airborne: bool, phase: Phase) -> list[TimedCue]:
         """Return the cues at the first sample with a known load, when the foot swings or has just landed."""
         if airborne:
-            moving_t_start = self.touch.moving_since
-            self.stage = StrideStage.FLYING
-            self.airborne_t_start = t - REST_TIME
-            return (
-                [] if phase is Phase.SWING else [TimedCue(Cue.CLEAR, t if moving_t_start is None else moving_t_start)]
-            )
+            self.stage, self.airborne_t_start = StrideStage.FLYING, t - REST_TIME
+            moved_t = t if self.touch.moving_since is None else self.touch.moving_since
+            return [] if phase is Phase.SWING else [TimedCue(Cue.CLEAR, moved_t)]
         if phase is Phase.SWING:
             self._enter(StrideStage.LANDING, t)
             self.largest_jump, self.candidate_t = LARGEST_JUMP, t  # report this sample, but never set a mark
@@ -163,11 +187,9 @@ class CopCues(Cues):
         new_cop = self.foot_centre if airborne else ground_cop
         self.cop = new_cop
         jump = 0.0 if last_cop is None or new_cop is None else last_cop - new_cop  # x falls towards the heel
-        if not self.settings.signed:
-            jump = abs(jump)
         cues: list[TimedCue] = []
         for cue in self._cell_cues(t, stationary, airborne):
-            stage, reported = STAGES[self.stage][cue]
+            stage, reported = STAGES.get((self.stage, cue), (self.stage, ()))
             cues += self._with_times(reported, t)
             if stage is self.stage or cue is CellCue.LEAVES or cue is CellCue.BRUSHES:
                 self.stage = stage  # the search for the largest jump continues
@@ -213,10 +235,8 @@ class CopCues(Cues):
         for cue in cues:
             cue_t: float | None = t
             if cue is Cue.CONTACT:
-                cue_t, self.contact_reported = (
-                    None if self.contact_reported else self.candidate_t,
-                    self.contact_reported or self.candidate_t is not None,
-                )
+                cue_t = None if self.contact_reported else self.candidate_t
+                self.contact_reported = self.contact_reported or self.candidate_t is not None
             elif cue is Cue.CLEAR:
                 landing = self.stage is StrideStage.LANDING  # then the candidate is one for heel-strike
                 cue_t = self.candidate_t if self.candidate_t is not None and not landing else self.ground_t

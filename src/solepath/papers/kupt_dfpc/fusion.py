@@ -20,22 +20,18 @@ The paper leaves these points open:
 - (13) is a sum over pairs of a stride and its partner. A stride is in one pair at most. If the feet alternate, the k-th
   left stride is paired with the k-th right one, and a missing stride does not shift later pairs. While the sum is zero,
   the foot of the first stride is chosen.
-- An abnormal stride has no error index. If (13) left it out, that would favour its foot. In a pair with a normal stride
-  its error is taken to be `ABNORMAL_EXCESS` m/s larger. As in (13) this is multiplied by the mean of both lengths, so
-  an absurdly long stride has a large weight. A pair of two abnormal strides counts for neither foot.
+- A pair with an abnormal stride, which has no error index, is left out of (13).
 - A foot that took no stride during `ABSENT_STRIDES` strides of the other is not chosen, whatever (13) gives. When it
   moves again, its path continues from the end of the other foot's path, since its own movement is not known.
 
-Two things are ours and can be switched off (`FusionSettings`). With `by_variance` the variance of a stride's length
-(StrideTaken.covariance) stands for EI in (11), and its standard deviation in (13). EI is the drift of one stride: where
-the drift is random, it favours the stride that happens to end with a small error, but not the foot whose strides are
-more accurate. `compares_lengths` is the rule of `LENGTH_RATIO`.
+Weights by the variance of the lengths in place of EI were tried; they gain nothing.
 
 Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import fsum, isfinite, sqrt
 from typing import ClassVar
 
 from ...body.part import PartInput, PartOutput, Position, TrackPart
@@ -43,9 +39,8 @@ from ...events import StrideFused, StrideTaken
 from ...foot.pressure.insole import centre
 from ...foot.view import FootPose, FootView
 from ...types import OTHER, Foot, Site, Vec3
-from ...types.attrs import define, field, frozen
-from ...types.vector import ZERO, sub
-from .similarity import LEAST_LENGTH, correlation, length_sigma, own_share, resample_cop, valid_index
+from ...types.attrs import define, field
+from ...types.vector import ZERO, add, sub
 
 KEPT_STRIDES = 3
 """Number of latest strides kept of each foot: samples of one foot may arrive a stride later than the other's."""
@@ -56,22 +51,12 @@ LONGEST_WAIT, LENGTH_RATIO, ABSENT_STRIDES = 1.0, 0.75, 3
 
 If the shorter stride is less than this ratio of the longer one, r is 0. A foot that takes no stride during that number
 of strides of the other foot is absent, and is not chosen."""
-ABNORMAL_EXCESS = 1.0
-"""Excess error of an abnormal stride over a normal one, m/s.
-
-It is about the sum of the error indices of normal strides on recorded insoles."""
-
-
-@frozen
-class FusionSettings:
-    """Settings of `DoubleFoot`."""
-
-    by_variance: bool = True
-    """Flag: strides are weighted by the variance of their lengths; if False, by their error indices (10)."""
-    compares_lengths: bool = True
-    """Flag: strides of unequal lengths are not similar (`LENGTH_RATIO`).
-
-    Without `by_variance` it also makes abnormal strides count in (13) (`ABNORMAL_EXCESS`)."""
+POINTS = 64
+"""Number of instants at which two strides are compared."""
+LEAST_LENGTH = 1e-6
+"""Length below which a stride has no direction, m."""
+LEAST_SPREAD = 1e-12
+"""Sum of squared deviations, m^2, below which a path of the centre of pressure counts as constant."""
 
 
 @define
@@ -86,8 +71,6 @@ class FusedStride:
     """Calibrated length D of (12), m."""
     error_index: float | None
     """Error index (10), m/s; None for an abnormal stride."""
-    sigma: float
-    """Standard deviation of the length by the foot's own track, m."""
     cop_path: tuple[float, ...]
     """Centre of pressure along the foot at POINTS instants, m; empty when it is not known."""
     paired: bool = False
@@ -104,8 +87,6 @@ class CalibratedPath:
     """End of the last stride, world frame, m."""
     distance: float = 0.0
     """Sum of the calibrated lengths, m."""
-    offset: tuple[float, float] = (0.0, 0.0)
-    """Sum of the changes of strides by calibration (x, y), world frame, m."""
     foot_position: Vec3 = ZERO
     """Position of the foot's own track after its last stride, world frame, m."""
     other_strides: int = 0
@@ -121,16 +102,14 @@ class DoubleFoot(TrackPart):
 
     The live position is the end of the chosen foot's calibrated path plus the motion of that foot's own track since
     then. While the chosen foot is absent, the other foot is used. So the live position stands still with that foot, and
-    jumps by half a stride when the choice changes. The covariance is that of the foot's own track plus the square of
-    the shift by calibration, because either path may be the right one."""
+    jumps by half a stride when the choice changes. The covariance is that of the foot's own track."""
 
     needs_samples: ClassVar[bool] = True
     idle = True
 
-    settings: FusionSettings = FusionSettings()
     paths: dict[Foot, CalibratedPath] = field(init=False)
     error_balance: float = field(default=0.0, init=False)
-    """Sum of (13), m^2/s, or m^2 with `FusionSettings.by_variance`: positive when the left foot errs more."""
+    """Sum of (13), m^2/s: positive when the left foot errs more."""
     chosen: Foot | None = field(default=None, init=False)
     """Chosen foot by (13); None before the first stride."""
 
@@ -157,28 +136,25 @@ class DoubleFoot(TrackPart):
         is in the air, the centre of pressure is set to it (section III.C.2)."""
         foot = taken.foot
         path, other_path = self.paths[foot], self.paths[OTHER[foot]]
-        index = valid_index(taken.features.error_index)
+        index = taken.features.error_index
         cop_path = () if foot_centre is None or index is None else resample_cop(taken, foot_centre)
-        similarity, coefficient, length, sigma = None, 1.0, taken.length, length_sigma(taken)
+        similarity, coefficient, length = None, 1.0, taken.length
         partner = self._partner(taken, other_path)
         paired = False
         if index is not None and partner is not None and partner.error_index is not None:
             similarity = correlation(cop_path, partner.cop_path)
             shorter, longer = sorted((taken.length, partner.length))
-            if similarity is not None and shorter < LENGTH_RATIO * longer and self.settings.compares_lengths:
+            if similarity is not None and shorter < LENGTH_RATIO * longer:
                 similarity = 0.0
-            if self.settings.by_variance:
-                coefficient = own_share(similarity, sigma * sigma, partner.sigma * partner.sigma)
-            else:
-                coefficient = own_share(similarity, index, partner.error_index)
+            coefficient = own_share(similarity, index, partner.error_index)
             length = coefficient * taken.length + (1.0 - coefficient) * partner.length  # (12)
         if partner is not None and not partner.paired:
             partner.paired = paired = True
-            by_variance = self.settings.by_variance
-            excess = sigma - partner.sigma if by_variance else self._excess_error(index, partner.error_index)
-            mean_length = 0.5 * (abs(length) + abs(partner.calibrated_length))
-            self.error_balance += (excess if foot is Foot.LEFT else -excess) * mean_length  # (13)
-        fused = FusedStride(taken.t_end, taken.length, length, index, sigma, cop_path, paired)
+            if index is not None and partner.error_index is not None:
+                excess = index - partner.error_index
+                mean_length = 0.5 * (abs(length) + abs(partner.calibrated_length))
+                self.error_balance += (excess if foot is Foot.LEFT else -excess) * mean_length  # (13)
+        fused = FusedStride(taken.t_end, taken.length, length, index, cop_path, paired)
         path.strides = [*path.strides[1 - KEPT_STRIDES :], fused]
         self._extend(path, other_path, taken, length)
         chosen = self._choose(foot)
@@ -198,14 +174,6 @@ class DoubleFoot(TrackPart):
             position=wearer.end,
         )
 
-    def _excess_error(self, own: float | None, other: float | None) -> float:
-        """Return the error index of this stride minus that of the other foot's stride, m/s."""
-        if own is not None and other is not None:
-            return own - other
-        if not self.settings.compares_lengths or own is other:
-            return 0.0
-        return ABNORMAL_EXCESS if own is None else -ABNORMAL_EXCESS
-
     def _partner(self, taken: StrideTaken, other_path: CalibratedPath) -> FusedStride | None:
         """Return the partner: the other foot's latest stride that ended before this one; None if it is too old."""
         toe_off_t = taken.t_start if taken.t_toe_off is None else taken.t_toe_off
@@ -218,15 +186,11 @@ class DoubleFoot(TrackPart):
     def _extend(self, path: CalibratedPath, other_path: CalibratedPath, taken: StrideTaken, length: float) -> None:
         """Extend the path in the direction of the stride by the calibrated length, m."""
         if path.other_strides >= ABSENT_STRIDES:
-            path.end, path.distance, path.offset = other_path.end, other_path.distance, other_path.offset
+            path.end, path.distance = other_path.end, other_path.distance
         dx, dy, dz = taken.displacement
-        own_length = taken.length
-        k = length / own_length if own_length > LEAST_LENGTH else 1.0
-        x, y, z = path.end
-        path.end = (x + k * dx, y + k * dy, z + dz)
+        k = length / taken.length if taken.length > LEAST_LENGTH else 1.0
+        path.end = add(path.end, (k * dx, k * dy, dz))
         path.distance += abs(length)
-        sx, sy = path.offset
-        path.offset = (sx + (k - 1.0) * dx, sy + (k - 1.0) * dy)
         path.foot_position, path.other_strides = taken.position, 0
         other_path.other_strides = min(other_path.other_strides + 1, ABSENT_STRIDES)
 
@@ -245,8 +209,56 @@ class DoubleFoot(TrackPart):
         present = [foot for foot, pose in feet.items() if newest - pose.t < ABSENT_AFTER]
         chosen = self.chosen if self.chosen in present else present[0]
         path, pose = self.paths[chosen], feet[chosen]
-        dx, dy, dz = sub(pose.position, path.foot_position)
-        x, y, z = path.end
-        xx, xy, xz, yy, yz, zz = pose.covariance
-        sx, sy = path.offset
-        return Position(newest, (x + dx, y + dy, z + dz), (xx + sx * sx, xy + sx * sy, xz, yy + sy * sy, yz, zz))
+        return Position(newest, add(path.end, sub(pose.position, path.foot_position)), pose.covariance)
+
+
+def resample_cop(taken: StrideTaken, foot_centre: float) -> tuple[float, ...]:
+    """Return the centre of pressure along the foot (copY of (9)), m, at POINTS instants evenly spaced in time.
+
+    Strides have unequal numbers of samples, but (9) needs equal numbers. So each stride is resampled from foot-flat to
+    heel-strike. Until toe-off the values are those of `StrideFeatures.cop`, then they are `foot_centre`. The phase
+    after heel-strike is left out. The result is empty for a stride without a path or a toe-off."""
+    cop, start, toe_off = taken.features.cop, taken.t_start, taken.t_toe_off
+    end = taken.t_end if taken.t_heel_strike is None else taken.t_heel_strike
+    if not cop or toe_off is None or not start <= toe_off <= end or not end > start:
+        return ()
+    cop_x = [x for x, _ in cop]
+    last = len(cop_x) - 1
+    path = []
+    for k in range(POINTS):
+        t = start + (k + 0.5) / POINTS * (end - start)
+        if t >= toe_off:
+            path.append(foot_centre)
+            continue
+        index = (t - start) / (toe_off - start) * last
+        i = min(int(index), last)
+        next_x = cop_x[min(i + 1, last)]
+        path.append(cop_x[i] + (index - i) * (next_x - cop_x[i]))
+    return tuple(path)
+
+
+def correlation(one: tuple[float, ...], other: tuple[float, ...]) -> float | None:
+    """Return the similarity r (9) of two paths with equal numbers of points, 0 to 1.
+
+    It is None if one path is constant or empty."""
+    n = len(one)
+    if n == 0 or n != len(other):
+        return None
+    one_mean, other_mean = fsum(one) / n, fsum(other) / n
+    xs = [x - one_mean for x in one]
+    ys = [y - other_mean for y in other]
+    xx, yy = fsum([x * x for x in xs]), fsum([y * y for y in ys])
+    if not (xx > LEAST_SPREAD and yy > LEAST_SPREAD):
+        return None
+    r = abs(fsum([x * y for x, y in zip(xs, ys, strict=True)])) / (sqrt(xx) * sqrt(yy))
+    return min(r, 1.0) if isfinite(r) else None
+
+
+def own_share(similarity: float | None, own_index: float, other_index: float) -> float:
+    """Return the coefficient (11), Calicoef: the weight of a stride's own length in its calibrated length, 0 to 1."""
+    if similarity is None or similarity <= 0.0:
+        return 1.0
+    sum_of_errors = other_index + similarity * own_index
+    if sum_of_errors <= 0.0:
+        return 1.0 / (1.0 + similarity)
+    return other_index / sum_of_errors

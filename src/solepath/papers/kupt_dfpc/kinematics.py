@@ -26,9 +26,9 @@ from __future__ import annotations
 from math import asin, cos, hypot, sin, sqrt
 
 from ...calibration import ShoeGeometry
-from ...types import Quat, Vec3
-from ...types.attrs import define, evolve, field
-from ...types.vector import ZERO
+from ...types import Floats, Quat, Vec2, Vec3
+from ...types.attrs import evolve, stateful
+from ...types.vector import ZERO, add, dot, rotate, sub
 
 DEFAULT_LENGTH = 0.285
 """Length of the shoe whose geometry is the default, m."""
@@ -47,20 +47,16 @@ A misfit is a push-off whose direction differs by more than that angle from the 
 learnt direction towards its own by the weight."""
 
 
-def shoe_for(length: float) -> ShoeGeometry:
-    """Return the default shoe scaled to an insole of `length` m, or unscaled if no insole has that length.
+def shoe_for(insole_length: float) -> ShoeGeometry:
+    """Return the default shoe scaled to an insole of `insole_length` m, or unscaled if no insole has that length.
 
     Lengths along the sole are scaled, the height of the sensor is not."""
     shoe = ShoeGeometry()
-    if not SHORTEST_INSOLE <= length <= LONGEST_INSOLE:
+    if not SHORTEST_INSOLE <= insole_length <= LONGEST_INSOLE:
         return shoe
-    k = length / DEFAULT_LENGTH
-    return evolve(
-        shoe,
-        heel_radius=k * shoe.heel_radius,
-        forefoot_radius=tuple([k * c for c in shoe.forefoot_radius]),
-        pivot_to_toe=tuple([k * c for c in shoe.pivot_to_toe]),
-    )
+    k = insole_length / DEFAULT_LENGTH
+    radius, to_toe = (tuple([k * c for c in curve]) for curve in (shoe.forefoot_radius, shoe.pivot_to_toe))
+    return evolve(shoe, heel_radius=k * shoe.heel_radius, forefoot_radius=radius, pivot_to_toe=to_toe)
 
 
 def heel_position(shoe: ShoeGeometry, toe_up: float) -> tuple[float, float]:
@@ -69,114 +65,86 @@ def heel_position(shoe: ShoeGeometry, toe_up: float) -> tuple[float, float]:
     return shoe.heel_radius * c - shoe.height * s, shoe.heel_radius * s + shoe.height * c
 
 
+def _curve(coefficients: Floats, pitch: float) -> float:
+    value = 0.0
+    for k in reversed(coefficients):
+        value = value * pitch + k
+    return value
+
+
 def forefoot_position(shoe: ShoeGeometry, heel_up: float) -> tuple[float, float]:
     """Return the sensor's position (P_h + L_p2t behind the toe, P_z above ground), m, at a heel-up pitch, rad (6).
 
     L_r and L_p2t are fitted curves from flat to the steepest measured posture; outside they are constant."""
     p = min(max(heel_up, 0.0), shoe.steepest)
-    radius = to_toe = 0.0
-    for k in reversed(shoe.forefoot_radius):
-        radius = radius * p + k
-    for k in reversed(shoe.pivot_to_toe):
-        to_toe = to_toe * p + k
+    radius, to_toe = _curve(shoe.forefoot_radius, p), _curve(shoe.pivot_to_toe, p)
     s, c = sin(heel_up), cos(heel_up)
     return radius * c - shoe.height * s + to_toe, radius * s + shoe.height * c
 
 
-@define
+@stateful
 class Sagittal:
     """Measures the foot's pitch and direction from the attitude of a sensor in any mounting.
 
     Angles in rad. The direction of the toes is known after the first push-off; `toe` is None until then."""
 
-    up: Vec3 | None = field(default=None, init=False)
+    up: Vec3 | None = None
     """Unit vector upwards in the sensor frame while the foot stood flat; None before the first flat sample."""
-    toe: Vec3 | None = field(default=None, init=False)
+    toe: Vec3 | None = None
     """Unit vector towards the toes in the sensor frame; None before the first push-off."""
-    tilt_sum: Vec3 = field(default=ZERO, init=False)
+    tilt_sum: Vec3 = ZERO
     """Sum over this push-off of the horizontal parts of the upward direction, sensor frame, without unit."""
-    largest_tilt: float = field(default=0.0, init=False)
+    largest_tilt: float = 0.0
     """Square of the sine of the largest tilt in this push-off."""
-    misfits: int = field(default=0, init=False)
+    misfits: int = 0
     """Number of consecutive misfits (`MOST_MISFITS`)."""
-    pitch: float = field(default=0.0, init=False)
+    pitch: float = 0.0
     """Pitch of the last sample, positive toe-up, rad."""
-    forward: tuple[float, float] = field(default=(1.0, 0.0), init=False)
+    forward: Vec2 = (1.0, 0.0)
     """Direction of the foot, horizontal unit vector in the navigation frame."""
 
     def add_flat_sample(self, dt: float, attitude: Quat) -> None:
         """Add a sample of `dt` s in which the foot is flat."""
-        x, y, z = up_direction(attitude)
-        if self.up is None:
-            self.up = (x, y, z)
-            return
-        u, v, w = self.up
-        k = dt / (dt + FLAT_TIME)
-        u, v, w = u + k * (x - u), v + k * (y - v), w + k * (z - w)
-        k = 1.0 / sqrt(u * u + v * v + w * w)
-        self.up = (u * k, v * k, w * k)
+        up = up_direction(attitude)
+        self.up = up if self.up is None else of_length_1(add(self.up, sub(up, self.up), dt / (dt + FLAT_TIME)))
 
     def update(self, attitude: Quat) -> None:
         """Compute `pitch` and `forward` for this attitude; they stay unchanged as long as `toe` is unknown."""
         if self.toe is None or self.up is None:
             return
         # `up` may have changed since `toe` was learnt: take the part of `toe` at right angles to it
-        (fx, fy, fz), (ux, uy, uz) = self.toe, self.up
-        along = fx * ux + fy * uy + fz * uz
-        fx, fy, fz = fx - along * ux, fy - along * uy, fz - along * uz
-        k = 1.0 / sqrt(fx * fx + fy * fy + fz * fz)
-        w, x, y, z = attitude
-        tx = 2.0 * k * (y * fz - z * fy)
-        ty = 2.0 * k * (z * fx - x * fz)
-        tz = 2.0 * k * (x * fy - y * fx)
-        nx, ny = fx * k + w * tx + y * tz - z * ty, fy * k + w * ty + z * tx - x * tz
-        nz = fz * k + w * tz + x * ty - y * tx
-        self.pitch = asin(min(max(nz, -1.0), 1.0))
-        level = hypot(nx, ny)
+        x, y, z = rotate(attitude, of_length_1(across(self.toe, self.up)))
+        self.pitch = asin(min(max(z, -1.0), 1.0))
+        level = hypot(x, y)
         if level > 1e-6:
-            self.forward = (nx / level, ny / level)
+            self.forward = (x / level, y / level)
 
     def add_lift_sample(self, attitude: Quat) -> None:
         """Add one sample of a push-off, in which the heel lifts; see `SWING_BACK_SHARE`."""
         if self.up is None:
             return
-        x, y, z = up_direction(attitude)
-        u, v, w = self.up
-        along = x * u + y * v + z * w
-        x, y, z = x - along * u, y - along * v, z - along * w
-        size = x * x + y * y + z * z
-        if along < 0.0:  # the tilt exceeds 90 degrees
-            size = 1.0
-        if size < SWING_BACK_SHARE * self.largest_tilt:
-            return
-        self.largest_tilt = max(self.largest_tilt, size)
-        a, b, c = self.tilt_sum
-        self.tilt_sum = (a + x, b + y, c + z)
+        up = up_direction(attitude)
+        tilted = across(up, self.up)
+        size = dot(tilted, tilted) if dot(up, self.up) >= 0.0 else 1.0  # the tilt exceeds 90 degrees
+        if size >= SWING_BACK_SHARE * self.largest_tilt:
+            self.largest_tilt = max(self.largest_tilt, size)
+            self.tilt_sum = add(self.tilt_sum, tilted)
 
     def end_lift(self) -> None:
         """End the push-off, and learn the direction of the toes from it if it was large enough."""
-        x, y, z = self.tilt_sum
-        largest_tilt = self.largest_tilt
-        self.tilt_sum = ZERO
-        self.largest_tilt = 0.0
-        size = sqrt(x * x + y * y + z * z)
-        if largest_tilt < sin(LEAST_HEEL_RISE) ** 2 or size < 1e-9:
+        tilted, largest_tilt = self.tilt_sum, self.largest_tilt
+        self.tilt_sum, self.largest_tilt = ZERO, 0.0
+        if largest_tilt < sin(LEAST_HEEL_RISE) ** 2 or length(tilted) < 1e-9:
             return
-        x, y, z = -x / size, -y / size, -z / size  # "up" tilts to the heel
+        toe = of_length_1(sub(ZERO, tilted))  # "up" tilts to the heel
         if self.toe is None:
-            self.toe = (x, y, z)
+            self.toe = toe
             return
-        u, v, w = self.toe
-        share = FOLLOW_SHARE
-        if u * x + v * y + w * z < MISFIT_COSINE:
-            self.misfits += 1
-            if self.misfits < MOST_MISFITS:
-                return
-            share = 1.0
-        self.misfits = 0
-        u, v, w = u + share * (x - u), v + share * (y - v), w + share * (z - w)
-        size = 1.0 / sqrt(u * u + v * v + w * w)
-        self.toe = (u * size, v * size, w * size)
+        fits = dot(self.toe, toe) >= MISFIT_COSINE
+        self.misfits = 0 if fits else self.misfits + 1
+        if fits or self.misfits >= MOST_MISFITS:
+            self.misfits = 0
+            self.toe = of_length_1(add(self.toe, sub(toe, self.toe), FOLLOW_SHARE if fits else 1.0))
 
     def heel_position(self, shoe: ShoeGeometry) -> Vec3:
         """Return the sensor's position relative to the heel's end, navigation frame, m (4)."""
@@ -193,14 +161,26 @@ class Sagittal:
 
 def mean_velocity(last_position: Vec3, position: Vec3, dt: float) -> Vec3:
     """Return the mean velocity, m/s, between two positions, m, that are `dt` s apart: (5) and (7)."""
-    return (
-        (position[0] - last_position[0]) / dt,
-        (position[1] - last_position[1]) / dt,
-        (position[2] - last_position[2]) / dt,
-    )
+    x, y, z = sub(position, last_position)
+    return (x / dt, y / dt, z / dt)
 
 
 def up_direction(attitude: Quat) -> Vec3:
     """Return the direction up in the sensor frame: the last row of the rotation from sensor to navigation frame."""
     w, x, y, z = attitude
     return (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y))
+
+
+def length(v: Vec3) -> float:
+    """Return the length of a vector."""
+    return sqrt(dot(v, v))
+
+
+def of_length_1(v: Vec3) -> Vec3:
+    """Return the unit vector in the direction of `v`, which is not zero."""
+    return add(ZERO, v, 1.0 / length(v))
+
+
+def across(v: Vec3, axis: Vec3) -> Vec3:
+    """Return the part of `v` across `axis`, which has the length 1."""
+    return add(v, axis, -dot(v, axis))

@@ -7,7 +7,7 @@ Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from math import inf
+from math import hypot, inf
 
 from ...calibration import Calibration, ShoeGeometry
 from ...foot.cues.touch import Touch
@@ -109,45 +109,51 @@ class KnownVelocity(Detector):
         else:
             self.last_load = None
         airborne = self.touch.update(t, load, still)
-        sagittal = self.sagittal
+        sagittal, last_phase, last_position = self.sagittal, self.phase, self.position
+        self.position = None
         if load is None or not self.touch.trusted:
             return self._from_inertial(dt, attitude, inertial, overdue)
         heel, forefoot = load.heel, load.forefoot
-        if overdue and (airborne or heel is None or forefoot is None or min(heel, forefoot) < settings.area_on):
-            self.phase = self.position = None
-            return _end_motion(inertial)
         if heel is None or forefoot is None:
-            if not airborne:
+            if overdue or not airborne:
                 return self._from_inertial(dt, attitude, inertial, overdue)
-            self.phase = self.position = None
+            self.phase = None
             return Stance(ZERO, inf, 0.0, Phase.SWING)
         statistic = min(heel, forefoot)
-        previous_phase = self.phase
+        if overdue and (airborne or statistic < settings.area_on):
+            self.phase = None
+            return _end_motion(inertial)
         sagittal.update(attitude)
-        if airborne:
-            if previous_phase is not Phase.SWING:
+        stands = statistic >= (settings.area_off if last_phase is Phase.STATIONARY else settings.area_on)
+        if airborne or stands:
+            self.phase = Phase.SWING if airborne else Phase.STATIONARY
+            if last_phase is not self.phase:
                 sagittal.end_lift()
-            self.phase = Phase.SWING
-            self.position = None
-            return Stance(ZERO, inf, statistic, Phase.SWING)
-        if statistic >= (settings.area_off if previous_phase is Phase.STATIONARY else settings.area_on):
-            if previous_phase is not Phase.STATIONARY:
-                sagittal.end_lift()
-            self.phase = Phase.STATIONARY
+            if airborne:
+                return Stance(ZERO, inf, statistic, Phase.SWING)
             self.moving_time = 0.0
-            gx, gy, gz = gyro
-            if gx * gx + gy * gy + gz * gz < HIGHEST_FLAT_RATE * HIGHEST_FLAT_RATE:
+            if hypot(*gyro) < HIGHEST_FLAT_RATE:
                 sagittal.add_flat_sample(dt, attitude)
             self.position = None if sagittal.toe is None else sagittal.forefoot_position(self.shoe_in_use)
             return Stance(ZERO, settings.sigma, statistic, Phase.STATIONARY)
-        if previous_phase is Phase.STATIONARY or previous_phase is Phase.PUSH_OFF:
-            return self._push_off(dt, attitude, statistic, forefoot > heel)
-        if previous_phase is Phase.SWING or previous_phase is Phase.LOADING:
-            return self._loading(dt, statistic, heel > forefoot)
-        return Stance(ZERO, inf, statistic, None)
+        if last_phase is Phase.STATIONARY or last_phase is Phase.PUSH_OFF:
+            if forefoot <= heel:  # the weight is on the heel again: the shoe does not roll over its forefoot
+                return Stance(ZERO, inf, statistic, None)
+            sagittal.add_lift_sample(attitude)
+            self.phase, position = Phase.PUSH_OFF, sagittal.forefoot_position
+            rolls = True
+        elif last_phase is Phase.SWING or last_phase is Phase.LOADING:
+            self.phase, position = Phase.LOADING, sagittal.heel_position
+            rolls = heel > forefoot and sagittal.pitch > -LARGEST_TOE_DOWN
+        else:
+            return Stance(ZERO, inf, statistic, None)
+        self.position = new = position(self.shoe_in_use) if rolls and sagittal.toe is not None else None
+        if last_position is None or new is None or dt <= 0.0:
+            return Stance(ZERO, inf, statistic, self.phase)
+        return Stance(mean_velocity(last_position, new, dt), settings.rolling_sigma, statistic, self.phase)
 
     def _from_inertial(self, dt: float, attitude: Quat, inertial: Stance, overdue: bool) -> Stance:
-        self.phase = self.position = None
+        self.phase = None
         if inertial.hint is Phase.STATIONARY:
             self.moving_time = 0.0
             self.sagittal.end_lift()
@@ -158,28 +164,6 @@ class KnownVelocity(Detector):
             return _end_motion(inertial)
         self.sagittal.add_lift_sample(attitude)
         return Stance(ZERO, inf, inertial.statistic, None)
-
-    def _push_off(self, dt: float, attitude: Quat, statistic: float, on_forefoot: bool) -> Stance:
-        sagittal = self.sagittal
-        if not on_forefoot:
-            # the weight is on the heel again: the shoe does not roll over its forefoot
-            self.position = None
-            return Stance(ZERO, inf, statistic, None)
-        sagittal.add_lift_sample(attitude)
-        position = None if sagittal.toe is None else sagittal.forefoot_position(self.shoe_in_use)
-        return self._rolling(Phase.PUSH_OFF, position, dt, statistic)
-
-    def _loading(self, dt: float, statistic: float, on_heel: bool) -> Stance:
-        sagittal = self.sagittal
-        rolls = on_heel and sagittal.toe is not None and sagittal.pitch > -LARGEST_TOE_DOWN
-        return self._rolling(Phase.LOADING, sagittal.heel_position(self.shoe_in_use) if rolls else None, dt, statistic)
-
-    def _rolling(self, phase: Phase, position: Vec3 | None, dt: float, statistic: float) -> Stance:
-        """Return the velocity from the last sample's position to `position` as evidence, if both are known."""
-        last_position, self.position, self.phase = self.position, position, phase
-        if last_position is None or position is None or dt <= 0.0:
-            return Stance(ZERO, inf, statistic, phase)
-        return Stance(mean_velocity(last_position, position, dt), self.settings.rolling_sigma, statistic, phase)
 
 
 def _end_motion(inertial: Stance) -> Stance:

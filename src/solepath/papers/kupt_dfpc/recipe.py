@@ -7,12 +7,11 @@ from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.settings import InsoleSettings
 from ...recipes import Recipe, usual_parts
 from ...types.attrs import evolve
-from .cop_cues import CopCues, CopCuesSettings
-from .fusion import DoubleFoot, FusionSettings
+from .cop_cues import CopCues
+from .fusion import DoubleFoot
 from .known_velocity import KnownVelocity, KnownVelocitySettings
-from .swing.dedrift import SwingDedrift
-from .swing.settings import PRINTED
-from .swing.soft import SoftSwing
+from .soft_swing import SoftSwing
+from .swing_drift import SwingDedrift
 
 BOARD_SHARE = 0.44
 """Place of the circuit board between an insole's two areas, from the heel's end, as a share of its length.
@@ -38,18 +37,16 @@ KUPT = Recipe(
 KUPT_DFPC = evolve(KUPT, name="kupt-dfpc", parts=usual_parts(DoubleFoot()))
 """Chen et al. 2019 with our additions: `KUPT`, with the strides of both feet calibrating each other.
 
-Ours are the soft evidence of `SoftSwing`, weights by variance (`FusionSettings`), and thresholds of the load as shares
-of what the foot bears."""
+Ours are the soft evidence of `SoftSwing` and thresholds of the load as shares of what the foot bears."""
 
 _AIR = TouchSettings(SOME_LOAD, SOME_LOAD)
 
 KUPT_DFPC_PRINTED = evolve(
-    KUPT,
+    KUPT_DFPC,
     name="kupt-dfpc-printed",
     detector=KnownVelocity(KnownVelocitySettings(area_on=SOME_LOAD, area_off=SOME_LOAD), touch=Touch(_AIR)),
-    corrector=SwingDedrift(PRINTED),
-    cues=CopCues(CopCuesSettings(signed=True), touch=Touch(_AIR)),
-    parts=usual_parts(DoubleFoot(FusionSettings(by_variance=False, compares_lengths=False))),
+    corrector=SwingDedrift(),
+    cues=CopCues(_AIR),
 )
 """Chen et al. 2019 as printed: (1) to (13), with exact rolling velocities, linear drift and weights by error index."""
 

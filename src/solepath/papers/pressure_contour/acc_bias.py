@@ -15,8 +15,8 @@ measures a_b, (10) would double the error instead of removing it. The sign here 
 from __future__ import annotations
 
 from ...types import Vec3
-from ...types.attrs import define, field, frozen
-from ...types.vector import ZERO
+from ...types.attrs import stateful
+from ...types.vector import ZERO, add
 
 BIAS_SIGMA = 0.098
 """Standard deviation of the bias before anything is known, m/s^2."""
@@ -26,43 +26,35 @@ BIAS_WANDER = 1.6e-4
 """Square root of Sigma_w for one second, m/s^2/sqrt(s): sqrt(2 / 300 s) 0.2 mg."""
 
 
-@frozen
-class BiasNoise:
-    """Covariances of `AccelerometerBias`, which a calibration of the sensor at rest replaces (rest.py)."""
-
-    sample_noise: float = SAMPLE_NOISE
-    """Square root of Sigma_v, the noise of one sample, m/s^2."""
-    wander: float = BIAS_WANDER
-    """Square root of Sigma_w for one second, m/s^2/sqrt(s)."""
-
-
-@define
+@stateful
 class AccelerometerBias:
     """Kalman filter for the bias of three equal axes, m/s^2, sensor frame.
 
     The numbers are those of the ST LSM6DSOX (DS12814, table 2): a zero-g offset of +-20 mg, taken as two sigma; noise
-    of 110 ug/sqrt(Hz) over the bandwidth of 50 Hz at 100 samples a second; a drift of 0.1 mg/K over 2 K in 300 s."""
+    of 110 ug/sqrt(Hz) over the bandwidth of 50 Hz at 100 samples a second; a drift of 0.1 mg/K over 2 K in 300 s. The
+    paper estimates both covariances from an hour at rest, and does not say how; because the filter gains nothing here,
+    no calibration does."""
 
-    settings: BiasNoise = BiasNoise()
-    bias: Vec3 = field(default=ZERO, init=False)
+    bias: Vec3 = ZERO
     """Estimated bias z_hat, m/s^2, sensor frame."""
-    variance: float | None = field(default=None, init=False)
+    variance: float | None = None
     """Variance M of the bias, (m/s^2)^2; None before the first sample."""
+
+    @property
+    def _prior(self) -> float:
+        return BIAS_SIGMA * BIAS_SIGMA if self.variance is None else self.variance
 
     def propagate(self, dt: float) -> None:
         """Propagate the variance by `dt` s: M[k + 1] = P[k] + Sigma_w; z_bar[k + 1] = z_hat[k]."""
-        known = BIAS_SIGMA * BIAS_SIGMA if self.variance is None else self.variance
-        self.variance = known + self.settings.wander * self.settings.wander * dt
+        self.variance = self._prior + BIAS_WANDER * BIAS_WANDER * dt
 
     def correct(self, measured: Vec3) -> None:
         """Correct the bias by one sample of a standing foot.
 
         `measured` is a_m, the measured acceleration without gravity, sensor frame, m/s^2."""
-        prior = BIAS_SIGMA * BIAS_SIGMA if self.variance is None else self.variance
-        sigma_v = self.settings.sample_noise * self.settings.sample_noise
+        prior = self._prior
+        sigma_v = SAMPLE_NOISE * SAMPLE_NOISE
         posterior = prior - prior * prior / (prior + sigma_v)
         gain = posterior / sigma_v
-        x, y, z = self.bias
-        mx, my, mz = measured
-        self.bias = (x + gain * (-mx - x), y + gain * (-my - y), z + gain * (-mz - z))
+        self.bias = add(self.bias, add(measured, self.bias), -gain)
         self.variance = posterior

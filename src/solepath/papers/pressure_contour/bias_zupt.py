@@ -6,7 +6,7 @@ that calibration laps have shown (papers/pressure_contour/square.py) is subtract
 
 from __future__ import annotations
 
-from math import atan2, inf, sqrt
+from math import atan2, inf
 
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
@@ -14,9 +14,9 @@ from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
 from ...types import Foot, Quat, Vec3
-from ...types.attrs import define, evolve, field, frozen
-from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
-from .acc_bias import AccelerometerBias, BiasNoise
+from ...types.attrs import evolve, field, frozen, stateful
+from ...types.vector import GRAVITY, ZERO, add, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
+from .acc_bias import AccelerometerBias
 
 STANDING_DELAY = 1.0
 """Time after the start of a stance from which the calibrated drift is no longer subtracted, s; chosen by hand."""
@@ -37,14 +37,9 @@ class BiasZuptSettings(DedriftSettings):
     estimate_bias: bool = True
     """Flag: the bias of the accelerometer is estimated (7) to (10); the paper's "calibrated position" (figs. 14
     and 15) has both this bias and the laps' slope (`drift`), its "position" has neither."""
-    gate_drift: bool = True
-    """Flag: the slope of calibration laps is used only if it is larger than chance explains (square.py). The paper uses
-    every slope."""
-    turn_error: float = 0.0175
-    """Heading error of the attitude that a device reports, rad: 1 degree in the InertiaCube3's data sheet."""
 
 
-@define
+@stateful
 class BiasZupt(LinearDedrift):
     """Corrector: strapdown navigation with zero-velocity updates, an accelerometer bias and a calibrated drift.
 
@@ -58,26 +53,23 @@ class BiasZupt(LinearDedrift):
 
     settings: BiasZuptSettings = BiasZuptSettings()
     bias: AccelerometerBias = field(factory=AccelerometerBias)
-    device_attitude: Quat | None = field(default=None, init=False)
+    """Bias of the accelerometer."""
+    device_attitude: Quat | None = None
     """Attitude that the device reports for the next sample."""
-    heading_offset: float | None = field(default=None, init=False)
+    heading_offset: float | None = None
     """Heading of navigation minus the device's heading, rad, left positive; None before the device's first attitude."""
-    motion_acc: Vec3 = field(default=ZERO, init=False)
+    motion_acc: Vec3 = ZERO
     """Acceleration a_m of the last sample, without gravity, sensor frame, m/s^2."""
-    standing_time: float = field(default=0.0, init=False)
+    standing_time: float = 0.0
     """Time for which the foot has stood without a break, s."""
-    last_dt: float = field(default=0.0, init=False)
+    last_dt: float = 0.0
     """Time between the last two samples, s."""
-    integrated: bool = field(default=True, init=False)
+    integrated: bool = True
     """Flag: the attitude of the last sample is integrated, not reported by the device."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> BiasZupt:
-        drift, rest = calibration.drift.get(foot), calibration.rest.get(foot)
-        settings = self.settings if drift is None else evolve(self.settings, drift=drift)
-        bias = self.bias
-        if rest is not None:
-            bias = AccelerometerBias(BiasNoise(rest.acc_density * sqrt(0.5 * rest.rate), rest.acc_wander))
-        return self if drift is None and rest is None else evolve(self, settings=settings, bias=bias)
+        drift = calibration.drift.get(foot)
+        return self if drift is None else evolve(self, settings=evolve(self.settings, drift=drift))
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         LinearDedrift.start(self, attitude, tilt_sigma)
@@ -89,9 +81,7 @@ class BiasZupt(LinearDedrift):
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         self.bias.propagate(dt)
-        bx, by, bz = self.bias.bias
-        ax, ay, az = acc
-        unbiased = (ax + bx, ay + by, az + bz)  # (6), and (10) with the sign of (6): R (acc + a_b) - g = a_m + R a_b
+        unbiased = add(acc, self.bias.bias)  # (6), and (10) with the sign of (6): R (acc + a_b) - g = a_m + R a_b
         self.integrated = self.device_attitude is None
         if self.device_attitude is None:
             LinearDedrift.predict(self, dt, unbiased, gyro, saturated)
@@ -108,8 +98,7 @@ class BiasZupt(LinearDedrift):
             dx, dy = drift
             if self.heading_offset is not None:
                 dx, dy, _ = rotate(from_yaw(self.heading_offset), (dx, dy, 0.0))
-            x, y, z = self.position
-            self.position = (x - dx * dt, y - dy * dt, z)
+            self.position = add(self.position, (dx, dy, 0.0), -dt)
         self.last_dt = dt
 
     def correct(self, t: float, stance: Stance) -> bool:
@@ -134,14 +123,6 @@ class BiasZupt(LinearDedrift):
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         LinearDedrift.infill(self, dt, attitude, velocity, position)
         self.standing_time = 0.0
-
-    def covariance(self) -> tuple[float, ...]:
-        covariance = LinearDedrift.covariance(self)
-        if self.heading_offset is None:
-            return covariance
-        # after every anchor the heading error starts again, so it moves the track sideways only from there on
-        variance = covariance[0] + (self.settings.turn_error * self.length) ** 2
-        return (variance, 0.0, 0.0, variance, 0.0, variance, 0.0)
 
     def _to_navigation_frame(self, device_attitude: Quat) -> Quat:
         """Return the device's own attitude in the navigation frame."""

@@ -29,12 +29,12 @@ a source were chosen by hand."""
 from __future__ import annotations
 
 from collections import deque
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import cos, fsum, hypot, inf, pi, sin
-from operator import mul, sub
+from operator import mul
 
 from ...types import Cell, Layout
-from ...types.attrs import define, field, frozen
+from ...types.attrs import field, frozen, stateful
 from ...types.vector import TIME_EPSILON
 
 HEEL_SHARE = 0.33
@@ -61,6 +61,8 @@ sigma_r, is that of the pressure divided by its slope. A cell of 12-bit resistiv
 (emulate/sensors/parts.py). This is 0.8 kPa on 1.6 cm^2, and half a kPa as weighted mean of three cells. A heel that
 bears 200 N has a slope of 2 kPa/mm, so sigma_r is 0.25 mm. Over all rays that makes 0.14 mm. sigma_v is below the
 paper's 4 mm/s from 36 ms on; 50 ms are used."""
+NO_CONTOUR = 100.0
+"""Speed without a contour, m/s: faster than any foot."""
 NO_RADIUS = -1.0
 """Value in the place of a radius when the contour does not cross the ray."""
 
@@ -76,29 +78,27 @@ class ContourSettings:
     """Levels as shares of the present mean pressure of the heel's cells. 1.4 is well below the peak pressure. 0.4 lies
     at the edge of the loaded area, where a heel that leans has its only contours."""
     pascals: tuple[float, ...] | None = None
-    """Fixed levels, Pa, used instead of `shares` if the scale of the cells is known; None for shares."""
+    """Fixed levels, Pa, used instead of `shares`; they need cells of known scale. None for shares."""
 
 
-@define
+@stateful
 class Contours:
     """Measures the velocity of the heel's pressure contours from the loads of the cells while the heel is loaded.
 
     Latency: the velocity is the mean over the last `COMPARISON_TIME`."""
 
     settings: ContourSettings = ContourSettings()
-    cells: list[int] = field(factory=list, init=False)
+    cells: list[int] = field(factory=list)
     """Indices in the layout of the cells used here, in the order of `per_area`; `points` has indices in this list."""
-    per_area: list[float] = field(factory=list, init=False)
+    per_area: list[float] = field(factory=list)
     """Weight of each cell's load in the heel's mean pressure, 1/m^2."""
-    points: list[WeightedCells] = field(factory=list, init=False)
+    points: list[WeightedCells] = field(factory=list)
     """The centre, followed by the points of each ray from the inside out."""
-    rays: list[tuple[int, float]] = field(factory=list, init=False)
+    rays: list[tuple[int, float]] = field(factory=list)
     """Number of points on each ray, and their distance, m."""
-    levels: tuple[float, ...] = field(default=(), init=False)
-    """Levels in falling order, in Pa if `levels_in_pascals`, otherwise as shares."""
-    levels_in_pascals: bool = field(default=False, init=False)
-    """Flag: the levels are pressures, not shares."""
-    history: deque[tuple[float, tuple[float, ...]]] = field(factory=deque, init=False)
+    levels: tuple[float, ...] = ()
+    """Levels in falling order, in Pa or as shares, as in `settings`."""
+    history: deque[tuple[float, tuple[float, ...]]] = field(factory=deque)
     """Samples of the last `COMPARISON_TIME`, each with its time, s, and the radii, m, of all levels ray by ray."""
 
     def set_layout(self, layout: Layout) -> str | None:
@@ -110,8 +110,9 @@ class Contours:
             return f"{len(heel)} pressure cells under the heel have no contour, {FEWEST_CELLS} are the fewest"
         self.cells = [i for i, cell in enumerate(layout.cells) if cell.x < CONTOUR_SHARE * layout.length]
         shares, pascals = self.settings.shares, self.settings.pascals
-        self.levels_in_pascals = pascals is not None and layout.scale is not None
-        self.levels = tuple(sorted(pascals if self.levels_in_pascals and pascals else shares, reverse=True))
+        if pascals is not None and layout.scale is None:
+            return "pressure cells of unknown scale have no contours of 20 to 70 kPa"
+        self.levels = tuple(sorted(pascals or shares, reverse=True))
         used = [layout.cells[i] for i in self.cells]
         self.per_area = [
             1.0 / (max(cell.area, 1e-9) * len(heel)) if cell.x < HEEL_SHARE * layout.length else 0.0 for cell in used
@@ -127,6 +128,11 @@ class Contours:
         """Discard the radii of earlier samples."""
         self.history.clear()
 
+    def speed(self, t: float, cells: list[float]) -> float:
+        """Return the speed of the contours' centre, m/s; `NO_CONTOUR` without contours. Arguments as for `velocity`."""
+        velocity = self.velocity(t, cells)
+        return NO_CONTOUR if velocity is None else min(hypot(*velocity), NO_CONTOUR)
+
     def velocity(self, t: float, cells: list[float]) -> tuple[float, float] | None:
         """Return the velocity (forward, left) of the contours' centre, foot frame, m/s; None without contours.
 
@@ -134,84 +140,35 @@ class Contours:
         above tare of the cells in `self.cells`."""
         if not self.points:
             return None
-        radii = self._radii(cells)
-        history = self.history
-        if history and history[-1][0] >= t:  # the clock has restarted
+        radii, history = self._radii(cells), self.history
+        if history and not 0.0 < t - history[-1][0] <= 3.0 * COMPARISON_TIME:  # the clock restarted, or a gap
             history.clear()
-        earlier_radii = None
-        while history and history[0][0] <= t - COMPARISON_TIME + TIME_EPSILON:
-            earlier_radii = history.popleft()
         history.append((t, radii))
-        if earlier_radii is None:
-            return None
-        history.appendleft(earlier_radii)
-        elapsed = t - earlier_radii[0]
-        if elapsed > 3.0 * COMPARISON_TIME:  # a gap; even slow samples are nearer
+        while len(history) > 1 and history[1][0] <= t - COMPARISON_TIME + TIME_EPSILON:
             history.popleft()
+        elapsed = t - history[0][0]
+        if elapsed < COMPARISON_TIME - TIME_EPSILON:
             return None
-        return self._centre_velocity(radii, earlier_radii[1], 1.0 / elapsed)
+        count = len(self.levels)
+        fits = [_displacement(radii[level::count], history[0][1][level::count]) for level in range(count)]
+        found = [fit for fit in fits if fit is not None]
+        if not found:
+            return None
+        k = 1.0 / (elapsed * len(found))
+        return fsum([x for x, _ in found]) * k, fsum([y for _, y in found]) * k
 
     def _radii(self, cells: list[float]) -> tuple[float, ...]:
         """Return the radii r(theta), m, ray by ray, each for all levels."""
         pressures = [a * cells[i] + b * cells[j] + c * cells[k] for i, j, k, a, b, c in self.points]
-        mean = 1.0 if self.levels_in_pascals else fsum(map(mul, self.per_area, cells))
+        mean = 1.0 if self.settings.pascals else fsum(map(mul, self.per_area, cells))
         levels = [share * mean for share in self.levels]
-        count = len(levels)
-        middle = pressures[0]
-        first = 0
-        while first < count and middle <= levels[first]:
-            first += 1
-        missing = (NO_RADIUS,) * first
-        levels.append(-inf)  # sentinel that no pressure is below
         radii: list[float] = []
         next_point = 1
         for points, step in self.rays:
-            radii += missing
-            level, target, inner, r = first, levels[first], middle, 0.0
-            for outer in pressures[next_point : next_point + points]:
-                if outer < target:
-                    along = step / (inner - outer)
-                    while outer < target:
-                        radii.append(r + (inner - target) * along)
-                        level += 1
-                        target = levels[level]
-                    if level == count:
-                        break
-                inner = outer
-                r += step
-            radii += (NO_RADIUS,) * (count - level)
+            along = [pressures[0], *pressures[next_point : next_point + points]]
+            radii += [_crossing(along, level, step) for level in levels]
             next_point += points
         return tuple(radii)
-
-    def _centre_velocity(
-        self, radii: tuple[float, ...], earlier_radii: tuple[float, ...], rate: float
-    ) -> tuple[float, float] | None:
-        """Return the mean over all levels of the centre's velocity (1)(2), m/s; `rate` is 1 / dt, 1/s."""
-        sum_x = sum_y = 0.0
-        contours = 0
-        count = len(self.levels)
-        for level in range(count):
-            present, past = radii[level::count], earlier_radii[level::count]
-            if max(present) < 0.0 or max(past) < 0.0:
-                continue
-            if min(present) >= 0.0 and min(past) >= 0.0:
-                # with all rays the matrix of the normal equations is RAY_PAIRS times the identity
-                radius_changes = list(map(sub, present, past))
-                sum_x += fsum(map(mul, radius_changes, _COS)) / RAY_PAIRS
-                sum_y += fsum(map(mul, radius_changes, _SIN)) / RAY_PAIRS
-                contours += 1
-                continue
-            displacement = _fit_pairs(present, past)
-            if displacement is None and not self.levels_in_pascals:  # fixed contours shrink as the weight leaves
-                displacement = _fit_rays(present, past)
-            if displacement is not None:
-                sum_x += displacement[0]
-                sum_y += displacement[1]
-                contours += 1
-        if not contours:
-            return None
-        k = rate / contours
-        return sum_x * k, sum_y * k
 
     def _set_rays(self, used: list[Cell], centre: tuple[float, float]) -> None:
         """Set the points on the rays from the centre (x, y), foot frame, m."""
@@ -232,64 +189,64 @@ class Contours:
             self.rays.append((len(self.points) - first_point, step))
 
 
-_COS = [cos(pi * k / RAY_PAIRS) for k in range(2 * RAY_PAIRS)]
-"""Cosine of each ray's direction."""
-_SIN = [sin(pi * k / RAY_PAIRS) for k in range(2 * RAY_PAIRS)]
-"""Sine of each ray's direction."""
-_RAYS = [(c, s, c * c, c * s, s * s) for c, s in zip(_COS, _SIN, strict=True)]
-"""Direction of each ray, and its terms of the normal equations."""
+_RAYS = [(cos(pi * k / RAY_PAIRS), sin(pi * k / RAY_PAIRS)) for k in range(RAY_PAIRS)]
+"""Direction of the first ray of each pair."""
 
 
-def _fit_pairs(radii: tuple[float, ...], earlier_radii: tuple[float, ...]) -> tuple[float, float] | None:
-    """Return the displacement of one level's contour, m, by those of its rays whose opposite has a radius, too."""
-    opposites = zip(
-        radii[:RAY_PAIRS], radii[RAY_PAIRS:], earlier_radii[:RAY_PAIRS], earlier_radii[RAY_PAIRS:], strict=True
-    )
-    return _least_squares([0.5 * (r - p - q + o) if min(r, q, p, o) >= 0.0 else None for r, q, p, o in opposites])
+def _displacement(radii: tuple[float, ...], earlier_radii: tuple[float, ...]) -> tuple[float, float] | None:
+    """Return the displacement of one level's contour, m: the vector u that fits u . r_hat to the radii best (2).
 
-
-def _fit_rays(radii: tuple[float, ...], earlier_radii: tuple[float, ...]) -> tuple[float, float] | None:
-    """Return the displacement of one level's contour, m, by all its rays that have a radius."""
-    return _least_squares([r - p if r >= 0.0 and p >= 0.0 else None for r, p in zip(radii, earlier_radii, strict=True)])
-
-
-def _least_squares(radius_changes: list[float | None]) -> tuple[float, float] | None:
-    """Return the vector u, m, that fits u . r_hat to the changes of the first rays' radii, m, by least squares.
-
-    It is None if too few rays have a change, or all of them have nearly the same direction."""
+    It is that by the pairs of opposite rays of which both have a radius, by least squares; None if they are too few, or
+    all of them have nearly the same direction."""
     xx = xy = yy = bx = by = 0.0
-    for (c, s, cc, cs, ss), radius_change in zip(_RAYS, radius_changes, strict=False):
-        if radius_change is not None:
-            xx += cc
-            xy += cs
-            yy += ss
-            bx += radius_change * c
-            by += radius_change * s
+    for k, (c, s) in enumerate(_RAYS):
+        near, far, old_near, old_far = radii[k], radii[k + RAY_PAIRS], earlier_radii[k], earlier_radii[k + RAY_PAIRS]
+        if min(near, far, old_near, old_far) >= 0.0:
+            change = 0.5 * (near - old_near - far + old_far)
+            xx += c * c
+            xy += c * s
+            yy += s * s
+            bx += change * c
+            by += change * s
     determinant = xx * yy - xy * xy
     if determinant < 1.0:  # it is 1.5 for three neighbouring directions, 9 for all six axes
         return None
     return (yy * bx - xy * by) / determinant, (xx * by - xy * bx) / determinant
 
 
+def _crossing(along: list[float], level: float, step: float) -> float:
+    """Return the distance, m, at which the pressures at every `step` m of a ray first fall below a level, Pa."""
+    for k, (inner, outer) in enumerate(pairwise(along)):
+        if inner <= level:
+            return NO_RADIUS
+        if outer < level:
+            return step * (k + (inner - level) / (inner - outer))
+    return NO_RADIUS
+
+
+def _twice_area(a: complex, b: complex, c: complex) -> float:
+    """Return twice the area of a triangle, positive when its corners are counter-clockwise."""
+    return ((b - a).conjugate() * (c - a)).imag
+
+
 def _triangle(cells: list[Cell], x: float, y: float) -> WeightedCells | None:
     """Return the smallest triangle of cells around a point, with the weights that turn their loads into its pressure.
 
     It is None if no cells surround the point. The smallest triangle is that of least perimeter."""
-    order = sorted(range(len(cells)), key=lambda i: (hypot(cells[i].x - x, cells[i].y - y), i))[:NEAREST_CELLS]
+    point, places = complex(x, y), [complex(cell.x, cell.y) for cell in cells]
+    order = sorted(range(len(cells)), key=lambda i: (abs(places[i] - point), i))[:NEAREST_CELLS]
     tightest: WeightedCells | None = None
-    least_perimeter = 0.0
+    least_perimeter = inf
     for i, j, k in combinations(order, 3):
-        a, b, c = cells[i], cells[j], cells[k]
-        area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)
+        a, b, c = places[i], places[j], places[k]
+        area = _twice_area(a, b, c)
         if abs(area) < 1e-7:  # m^2: the cells lie in one line
             continue
-        first = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) / area
-        second = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) / area
-        third = 1.0 - first - second
-        if min(first, second, third) < -1e-9:
-            continue
-        perimeter = hypot(a.x - b.x, a.y - b.y) + hypot(b.x - c.x, b.y - c.y) + hypot(c.x - a.x, c.y - a.y)
-        if tightest is None or perimeter < least_perimeter - 1e-9:
+        first, second = _twice_area(point, b, c) / area, _twice_area(point, c, a) / area
+        shares = (first, second, 1.0 - first - second)
+        perimeter = abs(a - b) + abs(b - c) + abs(c - a)
+        if min(shares) >= -1e-9 and perimeter < least_perimeter - 1e-9:
             least_perimeter = perimeter
-            tightest = (i, j, k, first / max(a.area, 1e-9), second / max(b.area, 1e-9), third / max(c.area, 1e-9))
+            u, v, w = [share / max(cells[n].area, 1e-9) for share, n in zip(shares, (i, j, k), strict=True)]
+            tightest = (i, j, k, u, v, w)
     return tightest

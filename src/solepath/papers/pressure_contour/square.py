@@ -16,11 +16,11 @@ freedom. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from math import atan2, hypot, inf
-from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...calibration import Calibration, CalibrationError
 from ...events import StrideTaken
@@ -29,7 +29,6 @@ from ...session import Session
 from ...types import Foot, Packet, Sample, Vec3
 from ...types.attrs import evolve, frozen
 from ...types.vector import from_yaw, rotate
-from ..tables import read_rows
 from .bias_zupt import BiasZupt
 from .recipe import PRESSURE_CONTOUR
 
@@ -45,17 +44,6 @@ CLOSURE_SHARE = 0.25
 """Distance by which a mark may move per lap in addition to the drift, as a share of the square's diagonal.
 
 The laps of a square of 11.7 m then end within 4 m, which is 9 % of the distance walked."""
-MARK_TOLERANCE = 1.0
-"""Longest time between the end of a stride and a mark's time in the file, s."""
-
-
-@frozen
-class CornerMark:
-    """A visit of a mark by the foot."""
-
-    name: str
-    t: float
-    """Time of the visit, s."""
 
 
 @frozen
@@ -73,48 +61,36 @@ class SquareDrift:
     """Number of marks that were visited often enough."""
     visits: int
     """Number of visits of all these marks."""
-    gated: bool = True
-    """Flag: the recipe does not use a slope that chance explains."""
 
     @property
     def kept(self) -> tuple[float, float]:
-        """Slope for a calibration (x, y), m/s: `slope` if `agreed` or not `gated`, otherwise zero."""
-        return self.slope if self.agreed or not self.gated else (0.0, 0.0)
+        """Slope for a calibration (x, y), m/s: `slope` if `agreed`, otherwise zero. The paper uses every slope."""
+        return self.slope if self.agreed else (0.0, 0.0)
 
 
 def square_drift(
     items: Iterable[Packet | Sample],
     *,
     foot: Foot | None = None,
-    marks: Sequence[CornerMark] | None = None,
     steps_per_lap: int = STRIDES_PER_LAP,
     recipe: Recipe = PRESSURE_CONTOUR,
     calibration: Calibration | None = None,
-    lenient: bool = False,
 ) -> SquareDrift:
     """Run the laps through a session, and fit a line to the positions of each mark.
 
-    With `marks` a visit is the stride that ends nearest to its time. Without them every `steps_per_lap`-th stride is on
-    the same mark. `foot` is the foot to use; None selects the right foot if it was recorded. Raises CalibrationError
-    when there are too few laps, when they are not laps of a square (`check_laps`), or when the recipe cannot use a
-    drift. If `lenient`, marks at which no stride ends are left out, and laps that do not close are used: an experiment
-    shows with it what a recipe does that loses strides."""
+    Every `steps_per_lap`-th stride is on the same mark. `foot` is the foot to use; None selects the right foot if it
+    was recorded. Raises CalibrationError when there are too few laps, when they are not laps of a square
+    (`check_laps`), or when the recipe cannot use a drift."""
     if not isinstance(recipe.corrector, BiasZupt):
         raise CalibrationError(f"recipe {recipe.name} takes no drift off")
     known = Calibration() if calibration is None else calibration
     session = Session(recipe, calibration=evolve(known, drift={}))
-    strides: dict[Foot, list[StrideTaken]] = {one: [] for one in Foot}
-    for event in [*session.feed(items), *session.finish()]:
-        if isinstance(event, StrideTaken):
-            strides[event.foot].append(event)
-    chosen = foot or (Foot.RIGHT if strides[Foot.RIGHT] else Foot.LEFT)
-    if not strides[chosen]:
+    taken = [event for event in [*session.feed(items), *session.finish()] if isinstance(event, StrideTaken)]
+    chosen = foot or (Foot.RIGHT if any(one.foot is Foot.RIGHT for one in taken) else Foot.LEFT)
+    strides = [one for one in taken if one.foot is chosen]
+    if not strides:
         raise CalibrationError(f"no stride of the {chosen.value} foot in the recording")
-    visits = (
-        _visits_by_count(strides[chosen], steps_per_lap)
-        if marks is None
-        else _visits_by_marks(strides[chosen], marks, lenient)
-    )
+    visits = _visits_by_count(strides, steps_per_lap)
     tracker = session.feet[chosen]
     # strides are in the world frame, but a drift is in the navigation frame or in that of the device
     corrector = tracker.corrector
@@ -122,21 +98,11 @@ def square_drift(
     north = tracker.gait.world.north or (1.0, 0.0)
     to_drift_frame = -atan2(north[1], north[0]) - (heading_offset or 0.0)
     drift = fit_drift(chosen, visits, to_drift_frame)
-    if not lenient:
-        check_laps(drift, visits)
-    return evolve(drift, gated=recipe.corrector.settings.gate_drift)
+    check_laps(drift, visits)
+    return drift
 
 
-def read_marks(path: Path | str) -> tuple[CornerMark, ...]:
-    """Read marks from a .csv with the columns `mark` and `t`, s, one row for every visit.
-
-    Raises CalibrationError when the file does not have that form."""
-    rows = read_rows(path, ("mark", "t"))
-    if not rows:
-        raise CalibrationError(f"{path}: no visits of marks")
-    return tuple([CornerMark(row.word("mark"), row.number("t")) for row in rows])
-
-
+Values = NDArray[np.float64]
 Visits = dict[str, list[tuple[float, Vec3]]]
 """Visits by mark, each with its time, s, and the computed position, world frame, m."""
 
@@ -152,65 +118,33 @@ def _visits_by_count(strides: Sequence[StrideTaken], steps_per_lap: int) -> Visi
     return visits
 
 
-def _visits_by_marks(strides: Sequence[StrideTaken], marks: Sequence[CornerMark], lenient: bool) -> Visits:
-    visits: Visits = {}
-    ends = np.array([stride.t for stride in strides])
-    for mark in marks:
-        nearest = int(np.argmin(np.abs(ends - mark.t)))
-        if abs(ends[nearest] - mark.t) > MARK_TOLERANCE:
-            if lenient:
-                continue
-            raise CalibrationError(f"no stride ends at mark {mark.name} near {mark.t:.2f} s")
-        visits.setdefault(mark.name, []).append((strides[nearest].t, strides[nearest].position))
-    return visits
-
-
-def fit_drift(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], to_drift_frame: float) -> SquareDrift:
+def fit_drift(foot: Foot, visits: Visits, to_drift_frame: float) -> SquareDrift:
     """Fit a line to the positions of each mark that was visited often enough, and return the mean drift.
 
     `to_drift_frame` is the angle, rad, by which vectors are turned from the world frame to that of the drift."""
-    slopes: list[tuple[float, float]] = []
-    moves: dict[int, list[tuple[float, float]]] = {}
-    used = 0
-    for mark_visits in visits.values():
-        t = np.array([visit_t for visit_t, _ in mark_visits])
-        if len(mark_visits) < FEWEST_LAPS or not np.all(np.diff(t) > 0.0):
-            continue
-        positions = np.array([(x, y) for _, (x, y, _) in mark_visits])
-        centred_t = t - t.mean()
-        sx, sy = (centred_t @ (positions - positions.mean(axis=0))) / (centred_t @ centred_t)
-        slopes.append((float(sx), float(sy)))
-        used += len(mark_visits)
-        for lap, (dx, dy) in enumerate(np.diff(positions, axis=0) / np.diff(t)[:, None]):
-            moves.setdefault(lap, []).append((float(dx), float(dy)))
-    if not slopes:
+    marks = [mark for mark in _rows(visits) if len(mark) >= FEWEST_LAPS and np.all(np.diff(mark[:, 0]) > 0.0)]
+    if not marks:
         raise CalibrationError(f"no mark was stood on {FEWEST_LAPS} times")
-    x, y = (float(value) for value in np.mean(slopes, axis=0))
-    laps = np.array([np.mean(lap_moves, axis=0) for lap_moves in moves.values()])
-    scatter = float(np.sqrt(np.mean(laps.var(axis=0, ddof=1)) / len(laps))) if len(laps) > 1 else inf
+    centred = [mark - mark.mean(axis=0) for mark in marks]
+    x, y = np.mean([mark[:, 0] @ mark[:, 1:] / (mark[:, 0] @ mark[:, 0]) for mark in centred], axis=0).tolist()
+    laps = np.array([np.mean(moves[:, 1:] / moves[:, :1], axis=0) for moves in _moves(marks)])
     k = len(laps) - 1
+    scatter = float(np.sqrt(np.mean(laps.var(axis=0, ddof=1)) / len(laps))) if k > 0 else inf
     agreed = k > 0 and x * x + y * y > 2.0 * scatter * scatter * k * (FALSE_DRIFT_PROBABILITY ** (-1.0 / k) - 1.0)
     sx, sy, _ = rotate(from_yaw(to_drift_frame), (x, y, 0.0))
-    return SquareDrift(foot, (sx, sy), scatter, agreed, len(slopes), used)
+    return SquareDrift(foot, (sx, sy), scatter, agreed, len(marks), sum(map(len, marks)))
 
 
-def check_laps(drift: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]]) -> None:
+def check_laps(drift: SquareDrift, visits: Visits) -> None:
     """Raise CalibrationError unless the laps are laps of a square.
 
     The mean distance of the marks from one lap to the next must be at most `LARGEST_DRIFT` times the lap's duration
     plus `CLOSURE_SHARE` times the diagonal, and the drift at most `LARGEST_DRIFT`."""
-    marks = [
-        np.array([(t, x, y) for t, (x, y, _) in mark_visits]) for mark_visits in visits.values() if len(mark_visits) > 1
-    ]
-    middles = np.array([mark[:, 1:].mean(axis=0) for mark in marks])
-    diagonal = float(np.linalg.norm(np.ptp(middles, axis=0)))
-    moves: dict[int, list[tuple[float, float]]] = {}
-    for mark in marks:
-        for lap, (duration, dx, dy) in enumerate(np.diff(mark, axis=0)):
-            moves.setdefault(lap, []).append((float(duration), hypot(dx, dy)))
-    for lap_moves in moves.values():
-        duration, distance = np.mean(lap_moves, axis=0)
-        if distance > LARGEST_DRIFT * duration + CLOSURE_SHARE * diagonal:
+    marks = [mark for mark in _rows(visits) if len(mark) > 1]
+    diagonal = float(np.linalg.norm(np.ptp([mark[:, 1:].mean(axis=0) for mark in marks], axis=0)))
+    for moves in _moves(marks):
+        distance = float(np.linalg.norm(moves[:, 1:], axis=1).mean())
+        if distance > LARGEST_DRIFT * moves[:, 0].mean() + CLOSURE_SHARE * diagonal:
             raise CalibrationError(
                 f"the laps do not close: a mark lies {distance:.1f} m from where it lay a lap before, "
                 f"the diagonal of all marks is {diagonal:.1f} m; is the number of marks a lap right?"
@@ -220,3 +154,14 @@ def check_laps(drift: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]
         raise CalibrationError(
             f"a drift of {100.0 * speed:.1f} cm/s: more than {100.0 * LARGEST_DRIFT:.0f} cm/s are no drift of strides"
         )
+
+
+def _rows(visits: Visits) -> list[Values]:
+    """Return the visits of each mark, (n, 3): time, s, and place x, y, m."""
+    return [np.array([(t, x, y) for t, (x, y, _) in mark]) for mark in visits.values()]
+
+
+def _moves(marks: list[Values]) -> list[Values]:
+    """Return what the marks do from each lap to the next, (n, 3): duration, s, and way x, y, m."""
+    laps = max(map(len, marks)) - 1
+    return [np.array([mark[k + 1] - mark[k] for mark in marks if len(mark) > k + 1]) for k in range(laps)]

@@ -1,1 +1,14 @@
-"""Li et al. 2016: stance by short-time energy, tilt feedback in stance, stairs by angle per metre."""
+"""Li et al. 2016: stance by short-time energy, tilt feedback in stance, stairs by angle per metre.
+
+"3D tracking via shoe sensing", Sensors 16, 1809. The paper's sections, in their order:
+
+    3.1      gait by short-time energy                        short_time_energy.py
+    3.2      posture: C, gb, e, Runge and Kutta               posture.py
+             feedback in stance, gyro' = gyro - Kp e          printed.py
+    3.3      velocity and distance, v(T), V(T), S(T)          printed.py
+    3.4.1    walking states by theta'                         steepness.py, walking_state.py
+    3.4.2    height, S_z(T)                                   printed.py
+    4        experiments                                      solepath_lab/reproduce/shoe_sensing.py
+
+gated_tilt.py has our additions, recipe.py both recipes; docs/papers/shoe-sensing.md has every equation with its check.
+"""

@@ -6,14 +6,15 @@ from __future__ import annotations
 
 from collections import deque
 from math import hypot
+from typing import ClassVar
 
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.navigate.level import LevelGround
 from ...foot.stance.stance import Stance
-from ...types import Phase, Quat, Vec3
-from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY, TIME_EPSILON, tipped
-from .printed import GatedTilt, GatedTiltSettings
+from ...types import Phase, Quat, Vec2, Vec3
+from ...types.attrs import field, stateful
+from ...types.vector import GRAVITY, TIME_EPSILON, ZERO, add, dot, sub, tipped
+from .printed import GatedTilt
 
 SHORTEST_SWING = 0.3
 """Duration of the shortest swing, s."""
@@ -35,31 +36,17 @@ LARGEST_LEVEL_HEIGHT = 0.12
 """Absolute height change, m, up to which a height is small in that sense; a riser is higher."""
 UNCERTAIN_SIGMA, LONGEST_SWING = 0.04, 0.9
 """Largest sigma of a stance, m/s, and time without a stance, s, after which twice that sigma is accepted."""
-SPEED_LIMIT, SPEED_LIMIT_GROWTH, UNCERTAIN_SHARE = 0.5, 1.0, 0.5
-"""Limit of the integrated speed at a stance, m/s; its growth with time since the last stance, m/s^2; and its factor.
+SPEED_LIMIT_GROWTH, UNCERTAIN_SHARE = 1.0, 0.5
+"""Growth of the limit of the integrated speed with time since the last stance, m/s^2; and its factor.
 
 The factor applies without the hint STATIONARY. A tilt error of 6 degrees makes the speed grow by 1 m/s^2."""
 
 
-@frozen
-class ShoeSensingSettings(GatedTiltSettings):
-    """Settings of `ShoeSensing`. Each of those below turns an addition to the paper on or off."""
-
-    initial_time: float = 0.0
-    """Time in stance, s, in which the first attitude is found as printed; 0: it is computed in closed form."""
-    tilt_share: float = 0.4
-    """Share of the tilt error that is corrected after a motion, 0 to 1; 0 for none. The tilt error is computed from the
-    velocity left at the end of the motion. The stances of joggers are too short for the feedback."""
-    detector_delay: float = 0.15
-    """Longest delay of the detector, s: the window of `ShortTimeEnergy`. The samples of this time before the detected
-    end of a stance count as motion; 0 for none."""
-    gates_speed: bool = True
-    """Flag: a stance is only accepted where the integrated speed is low."""
-    finds_slopes: bool = True
-    """Flag: what is level is decided by height and pitch (`LevelGround`), instead of the angle per metre."""
+Motion = tuple[Vec3, Vec3]
+"""Position, m, and velocity, m/s, navigation frame."""
 
 
-@define
+@stateful
 class ShoeSensing(GatedTilt):
     """Corrector of `GatedTilt` that also finds the stances of joggers, corrects tilt after a motion and keeps landings.
 
@@ -80,34 +67,43 @@ class ShoeSensing(GatedTilt):
     differ from those of level strides, and those of strides after which the foot is pitched. The tilt is one of the
     sensor and turns with it, but only in stance: in a turn, and just after one, small heights say nothing."""
 
-    settings: ShoeSensingSettings = ShoeSensingSettings()
-    level: LevelGround = field(factory=LevelGround, init=False)
+    initial_time: ClassVar[float] = 0.0
+    """0: the first attitude is known at once, from the mean specific force of the first samples at rest."""
+    tilt_share: ClassVar[float] = 0.4
+    """Share of the tilt error that is corrected after a motion, 0 to 1. The tilt error is computed from the velocity
+    left at the end of the motion. The stances of joggers are too short for the feedback."""
+    detector_delay: ClassVar[float] = 0.15
+    """Longest delay of the detector, s: the window of `ShortTimeEnergy`. The samples of this time before the detected
+    end of a stance count as motion."""
+    speed_limit: ClassVar[float] = 0.5
+    """Limit of the integrated speed at a stance, m/s."""
+
+    level: LevelGround = field(factory=LevelGround)
     """Decision which strides are level."""
-    turned: float = field(default=0.0, init=False)
+    turned: float = 0.0
     """Turn that the tilt has not yet followed, rad."""
-    motion_time: float = field(default=0.0, init=False)
+    motion_time: float = 0.0
     """Duration of the last motion, s."""
-    recent_samples: deque[tuple[float, float, Vec3]] = field(factory=deque, init=False)
+    recent_samples: deque[tuple[float, float, Vec3]] = field(factory=deque)
     """Last samples of stance, each with its time, s, duration, s, and change of the velocity, m/s."""
-    least_sigma: float = field(default=0.0, init=False)
+    least_sigma: float = 0.0
     """Least sigma of this stance, m/s."""
-    stance_age: float = field(default=0.0, init=False)
+    stance_age: float = 0.0
     """Time since the start of the latest stance, s."""
-    is_certain: bool = field(default=True, init=False)
+    is_certain: bool = True
     """Flag: the last stance became certain."""
-    tilt_correction: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    tilt_correction: Vec2 = (0.0, 0.0)
     """Rotation of the attitude at the end of this stance: half angles about the world's x and y, rad."""
-    continued_motion: tuple[Vec3, Vec3] | None = field(default=None, init=False)
+    continued_motion: Motion | None = None
     """Position, m, and velocity, m/s, integrated without stopping at this uncertain stance; None once it is certain."""
-    continued_time: float = field(default=0.0, init=False)
+    continued_time: float = 0.0
     """Duration of `continued_motion`, s."""
-    last_dt: float = field(default=0.0, init=False)
+    last_dt: float = 0.0
     """Time between the last two samples, s."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         GatedTilt.start(self, attitude, tilt_sigma)
-        self.least_sigma = 0.0
-        self.stance_age = self.continued_time = self.motion_time = self.turned = 0.0
+        self.least_sigma = self.stance_age = self.continued_time = self.motion_time = self.turned = 0.0
         self.continued_motion = None
         self.is_certain = True
         self.tilt_correction = (0.0, 0.0)
@@ -116,10 +112,7 @@ class ShoeSensing(GatedTilt):
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         GatedTilt.predict(self, dt, acc, gyro, saturated)
         if self.continued_motion is not None:
-            dx, dy, dz = self.velocity_change
-            (x, y, z), (vx, vy, vz) = self.continued_motion
-            x, y, z = x + (vx + 0.5 * dx) * dt, y + (vy + 0.5 * dy) * dt, z + (vz + 0.5 * dz) * dt
-            self.continued_motion = ((x, y, z), (vx + dx, vy + dy, vz + dz))
+            self.continued_motion = _moved(*self.continued_motion, self.velocity_change, dt)
             self.continued_time += dt
         self.last_dt = dt
         self.stance_age += dt
@@ -136,7 +129,7 @@ class ShoeSensing(GatedTilt):
         if was_standing:
             recent_samples = self.recent_samples
             recent_samples.append((t, self.last_dt, self.velocity_change))
-            oldest = t - self.settings.detector_delay + TIME_EPSILON
+            oldest = t - self.detector_delay + TIME_EPSILON
             while recent_samples and recent_samples[0][0] <= oldest:
                 recent_samples.popleft()
         elif self.continued_motion is None:
@@ -158,28 +151,26 @@ class ShoeSensing(GatedTilt):
             return False
         if self.standing:
             return sigma <= max(UNCERTAIN_SIGMA, self.least_sigma)
-        (vx, vy, vz), swing = self.velocity, self.swing
+        velocity, swing = self.velocity, self.swing
         if self.continued_motion is not None:
             if sigma >= self.least_sigma:
                 return False
-            (_, (vx, vy, vz)), swing = self.continued_motion, self.continued_time
+            (_, velocity), swing = self.continued_motion, self.continued_time
         elif swing < SHORTEST_SWING and not is_certain:
             return False
-        limit = SPEED_LIMIT + SPEED_LIMIT_GROWTH * swing
+        limit = self.speed_limit + SPEED_LIMIT_GROWTH * swing
         if not is_certain:
             limit *= UNCERTAIN_SHARE
         if swing > LONGEST_SWING:
             limit += OVERDUE_LIMIT_GROWTH * (swing - LONGEST_SWING) ** 2
         elif sigma > UNCERTAIN_SIGMA:
             return False
-        if not self.settings.gates_speed:
-            return True
-        return vx * vx + vy * vy + vz * vz < limit * limit
+        return dot(velocity, velocity) < limit * limit
 
     def _end_motion(self, position: Vec3, velocity: Vec3, stance: Stance) -> None:
         """End the motion at this position and velocity, because the evidence is the most certain so far."""
         (vx, vy, _), (rx, ry, _) = velocity, stance.v_ref
-        k = 0.5 * self.settings.tilt_share / (GRAVITY * max(self.continued_time, SHORTEST_SWING))  # half angles
+        k = 0.5 * self.tilt_share / (GRAVITY * max(self.continued_time, SHORTEST_SWING))  # half angles
         self.tilt_correction = (k * (vy - ry), -k * (vx - rx))
         self.stance_position = self.dedrifted(position, velocity, self.continued_time, stance.v_ref)
         self.least_sigma, self.motion_time = stance.sigma, self.continued_time
@@ -187,38 +178,35 @@ class ShoeSensing(GatedTilt):
             self.continued_motion = None
 
     def height_at_end(self, x: float, y: float, z: float) -> float:
-        return z if self.settings.finds_slopes else GatedTilt.height_at_end(self, x, y, z)
+        return z
 
     def flat(self, start: Vec3, turn: float) -> None:
-        settings = self.settings
-        if not (settings.eliminate and settings.finds_slopes and self.standing):
+        if not self.standing:
             return
-        (x, y, z), (sx, sy, sz) = self.stance_position, start
+        way = sub(self.stance_position, start)
         sigma = HEIGHT_SIGMA * max(self.motion_time, SHORTEST_SWING) ** 2
         self.turned = TURN_LEFT * self.turned + abs(turn)
-        rise = z - sz - self.level.rise_bias * hypot(x - sx, y - sy)
+        rise = way[2] - self.level.rise_bias * hypot(way[0], way[1])
         height = 0.0
         if self.turned < LARGEST_SETTLED_TURN or abs(rise) >= LARGEST_LEVEL_HEIGHT:
-            height, _ = self.level.judge((x - sx, y - sy, z - sz), turn, sigma * sigma, self.attitude)
-        self.position = self.stance_position = (x, y, sz + height)
+            height, _ = self.level.judge(way, turn, sigma * sigma, self.attitude)
+        removed = (0.0, 0.0, height - way[2])
+        self.position = self.stance_position = add(self.stance_position, removed)
         if self.continued_motion is not None:  # what was removed stays removed when the stance becomes certain
-            (x, y, end), velocity = self.continued_motion
-            self.continued_motion = ((x, y, end + sz + height - z), velocity)
+            position, velocity = self.continued_motion
+            self.continued_motion = (add(position, removed), velocity)
 
     def _start_motion(self) -> None:
         """Start a motion with the samples in `recent_samples`, in which the foot moved already."""
         self.is_certain = self.continued_motion is None
         self.attitude = tipped(self.attitude, *self.tilt_correction)
         self.tilt_correction = (0.0, 0.0)
-        self.swing = 0.0
-        x, y, z = self.stance_position
-        vx = vy = vz = 0.0
-        for _, dt, (dx, dy, dz) in (*self.recent_samples, (0.0, self.last_dt, self.velocity_change)):
-            x, y, z = x + (vx + 0.5 * dx) * dt, y + (vy + 0.5 * dy) * dt, z + (vz + 0.5 * dz) * dt
-            vx, vy, vz = vx + dx, vy + dy, vz + dz
+        self.swing, motion = 0.0, (self.stance_position, ZERO)
+        for _, dt, change in (*self.recent_samples, (0.0, self.last_dt, self.velocity_change)):
+            motion = _moved(*motion, change, dt)
             self.swing += dt
         self.recent_samples.clear()
-        self.position, self.velocity = (x, y, z), (vx, vy, vz)
+        self.position, self.velocity = motion
 
     def bridge(self, dt: float) -> float:
         self._discard_recent_samples()
@@ -235,3 +223,8 @@ class ShoeSensing(GatedTilt):
     def _discard_recent_samples(self) -> None:
         self.continued_motion = None
         self.recent_samples.clear()
+
+
+def _moved(position: Vec3, velocity: Vec3, change: Vec3, dt: float) -> Motion:
+    """Return position, m, and velocity, m/s, after `dt` s in which the velocity changed evenly by `change`, m/s."""
+    return add(position, add(velocity, change, 0.5), dt), add(velocity, change)

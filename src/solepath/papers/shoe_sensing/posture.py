@@ -14,7 +14,7 @@ from __future__ import annotations
 from math import sqrt
 
 from ...types import Quat, Vec3
-from ...types.vector import from_rotation_vector, multiply, normalise
+from ...types.vector import ZERO, add, cross, dot, from_rotation_vector, multiply, normalise, sub
 
 INITIAL_TIME = 4.0
 """Time to the first attitude, s: it "will converge in about 4 s (i.e., 400 points)" (fig. 7)."""
@@ -29,7 +29,11 @@ A larger rotation, which occurs at low sample rates, is computed in closed form.
 
 
 def gravity_direction(attitude: Quat) -> Vec3:
-    """Return gb, the upward direction in the sensor frame, a unit vector."""
+    """Return gb, the upward direction in the sensor frame, a unit vector.
+
+    gb = C aR with the paper's matrix C would be its third column; the components that it prints are those of the third
+    row, the column of the transposed matrix, which turns vectors of the reference frame into the sensor's. They are
+    used."""
     q0, q1, q2, q3 = attitude
     return (2.0 * (q1 * q3 - q0 * q2), 2.0 * (q2 * q3 + q0 * q1), q0 * q0 - q1 * q1 - q2 * q2 + q3 * q3)
 
@@ -38,14 +42,8 @@ def gravity_error(attitude: Quat, acc: Vec3) -> Vec3:
     """Return the tilt error e = gb x g'R, sensor frame, rad; zero if `acc` is zero.
 
     `acc` is the measured specific force, in any unit."""
-    x, y, z = acc
-    length = sqrt(x * x + y * y + z * z)
-    if length < 1e-9:
-        return (0.0, 0.0, 0.0)
-    k = 1.0 / length
-    x, y, z = x * k, y * k, z * k
-    bx, by, bz = gravity_direction(attitude)
-    return (by * z - bz * y, bz * x - bx * z, bx * y - by * x)
+    length = sqrt(dot(acc, acc))
+    return ZERO if length < 1e-9 else cross(gravity_direction(attitude), add(ZERO, acc, 1.0 / length))
 
 
 def is_upside_down(attitude: Quat) -> bool:
@@ -62,34 +60,19 @@ def turn(q: Quat, rate_before: Vec3, rate_after: Vec3, dt: float) -> Quat:
     normalised; h is `dt`. The paper prints 3 k3, which must be a mistake: the weights of the classical method add up to
     6, and with 3 k3 every rotation would be a sixth too large. The paper's f(w_n + h/2, ...) is taken to be the rate in
     the middle of the interval, the mean of both rates."""
-    ax, ay, az = rate_before
-    cx, cy, cz = rate_after
-    half = 0.5 * dt
-    ax, ay, az, cx, cy, cz = ax * half, ay * half, az * half, cx * half, cy * half, cz * half
-    bx, by, bz = 0.5 * (ax + cx), 0.5 * (ay + cy), 0.5 * (az + cz)
-    if 4.0 * (bx * bx + by * by + bz * bz) > LARGEST_SQUARED_TURN:
-        return normalise(multiply(q, from_rotation_vector((2.0 * bx, 2.0 * by, 2.0 * bz))))
-    # k1 to k3 are multiplied by the interval: h k1 and so on
+    middle = add(rate_before, sub(rate_after, rate_before), 0.5)
+    if dt * dt * dot(middle, middle) > LARGEST_SQUARED_TURN:
+        return normalise(multiply(q, from_rotation_vector(add(ZERO, middle, dt))))
+    slopes: list[Quat] = []
+    for rate, step in ((rate_before, 0.0), (middle, 0.5), (middle, 0.5), (rate_after, 1.0)):
+        at = _added(q, slopes[-1], step) if slopes else q
+        slopes.append(multiply(at, (0.0, 0.5 * dt * rate[0], 0.5 * dt * rate[1], 0.5 * dt * rate[2])))
+    for slope, weight in zip(slopes, (1.0, 2.0, 2.0, 1.0), strict=True):
+        q = _added(q, slope, weight / 6.0)
+    return normalise(q)
+
+
+def _added(q: Quat, change: Quat, share: float) -> Quat:
     w, x, y, z = q
-    k1w = -ax * x - ay * y - az * z
-    k1x = ax * w + az * y - ay * z
-    k1y = ay * w - az * x + ax * z
-    k1z = az * w + ay * x - ax * y
-    pw, px, py, pz = w + 0.5 * k1w, x + 0.5 * k1x, y + 0.5 * k1y, z + 0.5 * k1z
-    k2w = -bx * px - by * py - bz * pz
-    k2x = bx * pw + bz * py - by * pz
-    k2y = by * pw - bz * px + bx * pz
-    k2z = bz * pw + by * px - bx * py
-    pw, px, py, pz = w + 0.5 * k2w, x + 0.5 * k2x, y + 0.5 * k2y, z + 0.5 * k2z
-    k3w = -bx * px - by * py - bz * pz
-    k3x = bx * pw + bz * py - by * pz
-    k3y = by * pw - bz * px + bx * pz
-    k3z = bz * pw + by * px - bx * py
-    pw, px, py, pz = w + k3w, x + k3x, y + k3y, z + k3z
-    sixth = 1.0 / 6.0
-    w += (k1w + 2.0 * (k2w + k3w) - cx * px - cy * py - cz * pz) * sixth
-    x += (k1x + 2.0 * (k2x + k3x) + cx * pw + cz * py - cy * pz) * sixth
-    y += (k1y + 2.0 * (k2y + k3y) + cy * pw - cz * px + cx * pz) * sixth
-    z += (k1z + 2.0 * (k2z + k3z) + cz * pw + cy * px - cx * py) * sixth
-    k = 1.0 / sqrt(w * w + x * x + y * y + z * z)
-    return (w * k, x * k, y * k, z * k)
+    a, b, c, d = change
+    return (w + share * a, x + share * b, y + share * c, z + share * d)

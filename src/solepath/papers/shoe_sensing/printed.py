@@ -5,36 +5,22 @@ strides, from the height. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from math import hypot, sqrt
+from math import hypot
+from typing import ClassVar
 
 from ...foot.navigate.dedrift import LinearDedrift
-from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
-from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY, IDENTITY, ZERO, rotate
+from ...types.attrs import stateful
+from ...types.vector import IDENTITY, ZERO, add, sub
 from .posture import INITIAL_GAIN, INITIAL_TIME, gravity_direction, gravity_error, is_upside_down, turn
 from .steepness import steepness
 
-HIGHEST_SPEED = 15.0
-"""Highest speed of a foot, m/s."""
+KP = 1.0
+"""Gain of the tilt feedback in stance, 1/s; the paper gives no value."""
 
 
-@frozen
-class GatedTiltSettings(DedriftSettings):
-    """Settings of `GatedTilt`."""
-
-    kp: float = 1.0
-    """Gain of the tilt feedback in stance, 1/s; the paper gives no value."""
-    eliminate: bool = True
-    """Flag: the height error of level strides is removed."""
-    initial_time: float = INITIAL_TIME
-    """Time in stance, s, in which the first attitude is found, sample by sample, from Q = [1, 0, 0, 0].
-
-    0 for an attitude that is known at once, from the mean specific force of the first samples at rest."""
-
-
-@define
+@stateful
 class GatedTilt(LinearDedrift):
     """Corrector as printed: tilt feedback in stance, and removal of linear drifts of velocity and height.
 
@@ -52,63 +38,43 @@ class GatedTilt(LinearDedrift):
     prints V(T) and S_z(T) with `stationary = 1` for the moving foot, but its section 3.1.2 has the opposite. A stride
     is level by its angle per metre (steepness.py)."""
 
-    settings: GatedTiltSettings = GatedTiltSettings()
-    initial_left: float = field(default=0.0, init=False)
+    initial_time: ClassVar[float] = INITIAL_TIME
+    """Time in stance, s, in which the first attitude is found, sample by sample, from Q = [1, 0, 0, 0]."""
+
+    initial_left: float = 0.0
     """Time in stance until the first attitude is found, s."""
-    last_acc: Vec3 = field(default=ZERO, init=False)
+    last_acc: Vec3 = ZERO
     """Specific force of the last sample, sensor frame, m/s^2."""
-    velocity_change: Vec3 = field(default=ZERO, init=False)
+    velocity_change: Vec3 = ZERO
     """Change of the velocity by the last sample, m/s."""
-    standing: bool = field(default=True, init=False)
+    standing: bool = True
     """Flag: the last sample was in stance."""
-    stance_position: Vec3 = field(default=ZERO, init=False)
+    stance_position: Vec3 = ZERO
     """Position where the foot stands or last stood, m."""
-    previous_position: Vec3 = field(default=ZERO, init=False)
+    previous_position: Vec3 = ZERO
     """Position where the foot stood before `stance_position`, m."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         self.last_acc = gravity_direction(attitude)  # that of the mean specific force which gave `attitude`
-        self.initial_left = self.settings.initial_time
+        self.initial_left = self.initial_time
         is_iterated = self.initial_left > 0.0 and not is_upside_down(attitude)
         LinearDedrift.start(self, IDENTITY if is_iterated else attitude, tilt_sigma)
         self.stance_position = self.previous_position = ZERO
         self.standing = True
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        rate_before = gyro if self.rate is None else self.rate
-        self.rate = rate_after = gyro
-        attitude = self.attitude
+        rate_before, rate_after, velocity = self.rate or gyro, gyro, self.velocity
         if self.standing:
-            k = self.settings.kp
-            if self.initial_left > 0.0:
-                self.initial_left -= dt
-                k = INITIAL_GAIN
+            k = INITIAL_GAIN if self.initial_left > 0.0 else KP
+            self.initial_left = max(0.0, self.initial_left - dt)
             k = min(k, 0.5 / dt) if dt > 0.0 else 0.0  # at most half of the error in one sample
-            ex, ey, ez = gravity_error(attitude, self.last_acc)
-            ex, ey, ez = k * ex, k * ey, k * ez
-            x, y, z = rate_before
-            rate_before = (x - ex, y - ey, z - ez)
-            x, y, z = rate_after
-            rate_after = (x - ex, y - ey, z - ez)
+            error = gravity_error(self.attitude, self.last_acc)
+            rate_before, rate_after = add(rate_before, error, -k), add(rate_after, error, -k)
         self.last_acc = acc
-        self.attitude = attitude = turn(attitude, rate_before, rate_after, dt)
-        fx, fy, fz = force = rotate(attitude, acc)
-        px, py, pz = force if self.force is None else self.force
-        self.force = force
-        half = 0.5 * dt
-        dx, dy, dz = self.velocity_change = ((fx + px) * half, (fy + py) * half, (fz + pz) * half - GRAVITY * dt)
-        vx, vy, vz = self.velocity
-        ux, uy, uz = vx + dx, vy + dy, vz + dz
-        x, y, z = self.position
-        self.position = (x + (vx + ux) * half, y + (vy + uy) * half, z + (vz + uz) * half)
-        speed = sqrt(ux * ux + uy * uy + uz * uz)
-        if speed > HIGHEST_SPEED:
-            k = HIGHEST_SPEED / speed
-            ux, uy, uz, speed = ux * k, uy * k, uz * k, HIGHEST_SPEED
-        self.velocity = (ux, uy, uz)
-        self.length += speed * dt
-        self.swing += dt
-        self.time_since_anchor += dt
+        self.attitude, self.rate = turn(self.attitude, rate_before, rate_after, dt), None
+        LinearDedrift.predict(self, dt, acc, ZERO, saturated)
+        self.rate = gyro
+        self.velocity_change = sub(self.velocity, velocity)
 
     def correct(self, t: float, stance: Stance) -> bool:
         was_standing, self.standing = self.standing, stance.hint is Phase.STATIONARY
@@ -125,10 +91,8 @@ class GatedTilt(LinearDedrift):
         """Return where the foot stands after a motion that was integrated to `position`, m, and `velocity`, m/s.
 
         The motion lasted `duration` s and began at `previous_position`; its true last velocity is `v_ref`, m/s."""
-        (x, y, z), (vx, vy, vz), (rx, ry, rz) = position, velocity, v_ref
-        half = 0.5 * duration
-        x, y, z = x + (rx - vx) * half, y + (ry - vy) * half, z + (rz - vz) * half
-        return (x, y, self.height_at_end(x, y, z) if self.settings.eliminate else z)
+        x, y, z = add(position, sub(v_ref, velocity), 0.5 * duration)
+        return (x, y, self.height_at_end(x, y, z))
 
     def height_at_end(self, x: float, y: float, z: float) -> float:
         """Return the height S_z, m, at the end of a stride whose integrated end is (x, y, z), m."""

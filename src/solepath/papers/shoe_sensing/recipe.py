@@ -5,9 +5,9 @@ from __future__ import annotations
 from ...body.activity.activities import Activities
 from ...recipes import Recipe, usual_parts
 from ...types.attrs import evolve
-from .gated_tilt import ShoeSensing, ShoeSensingSettings
+from .gated_tilt import ShoeSensing
 from .printed import GatedTilt
-from .short_time_energy import AccelerationMagnitude, ShortTimeEnergy, printed_energy
+from .short_time_energy import ShortTimeEnergy, printed_energy
 from .walking_state import AnglePerMetre
 
 SHOE_SENSING = Recipe("shoe-sensing", ShortTimeEnergy(), ShoeSensing(), parts=usual_parts())
@@ -24,11 +24,3 @@ SHOE_SENSING_PRINTED = evolve(
 """Li et al. 2016 as printed: energy alone, the first attitude from four seconds of samples, no addition of ours.
 
 Walking states are level, up and down, by the angle per metre of each stride."""
-
-SHOE_MAGNITUDE = Recipe(
-    "acceleration-magnitude",
-    AccelerationMagnitude(),
-    ShoeSensing(ShoeSensingSettings(detector_delay=0.0)),
-    parts=usual_parts(),
-)
-"""Li et al.'s baseline: `SHOE_SENSING`, but with stance where the specific force is about 1 g."""

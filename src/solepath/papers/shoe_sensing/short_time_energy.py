@@ -1,7 +1,7 @@
 """Stance evidence of Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.1.2.
 
-`ShortTimeEnergy` uses the short-time energy of the magnitude of the specific force. `AccelerationMagnitude`, the
-paper's baseline, uses the magnitude itself. Numbers without a source were chosen by hand."""
+`ShortTimeEnergy` uses the short-time energy of the magnitude of the specific force. The paper's baseline, the magnitude
+itself, is in solepath_lab/reproduce/shoe. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from collections import deque
 from math import inf, sqrt
 
 from ...foot.stance.stance import Detector, Load, Stance
-from ...types import Phase, Quat, Vec3
-from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY, IDENTITY, TIME_EPSILON, ZERO
+from ...types import Phase, Quat, Vec2, Vec3
+from ...types.attrs import field, frozen, stateful
+from ...types.vector import GRAVITY, IDENTITY, TIME_EPSILON, ZERO, dot
 
 PAPER_RATE = 100.0
 """Sampling rate of the paper, Hz."""
 LARGEST_SQUARE = 1e4
-"""Limit of one sample's squared x, g^2, so that rounding errors of the running sum stay far below the threshold."""
+"""Limit of one sample's squared x, g^2, so that the energy of any sample is finite."""
 LONGEST_SAMPLE = 0.1
 """Limit of the time that one sample counts for, s."""
 
@@ -35,7 +35,7 @@ class EnergySettings:
     """Noise of the zero velocity of a stance, m/s."""
 
 
-@define
+@stateful
 class ShortTimeEnergy(Detector):
     """Detector by short-time energy E_n = sum over m = n-N+1 .. n of [x(m) w(n-m)]^2; stationary where E < E_T = 0.05.
 
@@ -58,90 +58,35 @@ class ShortTimeEnergy(Detector):
     the speed of the foot, can decide."""
 
     settings: EnergySettings = EnergySettings()
-    entries: deque[tuple[float, float]] = field(factory=deque, init=False)
+    entries: deque[Vec2] = field(factory=deque)
     """Samples in the window, each with its duration, s, and energy, g^2."""
-    total_time: float = field(default=0.0, init=False)
-    """Duration of all samples in the window, s."""
-    total_energy: float = field(default=0.0, init=False)
-    """Energy of all samples in the window, g^2."""
-    still_count: int = field(default=0, init=False)
-    """Number of latest samples whose total energy is below E_T."""
-    still_time: float = field(default=0.0, init=False)
-    """Duration of the last `still_count` samples, s."""
-    still_energy: float = field(default=0.0, init=False)
-    """Energy of the last `still_count` samples, g^2."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        settings = self.settings
-        ax, ay, az = acc
-        x = sqrt(ax * ax + ay * ay + az * az) / GRAVITY - 1.0
-        square = x * x
-        if square > LARGEST_SQUARE:
-            square = LARGEST_SQUARE
-        if dt > LONGEST_SAMPLE:
-            dt = LONGEST_SAMPLE
-        energy = square * dt * PAPER_RATE
-        entries = self.entries
-        entries.append((dt, energy))
-        self.total_time += dt
-        self.total_energy += energy
-        still_count = self.still_count + 1
-        self.still_time += dt
-        self.still_energy += energy
-        while still_count and self.still_energy >= settings.threshold:
-            old_dt, old_energy = entries[-still_count]
-            still_count -= 1
-            self.still_time -= old_dt
-            self.still_energy -= old_energy
-        while self.total_time - entries[0][0] >= settings.window - TIME_EPSILON and len(entries) > 1:
-            old_dt, old_energy = entries.popleft()
-            self.total_time -= old_dt
-            self.total_energy -= old_energy
-            if still_count > len(entries):
-                still_count -= 1
-                self.still_time -= old_dt
-                self.still_energy -= old_energy
-        if not still_count:
-            self.still_time = self.still_energy = 0.0
-        self.still_count = still_count
-        if still_count == len(entries):
-            self.total_energy = self.still_energy
-            self.total_time = self.still_time
-            if self.total_time >= settings.window - TIME_EPSILON:
-                return Stance(ZERO, settings.sigma, self.total_energy, Phase.STATIONARY)
-        time = self.still_time
-        if time >= settings.shortest_stance - TIME_EPSILON:
-            return Stance(ZERO, settings.sigma * settings.window / time, self.total_energy, None)
-        return Stance(ZERO, inf, self.total_energy, None)
+        settings, entries = self.settings, self.entries
+        x = sqrt(dot(acc, acc)) / GRAVITY - 1.0
+        duration = min(dt, LONGEST_SAMPLE)
+        entries.append((duration, min(x * x, LARGEST_SQUARE) * duration * PAPER_RATE))
+        time = energy = still_time = 0.0
+        count = 0
+        for one_duration, one_energy in reversed(entries):
+            count += 1
+            time += one_duration
+            energy += one_energy
+            if energy < settings.threshold:
+                still_time = time
+            if time >= settings.window - TIME_EPSILON:
+                break
+        while len(entries) > count:
+            entries.popleft()
+        if still_time >= settings.window - TIME_EPSILON:
+            return Stance(ZERO, settings.sigma, energy, Phase.STATIONARY)
+        if still_time >= settings.shortest_stance - TIME_EPSILON:
+            return Stance(ZERO, settings.sigma * settings.window / still_time, energy, None)
+        return Stance(ZERO, inf, energy, None)
 
 
 def printed_energy(window: float = EnergySettings().window) -> ShortTimeEnergy:
     """Return the detector as printed, with a window of so many s: E < E_T is a stance, and everything else none."""
     return ShortTimeEnergy(EnergySettings(window=window, shortest_stance=window))
-
-
-@frozen
-class AccelerationMagnitude(Detector):
-    """Detector: the foot stands while the magnitude of the specific force, |a|, is about 1 g.
-
-    Li et al. compare with it in section 4.2.1, but give no threshold. Here it is condition C1 of Jimenez and others, "A
-    comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU" (IEEE WISP 2009): 9 m/s^2 < |a| < 11
-    m/s^2. The statistic is |a| - g, m/s^2. It has no latency."""
-
-    lowest: float = 9.0
-    """Lower limit of |a| of a standing foot, m/s^2."""
-    highest: float = 11.0
-    """Upper limit of |a| of a standing foot, m/s^2."""
-    sigma: float = 0.01
-    """Noise of the zero velocity of a stance, m/s."""
-
-    def update(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
-    ) -> Stance:
-        ax, ay, az = acc
-        magnitude = sqrt(ax * ax + ay * ay + az * az)
-        if self.lowest < magnitude < self.highest:
-            return Stance(ZERO, self.sigma, magnitude - GRAVITY, Phase.STATIONARY)
-        return Stance(ZERO, inf, magnitude - GRAVITY, None)

@@ -7,15 +7,14 @@ from math import hypot
 import numpy as np
 
 from solepath.emulate.walk import SampledWalk
-from solepath.papers.pressure_contour.contour import Contours
-from solepath.papers.pressure_contour.printed import printed_contours
+from solepath.papers.pressure_contour.contour import PAPER_LEVELS, Contours, ContourSettings
 from solepath.types import Foot, Layout
 from solepath.types.vector import GRAVITY
+from solepath.validate.alignment import Floats
 
 from ...measures.consistency import yaws
 from ..tables import DrawStyle, PictureTrack, Plot
 from ..walks import thin_out
-from .runs import ContourRun
 
 STANCE_SHOWN = 20
 """Number of the stance after the halt that figure 7 shows."""
@@ -32,11 +31,10 @@ def stance_curves(walked: SampledWalk, layout: Layout, foot: Foot, after: float)
         return ()
     k = min(STANCE_SHOWN, len(strides) - 2)
     landing, leaving = strides[k], strides[k + 1]
-    shares, printed = Contours(), printed_contours()
-    if shares.set_layout(layout) is not None:
+    both = {"ours": Contours(), "20 to 70 kPa": Contours(ContourSettings(pascals=PAPER_LEVELS))}
+    contours = {name: one for name, one in both.items() if one.set_layout(layout) is None}
+    if not contours:
         return ()
-    printed.set_layout(layout)
-    contours = {"ours": shares, "20 to 70 kPa": printed} if printed.levels_in_pascals else {"ours": shares}
     samples = [one for one in walked.samples if landing.t_heel_strike <= one.t <= leaving.t_toe_off]
     t = np.array([one.t for one in samples])
     kinematics = walked.truth.pose(foot, t)
@@ -61,9 +59,8 @@ def stance_curves(walked: SampledWalk, layout: Layout, foot: Foot, after: float)
     return (Plot("a stance (fig. 7)", tracks, "ms since foot-flat", "mm/s or mrad/s", (-50.0, 50.0)),)
 
 
-def bias_curves(run: ContourRun) -> tuple[Plot, ...]:
-    """Return figure 9: time, min, and the bias of each axis of the accelerometer, mg."""
-    minutes = (run.t - run.t[0]) / 60.0
-    points = [np.stack([minutes, run.bias[:, k] / GRAVITY * 1e3], axis=1) for k in range(3)]
+def bias_curves(t: Floats, bias: Floats) -> tuple[Plot, ...]:
+    """Return figure 9: time, min, and the bias (N, 3) of the accelerometer, mg, from times, s, and m/s^2."""
+    points = [np.stack([(t - t[0]) / 60.0, bias[:, k] / GRAVITY * 1e3], axis=1) for k in range(3)]
     tracks = [PictureTrack(f"bias of {axis}", thin_out(of, 600)) for axis, of in zip("xyz", points, strict=True)]
     return (Plot("bias filter (fig. 9)", tracks, "min", "mg"),)

@@ -6,11 +6,13 @@ the start and the end of a track."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from math import atan2, cos, sin
 
 import numpy as np
 from attrs import evolve, frozen
+from numpy.typing import NDArray
 
 from solepath.calibration import Calibration, CalibrationError, InsoleCalibration
 from solepath.calibration.records import merged
@@ -18,17 +20,20 @@ from solepath.emulate.routes.path import Stand
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout as sole_layout
 from solepath.emulate.walk import SampledWalk, sampled
-from solepath.papers.pressure_contour.square import CornerMark, square_drift
+from solepath.emulate.wearers.truth import Truth
+from solepath.events import StrideTaken
+from solepath.foot.navigate.dedrift import LinearDedrift
+from solepath.papers.pressure_contour.square import square_drift
 from solepath.recipes import Recipe
-from solepath.types import SITE_OF_FOOT, Layout, Sample
+from solepath.session import Session
+from solepath.types import SITE_OF_FOOT, Foot, Layout, Sample
 from solepath.validate.alignment import Floats
 
-from ...emulated.laps import MARKS_PER_LAP, field_walk, square
+from ...emulated.laps import field_walk, square
 from ..published import PUBLISHED
 from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults
-from ..walks import align_track, find_halt, join_routes, thin_out
+from ..walks import align_track, final_strides, find_halt, join_routes, matched, thin_out
 from .figures import bias_curves, stance_curves
-from .runs import ContourRun, found_share, run_foot, stance_velocities
 from .variants import FOOT, MAIN, PACE, PRESSURE_ROW, VARIANTS, WITHOUT_BIAS_ROW, Setup
 
 
@@ -47,8 +52,56 @@ HALF_HOUR = 1800.0
 """Duration of the paper's walks, s."""
 XY = tuple[float, float]
 
-NOT_FOUND = -1.0
-"""Value in place of the velocity of the heel, m/s, for a stance in which it was never taken to be at rest."""
+
+@frozen(eq=False)
+class ContourRun:
+    """The results of one recipe on the samples of one foot."""
+
+    strides: tuple[StrideTaken, ...]
+    """Final strides of the foot."""
+    t: Floats
+    """Times of the samples, s, (N)."""
+    at_rest: NDArray[np.bool_]
+    """True for the samples at which the velocity was set to zero, (N)."""
+    bias: Floats
+    """Bias that the recipe's filter has estimated after each sample, sensor frame, m/s^2, (N, 3)."""
+
+
+def run_foot(recipe: Recipe, foot: Foot, samples: Sequence[Sample], calibration: Calibration) -> ContourRun:
+    """Feed the samples of one foot to a session of the recipe, one at a time."""
+    session = Session(recipe, calibration=calibration)
+    events, at_rest, biases = [], [], []
+    for sample in samples:
+        events += session.feed(sample)
+        corrector = session.feet[foot].corrector
+        assert isinstance(corrector, LinearDedrift)
+        at_rest.append(corrector.swing == 0.0)
+        bias = getattr(corrector, "bias", None)
+        biases.append((0.0, 0.0, 0.0) if bias is None else bias.bias)
+    events += session.finish()
+    strides = tuple(final_strides(events))
+    t = np.array([sample.t for sample in samples])
+    return ContourRun(strides, t, np.array(at_rest), np.array(biases))
+
+
+def stance_velocities(run: ContourRun, truth: Truth, foot: Foot, after: float = 0.0) -> Floats:
+    """Return the true velocities of the heel while a recipe took it to be at rest, in stances from `after`, s, on, m/s.
+
+    A velocity is the length of the mean horizontal one over the samples of a stance that were taken for rest: an update
+    with zero velocity makes an error of this size. It is nan for a stance without such a sample.
+
+    A stance here lasts from the middle of one swing to the middle of the next: what is taken for rest in a swing counts
+    to the nearer stance."""
+    velocity = truth.pose(foot, run.t).velocity[:, :2]
+    strides = truth.strides(foot)
+    middles = np.array([0.5 * (one.t_toe_off + one.t_heel_strike) for one in strides])
+    middles = middles[middles >= max(after, float(run.t[0]))]
+    biases = []
+    for start, end in pairwise(middles):
+        rows = slice(*np.searchsorted(run.t, (start, end)).tolist())
+        rest = run.at_rest[rows]
+        biases.append(float(np.linalg.norm(velocity[rows][rest].mean(axis=0))) if rest.any() else float("nan"))
+    return np.array(biases)
 
 
 @frozen
@@ -95,9 +148,9 @@ def walk(job: ContourJob) -> WalkResults:
     """Emulate one walk, calibrate each recipe on the laps and run it on the rest.
 
     Values are "number", the index in LOOPS, "distance", m, and of each recipe "ROW m", the loop-closing error, "ROW
-    biases", the velocity of the heel in each stance while it was taken to be at rest, m/s (NOT_FOUND where it never
-    was), and "ROW found", the share of the stances that were found, %. Panels are the tracks of MAIN and of the printed
-    recipe without its filter or without calibration, and figs. 7 and 9."""
+    mm/s", the velocity of the heel while it was taken to be at rest, "ROW stances %" and "ROW strides %", the shares
+    that were found, and "ROW length m", the mean error of a stride's length. Panels are the tracks of MAIN and of the
+    printed recipe without its filter or without calibration, and figs. 7 and 9."""
     laps, whole = route_of(job)
     setup = job.setup
     walked = sampled(whole, wearer=setup.wearer, insoles={SITE_OF_FOOT[FOOT]: setup.device}, seed=job.seed)
@@ -107,38 +160,40 @@ def walk(job: ContourJob) -> WalkResults:
     cells, shoe = setup.device.cells, setup.wearer.shoe
     insole = cells if isinstance(cells, Layout) else sole_layout(cells, FOOT, shoe.length, shoe.width)
     known = Calibration(insoles={FOOT: InsoleCalibration(layout=insole)})
-    marks = _marks(walked, t_halt)
+    true_strides = [one for one in walked.truth.strides(FOOT) if one.t_start > t_halt]
     shown: dict[str, ContourRun] = {}
     values: Values = {"number": (float(job.number),), "distance": (whole.length - laps.length,)}
     panels = stance_curves(walked, insole, FOOT, t_halt)
     for name in job.variants:
-        drift = _drift(VARIANTS[name], before, known, marks)
+        drift = _drift(VARIANTS[name], before, known, is_printed="printed" in name)
         run = run_foot(VARIANTS[name], FOOT, after, merged(known, Calibration(drift={FOOT: drift})))
         velocities = stance_velocities(run, walked.truth, FOOT, t_halt)
-        values[f"{name} m"] = (float(np.linalg.norm(_track(run)[-1])),)
-        values[f"{name} biases"] = tuple(np.nan_to_num(velocities, nan=NOT_FOUND).tolist())
-        values[f"{name} found"] = (100.0 * found_share(velocities),)
+        found, pairs = velocities[~np.isnan(velocities)], matched(run.strides, true_strides)
+        values |= {
+            f"{name} m": (float(np.linalg.norm(_track(run)[-1])),),
+            f"{name} mm/s": (1e3 * float(found.mean()) if len(found) else 0.0,),
+            f"{name} stances %": (100.0 * len(found) / len(velocities),),
+            f"{name} strides %": (100.0 * len(pairs) / len(true_strides),),
+            f"{name} length m": (float(np.mean([abs(one.length - true.length) for one, true in pairs] or [0.0])),),
+        }
         if name in MAIN or name == WITHOUT_BIAS_ROW:
             shown[name] = run
         if name == PRESSURE_ROW:
-            panels += bias_curves(run)
+            panels += bias_curves(run.t, run.bias)
     if job.uncalibrated:
         shown["Pressure as printed, uncalibrated"] = run_foot(VARIANTS[WITHOUT_BIAS_ROW], FOOT, after, known)
     return WalkResults(values, (Plot("", _tracks(walked, t_halt, shown), marks=(("start", 0.0, 0.0),)), *panels))
 
 
-def _marks(walked: SampledWalk, t_halt: float) -> tuple[CornerMark, ...]:
-    """Return the visits of the marks in the laps: every fortieth stride of the foot is on the same mark."""
-    strides = [one for one in walked.truth.strides(FOOT) if one.t_end < t_halt]
-    return tuple([CornerMark(str(k % MARKS_PER_LAP), one.t_end) for k, one in enumerate(strides)])
+def _drift(recipe: Recipe, laps: list[Sample], known: Calibration, is_printed: bool) -> XY:
+    """Return the drift of a recipe by the laps, m/s; zero if it lost strides in them, so that nobody can tell.
 
-
-def _drift(recipe: Recipe, laps: list[Sample], known: Calibration, marks: tuple[CornerMark, ...]) -> XY:
-    """Return the drift of a recipe by the laps, m/s; zero if it found too few strides in them to tell."""
+    As printed every slope is used; ours uses one that is larger than chance explains."""
     try:
-        return square_drift(laps, foot=FOOT, marks=marks, recipe=recipe, calibration=known, lenient=True).kept
+        drift = square_drift(laps, foot=FOOT, recipe=recipe, calibration=known)
     except CalibrationError:
         return (0.0, 0.0)
+    return drift.slope if is_printed else drift.kept
 
 
 def _track(run: ContourRun) -> Floats:

@@ -1,22 +1,21 @@
-"""Figures 11 and 14 of Chen et al. 2019, and the share of a gait cycle in which a velocity is known."""
+"""Figures 10, 11 and 14 of Chen et al. 2019, and the share of a gait cycle in which a velocity is known."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 import numpy as np
 from attrs import frozen
 
 from solepath.calibration import Calibration
-from solepath.events import Event, StrideFused
-from solepath.foot.stance.stance import Stance
+from solepath.events import Event, HeelStrike, StrideFused, ToeOff
+from solepath.papers.kupt_dfpc.cop_cues import CopCues
+from solepath.papers.kupt_dfpc.known_velocity import KnownVelocity
 from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC_PRINTED
-from solepath.papers.kupt_dfpc.swing.dedrift import LARGEST_ROLLING_SIGMA, SwingDedrift
-from solepath.papers.kupt_dfpc.swing.settings import PRINTED
+from solepath.papers.kupt_dfpc.swing_drift import SwingDedrift
 from solepath.session import Session
-from solepath.types import Foot, Phase, Sample
-from solepath.types.attrs import define, evolve, field
+from solepath.types import Foot, Sample
 
 from ..tables import DrawStyle, PictureTrack, Plot
 from ..walks import final_strides
@@ -25,11 +24,13 @@ LEAST_MOTION_TIME = 0.3
 """Shortest time between two stances that is a stride, s."""
 SHOWN_STRIDES = 3
 """Number of strides of fig. 14."""
+STATIONARY_LEVEL = 0.25
+"""Height of the line of fig. 10 in a stationary epoch, m."""
 
 
 @frozen
 class KnownSample:
-    """The velocities of one sample, along the direction of the walk, which is x."""
+    """What is known at one sample: velocities along the direction of the walk, which is x, and the pressure."""
 
     t: float
     """Time of the sample, s."""
@@ -39,35 +40,32 @@ class KnownSample:
     """Velocity of the rolling shoe, m/s; None where there is none."""
     stands: bool
     """True in the stationary epoch."""
+    cop: float | None = None
+    """Centre of pressure along the foot from the heel, m; that of the foot in the air."""
 
 
-@define
-class WatchedSwing(SwingDedrift):
-    """Corrector as printed that keeps the velocities of all samples; it is for figures only."""
-
-    seen: list[KnownSample] = field(factory=list, init=False)
-    """Samples of the session so far."""
-
-    def correct(self, t: float, stance: Stance) -> bool:
-        raw = self.raw_velocity[0]
-        stands = SwingDedrift.correct(self, t, stance)
-        rolls = stance.hint in (Phase.PUSH_OFF, Phase.LOADING) and stance.sigma <= LARGEST_ROLLING_SIGMA
-        reference = 0.0 if stands else stance.v_ref[0] if rolls else None
-        self.seen.append(KnownSample(t, 0.0 if stands else raw, reference, stands))
-        return stands
+Seen = dict[Foot, list[KnownSample]]
 
 
-def watch(samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, tuple[KnownSample, ...]]:
-    """Return the velocities of both feet, as fig. 11 (a) and (b) and fig. 14 have them."""
-    session = Session(evolve(KUPT_DFPC_PRINTED, corrector=WatchedSwing(PRINTED)), calibration=calibration)
-    session.feed(samples)
-    session.finish()
-    seen = {}
-    for foot in Foot:
-        corrector = session.feet[foot].corrector
-        assert isinstance(corrector, WatchedSwing)
-        seen[foot] = tuple(corrector.seen)
-    return seen
+def watch(samples: Sequence[Sample], calibration: Calibration) -> tuple[Seen, list[Event]]:
+    """Return what the printed recipe knows at each sample of both feet, and its events."""
+    session = Session(KUPT_DFPC_PRINTED, calibration=calibration)
+    seen: Seen = {foot: [] for foot in Foot}
+    events: list[Event] = []
+    for sample in samples:
+        events += session.feed(sample)
+        foot = sample.site.foot
+        assert foot is not None
+        tracker = session.feet[foot]
+        corrector, detector, cues = tracker.corrector, tracker.detector, tracker.cues
+        assert isinstance(corrector, SwingDedrift) and isinstance(detector, KnownVelocity) and isinstance(cues, CopCues)
+        stands, now = corrector.standing, corrector.current
+        reference = 0.0 if stands else None
+        if not stands and now is not None and now.error is not None and detector.position is not None:
+            reference = corrector.interval_velocity[0] - now.error[0]
+        raw = 0.0 if stands else corrector.raw_velocity[0]
+        seen[foot].append(KnownSample(sample.t, raw, reference, stands, cues.cop))
+    return seen, events + session.finish()
 
 
 def coverage(seen: Sequence[KnownSample]) -> tuple[float, float]:
@@ -89,39 +87,65 @@ def _stance_ends(seen: Sequence[KnownSample]) -> list[int]:
     return [k for k, (one, following) in enumerate(pairwise(seen)) if one.stands and not following.stands]
 
 
-def panels(
-    seen: dict[Foot, tuple[KnownSample, ...]], events: dict[str, list[Event]], by_index: list[Event]
-) -> tuple[Plot, ...]:
-    """Return the panels of fig. 11, for the left foot, and fig. 14.
+def panels(seen: Seen, printed: list[Event], zupt: list[Event], known: list[Event]) -> tuple[Plot, ...]:
+    """Return the panels of figs. 10 and 11, each for both feet, and fig. 14 for the left one.
 
-    `events` are those of ZUPT and KUPT+DFPC; `by_index` are those of the recipe whose coefficients are (11)."""
+    `printed` are the events of the printed recipe, which fig. 10 and the weights are of; `zupt` and `known` are those
+    of ZUPT and of ours, whose distances are shown."""
+    plots = [_events_panel(seen[foot], printed, foot) for foot in Foot]
+    for foot, (velocity, weight, distance) in zip(Foot, (("a", "c", "e"), ("b", "d", "f")), strict=True):
+        plots += [
+            Plot(f"velocity (fig. 11 {velocity})", _velocities(seen[foot]), "time, s", "velocity, m/s"),
+            Plot(f"weights (fig. 11 {weight})", _weights(printed, foot), "time, s", "no unit or m/s"),
+            Plot(f"distance (fig. 11 {distance})", _distances(zupt, known, foot), "time, s", "distance, m"),
+        ]
     left = seen[Foot.LEFT]
-    fused = [event for event in events["KUPT+DFPC"] if isinstance(event, StrideFused) and event.foot is Foot.LEFT]
-    weighed = [event for event in by_index if isinstance(event, StrideFused) and event.foot is Foot.LEFT]
-    indices = [
-        PictureTrack("similarity (9)", [(e.t, e.similarity) for e in weighed if e.similarity is not None]),
-        PictureTrack("EI (10), m/s", [(e.t, e.error_index) for e in weighed if e.error_index is not None]),
-        PictureTrack("coefficient (11)", [(e.t, e.coefficient) for e in weighed]),
-    ]
-    walked = [
-        PictureTrack(name, _sums(events[key], Foot.LEFT), DrawStyle.DOTS)
-        for name, key in (("ZUPT", "ZUPT"), ("KUPT", "KUPT+DFPC"))
-    ]
-    total, calibrated = 0.0, []
-    for event in fused:
-        total += event.stride_length
-        calibrated.append((event.t, total))
-    walked.append(PictureTrack("KUPT + 1st stage DFPC", calibrated, DrawStyle.DOTS))
-    walked.append(PictureTrack("KUPT+DFPC", [(e.t, e.distance) for e in fused], DrawStyle.DOTS))
     ends = _stance_ends(left)
     middle = len(ends) // 2
     shown = left[ends[middle] : ends[min(middle + SHOWN_STRIDES, len(ends) - 1)] + 1] if ends else left
-    return (
-        Plot("velocity, left foot (fig. 11 a)", _velocities(left), "time, s", "velocity, m/s"),
-        Plot("weights, left foot (fig. 11 c)", indices, "time, s", "no unit or m/s"),
-        Plot("distance, left foot (fig. 11 e)", walked, "time, s", "distance, m"),
-        Plot("drift in three strides (fig. 14)", _velocities(shown), "time, s", "velocity, m/s"),
+    return (*plots, Plot("drift in three strides (fig. 14)", _velocities(shown), "time, s", "velocity, m/s"))
+
+
+def _events_panel(seen: Sequence[KnownSample], printed: list[Event], foot: Foot) -> Plot:
+    """Return fig. 10 for one foot: the centre of pressure, the stationary epochs and the events found from it."""
+    cop = [(one.t, one.cop) for one in seen if one.cop is not None]
+    tracks = [
+        PictureTrack("stationary", [(one.t, STATIONARY_LEVEL if one.stands else 0.0) for one in seen], DrawStyle.TRUTH),
+        PictureTrack("CoP along the foot", cop),
+    ]
+    for kind in (HeelStrike, ToeOff):
+        times = [one.t for one in printed if isinstance(one, kind) and one.foot is foot]
+        places = np.interp(times, [t for t, _ in cop], [x for _, x in cop]).tolist()
+        tracks.append(PictureTrack(kind.__name__, zip(times, places, strict=True), DrawStyle.DOTS))
+    return Plot(
+        f"{foot.value} foot (fig. 10 {'a' if foot is Foot.LEFT else 'b'})", tracks, "time, s", "from the heel, m"
     )
+
+
+def _weights(events: list[Event], foot: Foot) -> list[PictureTrack]:
+    fused = [event for event in events if isinstance(event, StrideFused) and event.foot is foot]
+    columns = {"similarity (9)": "similarity", "EI (10), m/s": "error_index", "coefficient (11)": "coefficient"}
+    return [
+        PictureTrack(name, [(one.t, value) for one in fused if (value := getattr(one, key)) is not None])
+        for name, key in columns.items()
+    ]
+
+
+def _distances(zupt: list[Event], known: list[Event], foot: Foot) -> list[PictureTrack]:
+    """Return the sums of stride lengths over time, and after each stride the distance of the foot chosen by (13)."""
+    fused = [event for event in known if isinstance(event, StrideFused)]
+    own = [event for event in fused if event.foot is foot]
+    lengths = {
+        "ZUPT": [(one.t, one.length) for one in final_strides(zupt, foot)],
+        "KUPT": [(one.t, one.length) for one in final_strides(known, foot)],
+        "KUPT + 1st stage DFPC": [(one.t, one.stride_length) for one in own],
+    }
+    sums = {name: list(accumulate([length for _, length in of])) for name, of in lengths.items()}
+    tracks = [
+        PictureTrack(name, zip([t for t, _ in of], sums[name], strict=True), DrawStyle.DOTS)
+        for name, of in lengths.items()
+    ]
+    return [*tracks, PictureTrack("KUPT+DFPC", [(one.t, one.distance) for one in fused], DrawStyle.DOTS)]
 
 
 def _velocities(seen: Sequence[KnownSample]) -> tuple[PictureTrack, ...]:
@@ -148,14 +172,5 @@ def without_drift(seen: Sequence[KnownSample], knows_rolling: bool) -> tuple[tup
     if not knots:
         return ()
     samples = [one for one in seen if one.t <= knots[-1][0]]
-    times, known_errors = [t for t, _ in knots], [error for _, error in knots]
-    errors = np.interp([one.t for one in samples], times, known_errors).tolist()
+    errors = np.interp([one.t for one in samples], [t for t, _ in knots], [error for _, error in knots]).tolist()
     return tuple([(one.t, one.raw - error) for one, error in zip(samples, errors, strict=True)])
-
-
-def _sums(events: Sequence[Event], foot: Foot) -> tuple[tuple[float, float], ...]:
-    total, points = 0.0, []
-    for stride in final_strides(events, foot):
-        total += stride.length
-        points.append((stride.t, total))
-    return tuple(points)

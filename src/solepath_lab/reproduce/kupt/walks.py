@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, radians
+from math import inf
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -14,18 +14,16 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import LSM6DSOX, MPU9250, WORN_RESISTIVE, Imu
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.contact import RIGID, GroundContact
-from solepath.emulate.wearers.gait import LoadLaw, Wearer
-from solepath.emulate.wearers.shoe import IN_SOLE, Mounting, Shoe
-from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
+from solepath.emulate.wearers.gait import Wearer
+from solepath.emulate.wearers.shoe import Shoe
+from solepath.papers.kupt_dfpc.known_velocity import KnownVelocity, KnownVelocitySettings
 from solepath.papers.kupt_dfpc.noise import pressure_noise
-from solepath.papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC
+from solepath.papers.kupt_dfpc.recipe import KUPT
 from solepath.papers.kupt_dfpc.shoe.fit import fit_shoe
-from solepath.papers.kupt_dfpc.swing.dedrift import SwingDedrift
-from solepath.papers.kupt_dfpc.swing.settings import PRINTED, SoftSwingSettings
-from solepath.papers.kupt_dfpc.swing.soft import SoftSwing
-from solepath.types import SITE_OF_FOOT, Foot, Vec3
-from solepath.types.attrs import define
-from solepath.types.vector import from_rotation_vector
+from solepath.papers.kupt_dfpc.soft_swing import DriftTime, SoftSwing
+from solepath.papers.kupt_dfpc.swing_drift import SwingDedrift
+from solepath.types import SITE_OF_FOOT, Foot
+from solepath.types.attrs import field, stateful
 
 from ...emulated.laps import corridor, straight
 from ...emulated.postures import postures, write_postures
@@ -56,67 +54,51 @@ class Setting:
     """Low pass before sampling, Hz (`Insole.bandwidth`)."""
     chip: Imu = LSM6DSOX
     """Chip of the IMU."""
-    tilt: float = 0.0
-    """Tilt of the IMU in the sole about the axis across the foot, rad; nobody knows it."""
-    bounce_speed: float = SPEED
-    """Walking speed, m/s: the load's peaks grow with its square, the steps with its root."""
-    load_law: LoadLaw = LoadLaw.OUTWARD
-    """Law by which the load moves in a bend; a straight walk has none."""
-    with_additions: bool = False
-    """True if these walks, too, have a row for each of our additions."""
 
 
-STANDARD = Setting("worn sole", with_additions=True)
+STANDARD = Setting("worn sole")
 SETTINGS = (
     Setting("rigid sole", RIGID),
-    Setting("pivot -1 cm", evolve(WORN, pivot_shift=-0.01)),
-    Setting("pivot +1 cm", evolve(WORN, pivot_shift=0.01)),
-    Setting("pivot +2 cm", evolve(WORN, pivot_shift=0.02), with_additions=True),
+    Setting("pivot +2 cm", evolve(WORN, pivot_shift=0.02)),
     Setting("slip 2 cm", SLIPPING),
-    Setting("impact 14 ms", evolve(WORN, impact_time=0.014, impact_variation=0.0)),
-    Setting("impact 50 ms", evolve(WORN, impact_time=0.05, impact_variation=0.0)),
-    Setting("tilt 5 deg", tilt=radians(5.0)),
     Setting("no low pass", bandwidth=inf),
     Setting("MPU-9250", chip=MPU9250),
-    Setting("slow, flat load", bounce_speed=0.9),
 )
 """Settings of the sensitivity block; each differs from STANDARD in one thing."""
-OTHER_LAW = Setting("load heel out, forefoot in", load_law=LoadLaw.HEEL_OUT_FOREFOOT_IN)
-"""Setting of the corridor, the walk with bends, in which the load moves by the other law."""
 
 
-@define
-class ZuptBias(SoftSwing):
-    """ZUPT with one linear drift for each motion, to which only the accelerometer's bias is added."""
+@stateful
+class EvenDrift(DriftTime):
+    """Time of the drift in swing that is not learnt: the drift is linear, as in (8)."""
 
-    def _calibrated_displacement(self, duration: float) -> Vec3 | None:
-        return None
+    def add(self, rise: float, slope: float) -> None:
+        return
 
 
-ABLATIONS = {
-    "KUPT as printed, our load": evolve(KUPT, corrector=SwingDedrift(PRINTED)),
-    "KUPT + slide": evolve(KUPT, corrector=SwingDedrift()),
-    "KUPT + soft": evolve(
-        KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0, learns_rolling=False, learns_time=False))
-    ),
-    "KUPT + pivot, slide": evolve(KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0, learns_time=False))),
-    "KUPT + time": evolve(KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0))),
-    "KUPT (+ bias)": KUPT,
-    "ZUPT + bias only": evolve(KUPT, corrector=ZuptBias()),
-    "ZUPT + soft": evolve(
-        KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0, uses_rolling=False, learns_time=False))
-    ),
-    "ZUPT + time": evolve(KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0, uses_rolling=False))),
+@stateful
+class LinearSwing(SoftSwing):
+    """Ours without the learnt time of the drift."""
+
+    drift_time: DriftTime = field(factory=EvenDrift)
+
+
+@stateful
+class UnbiasedSwing(SoftSwing):
+    """Ours without the bias of the accelerometer."""
+
+    def scaled(self, scale: float) -> None:
+        return
+
+
+NOT_ROLLING = KnownVelocity(KnownVelocitySettings(rolling_sigma=inf))
+"""Detector whose velocities of a rolling shoe nobody uses."""
+VARIANTS = {
+    "KUPT as printed, our load": evolve(KUPT, corrector=SwingDedrift()),
+    "KUPT, no bias": evolve(KUPT, corrector=UnbiasedSwing()),
+    "KUPT, linear in swing": evolve(KUPT, corrector=LinearSwing()),
+    "ZUPT, same additions": evolve(KUPT, detector=NOT_ROLLING),
 }
-"""Our additions to KUPT, one after the other, and those additions to ZUPT, which has no velocity of a rolling shoe."""
-SAME_ADDITIONS = evolve(KUPT_DFPC, corrector=SoftSwing(SoftSwingSettings(uses_rolling=False)))
-"""ZUPT with all our additions to KUPT, fused: unlike in `KUPT_DFPC` no velocity of a rolling shoe corrects the track.
-
-Error indices (10) still tell which strides are normal; `DoubleFoot` leaves the others alone."""
-BY_ERROR_INDEX = KUPT_DFPC.replace_part(
-    DoubleFoot, DoubleFoot(FusionSettings(by_variance=False)), "KUPT+DFPC by error index"
-)
-"""Our KUPT with strides weighted by their error indices, as in (11)."""
+"""Ours without one addition, and our additions without any velocity of a rolling shoe."""
 
 
 @frozen(eq=False)
@@ -137,13 +119,9 @@ class PreparedWalk:
 
 def prepare(seed: int, setting: Setting, in_corridor: bool) -> PreparedWalk:
     """Emulate one walk and calibrate on its first part."""
-    speed = setting.bounce_speed
-    route = corridor(CORRIDOR_LENGTH, speed) if in_corridor else straight(WALK_LENGTH, speed)
-    tilted = Mounting(IN_SOLE.position, from_rotation_vector((0.0, setting.tilt, 0.0)))
-    insole = Insole(
-        rate=RATE, cell_part=WORN_RESISTIVE, bandwidth=setting.bandwidth, chip=setting.chip, mounting=tilted
-    )
-    wearer = Wearer(shoe=Shoe(contact=setting.contact), load_law=setting.load_law)
+    route = corridor(CORRIDOR_LENGTH, SPEED) if in_corridor else straight(WALK_LENGTH, SPEED)
+    insole = Insole(rate=RATE, cell_part=WORN_RESISTIVE, bandwidth=setting.bandwidth, chip=setting.chip)
+    wearer = Wearer(shoe=Shoe(contact=setting.contact))
     devices = {SITE_OF_FOOT[foot]: insole for foot in Foot}
     walk = emulate(join_routes(NOISE_WALK, route), wearer=wearer, devices=devices, seed=seed)
     t_halt = find_halt(walk.walker, NOISE_WALK)

@@ -13,13 +13,13 @@ from solepath.foot.stance.stance import Detector
 from solepath.papers.shoe_sensing.posture import INITIAL_TIME, gravity_error
 from solepath.papers.shoe_sensing.printed import GatedTilt
 from solepath.papers.shoe_sensing.recipe import SHOE_SENSING_PRINTED
-from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude, EnergySettings, printed_energy
+from solepath.papers.shoe_sensing.short_time_energy import EnergySettings, printed_energy
 from solepath.session import Session
 from solepath.types import Phase, Sample
 
 from ..tables import DrawStyle, PictureTrack, Plot
 from .scores import states_of
-from .variants import FOOT, STATES, WINDOWS
+from .variants import FOOT, STATES, WINDOWS, AccelerationMagnitude
 
 SHOWN = 2.5
 """Duration of what figures 3 and 20 show, s: two strides or three."""

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import product
 
 import numpy as np
 
-from solepath.validate.alignment import Floats
-
 from ..tables import WalkResults, pooled
-from .scores import relative_error
-from .variants import DEFAULT_ROW, LEVEL, METHODS, STAIRS, STATES, ShoeSetup
+from .variants import DEFAULT_ROW, LEVEL, METHODS, SETUPS, STAIRS, STATES
 
 Results = Mapping[str, Sequence[WalkResults]]
 """Results of the wearers by walk."""
@@ -52,33 +48,9 @@ PAPER_NOTES = (
 )
 
 
-def notes(
-    results: Results, long_walk: WalkResults, setups: Sequence[ShoeSetup], setup_walks: Sequence[WalkResults]
-) -> tuple[str, ...]:
-    """Return all sentences below the table; `setup_walks` are the short walks of `setups`."""
-    return (
-        *DEFINITIONS,
-        *_length_notes(results),
-        *_tour_notes(results),
-        *_long_notes(long_walk),
-        *_setup_notes(setups, setup_walks),
-        *PAPER_NOTES,
-    )
-
-
-def _length_notes(results: Results) -> list[str]:
-    """Return a sentence about the lengths of each state and method."""
-    lines = []
-    for state, method in product(STATES, METHODS):
-        walks = results[walk_of(state)]
-        errors, true = (np.array(figures(walks, method, f"{state} {name}")) for name in ("lengths", "true lengths"))
-        if len(errors):
-            lines.append(
-                f"{state.capitalize()}, {method}: {len(errors)} steps of {true.mean():.2f} m on average, lengths right "
-                f"to {100.0 * (1.0 - relative_error(errors, true)):.1f} %, on average {errors.mean():+.3f} m, at worst "
-                f"off by {np.abs(errors).max():.2f} m."
-            )
-    return lines
+def notes(results: Results, setup_walks: Sequence[WalkResults]) -> tuple[str, ...]:
+    """Return all sentences below the table; `setup_walks` are the short walks of `SETUPS`."""
+    return (*DEFINITIONS, *_tour_notes(results), *_setup_notes(setup_walks), *PAPER_NOTES)
 
 
 def _tour_notes(results: Results) -> list[str]:
@@ -86,51 +58,28 @@ def _tour_notes(results: Results) -> list[str]:
     walks, lines = results["five minutes"], []
     length = sum(pooled(walks, "path"))
     for method in (*METHODS, DEFAULT_ROW):
-        ends, heights, headings = (
-            np.abs(figures(walks, method, name)) for name in ("end", "end height", "end heading")
-        )
+        ends, headings = (np.abs(figures(walks, method, name)) for name in ("end", "end heading"))
         lines.append(
             f"Five minutes, {method}: the end is off by {ends.mean():.1f} m on average, "
-            f"{100.0 * ends.sum() / length:.1f} % of the way, and by {ends.max():.1f} m at worst, its height by "
-            f"{heights.mean():.2f} m and {heights.max():.2f} m; the heading of the last steps by {headings.mean():.0f} "
-            f"degrees on average and {headings.max():.0f} at worst."
+            f"{100.0 * ends.sum() / length:.1f} % of the way, and by {ends.max():.1f} m at worst; the heading of the "
+            f"last steps by {headings.mean():.0f} degrees on average and {headings.max():.0f} at worst."
         )
     return lines
 
 
-def _long_notes(walk: WalkResults) -> list[str]:
-    """Return a sentence about the walk of twenty rounds by each method."""
-    lines = []
-    for method in METHODS:
-        names = ("walking steps", "legs", "true legs", "courses", "heading", "end", "end height")
-        steps, legs, true, courses, heading, end, height = (_mean(figures([walk], method, name)) for name in names)
-        courses = _mean(np.abs(figures([walk], method, "courses")))
-        lines.append(
-            f"Twenty rounds by one wearer, {walk.values['path'][0]:.0f} m, {method}: steps {steps:.1f} %, a leg of "
-            f"{true:.2f} m comes out as {legs:.2f} m, the course of steps is off by {courses:.1f} degrees, the heading "
-            f"of the last leg by {abs(heading):.0f} degrees, the end by {end:.1f} m and its height by "
-            f"{abs(height):.2f} m."
-        )
-    return lines
-
-
-def _setup_notes(setups: Sequence[ShoeSetup], walks: Sequence[WalkResults]) -> list[str]:
+def _setup_notes(walks: Sequence[WalkResults]) -> list[str]:
     """Return a sentence about each setup of the short walk."""
     lines = [
         "Setups, of which all but the first change one thing; by the printed method and ours: steps walking and "
         "jogging, %; mean error of lengths, m; mean error of heights on stairs, m; states, %."
     ]
-    for setup, one in zip(setups, walks, strict=True):
+    for setup, one in zip(SETUPS, walks, strict=True):
         parts = []
         for method in METHODS:
             found = " and ".join(f"{figures([one], method, f'{state} steps')[0]:.1f}" for state in LEVEL)
-            lengths = _mean(np.abs(figures([one], method, *(f"{state} lengths" for state in STATES))))
-            heights = _mean(np.abs(figures([one], method, *(f"{state} heights" for state in STAIRS))))
-            right = _mean(figures([one], method, *(f"{state} right" for state in STATES)))
+            lengths = np.mean(np.abs(figures([one], method, *(f"{state} lengths" for state in STATES))))
+            heights = np.mean(np.abs(figures([one], method, *(f"{state} heights" for state in STAIRS))))
+            right = np.mean(figures([one], method, *(f"{state} right" for state in STATES)))
             parts.append(f"{method} {found}; {lengths:.3f}; {heights:.3f}; {100.0 * right:.1f}")
         lines.append(f"With {setup.name}: {', '.join(parts)}.")
     return lines
-
-
-def _mean(values: Sequence[float] | Floats) -> float:
-    return float(np.mean(values)) if len(values) else 0.0

@@ -15,12 +15,10 @@ from solepath.events import StrideTaken
 from solepath.papers.shoe_sensing.steepness import angle_per_metre, steepness
 from solepath.types import Foot
 from solepath.validate.alignment import ALIGNMENT_LENGTH, Floats
-from solepath.validate.matching import pairs
 
 from ..tables import Values
+from ..walks import MATCHING_TIME, matched
 
-MATCHING_TIME = 0.3
-"""Largest time between the ends of a found stride and the true one that it matches, s."""
 TWO_RISERS = 0.25
 """Height change that only a stride over two risers of 0.16 m exceeds, m."""
 LEAST_LEVEL_LENGTH = 0.3
@@ -50,12 +48,6 @@ def states_of(truth: Truth, foot: Foot) -> list[str | None]:
         else:
             states.append("jogging" if planned.kind is StrideKind.RUN else "walking")
     return states
-
-
-def matched(found: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tuple[StrideTaken, TrueStride]]:
-    """Return the pairs of a found and a true stride whose ends are at most MATCHING_TIME apart, one to one."""
-    ends = [one.t_end for one in true], [stride.t_end for stride in found]
-    return [(found[j], true[i]) for i, j in pairs(*ends, MATCHING_TIME)]
 
 
 def score_strides(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> Scores:
@@ -93,15 +85,14 @@ def score_legs(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> Scor
     """Return the figures of all legs: strides on the level between turns on the spot.
 
     "legs" and "true legs": distances from their starts to their ends, m; "courses": direction error of each matched
-    stride, degrees, after alignment over its leg's first two metres; "heading": direction of the last leg minus the
-    true one, degrees, positive to the left; the first leg is aligned with it."""
+    stride, degrees, after alignment over its leg's first two metres."""
     legs: list[list[TrueStride]] = [[]]
     for one, state in zip(truth.strides(foot), states_of(truth, foot), strict=True):
         if state is not None:
             legs[-1].append(one)
         elif legs[-1]:
             legs.append([])
-    found, courses, headings = [], [], []
+    found, courses = [], []
     for leg in [leg for leg in legs if leg]:
         start, end = leg[0].t_start, leg[-1].t_end
         inside = [stride for stride in strides if start + 0.05 < stride.t_end < end + MATCHING_TIME]
@@ -109,10 +100,8 @@ def score_legs(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> Scor
             ours, true = (np.sum([one.displacement for one in part], axis=0) for part in (inside, leg))
             found.append([float(hypot(*way[:2])) for way in (ours, true)])
             courses += _courses(matched(inside, leg))
-            headings.append(_angle(ours) - _angle(true))
     lengths, true_lengths = zip(*found, strict=True) if found else ((), ())
-    heading = tuple([degrees(_wrapped(headings[-1] - headings[0]))]) if headings else ()
-    return {"legs": lengths, "true legs": true_lengths, "courses": tuple(courses), "heading": heading}
+    return {"legs": lengths, "true legs": true_lengths, "courses": tuple(courses)}
 
 
 def _angle(displacement: Sequence[float]) -> float:

@@ -31,8 +31,10 @@ WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
 """Walking and jogging speed, m/s: assumed, so that strides are about as long as the paper's 1.20 m and 1.60 m."""
 LEG = 19.2
 """Length of the straight line, m (section 4.2.1)."""
-ROUNDS, MANY_ROUNDS = 2, 20
-"""Number of rounds "back and forth", and on the stairs up and down, of each wearer, and of the longest walk."""
+ROUNDS = 2
+"""Number of rounds "back and forth", and on the stairs up and down, of each wearer."""
+STANDING_TIME = 6.0
+"""Time for which the wearer stands before the first step, s."""
 SIDES = (6.0, 7.0)
 """Sides of the rectangle, m (section 4.2.4, fig. 25b)."""
 RISERS = 11
@@ -50,46 +52,40 @@ MAX_POINTS = 400
 """Largest number of points of a track in the figure."""
 
 
-def _standing(setup: ShoeSetup) -> Route:
-    return Route().stand(setup.standing)
-
-
-def line_route(setup: ShoeSetup = TABLE, rounds: int | None = None, jogs: bool = False) -> Route:
+def line_route(rounds: int = ROUNDS, jogs: bool = False) -> Route:
     """Return the line there and back, at a walk or at a jog, with a turn on the spot at either end."""
-    route = _standing(setup)
-    for _ in range(2 * (ROUNDS if rounds is None else rounds)):
+    route = Route().stand(STANDING_TIME)
+    for _ in range(2 * rounds):
         route = route.jog(LEG, JOGGING_SPEED) if jogs else route.walk(LEG, WALKING_SPEED)
         route = route.turn(HALF_TURN).stand(1.0)
     return route
 
 
-def stairs_route(setup: ShoeSetup = TABLE, rounds: int | None = None) -> Route:
+def stairs_route(rounds: int = ROUNDS) -> Route:
     """Return a flight up and down, with a few metres and a turn on the spot at either end."""
-    route = _standing(setup)
-    for _ in range(ROUNDS if rounds is None else rounds):
-        for up in (True, False):
-            route = route.walk(2.5, 1.2).stairs(RISERS, up=up).walk(2.5).turn(HALF_TURN).stand(1.0)
+    route = Route().stand(STANDING_TIME)
+    for up in (True, False) * rounds:
+        route = route.walk(2.5, 1.2).stairs(RISERS, up=up).walk(2.5).turn(HALF_TURN).stand(1.0)
     return route
 
 
-def short_route(setup: ShoeSetup = TABLE) -> Route:
+def short_route() -> Route:
     """Return one round of each: walking, jogging, stairs."""
-    parts = (line_route(setup, 1), line_route(setup, 1, True), stairs_route(setup, 1))
-    actions = [action for k, part in enumerate(parts) for action in part.actions[1 if k else 0 :]]
-    return Route(tuple(actions))
+    parts = (line_route(1), line_route(1, True), stairs_route(1))
+    return Route(tuple([action for k, part in enumerate(parts) for action in part.actions[1 if k else 0 :]]))
 
 
-def rectangle_route(setup: ShoeSetup = TABLE) -> Route:
+def rectangle_route() -> Route:
     """Return the rectangle of fig. 25b, with a turn on the spot at each corner."""
-    route = _standing(setup)
+    route = Route().stand(STANDING_TIME)
     for side in SIDES * 2:
         route = route.walk(side, WALKING_SPEED).turn(QUARTER_TURN).stand(1.0)
     return route
 
 
-def ramps_route(setup: ShoeSetup = TABLE) -> Route:
+def ramps_route() -> Route:
     """Return 20 m on the level, ramps up and down of either slope, and a kerb up and down, all straight on."""
-    route = _standing(setup).walk(20.0, WALKING_SPEED)
+    route = Route().stand(STANDING_TIME).walk(20.0, WALKING_SPEED)
     for slope in SLOPES:
         for signed in (slope, -slope):
             route = route.walk(RAMP, slope=signed).walk(5.0)
@@ -98,29 +94,27 @@ def ramps_route(setup: ShoeSetup = TABLE) -> Route:
     return route.stop(2.0)
 
 
-def tour_route(setup: ShoeSetup = TABLE) -> Route:
+def tour_route() -> Route:
     """Return the route of fig. 35: corridors of two storeys and the stairs between them, for five minutes."""
-    route = _standing(setup)
+    route = Route().stand(STANDING_TIME)
     for up in (True, False):
-        for _ in range(LAPS):
-            for _ in range(2):
-                route = route.walk(LEG, 1.2).turn(QUARTER_TURN, 1.0).walk(9.0).turn(QUARTER_TURN, 1.0)
+        for _ in range(2 * LAPS):
+            route = route.walk(LEG, 1.2).turn(QUARTER_TURN, 1.0).walk(9.0).turn(QUARTER_TURN, 1.0)
         route = route.walk(4.0)
         route = route.stairs(RISERS, up=up).turn(HALF_TURN, 0.7).stairs(RISERS, up=up).walk(4.0)
     return route.stop(3.0)
 
 
-ROUTES: dict[str, Callable[[ShoeSetup], Route]] = {
+ROUTES: dict[str, Callable[[], Route]] = {
     "walking": line_route,
     "jogging": partial(line_route, jogs=True),
     "stairs": stairs_route,
-    "twenty rounds": lambda setup: line_route(setup, MANY_ROUNDS),
     "short": short_route,
     "rectangle": rectangle_route,
     "ramps": ramps_route,
     "five minutes": tour_route,
 }
-"""Functions that return the route of each walk for a setup."""
+"""Functions that return the route of each walk."""
 TITLES = {
     "walking": "there and back (fig. 25a)", "rectangle": "rectangle (fig. 25b)", "stairs": "stairs (fig. 28)",
     "five minutes": "five minutes (fig. 35)",
@@ -129,8 +123,8 @@ TITLES = {
 WALK_RECIPES: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("walking", "jogging", "stairs"), tuple(MAIN)),
     "short": tuple(SHORT),
-    **dict.fromkeys(("rectangle", "twenty rounds"), (OURS, PRINTED)),
-    "ramps": (*MAIN, BY_ANGLE, DEFAULT_ROW),
+    "rectangle": (OURS, PRINTED),
+    "ramps": (OURS, PRINTED, BY_ANGLE, DEFAULT_ROW),
     "five minutes": (OURS, PRINTED, DEFAULT_ROW),
 }
 """Names of the recipes that walk each walk."""
@@ -153,7 +147,7 @@ def walk(job: ShoeJob) -> WalkResults:
 
     Values are "path", the horizontal length of the true path of the foot, m, and "RECIPE: NAME" with the names of
     `Scores`. Panels of a walk that is drawn are figs. 3, 7 and 20, or its tracks in space."""
-    samples, truth = sample_walk(ROUTES[job.walk](job.setup), job.seed, job.setup)
+    samples, truth = sample_walk(ROUTES[job.walk](), job.seed, job.setup)
     names = WALK_RECIPES[job.walk] if job.setup == TABLE else (OURS, PRINTED)
     sessions = {name: run_session(RECIPES[name], samples) for name in names}
     panels: tuple[Plot, ...] = ()
@@ -179,7 +173,7 @@ def _score(job: ShoeJob, events: Sequence[Event], truth: Truth) -> Scores:
     """Return the figures of strides and legs, of each ramp and kerb, and of the track (`_score_track`)."""
     strides = final_strides(events, FOOT)
     scores = score_strides(strides, truth, FOOT) | _score_track(strides, truth)
-    if job.walk in ("walking", "jogging", "rectangle", "twenty rounds"):
+    if job.walk in ("walking", "jogging", "rectangle"):
         scores |= score_legs(strides, truth, FOOT)
     return scores | ({"rises": _rises(strides, truth)} if job.walk == "ramps" else {})
 

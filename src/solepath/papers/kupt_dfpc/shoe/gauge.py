@@ -11,8 +11,9 @@ from collections import deque
 from math import atan2, fsum, hypot, sqrt
 
 from ....types import Vec3
-from ....types.attrs import define, field, frozen
-from ....types.vector import GRAVITY, cross
+from ....types.attrs import field, frozen, stateful
+from ....types.vector import GRAVITY, cross, dot, sub
+from ..kinematics import across, length, of_length_1
 
 STILL_TIME = 1.0
 """Time for which a shoe must be still before its pitch is taken, s; the pitch is the mean over this time."""
@@ -43,19 +44,19 @@ class PitchReading:
     """True if the shoe was still for STILL_TIME."""
 
 
-@define
+@stateful
 class PitchGauge:
     """Measures the pitch of a shoe from its accelerations: first flat, then in postures with the heel raised.
 
     Memory is bounded by the samples of STILL_TIME."""
 
-    flat: Vec3 | None = field(default=None, init=False)
+    flat: Vec3 | None = None
     """Direction up in the sensor frame while the shoe stood flat, of length 1; None before it was taken."""
-    heel_way: Vec3 | None = field(default=None, init=False)
+    heel_way: Vec3 | None = None
     """Direction across `flat`, of length 1, towards which up turns as the heel rises; None before it is known."""
-    steepest: float = field(default=0.0, init=False)
+    steepest: float = 0.0
     """Tilt of the posture that gave `heel_way`, rad."""
-    recent: deque[tuple[float, Vec3]] = field(factory=deque, init=False)
+    recent: deque[tuple[float, Vec3]] = field(factory=deque)
     """Time, s, and acceleration, m/s^2, of the samples of the last STILL_TIME, and one before."""
 
     def add_sample(self, t: float, acc: Vec3) -> None:
@@ -76,22 +77,19 @@ class PitchGauge:
             return None
         newest = self.recent[-1][0]
         mean = _mean([acc for t, acc in self.recent if t > newest - PRESENT_TIME])
-        size = _length(mean)
-        if size == 0.0:
-            return None
-        return self._reading(_scaled(mean, 1.0 / size))
+        return None if length(mean) == 0.0 else self._reading(of_length_1(mean))
 
     def _reading(self, up: Vec3) -> PitchReading:
         """Return the attitude in which `up`, of length 1, is the direction up in the sensor frame."""
         still = self._is_still()
         if self.flat is None:
             return PitchReading(0.0, 0.0, still)
-        upright = _dot(up, self.flat)
+        upright = dot(up, self.flat)
         if self.heel_way is None:
-            return PitchReading(atan2(_length(_across(up, self.flat)), upright), 0.0, still)
-        raised = _dot(up, self.heel_way)
+            return PitchReading(atan2(length(across(up, self.flat)), upright), 0.0, still)
+        raised = dot(up, self.heel_way)
         return PitchReading(
-            atan2(raised, upright), atan2(_dot(up, cross(self.flat, self.heel_way)), hypot(raised, upright)), still
+            atan2(raised, upright), atan2(dot(up, cross(self.flat, self.heel_way)), hypot(raised, upright)), still
         )
 
     def take(self) -> float | None:
@@ -100,15 +98,14 @@ class PitchGauge:
         The first posture that is taken is the flat one, with pitch 0."""
         if not self._is_still():
             return None
-        mean = _mean([acc for _, acc in self.recent])
-        up = _scaled(mean, 1.0 / _length(mean))
+        up = of_length_1(_mean([acc for _, acc in self.recent]))
         if self.flat is None:
             self.flat = up
             return 0.0
-        way = _across(up, self.flat)
-        tilt = atan2(_length(way), _dot(up, self.flat))
+        way = across(up, self.flat)
+        tilt = atan2(length(way), dot(up, self.flat))
         if tilt > max(self.steepest, STEEP_ENOUGH):
-            self.steepest, self.heel_way = tilt, _scaled(way, 1.0 / _length(way))
+            self.steepest, self.heel_way = tilt, of_length_1(way)
         return self._reading(up).pitch
 
     def _is_still(self) -> bool:
@@ -116,30 +113,11 @@ class PitchGauge:
         if len(self.recent) <= LEAST_SAMPLES or self.recent[-1][0] - self.recent[0][0] < STILL_TIME:
             return False
         values = [acc for _, acc in self.recent]
-        x, y, z = mean = _mean(values)
-        squares = [(a - x) * (a - x) + (b - y) * (b - y) + (c - z) * (c - z) for a, b, c in values]
-        scatter = sqrt(fsum(squares) / len(squares))
-        return scatter <= STILL_SCATTER and abs(_length(mean) - GRAVITY) <= STILL_OFFSET
+        mean = _mean(values)
+        scatter = sqrt(fsum([length(sub(value, mean)) ** 2 for value in values]) / len(values))
+        return scatter <= STILL_SCATTER and abs(length(mean) - GRAVITY) <= STILL_OFFSET
 
 
 def _mean(values: list[Vec3]) -> Vec3:
     x, y, z = (fsum([value[axis] for value in values]) / len(values) for axis in range(3))
     return (x, y, z)
-
-
-def _dot(a: Vec3, b: Vec3) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _length(a: Vec3) -> float:
-    return sqrt(_dot(a, a))
-
-
-def _scaled(a: Vec3, factor: float) -> Vec3:
-    return (factor * a[0], factor * a[1], factor * a[2])
-
-
-def _across(a: Vec3, axis: Vec3) -> Vec3:
-    """Return the part of `a` across `axis`, which has the length 1."""
-    along = _dot(a, axis)
-    return (a[0] - along * axis[0], a[1] - along * axis[1], a[2] - along * axis[2])
