@@ -148,6 +148,7 @@ class Bearing:
             self.waiting = []
             return [evolve(one, known_at=stride.known_at) for one in waiting], []
         is_none = self.evidence <= -KNOWN
-        kept = [] if is_none else [one for one in waiting[-MOST_WAITING:] if stride.t_end - one.t_end < LONGEST_WAIT - TIME_EPSILON]
+        since = stride.t_end - LONGEST_WAIT + TIME_EPSILON
+        kept = [] if is_none else [one for one in waiting[-MOST_WAITING:] if one.t_end > since]
         self.waiting = kept
         return [], waiting[: len(waiting) - len(kept)]

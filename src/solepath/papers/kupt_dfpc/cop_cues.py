@@ -31,7 +31,7 @@ from ...foot.phase import Cue
 from ...foot.pressure.insole import centre
 from ...foot.stance.stance import Load, Stance
 from ...types import Layout, Phase, ValueEnum, Vec3
-from ...types.attrs import field, stateful
+from ...types.attrs import field, state, stateful
 from ...types.vector import TIME_EPSILON
 
 LARGEST_JUMP = 1e3
@@ -96,7 +96,7 @@ class CopCues(Cues):
     uses_centre: ClassVar[bool] = True
 
     settings: TouchSettings = TouchSettings()
-    inertial: InertialCues = field(factory=InertialCues)
+    inertial: InertialCues = state(factory=InertialCues)
     touch: Touch = field(init=False)
     sagittal: float = 0.0
     """Rate about the axis to the wearer's left in the last sample, positive toe down, rad/s (`Cues`)."""

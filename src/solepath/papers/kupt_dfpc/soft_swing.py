@@ -16,7 +16,7 @@ from math import fsum, hypot
 from typing import ClassVar
 
 from ...types import Vec3
-from ...types.attrs import evolve, field, stateful
+from ...types.attrs import evolve, state, stateful
 from ...types.vector import GRAVITY, add, sub
 from .kinematics import up_direction
 from .swing_drift import MotionMoment, SwingDedrift
@@ -148,7 +148,7 @@ class SoftSwing(SwingDedrift):
     recorded feet that roll, and 0.7 to 1.3 for recorded insoles whose cells release the load late: the foot then moves
     already and does not roll."""
 
-    drift_time: DriftTime = field(factory=DriftTime)
+    drift_time: DriftTime = state(factory=DriftTime)
     """Time of the drift in swing."""
     drift: float = 0.0
     """Drift of this motion so far (`MotionMoment.drift`)."""

@@ -14,7 +14,7 @@ from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
 from ...types import Foot, Quat, Vec3
-from ...types.attrs import evolve, field, frozen, stateful
+from ...types.attrs import evolve, frozen, state, stateful
 from ...types.vector import GRAVITY, ZERO, add, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
 from .acc_bias import AccelerometerBias
 
@@ -52,7 +52,7 @@ class BiasZupt(LinearDedrift):
     bias only."""
 
     settings: BiasZuptSettings = BiasZuptSettings()
-    bias: AccelerometerBias = field(factory=AccelerometerBias)
+    bias: AccelerometerBias = state(factory=AccelerometerBias)
     """Bias of the accelerometer."""
     device_attitude: Quat | None = None
     """Attitude that the device reports for the next sample."""

@@ -34,7 +34,7 @@ from math import cos, fsum, hypot, inf, pi, sin
 from operator import mul
 
 from ...types import Cell, Layout
-from ...types.attrs import field, frozen, stateful
+from ...types.attrs import frozen, state, stateful
 from ...types.vector import TIME_EPSILON
 
 HEEL_SHARE = 0.33
@@ -88,17 +88,17 @@ class Contours:
     Latency: the velocity is the mean over the last `COMPARISON_TIME`."""
 
     settings: ContourSettings = ContourSettings()
-    cells: list[int] = field(factory=list)
+    cells: list[int] = state(factory=list)
     """Indices in the layout of the cells used here, in the order of `per_area`; `points` has indices in this list."""
-    per_area: list[float] = field(factory=list)
+    per_area: list[float] = state(factory=list)
     """Weight of each cell's load in the heel's mean pressure, 1/m^2."""
-    points: list[WeightedCells] = field(factory=list)
+    points: list[WeightedCells] = state(factory=list)
     """The centre, followed by the points of each ray from the inside out."""
-    rays: list[tuple[int, float]] = field(factory=list)
+    rays: list[tuple[int, float]] = state(factory=list)
     """Number of points on each ray, and their distance, m."""
     levels: tuple[float, ...] = ()
     """Levels in falling order, in Pa or as shares, as in `settings`."""
-    history: deque[tuple[float, tuple[float, ...]]] = field(factory=deque)
+    history: deque[tuple[float, tuple[float, ...]]] = state(factory=deque)
     """Samples of the last `COMPARISON_TIME`, each with its time, s, and the radii, m, of all levels ray by ray."""
 
     def set_layout(self, layout: Layout) -> str | None:

@@ -13,7 +13,7 @@ from ...foot.stance.cycle import Cycle
 from ...foot.stance.shoe import ShoeDetector
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Layout, Phase, Quat, Vec3
-from ...types.attrs import field, stateful
+from ...types.attrs import field, state, stateful
 from ...types.vector import IDENTITY, TIME_EPSILON, ZERO
 from .contour import PAPER_LEVELS, Contours, ContourSettings
 
@@ -63,7 +63,7 @@ class GyroscopeMagnitude(Cycle):
     0.3 to 1.2 in loose insoles and shoes. So the threshold is that of `Cycle`. Latency: 25 ms."""
 
     settings: CycleSettings = CycleSettings(threshold_position=RATE_POSITION, noise_per_rate_square=0.0, rolls=False)
-    shoe: ShoeDetector = field(factory=AngularRate)
+    shoe: ShoeDetector = state(factory=AngularRate)
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -84,7 +84,7 @@ class PrintedContour(Detector):
 
     settings: ContourSettings = ContourSettings(pascals=PAPER_LEVELS)
     contours: Contours = field(init=False)
-    gyroscope: GyroscopeMagnitude = field(factory=GyroscopeMagnitude)
+    gyroscope: GyroscopeMagnitude = state(factory=GyroscopeMagnitude)
     lacking: str | None = None
     """Sentence about what this detector cannot do; None if nothing is known."""
 
@@ -124,7 +124,7 @@ class ContourVelocity(PrintedContour):
     If loads are less frequent than inertial samples, the last evidence is used for up to `LOAD_VALID_TIME`."""
 
     settings: ContourSettings = ContourSettings()
-    tare: list[float] = field(factory=list)
+    tare: list[float] = state(factory=list)
     """Mean values of the cells that contours use while the foot is in the air, unit of the samples."""
     tare_count: int = 0
     """Number of samples in the air, up to `TARE_SAMPLES`."""

@@ -12,7 +12,7 @@ from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.navigate.level import LevelGround
 from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec2, Vec3
-from ...types.attrs import field, stateful
+from ...types.attrs import state, stateful
 from ...types.vector import GRAVITY, TIME_EPSILON, ZERO, add, dot, sub, tipped
 from .printed import GatedTilt
 
@@ -78,13 +78,13 @@ class ShoeSensing(GatedTilt):
     speed_limit: ClassVar[float] = 0.5
     """Limit of the integrated speed at a stance, m/s."""
 
-    level: LevelGround = field(factory=LevelGround)
+    level: LevelGround = state(factory=LevelGround)
     """Decision which strides are level."""
     turned: float = 0.0
     """Turn that the tilt has not yet followed, rad."""
     motion_time: float = 0.0
     """Duration of the last motion, s."""
-    recent_samples: deque[tuple[float, float, Vec3]] = field(factory=deque)
+    recent_samples: deque[tuple[float, float, Vec3]] = state(factory=deque)
     """Last samples of stance, each with its time, s, duration, s, and change of the velocity, m/s."""
     least_sigma: float = 0.0
     """Least sigma of this stance, m/s."""

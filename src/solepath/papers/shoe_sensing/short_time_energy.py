@@ -10,7 +10,7 @@ from math import inf, sqrt
 
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Phase, Quat, Vec2, Vec3
-from ...types.attrs import field, frozen, stateful
+from ...types.attrs import frozen, state, stateful
 from ...types.vector import GRAVITY, IDENTITY, TIME_EPSILON, ZERO, dot
 
 PAPER_RATE = 100.0
@@ -58,7 +58,7 @@ class ShortTimeEnergy(Detector):
     the speed of the foot, can decide."""
 
     settings: EnergySettings = EnergySettings()
-    entries: deque[Vec2] = field(factory=deque)
+    entries: deque[Vec2] = state(factory=deque)
     """Samples in the window, each with its duration, s, and energy, g^2."""
 
     def update(

@@ -13,7 +13,7 @@ from ...body.part import ActivityPart, PartInput, PartOutput
 from ...events import ActivityChanged, Event, Limitation, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Phase, Site
-from ...types.attrs import define, field, stateful
+from ...types.attrs import define, state, stateful
 from ...types.vector import TIME_EPSILON
 from .steepness import steepness
 
@@ -58,10 +58,10 @@ class AnglePerMetre(ActivityPart):
     """Activity of the last event."""
     limitation_reported: bool = False
     """Flag: what these activities cannot tell was reported."""
-    flights: Flights = field(factory=Flights)
+    flights: Flights = state(factory=Flights)
     reported_t: float | None = None
     """Time `t` of the last event, s; None when that event is on a clock that is no longer used."""
-    feet: dict[Foot, FootTimes] = field(factory=dict)
+    feet: dict[Foot, FootTimes] = state(factory=dict)
     """Times of each foot with samples."""
 
     def reset(self, site: Site) -> None:

@@ -110,7 +110,8 @@ def list_unit_problems(tables: Sequence[FootTable]) -> list[UnusableValues]:
 def _is_stuck(table: FootTable, quantity: str) -> bool:
     """Return whether most values of a quantity are exactly those of the sample before, of a second and more."""
     rows = zip(*table.columns[quantity], strict=True)
-    return len(table) >= LEAST_STUCK and sum([before == after for before, after in pairwise(rows)]) > STUCK_SHARE * len(table)
+    repeats = sum([before == after for before, after in pairwise(rows)])
+    return len(table) >= LEAST_STUCK and repeats > STUCK_SHARE * len(table)
 
 
 def _explain_times(t: Sequence[float], middle: float) -> str:

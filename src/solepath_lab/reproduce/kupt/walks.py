@@ -23,7 +23,7 @@ from solepath.papers.kupt_dfpc.shoe.fit import fit_shoe
 from solepath.papers.kupt_dfpc.soft_swing import DriftTime, SoftSwing
 from solepath.papers.kupt_dfpc.swing_drift import SwingDedrift
 from solepath.types import SITE_OF_FOOT, Foot
-from solepath.types.attrs import field, stateful
+from solepath.types.attrs import state, stateful
 
 from ...emulated.laps import corridor, straight
 from ...emulated.postures import postures, write_postures
@@ -79,7 +79,7 @@ class EvenDrift(DriftTime):
 class LinearSwing(SoftSwing):
     """Ours without the learnt time of the drift."""
 
-    drift_time: DriftTime = field(factory=EvenDrift)
+    drift_time: DriftTime = state(factory=EvenDrift)
 
 
 @stateful

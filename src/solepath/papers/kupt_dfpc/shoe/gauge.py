@@ -11,7 +11,7 @@ from collections import deque
 from math import atan2, fsum, hypot, sqrt
 
 from ....types import Vec3
-from ....types.attrs import field, frozen, stateful
+from ....types.attrs import frozen, state, stateful
 from ....types.vector import GRAVITY, cross, dot, sub
 from ..kinematics import across, length, of_length_1
 
@@ -56,7 +56,7 @@ class PitchGauge:
     """Direction across `flat`, of length 1, towards which up turns as the heel rises; None before it is known."""
     steepest: float = 0.0
     """Tilt of the posture that gave `heel_way`, rad."""
-    recent: deque[tuple[float, Vec3]] = field(factory=deque)
+    recent: deque[tuple[float, Vec3]] = state(factory=deque)
     """Time, s, and acceleration, m/s^2, of the samples of the last STILL_TIME, and one before."""
 
     def add_sample(self, t: float, acc: Vec3) -> None:
