@@ -15,7 +15,7 @@ from math import inf
 
 from attrs import define, evolve, field
 
-from ..body.gait.means import GaitMeans
+from ..body.gait.means import GaitMeans, without_comparison
 from ..events import (
     ActivityChanged,
     CellsFailed,
@@ -360,6 +360,10 @@ class Walk:
                 if defect is Defect.CLOCKS:
                     self.gait.separate_feet()
                     self.recent_gait.separate_feet()
+                    for cycles in self.cycles.values():
+                        cycles.change(without_comparison)
+                    for _ in range(len(self.newest_cycles)):
+                        self.newest_cycles.append(without_comparison(self.newest_cycles.popleft()))
                 _add_new_sentence(self.defects, f"{site.words}: {what}")
             case LinkTrouble(site=site, what=what):
                 _add_new_sentence(self.troubles, f"{site.words}: {what}")
