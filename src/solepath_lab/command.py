@@ -14,7 +14,7 @@ from solepath.cli.completion import COMPLETING, complete
 from solepath.cli.main import form, guarded
 
 from . import options
-from .damage import clocks, losses, sensors
+from .damage import clocks, faults, losses, sensors
 from .emulated import by_hand, evidence, north, reliability, runs
 from .evaluate import command as evaluate
 from .evaluate import sensitivity
@@ -42,6 +42,7 @@ GROUPS: dict[str, tuple[str, dict[str, Command]]] = {
             "sensors": ("damaged sensors", sensors, (FOLDER, ONLY, PROCESSES)),
             "clocks": ("separate clocks of the feet", clocks, (FOLDER, ONLY, PROCESSES)),
             "losses": ("lengths of strides with samples cut out", losses, (FOLDER, PROCESSES)),
+            "faults": ("sensors that fail in mid-walk", faults, (FOLDER, ONLY, options.seeds(3, 9001), PROCESSES)),
         },
     ),
     "emulated": (
