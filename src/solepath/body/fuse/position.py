@@ -93,10 +93,14 @@ class PlacedTrack:
     """Number of times that the foot has come to stand as a foot does, `STRIDES_TO_ALIGN` at most."""
     strides_alone: int = 0
     """Number of strides that the other foot has taken alone since this foot came to stand."""
+    newest_error: float = 0.0
+    """Newest error of the integrated velocity when the foot came to stand, m/s."""
     landing_error: float = 0.0
     """Usual error of the integrated velocity when the foot comes to stand, m/s."""
     stood_at: Vec3 | None = None
-    """Position where the foot came to stand, with its correction, on its own track, m; None until the next sample."""
+    """Position where the foot came to stand, with its correction, on its own track, m; None before that."""
+    stands: bool = False
+    """Flag: the foot has come to stand, and `stood_at` is that of the next sample."""
 
     out: bool = False
     """Flag: the foot counts as absent, because its position cannot be right."""
@@ -146,10 +150,13 @@ class PlacedTrack:
 
     def land(self, error: float, explained: bool) -> None:
         """Note that the foot comes to stand with an error of its velocity, m/s; a gap or clipped peaks explain it."""
+        self.strides_alone, self.stands = 0, True
+        if error == self.newest_error:  # the corrector has seen no other one since
+            return
+        self.newest_error = error
         sound = explained or error < max(LARGEST_LANDING_ERROR, UNUSUAL * self.landing_error)
         self.sound_landings = min(self.sound_landings + 1, STRIDES_TO_ALIGN) if sound else 0
         self.landing_error += STRIDE_WEIGHT * (min(error, LARGEST_LANDING_ERROR) - self.landing_error)
-        self.strides_alone, self.stood_at = 0, None
 
     def correct(self, pivot: Vec3, yaw: float, by: complex, centre: complex | None = None) -> None:
         """Rotate the track by `yaw`, rad, about the place `pivot` of the own track, m, and move it by `by`, m.
@@ -212,6 +219,7 @@ class MeanOfFeet(TrackPart):
                 # peaks that are cut off add to the drift
                 self.tracks[event.site.foot].spoiled |= event.spoils and event.defect is not Defect.CLIPPED
         for stride in strides:
+            self.tracks[stride.foot].stands = True
             if stride.length > LONGEST_STRIDE:
                 self.tracks[stride.foot].sound_landings = 0
 
@@ -221,9 +229,13 @@ class MeanOfFeet(TrackPart):
         if view.sample.acc is None or view.sample.gyro is None:
             return
         this, other = self.tracks[foot], self.tracks[OTHER[foot]]
-        if this.stood_at is None:
-            this.stood_at = view.position if view.levelled and view.after is None else None
-        elif hypot(view.position[0] - this.stood_at[0], view.position[1] - this.stood_at[1]) > LONGEST_STRIDE:
+        if this.stands:
+            if view.after is None:
+                this.stood_at, this.stands = view.position, False
+        elif (
+            this.stood_at is not None
+            and hypot(view.position[0] - this.stood_at[0], view.position[1] - this.stood_at[1]) > LONGEST_STRIDE
+        ):
             this.sound_landings = 0
         has_returned, discredited = this.out, this.discredited
         if discredited and (this.out or (other.t is not None and not other.absent)):
