@@ -34,6 +34,7 @@ GROUPS: dict[str, tuple[str, Kinds]] = {
             "sensors": ("damaged sensors", (FOLDER, ONLY, PROCESSES)),
             "clocks": ("separate clocks of the feet", (FOLDER, ONLY, PROCESSES)),
             "losses": ("lengths of strides with samples cut out", (FOLDER, PROCESSES)),
+            "faults": ("sensors that fail in mid-walk", (FOLDER, ONLY, seeds(3, 9001), PROCESSES)),
         },
     ),
     "emulated": (
@@ -71,9 +72,9 @@ def _modules(group: str) -> dict[str, ModuleType]:
     """Return the modules whose `run` is called: of the kinds of a command of GROUPS, or of the other commands."""
     match group:
         case "damage":
-            from .damage import clocks, losses, sensors
+            from .damage import clocks, faults, losses, sensors
 
-            return {"sensors": sensors, "clocks": clocks, "losses": losses}
+            return {"sensors": sensors, "clocks": clocks, "losses": losses, "faults": faults}
         case "emulated":
             from .emulated import by_hand, evidence, north, other_motions, reliability, runs, slow_walkers
 

@@ -96,7 +96,7 @@ SessionState.reset: awake* decoders feet* height now parts* unsettled apart left
 SessionState.restart_clock: awake* decoders* feet* height now* parts* unsettled left.feet.reset() right.feet.reset()
 Sides.reset: declared
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
-StanceFinder._restart: duration force t turn
+StanceFinder._restart: counted duration force peak t turn weight
 StanceRhythm.reset: usual_stance usual_swing
 StraightWays.reset: straightness.reset()
 Straightness.reset: direction

@@ -22,7 +22,7 @@ UNSEEN = (
     "a gyroscope whose scale is wrong by less than about a half",
     "one axis of a sensor that is dead, in about half of the cases",
     "a gyroscope that is late against the accelerometer, or early, by less than 0.1 s",
-    "a clock that runs at a wrong but constant speed",
+    "a clock that runs at a wrong but constant speed, by less than about a third",
     "sensors of the feet that are exchanged, in about half of the walks",
     "clocks of the feet that are apart, of a wearer who limps",
 )

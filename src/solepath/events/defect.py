@@ -39,7 +39,9 @@ class Defect(Enum):
     AXES = "axes"
     """The axes of the gyroscope are mirrored or exchanged against those of the accelerometer."""
     CONTRADICTION = "motion of the two sensors"
-    """The gyroscope and the accelerometer describe different motions, which no exchange of axes explains."""
+    """The gyroscope and the accelerometer describe different motions, which no exchange of axes explains.
+
+    The times of the samples may be wrong by a factor, or the scale of the gyroscope."""
     CLOCKS = "clocks of the feet"
     """The times of the two feet are not on one clock."""
     IMPOSSIBLE_MOTION = "motion"

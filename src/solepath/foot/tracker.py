@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
-from ..events import Event, Flaw, FootMoved, SampleGap
+from ..events import Defect, DefectFound, Event, Flaw, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import MADE_AGAIN, evolve, field, state, stateful
 from ..types.records import MAX_TIME
@@ -24,6 +24,7 @@ from .rejection import rejected, rejection_reason
 from .rhythm import LONGEST_LOSS, Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load, Stance
+from .stuck import Stuck
 from .view import AfterEvents, FootPose, FootView, PressedCells
 from .world import Covariance3
 
@@ -56,6 +57,7 @@ class FootTracker:
     """Number of samples that the link has lost since the last gap; None where samples are fed without a link."""
     lost_after: float | None = None
     """Time of the sample before a gap that the link has found and that was not reported yet, s; None without one."""
+    stuck: Stuck = state(factory=Stuck)
     rhythm: Rhythm = state(factory=Rhythm)
     levelling: Levelling = state(factory=Levelling)
     levelled: bool = False
@@ -176,6 +178,7 @@ class FootTracker:
         self.levelling = Levelling()
         self.rest.reset()
         self.walk_scale.reset()
+        self.stuck = Stuck()
 
     def feed(self, sample: Sample) -> list[Event]:
         """Return the events of one sample of this foot; one that cannot be used is reported and changes no state."""
@@ -189,6 +192,12 @@ class FootTracker:
         if acc is None and gyro is None and not sample.pressure:
             return []  # from a barometer or magnetometer, which a foot does not use
         events: list[Event] = []
+        if acc is not None and gyro is not None:
+            what = self.stuck.update(t, acc, gyro)
+            if what is not None:
+                events.append(self._stuck_sensor(what, t, known_at))
+            if self.stuck.held:
+                return events
         if self.limitations.pending:
             self.limitations.flush(t, known_at, events)
         if self.t is None or t > self.t:
@@ -267,6 +276,12 @@ class FootTracker:
         if self.settings.poses:
             self._report_motion(t, known_at, events)
         return events
+
+    def _stuck_sensor(self, what: str, t: float, known_at: float) -> DefectFound:
+        """Return the event of a stuck sensor, whose samples are not used."""
+        self.mark_defect()
+        site = SITE_OF_FOOT[self.foot]
+        return DefectFound(t=t, known_at=known_at, site=site, defect=Defect.REPEATED, what=what)
 
     def _add_cells(self, sole: Sole, sample: Sample, known_at: float, events: list[Event]) -> Load | None:
         """Add the pressure cells of a sample; return the load, or None while it is not known."""

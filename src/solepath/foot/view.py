@@ -13,6 +13,10 @@ FASTEST_RUN = 12.5
 """Largest mean speed of a stride that is possible, m/s.
 
 It is that of the fastest 20 m of the world record of 100 m, 1.61 s from 60 to 80 m (Berlin 2009), rounded up."""
+LONGEST_STRIDE = 5.6
+"""Length of the longest strides, m: two steps of 2.8 m.
+
+The mean step of the world record of 100 m, 41 steps, is 2.44 m; the rest is an allowance, chosen by hand."""
 
 
 class PressedCells(NamedTuple):

@@ -290,7 +290,7 @@ class SessionState:
             if events[0].defect is not None:
                 self._run_parts(events, None, events[0].known_at)
             return events
-        if tracker.t is None:  # the foot does not use such a sample, and has no other yet
+        if tracker.t is None or (tracker.stuck.held and not events):  # the foot does not use such a sample
             return events
         if known_tracker is None:
             self._add_tracker(tracker)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Generic, TypeVar
 
 from ..types.attrs import state, stateful
@@ -34,6 +34,12 @@ class ThinnedList(Generic[T]):
                 self.items.append(item)
         self.count += 1
         self.last = item
+
+    def change(self, change: Callable[[T], T]) -> None:
+        """Replace each item by what `change` makes of it."""
+        newest = [] if self.last is None or (self.items and self.items[-1] is self.last) else [self.last]
+        items = [change(item) for item in (*self.items, *newest)]
+        self.items, self.last = items[: len(self.items)], items[-1] if items else None
 
     def __iter__(self) -> Iterator[T]:
         yield from self.items

@@ -15,7 +15,7 @@ from math import inf
 
 from attrs import define, evolve, field
 
-from ..body.gait.means import GaitMeans
+from ..body.gait.means import GaitMeans, without_comparison
 from ..events import (
     ActivityChanged,
     CellsFailed,
@@ -366,6 +366,10 @@ class Walk:
             if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
                 self.gait.separate_feet()
                 self.recent_gait.separate_feet()
+                for cycles in self.cycles.values():
+                    cycles.change(without_comparison)
+                for _ in range(len(self.newest_cycles)):
+                    self.newest_cycles.append(without_comparison(self.newest_cycles.popleft()))
         elif isinstance(event, FootResumed | Connected) or isinstance(event, ClockReset) and event.restarted:
             for fault in self.faults.values():
                 if site_of(fault.event) is site_of(event):

@@ -3,9 +3,9 @@
     solepath-lab damage sensors DIR [--processes N] [--only NAME]
 
 prints the table of docs/checks.md as Markdown. DIR holds recorded data. Of every foot with at least 15 s of walking,
-the first 20 s of walking are damaged, with up to 3 s before them. Whole recordings are searched for alarms. A sensor
-that clips, repeats its values or does not close in the recording itself is listed in measures/alarms.py. The run takes
-about 15 minutes on two processors."""
+the first 20 s from three strides in a row on are damaged, with up to 3 s before them. Whole recordings are searched for
+alarms. A sensor that clips, repeats its values or does not close in the recording itself is listed in
+measures/alarms.py. The run takes about 15 minutes on two processors."""
 
 from __future__ import annotations
 
@@ -131,6 +131,8 @@ def _damages() -> Iterator[Damage]:
     yield Damage("specific force in g", Defect.ACC_UNIT, _linear(acc=AXES / GRAVITY))
     yield Damage("angular rate in deg/s", Defect.GYRO_UNIT, _linear(gyro=np.degrees(AXES)))
     yield Damage("times in ms", Defect.TIME_UNIT, _linear(time=MS))
+    for factor, words in ((1.5, "long"), (1.0 / 1.5, "short")):
+        yield Damage(f"times 1.5 times too {words}", Defect.CONTRADICTION, _linear(time=factor))
     yield Damage("gravity removed", Defect.NO_GRAVITY, remove_gravity)
     yield Damage(
         "clipped at 2 g and 250 deg/s",
@@ -168,7 +170,9 @@ def examine(piece: WalkingFoot) -> DefectOutcome | None:
     if len(strides) < 4:
         return None
     whole = tuple(_reported(samples, piece.foot))
-    start = strides[0][0] - strides[0][1].duration
+    walks = [all([stride.in_a_row for _, stride in strides[i + 1 : i + 3]]) for i in range(len(strides))]
+    known_at, first_stride = strides[walks.index(True)]
+    start = known_at - first_stride.duration
     t = samples[:, 0]
     samples = samples[(t >= start - BEFORE) & (t <= start + WALKING)]
     if samples[-1, 0] - start < LEAST_WALKING:
@@ -182,7 +186,7 @@ def examine(piece: WalkingFoot) -> DefectOutcome | None:
             continue  # once turned, cut peaks no longer end at the range of an axis, which no sensor does
         found = _reported(damage.make(samples), piece.foot)
         names = tuple([event.defect.name for event in found if event.defect not in known])
-        unit = MS if damage.defect is Defect.TIME_UNIT else 1.0
+        unit = float(damage.make(samples[-1:])[0, 0] / samples[-1, 0])
         first = next((event.t / unit for event in found if event.defect is damage.defect), None)
         hit = not names if damage.defect is None else first is not None
         outcomes.append((damage.name, hit, None if first is None else first - start, names))

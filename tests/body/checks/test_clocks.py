@@ -23,6 +23,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.events import Defect, DefectFound, Event
 from solepath.recording import open_source, shift_clock
 from solepath.recording.errors import printable
+from solepath.show.outcomes.clinic import OutcomeRequest
 from solepath.walk.walk import Walk
 
 LEVEL = Route().stand(1.5).walk(40.0, 1.3).stop(1.0)
@@ -157,6 +158,11 @@ def test_nothing_compares_the_feet_after_their_clocks_were_found_apart() -> None
         assert gait is not None and gait.both.stance_time is not None and gait.asymmetry("stance_time") is not None
         assert {getattr(gait.both, name) for name in BETWEEN} == {None}, "not in the means either"
         assert (gait.asymmetry("step_time"), gait.coordination) == (None, None)
+    kept = [cycle for cycles in (*walk.cycles.values(), walk.newest_cycles) for cycle in cycles]
+    assert len(kept) > len(later) and {getattr(cycle, name) for cycle in kept for name in BETWEEN} == {None}
+    rows = OutcomeRequest(outcomes=True).results(walk).rows
+    steps = {row.part: row.value for row in rows if row.name == "step_time"}
+    assert steps == {"variability": None, "asymmetry": None}, "what was measured before is withheld too"
     assert [one.what for one in walk.found_defects] == [defect.what]
 
 

@@ -145,6 +145,47 @@ def test_a_recording_is_silent_and_with_a_mirrored_axis_it_is_not(name: str, dat
         assert {event.site for event in found if event.defect is Defect.AXES} == {sample.site for sample in samples}
 
 
+SLOW = Walker(Route().stand(1.5).walk(6.0, 0.4).stop(1.0), seed=3).samples(Foot.LEFT, 100.0, LSM6DSOX)
+"""A walk of 6 m at 0.4 m/s, with strides of two seconds."""
+
+
+def test_a_slow_walker_is_silent_and_with_a_mirrored_axis_is_not() -> None:
+    assert run(SLOW)[0] == []
+    found, _ = run([vectors(gyro=signed(1.0, -1.0, 1.0))(sample) for sample in SLOW])
+    assert Defect.AXES in {event.defect for event in found}
+
+
+@pytest.mark.parametrize("name", ["coleta1", "coleta2", "coleta3", "leituras2", "slow_walk_10hz"])
+def test_patients_who_walk_slowly_have_sensors_without_fault(name: str, data_dir: Path) -> None:
+    """Some of these sensors cut off peaks, and one is read too rarely."""
+    found, strides = run([*read_samples(data_dir / "slow_gait" / f"{name}.npz")])
+    assert strides and {event.defect for event in found} <= {Defect.CLIPPED, Defect.LOW_RATE}
+
+
+@pytest.mark.parametrize("name", ["walking", "squatting", "3d_hand_movement"])
+def test_hops_and_other_motion_are_no_wrong_accelerometer(name: str, data_dir: Path) -> None:
+    """In a flight the specific force is nearly 0; at rest these sensors read 9.9 m/s^2."""
+    found, _ = run([*read_samples(data_dir / "sevivi_hops" / f"{name}.npz")])
+    assert not {event.defect for event in found} & {Defect.ACC_UNIT, Defect.NO_GRAVITY, Defect.WRONG_SCALE}
+
+
+@pytest.mark.parametrize(("factor", "words"), [(1.5, "too far apart"), (1.0 / 1.5, "too close")])
+@pytest.mark.parametrize("walk", [WALK, SLOW], ids=["walking", "walking slowly"])
+def test_times_that_are_wrong_by_a_factor_are_named(walk: list[Sample], factor: float, words: str) -> None:
+    found, _ = run([evolve(sample, t=factor * sample.t, known_at=None) for sample in walk])
+    (event,) = found
+    assert event.defect is Defect.CONTRADICTION and f"the times of the samples are {words}" in event.what
+    found, _ = run([vectors(gyro=scaled(factor))(sample) for sample in walk])
+    assert [event.what for event in found] == [event.what], "a scale of the gyroscope looks the same"
+
+
+def test_of_an_accelerometer_one_thing_is_said() -> None:
+    """Findings on its size exclude each other, and axes are not judged with it."""
+    for factor in (1.0 / GRAVITY, 0.02, 0.25, 2.0):
+        found, _ = run([vectors(acc=scaled(factor), gyro=signed(1.0, -1.0, 1.0))(sample) for sample in WALK])
+        assert len([event for event in found if event.defect is not Defect.IMPOSSIBLE_MOTION]) == 1
+
+
 def test_a_gyroscope_with_a_large_bias_has_the_axes_that_it_has() -> None:
     def biased(v: Vec3) -> Vec3:
         return v[0] + 0.2, v[1] - 0.25, v[2] + 0.15  # 20 degrees/s in all, more than any sheet allows

@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import degrees, radians, sqrt
 
 from ...events import Defect, DefectFound, Flaw, SampleGap, StrideTaken
-from ...foot.view import FASTEST_RUN, FootView
+from ...foot.view import FASTEST_RUN, LONGEST_STRIDE, FootView
 from ...types import PerFoot, Site, per_foot
 from ...types.attrs import define, evolve, state, stateful
 from ...types.vector import GRAVITY
@@ -27,10 +27,6 @@ LEAST_WALKING_STANCE = 0.55
 """Share of a stride with the foot on the ground from which on one foot always is, however even the feet are.
 
 It is one half; the rest is the error of heel-strike and toe-off, 50 ms of a stride of one second."""
-LONGEST_STRIDE = 5.6
-"""Length of the longest strides, m: two steps of 2.8 m.
-
-The mean step of the world record of 100 m, 41 steps, is 2.44 m; the rest is an allowance, chosen by hand."""
 LARGEST_TOE_OFF_ANGLE, LEAST_TOE_OFF_ANGLE = radians(120.0), radians(-45.0)
 """Limits of the angle of the foot at toe-off, heel up positive, rad.
 

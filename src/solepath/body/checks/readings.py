@@ -138,8 +138,6 @@ REPEAT_RATE = 0.5
 """Angular rate of a sample in motion, rad/s: in steps of 0.1 rad/s, those of an 8-bit gyroscope, it hardly repeats."""
 SKIPPED_BLOCKS = 3
 """Number of blocks of motion that are not searched for repeats after each that is, in a sensor that had none so far."""
-STUCK_SHARE = 0.9
-"""Share of repeats in motion above which a sensor does not measure at all."""
 
 
 @define
@@ -219,9 +217,6 @@ class RateCheck:
         if self.had_none:
             return None
         name = "the accelerometer repeats" if acc > gyro else "the gyroscope repeats"
-        if max(acc, gyro) > STUCK_SHARE:
-            text = f"{name} the same values while the foot moves: it is stuck; restart the sensor"
-            return Finding(Defect.REPEATED, text)
         text = (
             f"{'both sensors repeat' if min(acc, gyro) > REPEAT_SHARE else name} values: samples come more often than"
         )
@@ -346,6 +341,8 @@ class GravityCheck:
     """Start of the rest that lasts, s; None in motion."""
     wrong_since: float | None = None
     """Time since which a foot at rest has another specific force than 1 g, s; None while it has 1 g."""
+    rested: bool = False
+    """Flag: a foot at rest had 1 g, whatever its stances show."""
     moving_blocks: int = 0
     """Number of blocks of motion."""
     range_sum: float = 0.0
@@ -362,13 +359,17 @@ class GravityCheck:
         x, y, z = acc
         norm = (x * x + y * y + z * z) ** 0.5
         if motion > STILL_MOTION and (
-            norm > (1.0 + TOLERANCE) * GRAVITY or 1.0 + TOLERANCE < norm / IN_G < LARGEST_IN_RUN
+            norm > (1.0 + TOLERANCE) * GRAVITY or (1.0 + TOLERANCE < norm / IN_G < LARGEST_IN_RUN and not self._walks)
         ):
             return None
         self.stances = [*self.stances[1 - MOST_STANCES :], norm]
-        if not self.knows_stances:
+        if not self.knows_stances or self.rested:
             return None
-        return self._judge(sorted(self.stances)[len(self.stances) // 2], "in stance")
+        norms = sorted(self.stances)
+        middle, quarter = norms[len(norms) // 2], len(norms) // 4
+        # with the accelerometer mended, most stances must read the same, as those of a foot that carries somebody
+        alike = norms[-1 - quarter] - norms[quarter] < TOLERANCE * middle or middle < LEAST_GRAVITY * GRAVITY
+        return self._judge(middle, "in stance") if alike else None
 
     @property
     def knows_stances(self) -> bool:
@@ -415,12 +416,18 @@ class GravityCheck:
         norm = (x * x + y * y + z * z) ** 0.5
         finding = self._judge(norm, "at rest")
         if finding is None:
+            self.rested = self.rested or abs(norm / GRAVITY - 1.0) <= TOLERANCE
             self.wrong_since = None
             return None
         if self.wrong_since is None:
             self.wrong_since = t
         may_be_lift = abs(norm / GRAVITY - 1.0) < LARGEST_LIFT and t_end - self.wrong_since < LONGEST_LIFT_START
         return None if may_be_lift else finding
+
+    @property
+    def _walks(self) -> bool:
+        """Return whether the specific force changes as that of a foot which walks, in m/s^2."""
+        return self.range_sum > WALKING_RANGE * self.moving_blocks
 
     def _judge(self, norm: float, when: str) -> Finding | None:
         """Return the defect of an accelerometer that reads `norm` `when` the foot stands; None if it reads 1 g."""
@@ -429,13 +436,12 @@ class GravityCheck:
             return None
         if LEAST_SCALE <= ratio < LEAST_GRAVITY and self.moving_blocks < ENOUGH_BLOCKS:
             return None  # only motion shows whether gravity is missing or all of the specific force is small
-        walks = self.range_sum > WALKING_RANGE * self.moving_blocks
-        if abs(norm - IN_G) <= TOLERANCE * IN_G and not walks:
+        if abs(norm - IN_G) <= TOLERANCE * IN_G and not self._walks:
             text = f"the accelerometer reads {norm:.2f} {when}: it is in g; multiply it by 9.80665"
             return Finding(Defect.ACC_UNIT, text)
         text = f"the accelerometer reads {norm:.2f} m/s^2 {when}, not 9.81"
         times = round(log2(1.0 / ratio)) if ratio > 0.0 else 0
-        if ratio < LEAST_GRAVITY and (walks or ratio < LEAST_SCALE):
+        if ratio < LEAST_GRAVITY and (self._walks or ratio < LEAST_SCALE):
             text = f"{text}: gravity was removed, or the sensor is off; send what it measures itself, with gravity"
             return Finding(Defect.NO_GRAVITY, text)
         if abs(times) in (1, 2, 3) and abs(ratio * 2.0**times - 1.0) <= TOLERANCE:

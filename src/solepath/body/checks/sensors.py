@@ -24,6 +24,8 @@ from .readings import (
 )
 from .stances import Axes, Finding, Row, StanceFinder
 
+OF_FORCE: Final = frozenset((Defect.ACC_UNIT, Defect.NO_GRAVITY, Defect.WRONG_SCALE))
+"""Defects of the size of the specific force; one sensor has one of them, and its axes are not judged with it."""
 BLINDING: Final = frozenset((Defect.TIME_UNIT, Defect.BURSTS, Defect.GYRO_UNIT))
 """Defects with which no stance can be found, so that gravity and axes cannot be judged."""
 LONGEST_INTERVAL = 1.0 / 40.0
@@ -141,6 +143,8 @@ class SensorChecks(Part):
 def _is_new(check: SensorCheck, finding: Finding) -> bool:
     """Return whether a finding of a foot is to be reported, and keep that it was."""
     defect, axes = finding.defect, finding.axes
+    if defect in OF_FORCE and not OF_FORCE.isdisjoint(check.reported):
+        return False
     is_worse = finding.spoils and defect in check.mild
     if defect in check.reported and not is_worse and (axes is None or check.corrected is not None):
         return False
@@ -177,11 +181,15 @@ def _examine(check: SensorCheck, gyro_bias: Vec3) -> list[Finding | None]:
         return findings
     if check.settled_at is not None:
         if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
-            check.settled_at = None
+            check.settled_at, check.gravity.rested = None, False
         return findings
-    axes, is_slow, cuts_off = check.axes, interval > LONGEST_INTERVAL, check.gyro_range.cuts_off
-    axes.uncertain = is_slow
+    axes, is_slow = check.axes, interval > LONGEST_INTERVAL
+    cuts_off = check.gyro_range.cuts_off or not OF_FORCE.isdisjoint(check.reported)
+    axes.uncertain = is_slow or Defect.REPEATED in check.reported
+    axes.clipped = Defect.CLIPPED in check.reported and Defect.CLIPPED not in check.mild
     for t, stride in check.stances.add(check.rows, gyro_bias):
+        if not stride.in_a_row:  # what names a repair needs somebody who walks
+            continue
         findings += [
             check.gravity.add_stance(stride.last, stride.motion),
             None if is_slow else check.bandwidth.add(stride),

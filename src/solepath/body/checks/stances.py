@@ -6,7 +6,7 @@ steadiness of the specific force, which do not depend on the mounting, on mirror
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import sqrt
+from math import inf, sqrt
 from typing import Final, NamedTuple
 
 from ...events import Defect, DefectFound
@@ -43,14 +43,27 @@ WINDOW = 2 * HALF_WINDOW + 1
 """Number of all these intervals."""
 STEADINESS_WEIGHT = 0.2
 """Motion for each unit of standard deviation of the specific force, (rad/s)/(m/s^2)."""
-SWING_MOTION, STANCE_MOTION = 2.0, 1.0
-"""Motion above which a foot swings, and below which it stands, rad/s."""
+FORCE_WEIGHT = 0.5
+"""Motion for each unit by which the size of the specific force differs from that of a still foot, (rad/s)/(m/s^2).
+
+A foot in the middle of a slow swing, or of a jump, turns as little as one that stands, but has another force."""
+SWING_SHARE, STANCE_SHARE = 0.35, 0.5
+"""Angular rate above which a foot swings, as a part of the largest one of its recent swings, and motion below which it
+stands, as a part of that.
+
+Strides are the same in number, to 3 in 100, with (0.3, 0.5), (0.4, 0.5) and a weight of the force of 0.4 to 0.7."""
+LEAST_SWING, MOST_SWING = 0.6, 2.0
+"""Limits of the angular rate above which a foot swings, rad/s: of the slowest walkers, and of all who walk faster."""
+MEMORY = 8.0
+"""Time constant with which the largest angular rate and the force of a still foot are forgotten, s: some strides."""
+STILLNESS = 0.1
+"""Motion of a foot that is as still as a sensor can show, rad/s."""
 TICK, TURN, FORCE = 2.0**-20, 2.0**-16, 2.0**-10
 """Units of an interval's duration, s, its turn, rad, and its specific force, m/s^2."""
 BEST_WITHIN = int(0.4 / TICK)
 """Time after the first and before the last instant of a stance in which its stillest one is searched, `TICK`."""
-MOST_INTERVALS = 140
-"""Largest number of intervals of a stride, 2.6 s; the start of a longer one is forgotten."""
+MOST_INTERVALS = 240
+"""Largest number of intervals of a stride, 4.4 s; the start of a longer one is forgotten."""
 
 Interval = tuple[int, int, int, int, int, int, int]
 """Duration, integral of the angular rate and mean specific force, sensor frame, as whole numbers: they are short in a
@@ -75,6 +88,13 @@ class ClosedStride(NamedTuple):
     """Motion around the second instant, rad/s."""
     duration: float
     """Duration of the intervals, s."""
+    pause: float
+    """Time since the end of the stride before, s; infinite if none ended in the same stance."""
+
+    @property
+    def in_a_row(self) -> bool:
+        """Return whether it follows a stride as in a walk, of any pace: the foot stood no longer than it swung."""
+        return self.pause < self.duration
 
 
 @define
@@ -105,10 +125,20 @@ class StanceFinder:
     """Newest intervals: those of the stride under way and `HALF_WINDOW` before it."""
     rates: Floats = ()
     """Mean angular rates of the newest intervals, rad/s: at most `WINDOW` of them."""
+    peak: float = 0.0
+    """Largest angular rate of the recent swings, rad/s."""
+    weight: float = 0.0
+    """Size of the specific force of the still foot, m/s^2: that of the stillest of the recent intervals."""
+    counted: float = 0.0
+    """Sum of the weights of that mean, s/(rad/s)^2."""
     sums: tuple[int, int, int, int] = (0, 0, 0, 0)
     """Sums of the specific forces of these intervals, `FORCE`, and of their squares."""
     start: int | None = None
     """Index of the instant at which the stride under way began; None when it is unknown."""
+    since_end: int | None = None
+    """Time since the end of the newest stride, in units of `TICK`; None when there was none in the same stance."""
+    pause: int | None = None
+    """Time between the stride before and the one under way, in units of `TICK`; None when there was none."""
     best: Instant | None = None
     """Stillest instant at the beginning of the current stance; None in a swing."""
     latest: Instant | None = None
@@ -154,25 +184,34 @@ class StanceFinder:
 
     def _restart(self) -> None:
         self.intervals, self.rates, self.sums = [], (), (0, 0, 0, 0)
-        self.start = self.best = self.latest = None
+        self.start = self.best = self.latest = self.since_end = self.pause = None
 
     def _add_instant(self, i: int) -> ClosedStride | None:
         """Use the motion at interval number `i`, which has `HALF_WINDOW` intervals after it."""
         if i < HALF_WINDOW:
             return None
-        motion = self._motion()
+        ticks = self.intervals[i][0]
+        rate, motion = self._motion(TICK * ticks)
+        swing = min(max(SWING_SHARE * self.peak, LEAST_SWING), MOST_SWING)
+        stance = STANCE_SHARE * swing
+        if motion > stance:  # a peak fades while the foot moves, however long the wearer stands
+            self.peak *= 1.0 - TICK * ticks / MEMORY
+        self.peak = max(self.peak, rate)
+        if self.since_end is not None:
+            self.since_end += ticks
         stride, best, latest = None, self.best, self.latest
         if best is None or latest is None:
-            if motion < STANCE_MOTION:
+            if motion < stance:
                 self.best, self.latest = Instant(i, motion), Instant(i, motion)
         else:
-            best.since += self.intervals[i][0]
-            latest.since += self.intervals[i][0]
-            if motion > SWING_MOTION:
+            best.since += ticks
+            latest.since += ticks
+            if rate > swing:
                 stride = self._close(best)
+                self.pause = None if self.since_end is None else self.since_end - latest.since
                 del self.intervals[: latest.i - HALF_WINDOW]
                 self.start, self.best, self.latest = HALF_WINDOW, None, None
-            elif motion < STANCE_MOTION:
+            elif motion < stance:
                 stride = self._add_still(best, latest, i, motion)
         if len(self.intervals) > MOST_INTERVALS:
             self._restart()
@@ -192,15 +231,22 @@ class StanceFinder:
                 self.best, self.latest = Instant(HALF_WINDOW, motion), Instant(HALF_WINDOW, motion)
         return stride
 
-    def _motion(self) -> float:
-        """Return the mean rate over the newest intervals, plus the weighted deviation of the specific force."""
+    def _motion(self, duration: float) -> tuple[float, float]:
+        """Return the mean angular rate over the newest intervals, and the motion, rad/s.
+
+        The newest of them has a `duration`, s."""
         a, b, c, d, e = self.rates  # `WINDOW` of them
         rate = 0.2 * (a + b + c + d + e)
-        if rate > SWING_MOTION:
-            return rate
+        if rate > MOST_SWING:
+            return rate, rate
         x, y, z, squares = self.sums
-        variance = WINDOW * squares - (x * x + y * y + z * z)  # times the square of their number, exact
-        return rate + STEADINESS_WEIGHT * FORCE * sqrt(variance) / WINDOW
+        square = x * x + y * y + z * z
+        variance = WINDOW * squares - square  # times the square of their number, exact
+        force, motion = FORCE / WINDOW * sqrt(square), rate + STEADINESS_WEIGHT * FORCE / WINDOW * sqrt(variance)
+        share = duration / (STILLNESS + motion) ** 2
+        self.counted = self.counted * (1.0 - duration / MEMORY) + share
+        self.weight += share / self.counted * (force - self.weight)
+        return rate, motion + FORCE_WEIGHT * abs(force - self.weight)
 
     def _around(self, i: int) -> list[Interval]:
         """Return the intervals around an instant."""
@@ -214,7 +260,9 @@ class StanceFinder:
         intervals = tuple(self.intervals[start + 1 : end.i + 1])
         first, last = _mean_acc(self._around(start)), _mean_acc(self._around(end.i))
         duration = TICK * sum([interval[0] for interval in intervals])  # whole numbers
-        return ClosedStride(intervals, first, last, end.motion, duration)
+        pause = inf if self.pause is None else TICK * self.pause
+        self.since_end = end.since
+        return ClosedStride(intervals, first, last, end.motion, duration, pause)
 
 
 def _mean_acc(intervals: list[Interval]) -> Vec3:

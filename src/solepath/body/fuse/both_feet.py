@@ -31,7 +31,7 @@ from ..part import Inputs, Outputs, PartOutput, Position, Shift, StartGiven
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import FEET, RATE, WIDTH, TrackErrorFilter, feet_apart, standing_foot
 from .moving_ground import MovingGround
-from .position import ABSENCE_TIME, MeanOfFeet, PlanStart
+from .position import ABSENCE_TIME, REACH, STRIDE_WEIGHT, MeanOfFeet, PlanStart
 from .straight_ways import StraightWays
 from .walked_path import WalkedPath
 
@@ -42,12 +42,8 @@ STATIONARY: Final = Phase.STATIONARY
 """Local name of `Phase.STATIONARY`, because a look-up in the enum is slow."""
 SPACING = 0.2
 """Least time between samples of both feet that the compass has, s: one to three in a stance, whose noise is small."""
-REACH = 1.5
-"""Largest distance between the feet, m."""
 MAX_PHASE_TIME = 1.0
 """Longest stance or swing time over which a drift rate is integrated, s; a foot that rests longer learns its bias."""
-STRIDE_WEIGHT = 0.1
-"""Weight of one stride in the running mean of a foot's walking direction."""
 LEAST_DIVERGENCE = 0.5
 """Least angle between two tracks that is corrected, rad; first strides of a straight walk may differ by less."""
 REPEAT_TOLERANCE = 0.25
@@ -161,6 +157,8 @@ class BothFeet(MeanOfFeet):
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
+        if events:
+            self.judge(events, view)
         if view is not None:
             returning = self.return_strides
             self.add_view(view)
@@ -179,7 +177,7 @@ class BothFeet(MeanOfFeet):
         outputs: list[PartOutput] = []
         for event in events:
             if isinstance(event, (StrideTaken, SampleGap)):
-                if view is None or view.after is None or self.tracks[view.foot].unplaced:
+                if view is None or view.after is None or self.tracks[view.foot].unplaced or self.tracks[view.foot].out:
                     continue
                 if isinstance(event, StrideTaken):
                     outputs += self._add_stride(event, view.after)
@@ -188,8 +186,6 @@ class BothFeet(MeanOfFeet):
                 other_t = self.tracks[OTHER[view.foot]].t
                 unseen = other_t is None or other_t < event.t + min(0.5 * event.duration, ABSENCE_TIME)
                 self.common.add_gap(event.duration, unseen)
-            elif isinstance(event, DefectFound):
-                self.straight_ways.add_defect(event)
             elif isinstance(event, StartGiven):
                 start = event.start
                 if start.heading is not None and start.place is not None:
@@ -224,7 +220,7 @@ class BothFeet(MeanOfFeet):
         MeanOfFeet.reset(self, site)
         if site.foot is not None:
             self.strides[site.foot] = None
-            self.straight_ways.reset(site.foot)
+            self.straight_ways.reset()
             self.ground, self.path.known_at = MovingGround(), None
             if self.compass is not None:
                 self.compass.reset(site.foot, self.common)
@@ -295,7 +291,7 @@ class BothFeet(MeanOfFeet):
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         common.propagate(foot, count, turn, duration, moved, variance)
         excess = max(0.0, length - MAX_STRIDE_LENGTH)
-        degraded = self.errors.judge_stride(foot, bool(event.flaws), foot in self.straight_ways.spoiled) or excess > 0.0
+        degraded = self.errors.judge_stride(foot, bool(event.flaws), this.spoiled) or excess > 0.0
         if self.started:
             self.errors.propagate(foot, (stance, swing), this.flat(event.position), moved, variance, degraded)
         if excess > 0.0:
@@ -313,7 +309,7 @@ class BothFeet(MeanOfFeet):
         # what the way so far shows
         self.path.add_stride(event.t_end, self._middle(common.shares), share * length)
         if self.settings.straightness and not realigned:
-            move, misfit = self.straight_ways.add_stride(event, count, moved, common)
+            move, misfit = self.straight_ways.add_stride(event, count, moved, common, this.spoiled)
             self._move_both(move)
         found: list[PartOutput] = []
         for defect, what in ((Defect.MOVING_GROUND, ground), (Defect.COMPASS, fault), (Defect.CALIBRATION, misfit)):

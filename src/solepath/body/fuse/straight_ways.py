@@ -25,7 +25,7 @@ from collections.abc import Mapping
 from math import atan2, degrees, exp, fsum, hypot, log, sqrt
 
 from ...calibration import HeadingCalibration
-from ...events import Defect, DefectFound, StrideTaken
+from ...events import StrideTaken
 from ...types import Floats, Foot, Vec2
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import add, wrap_angle
@@ -297,33 +297,24 @@ class StraightWays:
     calibration."""
     devices: tuple[int, ...] = (0, 0)
     """Number of times that another device may have been connected to the left and to the right foot."""
-    spoiled: tuple[Foot, ...] = ()
-    """Feet whose rates are wrong by another defect, for example because the sensor came loose."""
 
     def use_calibration(self, headings: Mapping[Foot, HeadingCalibration]) -> None:
         """Test this calibration from the first stretch on."""
         known = [(0.0, 0.0) if one is None else (one.drift, one.turning) for one in map(headings.get, Foot)]
         self.calibrated, self.moved = (*known[0], *known[1]), [[0.0, 0.0, 0.0] for _ in CALIBRATED]
 
-    def reset(self, foot: Foot | None = None) -> None:
-        """Discard the stretch that has begun; a `foot` that is given has another device or clock."""
+    def reset(self) -> None:
+        """Discard the stretch that has begun."""
         self.straightness.reset()
-        self.spoiled = tuple([one for one in self.spoiled if one is not foot])
-
-    def add_defect(self, event: DefectFound) -> None:
-        """Learn nothing from a foot whose data a defect spoils; peaks that are cut off (CLIPPED) add to the drift."""
-        foot = event.site.foot
-        if foot is not None and event.spoils and event.defect is not Defect.CLIPPED and foot not in self.spoiled:
-            self.spoiled = (*self.spoiled, foot)
 
     def add_stride(
-        self, event: StrideTaken, strides: float, displacement: complex, common: CommonError
+        self, event: StrideTaken, strides: float, displacement: complex, common: CommonError, spoiled: bool = False
     ) -> tuple[Move, str | None]:
         """Add a stride of a foot; correct the `common` errors by what a straight stretch shows.
 
         It counts as `strides` usual ones, and its `displacement` is in m. Returns the correction of the tracks, and a
-        sentence if the calibration was dropped. A stride of a foot with a defect ends the stretch, and nothing is
-        learnt from it."""
+        sentence if the calibration was dropped. A stride of a foot that a defect has `spoiled` ends the stretch, and
+        nothing is learnt from it."""
         share, turn = common.shares[event.foot], event.heading_change
         devices = tuple([0 if one is None else one.device for one in common.foot_biases.values()])
         if devices != self.devices:  # a calibration of the old one neither fits nor misfits any longer
@@ -331,7 +322,7 @@ class StraightWays:
             self.devices = devices
         if self.moved:
             self._move({FEET[event.foot]: share * strides, FEET[event.foot] + TURN: share * turn}, share * displacement)
-        if event.foot in self.spoiled:
+        if spoiled:
             self.straightness.reset()
             return NO_MOVE, None
         stretch = self.straightness.add_stride(event.t_end, displacement, share, strides, turn)

@@ -122,6 +122,12 @@ BETWEEN_FEET = (
 """Parameters that compare the times of both feet."""
 
 
+def without_comparison(stride: GaitCycleMeasured) -> GaitCycleMeasured:
+    """Return a stride without what compares the times of the feet, which have separate clocks."""
+    unknown: dict[str, Any] = dict.fromkeys([parameter.value for parameter in BETWEEN_FEET])
+    return evolve(stride, **unknown)
+
+
 @frozen
 class GaitParameters:
     """The running means over steady strides (body/gait/cycles.py has the rule for steady strides)."""
@@ -218,8 +224,7 @@ class GaitMeans:
         for means in (*self.walking_means.feet.values(), *self.running_means.feet.values()):
             for parameter in (*BETWEEN_FEET, Parameter.OFF_PHASE):
                 means.pop(parameter, None)
-        unknown: dict[str, Any] = dict.fromkeys([parameter.value for parameter in BETWEEN_FEET])
-        self.newest = {foot: stride and evolve(stride, **unknown) for foot, stride in self.newest.items()}
+        self.newest = {foot: stride and without_comparison(stride) for foot, stride in self.newest.items()}
 
     def reset(self, foot: Foot) -> None:
         """Reset a foot, so that its next stride does not count as following the newest one."""

@@ -95,7 +95,7 @@ class CopCues(Cues):
 
     uses_centre: ClassVar[bool] = True
 
-    settings: TouchSettings = TouchSettings()
+    settings: TouchSettings = field(default=TouchSettings())
     inertial: InertialCues = state(factory=InertialCues)
     touch: Touch = field(init=False)
     sagittal: float = 0.0

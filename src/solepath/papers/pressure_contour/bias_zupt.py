@@ -14,7 +14,7 @@ from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
 from ...types import Foot, Quat, Vec3
-from ...types.attrs import evolve, frozen, state, stateful
+from ...types.attrs import evolve, field, frozen, state, stateful
 from ...types.vector import GRAVITY, ZERO, add, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
 from .acc_bias import AccelerometerBias
 
@@ -51,7 +51,7 @@ class BiasZupt(LinearDedrift):
     gravity while the foot stands. Then a horizontal bias looks the same as a tilt, so the filter can learn the vertical
     bias only."""
 
-    settings: BiasZuptSettings = BiasZuptSettings()
+    settings: BiasZuptSettings = field(default=BiasZuptSettings())
     bias: AccelerometerBias = state(factory=AccelerometerBias)
     """Bias of the accelerometer."""
     device_attitude: Quat | None = None

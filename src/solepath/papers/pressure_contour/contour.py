@@ -34,7 +34,7 @@ from math import cos, fsum, hypot, inf, pi, sin
 from operator import mul
 
 from ...types import Cell, Layout
-from ...types.attrs import frozen, state, stateful
+from ...types.attrs import field, frozen, state, stateful
 from ...types.vector import TIME_EPSILON
 
 HEEL_SHARE = 0.33
@@ -87,7 +87,7 @@ class Contours:
 
     Latency: the velocity is the mean over the last `COMPARISON_TIME`."""
 
-    settings: ContourSettings = ContourSettings()
+    settings: ContourSettings = field(default=ContourSettings())
     cells: list[int] = state(factory=list)
     """Indices in the layout of the cells used here, in the order of `per_area`; `points` has indices in this list."""
     per_area: list[float] = state(factory=list)

@@ -123,7 +123,7 @@ class ContourVelocity(PrintedContour):
 
     If loads are less frequent than inertial samples, the last evidence is used for up to `LOAD_VALID_TIME`."""
 
-    settings: ContourSettings = ContourSettings()
+    settings: ContourSettings = field(default=ContourSettings())
     tare: list[float] = state(factory=list)
     """Mean values of the cells that contours use while the foot is in the air, unit of the samples."""
     tare_count: int = 0

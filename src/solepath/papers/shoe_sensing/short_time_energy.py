@@ -10,7 +10,7 @@ from math import inf, sqrt
 
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Phase, Quat, Vec2, Vec3
-from ...types.attrs import frozen, state, stateful
+from ...types.attrs import field, frozen, state, stateful
 from ...types.vector import GRAVITY, IDENTITY, TIME_EPSILON, ZERO, dot
 
 PAPER_RATE = 100.0
@@ -57,7 +57,7 @@ class ShortTimeEnergy(Detector):
     inversely proportional to that time and there is no hint. This may be a jogger's stance; a corrector, which knows
     the speed of the foot, can decide."""
 
-    settings: EnergySettings = EnergySettings()
+    settings: EnergySettings = field(default=EnergySettings())
     entries: deque[Vec2] = state(factory=deque)
     """Samples in the window, each with its duration, s, and energy, g^2."""
 
