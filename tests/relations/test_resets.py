@@ -61,7 +61,6 @@ FootClocks._forget: feet* idle
 FootClocks.reset: feet* idle
 FootTracker.reset: corrector* cues* detector* gait* levelled limitations lost_count rest* rhythm sole* walk_scale*
   cues.reset() cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
-Footsteps.reset: idle paths
 Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
 GaitCues.reset: inertial* pressure sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
@@ -128,7 +127,7 @@ ErrorStateFilter.start: interval level recovery rhythm velocity_error
 FootBlocks.start_block: blocks bottom flat_height strides strike_height top
 GatedTilt.start: velocity_change
 Impact.start_swing: peak_shock_time
-Projection.start: largest_saturated least_saturated
+Projection.start: largest_saturated least_saturated turning
 Rest._start_span: bias bias_filter count grain last scale
 Sagittal.end_lift: forward pitch toe up
 SoftSwing.start: drift_scale drift_time heel_slide heel_strike_error_time interval interval_velocity pivot

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from math import sqrt
 
 from ...types import Vec3
-from ...types.attrs import define, field, frozen
+from ...types.attrs import frozen, stateful
 from ...types.vector import GRAVITY, ZERO, cross
 from .critical_times import CriticalTimes, Row
 
@@ -42,7 +42,7 @@ class StrideSegment:
     """Longest time between two samples of the stride, s."""
 
 
-@define
+@stateful
 class FootAxes:
     """Learns the foot's axes, x right and y forward, as unit vectors in the frame of a sensor in any mounting.
 
@@ -50,9 +50,9 @@ class FootAxes:
     start of a stride is a negative rotation. Forward is the foot's long axis, the paper's d_f, which is turned from the
     direction of walking by the toe-out angle."""
 
-    right: Vec3 | None = field(default=None, init=False)
+    right: Vec3 | None = None
     """Learnt axis to the right, sensor frame; None before the first stride."""
-    misfits: int = field(default=0, init=False)
+    misfits: int = 0
     """Number of consecutive strides whose axis to the right is more than 60 degrees off the learnt one."""
 
     def add_segment(self, rows: Sequence[Row], up: Vec3) -> None:

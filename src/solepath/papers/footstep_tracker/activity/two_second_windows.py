@@ -41,7 +41,7 @@ from ....body.part import ActivityPart, PartInput, PartOutput
 from ....events import ActivityChanged, Event, LiftRidden, Limitation
 from ....foot.view import FootView
 from ....types import Activity, Foot, Site
-from ....types.attrs import define, field, frozen
+from ....types.attrs import define, field, frozen, stateful
 from .hmm import bayes_update, forward, scaled_likelihoods
 from .window_model import WindowModel, shipped
 from .windows import BLOCKS, HOP, QUICK_SHARE, WINDOW, FootWindow, FootWindows, StandingForce
@@ -76,12 +76,10 @@ class ElevatorPulses:
     """Number of the first window with a pulse."""
     up: bool
     """Flag: the elevator goes up."""
+    newest: int
+    """Number of the last window of the first pulse."""
     braking: bool = False
     """Flag: the second pulse has started."""
-    newest: int = 0
-    """Number of the last window with a pulse."""
-    first_pulse_windows: int = 1
-    """Number of windows of the first pulse."""
 
 
 @frozen
@@ -92,32 +90,32 @@ class TwoSecondSettings:
     """Learnt model; None is the one that comes with this release."""
 
 
-@define
+@stateful
 class TwoSecondWindows(ActivityPart):
     """Classifies activities by windows of two seconds (footstep-tracker)."""
 
     needs_samples: ClassVar[bool] = True
 
     settings: TwoSecondSettings = TwoSecondSettings()
-    activity: Activity = field(default=Activity.UNKNOWN, init=False)
+    activity: Activity = Activity.UNKNOWN
     """Newest reported activity."""
-    origin: float | None = field(default=None, init=False)
+    origin: float | None = None
     """Time of the first sample, from which windows are numbered, s."""
-    feet: dict[Foot, FootWindows] = field(factory=dict, init=False)
+    feet: dict[Foot, FootWindows] = field(factory=dict)
     """Windows by foot."""
-    standing: dict[Foot, StandingForce] = field(factory=dict, init=False)
+    standing: dict[Foot, StandingForce] = field(factory=dict)
     """Force of standing by foot."""
-    newest_decided: int | None = field(default=None, init=False)
+    newest_decided: int | None = None
     """Number of the newest window that was classified."""
-    belief: tuple[float, ...] | None = field(default=None, init=False)
+    belief: tuple[float, ...] | None = None
     """Probabilities of the states of the hidden Markov model; None while the wearer stands."""
-    ride: ElevatorPulses | None = field(default=None, init=False)
+    ride: ElevatorPulses | None = None
     """Pulses of the present elevator ride; None without one."""
-    moving_windows: int = field(default=0, init=False)
+    moving_windows: int = 0
     """Number of consecutive moving windows up to now."""
-    limitation_reported: bool = field(default=False, init=False)
+    limitation_reported: bool = False
     """Flag: what these activities cannot tell was reported."""
-    reported_t: float | None = field(default=None, init=False)
+    reported_t: float | None = None
     """Time `t` of the newest event, s."""
 
     def ready(self) -> None:
@@ -141,7 +139,7 @@ class TwoSecondWindows(ActivityPart):
         if view.foot not in self.feet:
             feet = {**self.feet, view.foot: FootWindows()}
             self.feet = {one: feet[one] for one in Foot if one in feet}
-            self.standing.setdefault(view.foot, StandingForce())
+            self.standing[view.foot] = StandingForce()
         outputs: list[Event] = []
         if not self.limitation_reported:
             self.limitation_reported = True
@@ -177,20 +175,14 @@ class TwoSecondWindows(ActivityPart):
             self.moving_windows += 1
             for foot in windows:
                 self.standing[foot].add_movement()
-            if self.moving_windows < FIRST_WHOLE_WINDOW:
-                return events
-            state = self._state(model, windows)
-            return (
-                events
-                if self.moving_windows < FEWEST_WINDOWS
-                else events + self._add_moving_window(index, state, known_at)
-            )
+            if self.moving_windows >= FIRST_WHOLE_WINDOW:
+                state = self._state(model, windows)
+                if self.moving_windows >= FEWEST_WINDOWS:
+                    events += self._add_moving_window(index, state, known_at)
+            return events
         self.moving_windows, self.belief = 0, None
-        difference = 0.0
-        for foot, window in windows.items():
-            mean = self.standing[foot].mean
-            difference += 0.0 if mean is None else window.mean - mean
-        difference /= len(windows)
+        means = [(self.standing[foot].mean, window.mean) for foot, window in windows.items()]
+        difference = fsum([now - usual for usual, now in means if usual is not None]) / len(windows)
         pulse = 0 if abs(difference) < model.pulse else 1 if difference > 0.0 else -1
         if pulse == 0:
             for foot, window in windows.items():
@@ -223,42 +215,32 @@ class TwoSecondWindows(ActivityPart):
     def _add_standing_window(
         self, index: int, pulse: int, windows: dict[Foot, FootWindow], known_at: float
     ) -> list[Event]:
-        ride, events = self.ride, list[Event]()
-        if ride is not None:
-            direction = 1 if ride.up else -1
-            if pulse == -direction:
-                if not ride.braking:
-                    events += self._change(ride.t_start, self.activity, known_at, revises=ride.t_start)
-                ride.braking, ride.newest = True, index
-                if index - ride.index < LONGEST_RIDE + LONGEST_PULSE:
-                    return events
-                pulse = 0
-            if ride.braking:
-                events += self._end_ride(ride, self._start(index), known_at)
-                pulse = 0  # an elevator that brakes hard rebounds, which looks like a pulse
-            elif pulse == direction and index - ride.newest <= BLOCKS:
-                ride.newest, ride.first_pulse_windows = index, ride.first_pulse_windows + 1
-                if ride.first_pulse_windows <= LONGEST_PULSE:
-                    return events
-                is_first_standing = all(self.standing[foot].windows <= LONGEST_PULSE for foot in windows)
-                for foot, window in windows.items():
-                    self.standing[foot] = StandingForce(window.mean, QUICK_SHARE, LONGEST_PULSE)
-                if is_first_standing:  # what was taken for standing was the pulse, and this is standing
-                    ride.up, ride.first_pulse_windows = not ride.up, 1
-                    return events + self._change(
-                        ride.t_start, ELEVATOR_ACTIVITY[ride.up], known_at, final=False, revises=ride.t_start
-                    )
-                pulse = 0
-                events += self._withdraw_ride(ride, known_at)
-            elif pulse == direction or index - ride.index > LONGEST_RIDE:
-                events += self._withdraw_ride(ride, known_at)  # the second pulse never came
-            else:
-                return events
+        ride = self.ride
+        if ride is None:
+            return self._start_ride(index, pulse, known_at)
+        direction = 1 if ride.up else -1
+        if pulse == -direction and index - ride.index <= LONGEST_RIDE + LONGEST_PULSE:
+            was_braking, ride.braking = ride.braking, True
+            return [] if was_braking else self._change(ride.t_start, self.activity, known_at, revises=ride.t_start)
+        if ride.braking:  # an elevator that brakes hard rebounds, which looks like a pulse
+            return self._end_ride(ride, self._start(index), known_at)
+        if pulse == direction and index - ride.newest <= BLOCKS:
+            ride.newest = index
+            if index - ride.index <= LONGEST_PULSE:
+                return []
+            self.standing |= {foot: StandingForce(window.mean, QUICK_SHARE) for foot, window in windows.items()}
+            pulse = 0
+        elif pulse == 0 and index - ride.index <= LONGEST_RIDE:
+            return []
+        return self._withdraw_ride(ride, known_at) + self._start_ride(index, pulse, known_at)
+
+    def _start_ride(self, index: int, pulse: int, known_at: float) -> list[Event]:
+        """Return the event of a ride that a pulse starts, or of standing without one."""
         if pulse == 0:
-            return events + self._change(self._start(index), Activity.STANDING, known_at)
+            return self._change(self._start(index), Activity.STANDING, known_at)
         t_start = self._not_before_reported(self._block_start(index))
         self.ride = ElevatorPulses(t_start, index, pulse > 0, newest=index)
-        return events + self._change(t_start, ELEVATOR_ACTIVITY[pulse > 0], known_at, final=False)
+        return self._change(t_start, ELEVATOR_ACTIVITY[pulse > 0], known_at, final=False)
 
     def _end_ride(self, ride: ElevatorPulses, t: float, known_at: float) -> list[Event]:
         self.ride = None
