@@ -141,7 +141,7 @@ def compensations() -> Iterator[Any]:
         for turn in (None, 0.3):
             errors = step_errors(marks, downs, turn)
             yield from errors
-            yield {"means": {foot.value: row for foot, row in mean_errors(errors, turn is not None).items()}}
+            yield {"means": {foot.value: row for foot, row in mean_errors(errors).items()}}
 
 
 def stood() -> Iterator[Any]:
@@ -149,7 +149,7 @@ def stood() -> Iterator[Any]:
     suit = tuple(given("suit"))
     for kept in (suit, tuple([bare(item) for item in suit]), tuple([item for item in suit if item.t > 4.0])):
         try:
-            yield from check_standing(kept)
+            yield {"tilts": {site.value: tilt for site, tilt in check_standing(kept).items()}}
         except CalibrationError as error:
             yield {"error": str(error)}
 

@@ -73,12 +73,11 @@ InsoleLink.handle_reconnection: acc_scale cells gyro_scale info_digest layout pa
   reassembly.drop()
 InsoleLink.restart_clock: acc_scale cells gyro_scale info_digest layout packet_run* pressure_scale reassembly
 InsoleLoads.reset: forefoot* forefoot_cells heel* heel_cells layout load_risen sum tare tare_total total* was_airborne
-LimbSensors.reset: newest* times
 LoneFoot.restart: is_known stood_since
 Looseness.reset: apart
-LowerLimbs.reset: aligned facing segments* turn
+LowerLimbs.reset: aligned facing newest* restarted* segments* times
 MeanOfFeet.reset: apart
-Modes.reset: limb_sensors* pending places* recognition* reference signs touchdowns limb_sensors.reset()
+Modes.reset: pending places* recognition* reference signs touchdowns
   recognition.reset()
 PossibleMotion.reset: apart
 PressureHeight.restart: blocks compared newest noise apart
@@ -105,7 +104,6 @@ StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped first_pitc
   t_heel_strike t_mid_stance t_pitch t_toe_off toe_off_pitch usual_flat_pitch usual_motion
 StrideTemplate.reset: age bridged first_position infilled last_stride longest_stride stance_duration straight_on*
   t_last_flat t_next_moment
-StrideTurn.reset: stride_turn
 Touch.restart: in_front
 TurnDetector.reset: feet* pause t_end apart
 Turns.reset: detector* apart detector.reset()
@@ -121,7 +119,6 @@ STARTS = ("start", "start_stride", "start_swing", "start_block", "_start_span", 
 STARTED = """
 BiasZupt.start: motion_acc
 CommonError.start_stride: covariance estimates foot_biases
-Contact.start: last_load layout swing_time t_end
 Cycle._start_span: highs lows past_high past_low sensor_height shoe
 ErrorStateFilter.start: interval level recovery rhythm velocity_error
 FootBlocks.start_block: blocks bottom flat_height strides strike_height top

@@ -17,7 +17,8 @@ The paper leaves these points open:
   So the mean is compared with the mean while the same foot stood (`StandingForce`).
 - In fig. 4 a_z is about -9.8 at rest, so "smaller" in hypergravity means more negative. Here specific force is positive
   upwards, so it is larger in hypergravity.
-- The wait for the second pulse ends when the wearer walks away, and after `LONGEST_RIDE`. Then there was no ride.
+- The wait for the second pulse ends when the wearer walks away, and after `LONGEST_RIDE`. Then there was no ride. With
+  the second pulse the ride is reported, from the first one on.
 - The windows of both feet at one time are combined: variances and means are averaged, log-likelihoods are added.
 - Running is none of the paper's activities. It is reported as WALKING.
 
@@ -27,7 +28,7 @@ an elevator. A change between walking and stairs is in the middle of the window.
 contain standing, which makes them look like stairs. So the hidden Markov model starts with the first window without
 standing. A movement is reported after one more moving window: a foot that is only put elsewhere within half a second
 has not walked. So an activity is known this long after its start: a pulse, 0.5 s; movement, 2.5 s; standing, 2 s;
-stairs after walking, 1.5 s. A ride in an elevator is not final until its second pulse.
+stairs after walking, 1.5 s; a ride in an elevator, with its second pulse.
 
 Numbers without a source were chosen by hand."""
 
@@ -166,8 +167,7 @@ class TwoSecondWindows(ActivityPart):
     def _decide(self, index: int, windows: dict[Foot, FootWindow], known_at: float) -> list[Event]:
         events: list[Event] = []
         if self.newest_decided is not None and index - self.newest_decided > LONGEST_GAP:
-            events = [] if self.ride is None else self._withdraw_ride(self.ride, known_at)
-            self.belief = None
+            self.belief = self.ride = None
             events += self._change(self._block_start(self.newest_decided) + HOP, Activity.UNKNOWN, known_at)
         self.newest_decided = index
         model = self.settings.model or shipped()
@@ -204,10 +204,7 @@ class TwoSecondWindows(ActivityPart):
 
     def _add_moving_window(self, index: int, state: Activity, known_at: float) -> list[Event]:
         t_start = self._block_start(index - self.moving_windows + 1)
-        events: list[Event] = []
-        if self.ride is not None:
-            ride = self.ride
-            events = self._end_ride(ride, t_start, known_at) if ride.braking else self._withdraw_ride(ride, known_at)
+        events = self._end_ride(t_start, known_at)
         if self.activity in MOVING_ACTIVITIES:
             t_start = self._block_start(index) + 0.5 * (HOP - WINDOW)  # the middle of the window
         return events + self._change(t_start, state, known_at)
@@ -216,57 +213,46 @@ class TwoSecondWindows(ActivityPart):
         self, index: int, pulse: int, windows: dict[Foot, FootWindow], known_at: float
     ) -> list[Event]:
         ride = self.ride
-        if ride is None:
-            return self._start_ride(index, pulse, known_at)
-        direction = 1 if ride.up else -1
-        if pulse == -direction and index - ride.index <= LONGEST_RIDE + LONGEST_PULSE:
-            was_braking, ride.braking = ride.braking, True
-            return [] if was_braking else self._change(ride.t_start, self.activity, known_at, revises=ride.t_start)
-        if ride.braking:  # an elevator that brakes hard rebounds, which looks like a pulse
-            return self._end_ride(ride, self._start(index), known_at)
-        if pulse == direction and index - ride.newest <= BLOCKS:
-            ride.newest = index
-            if index - ride.index <= LONGEST_PULSE:
+        if ride is not None:
+            direction = 1 if ride.up else -1
+            if pulse == -direction and index - ride.index <= LONGEST_RIDE + LONGEST_PULSE:
+                ride.braking = True
+                return self._change(ride.t_start, ELEVATOR_ACTIVITY[ride.up], known_at)
+            if pulse == direction and not ride.braking and index - ride.newest <= BLOCKS:
+                ride.newest = index
+                if index - ride.index <= LONGEST_PULSE:
+                    return []
+                self.standing |= {foot: StandingForce(window.mean, QUICK_SHARE) for foot, window in windows.items()}
+                pulse = 0
+            elif pulse == 0 and not ride.braking and index - ride.index <= LONGEST_RIDE:
                 return []
-            self.standing |= {foot: StandingForce(window.mean, QUICK_SHARE) for foot, window in windows.items()}
-            pulse = 0
-        elif pulse == 0 and index - ride.index <= LONGEST_RIDE:
+            elif ride.braking:
+                pulse = 0  # an elevator that brakes hard rebounds, which looks like a pulse
+        events = self._end_ride(self._start(index), known_at)
+        if pulse != 0:
+            self.ride = ElevatorPulses(self._not_before_reported(self._block_start(index)), index, pulse > 0, index)
+            return events
+        return events + self._change(self._start(index), Activity.STANDING, known_at)
+
+    def _end_ride(self, t: float, known_at: float) -> list[Event]:
+        """Return the events at the end of a ride; nothing if there is none, or if its second pulse never came."""
+        ride, self.ride = self.ride, None
+        if ride is None or not ride.braking:
             return []
-        return self._withdraw_ride(ride, known_at) + self._start_ride(index, pulse, known_at)
-
-    def _start_ride(self, index: int, pulse: int, known_at: float) -> list[Event]:
-        """Return the event of a ride that a pulse starts, or of standing without one."""
-        if pulse == 0:
-            return self._change(self._start(index), Activity.STANDING, known_at)
-        t_start = self._not_before_reported(self._block_start(index))
-        self.ride = ElevatorPulses(t_start, index, pulse > 0, newest=index)
-        return self._change(t_start, ELEVATOR_ACTIVITY[pulse > 0], known_at, final=False)
-
-    def _end_ride(self, ride: ElevatorPulses, t: float, known_at: float) -> list[Event]:
-        self.ride = None
         t = self._not_before_reported(t)
         ridden = LiftRidden(t=t, known_at=max(known_at, t), t_start=ride.t_start, up=ride.up, height=None)
         return [ridden, *self._change(t, Activity.STANDING, known_at)]
 
-    def _withdraw_ride(self, ride: ElevatorPulses, known_at: float) -> list[Event]:
-        self.ride = None
-        return self._change(ride.t_start, Activity.STANDING, known_at, revises=ride.t_start)
-
-    def _change(
-        self, t: float, activity: Activity, known_at: float, *, final: bool = True, revises: float | None = None
-    ) -> list[Event]:
-        """Return the event of this activity if the activity changes or an event is revised, otherwise nothing."""
-        if activity is self.activity and revises is None:
+    def _change(self, t: float, activity: Activity, known_at: float) -> list[Event]:
+        """Return the event of this activity if the activity changes, otherwise nothing."""
+        if activity is self.activity:
             return []
-        if revises is None:
-            t = self._not_before_reported(t)
+        t = self._not_before_reported(t)
         if self.reported_t is None and self.origin is not None:
             t = self.origin  # the first window also stands for the half-second before it, used for levelling
         self.activity, self.reported_t = activity, t
         known_at = max(known_at, t)  # feet whose clocks are far apart have windows of the future
-        return [
-            ActivityChanged(t=t, known_at=known_at, final=final, activity=activity, probability=None, revises=revises)
-        ]
+        return [ActivityChanged(t=t, known_at=known_at, activity=activity, probability=None)]
 
     def _not_before_reported(self, t: float) -> float:
         """Return `t`, or the time of the newest event if that is later."""
