@@ -21,6 +21,7 @@ from .common.failure import (
     tell,
 )
 from .common.files import RECORDING, OutputFile, add_force, check_outputs
+from .common.inputs import add_recipe_name
 from .common.parser import add_command
 from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
 
@@ -45,6 +46,7 @@ def add_to(commands: Any) -> None:
         "solepath demo\nsolepath demo --building --record walk.jsonl",
         run=run,
     )
+    add_recipe_name(command, "compute with it; the wearer wears the sensors of its paper, whose figure stands beside")
     command.add_argument(
         "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
     )
@@ -89,7 +91,7 @@ def run(options: Namespace) -> int:
     demo = make_demo(options, emulated_radio, pressures=address is not None)
     distance = f"{demo.walk.walker.route.length:.0f} m{' through a building' if options.building else ''}"
     print(
-        f"An emulated wearer walks {distance} in {demo.walk.truth.duration:.0f} s with an insole in each shoe; "
+        f"An emulated wearer walks {distance} in {demo.walk.truth.duration:.0f} s with {demo.sensors}; "
         f"{100 * emulated_radio.loss:.3g} % of the packets get lost.",
         flush=True,
     )
@@ -128,7 +130,9 @@ def _show(demo: Demo, address: PageAddress, pace: float) -> None:
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
 
-    scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
+    scene = Scene(
+        "An emulated walk", demo.session.recipe.name, "demo", plan=None if demo.plan is None else demo.plan.plan
+    )
     player = Player(PackedItems(demo.walk.packets), demo.session, scene, demo.plan, on_events=demo.add_events)
     play(player, address, pace)
     compute_rest(player, "walk")

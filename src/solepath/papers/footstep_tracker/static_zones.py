@@ -43,8 +43,8 @@ COARSEST_COUNT = 0.7
 COARSE_COUNT = 0.1
 """Size of one count from which on an accelerometer's error at rest is its offset, not its scale, m/s^2."""
 LONGEST_WALKING_STRIDE, WHOLE_ZONE = 1.3, 0.25
-"""Longest stride from rest to rest at a usual or fast speed, s; slow walkers take longer, but rest long enough. Duration
-of a zone, s, after which no less is required."""
+"""Longest stride from rest to rest at a usual or fast speed, s; slow walkers take longer, but rest long enough. And the
+duration of a zone after which no less is required, s."""
 TIME_TOLERANCE = 1e-3
 """Largest deviation of fitted sample times from even spacing, s."""
 GRAVITY_TOLERANCE = 2.0

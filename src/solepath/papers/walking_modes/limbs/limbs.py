@@ -94,7 +94,7 @@ class LowerLimbs:
     given_up: bool = False
     """Flag: the wearer started to walk before all seven segments were still."""
     restarted: list[Site] = field(factory=list)
-    """Sites whose sensor restarted after the N-pose, and its world with it."""
+    """Sites whose sensor came back after the N-pose with another world."""
     times: dict[Site, float] = field(factory=dict)
     """Time of the newest used sample by site, s, for the sites above the ankles."""
     newest: float | None = None
@@ -145,8 +145,9 @@ class LowerLimbs:
         length = sqrt(fsum([part * part for part in quat]))
         if length < 1.0 / LARGEST_COMPONENT:
             return
-        k = 1.0 / length
-        self.segments[site].set_attitude(t, (quat[0] * k, quat[1] * k, quat[2] * k, quat[3] * k))
+        w, x, y, z = (part / length for part in quat)
+        if self.segments[site].set_attitude(t, (w, x, y, z)):
+            self.restarted.append(site)
         if not (self.aligned or self.given_up or self.restless()):
             for segment in self.segments.values():
                 segment.standing = normalise(segment.attitude_sum)
@@ -157,11 +158,9 @@ class LowerLimbs:
         return [site for site, segment in self.segments.items() if segment.still_time() < STANDING_TIME]
 
     def reset(self, site: Site) -> None:
-        """Discard the times of a sensor whose clock restarts; its attitudes are in another world from now on."""
+        """Discard the times of a sensor whose clock restarts."""
         segment = self.segments[site]
         segment.t = segment.earlier_t = segment.still_since = None
-        if self.aligned and site not in self.restarted:
-            self.restarted.append(site)
         self.times.pop(site, None)
         self.ahead_t.pop(site, None)
         self.newest = max(self.times.values(), default=None)

@@ -11,6 +11,9 @@ from ....types.vector import IDENTITY, conjugate, multiply, normalise
 LARGEST_SWAY = 0.04
 """Largest rotation of a still segment, rad: twice the 0.81 degrees accuracy of the paper's sensor, and some sway."""
 
+LARGEST_JUMP = 1.0
+"""Largest rotation between the attitudes before and after a restart of the sensor's clock in one world, rad."""
+
 
 @stateful
 class LimbSegment:
@@ -33,17 +36,22 @@ class LimbSegment:
     standing: Quat | None = None
     """Attitude of the sensor in the N-pose; None before it is known."""
 
-    def set_attitude(self, t: float, sensor: Quat) -> None:
-        """Set a new attitude, a unit quaternion from the sensor frame to the shared world."""
+    def set_attitude(self, t: float, sensor: Quat) -> bool:
+        """Set a new attitude, a unit quaternion from the sensor frame to the shared world.
+
+        Return whether it is that of a sensor that restarted with another world."""
+        restarted = self.standing is not None and self.t is None
+        jumps = restarted and abs(_dot(self.sensor, sensor)) < cos(0.5 * LARGEST_JUMP)
         self.earlier_t, self.earlier_attitude = self.t, self.sensor
         self.t, self.sensor = t, sensor
         if self.standing is not None:
-            return
+            return jumps
         dot = _dot(self.anchor, sensor)
         if self.still_since is None or abs(dot) < cos(0.5 * LARGEST_SWAY) or t < self.still_since:
             self.anchor, self.attitude_sum, self.still_since = sensor, sensor, t
         else:
             self.attitude_sum = _add(self.attitude_sum, sensor, 1.0 if dot >= 0.0 else -1.0)
+        return False
 
     def still_time(self) -> float:
         """Return the time for which the segment has been still, s."""
