@@ -24,7 +24,19 @@ from ...foot.navigate.strapdown import Strapdown
 from ...foot.stance.stance import Stance
 from ...types import Foot, Phase, Quat, Vec3
 from ...types.attrs import evolve, field, frozen, stateful
-from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, heading_turned, multiply, normalise, rotate, tipped
+from ...types.vector import (
+    GRAVITY,
+    IDENTITY,
+    ZERO,
+    add,
+    from_yaw,
+    heading_turned,
+    multiply,
+    normalise,
+    rotate,
+    sub,
+    tipped,
+)
 from .closed_stride import closed_stride, vertical_turn
 from .critical_times import CriticalTimes
 from .segment import StrideSegment
@@ -146,18 +158,17 @@ class Projection(Strapdown):
         return True
 
     def _end_stride(self, segment: StrideSegment) -> None:
-        x, y, z = self.rest_position
+        end = self.rest_position
         if segment.longest_gap >= LONGEST_GAP:
-            x, y, z = self._dedrifted_end()
+            end = self._dedrifted_end()
             self.turning.forget_corner()
         elif segment.times is not None:
-            x, y, z = self._stride_end(segment, segment.times)
+            end = self._stride_end(segment, segment.times)
         # without critical times the foot turned on the spot or shook, so it stays in place
-        x0, y0, _ = self.rest_position
-        self.length += hypot(x - x0, y - y0)
+        self.length += hypot(*sub(end, self.rest_position)[:2])
         self.stride_count += 1
         self.attitude = multiply(from_yaw(heading_turned(self.rest_attitude, self.attitude)), self.rest_attitude)
-        self.rest_position = (x, y, z)
+        self.rest_position = end
 
     def _stride_end(self, segment: StrideSegment, times: CriticalTimes) -> Vec3:
         """Return the position at the end of a stride by the equations, m."""
@@ -178,26 +189,21 @@ class Projection(Strapdown):
         self.attitude = multiply(from_yaw(turn), self.rest_attitude)
         length = min(max(length, -LONGEST_STRIDE), LONGEST_STRIDE)
         rise = min(max(rise, -LARGEST_RISE), LARGEST_RISE)
-        x, y, z = self.rest_position
-        return x + length * cos(direction), y + length * sin(direction), z + rise
+        return add(self.rest_position, (length * cos(direction), length * sin(direction), rise))
 
     def _dedrifted_end(self) -> Vec3:
         """Return the live position without the drift that the velocity at rest implies, m."""
-        x, y, z = self.position
-        vx, vy, vz = self.velocity
-        half = 0.5 * min(self.moving_time, LONGEST_MOTION)
-        x, y, z = x - vx * half, y - vy * half, z - vz * half
-        x0, y0, z0 = self.rest_position
-        k = LONGEST_STRIDE / max(LONGEST_STRIDE, hypot(x - x0, y - y0))
-        rise = min(max(z - z0, -LARGEST_RISE), LARGEST_RISE)
-        return x0 + k * (x - x0), y0 + k * (y - y0), z0 + rise
+        end = add(self.position, self.velocity, -0.5 * min(self.moving_time, LONGEST_MOTION))
+        x, y, z = sub(end, self.rest_position)
+        k = LONGEST_STRIDE / max(LONGEST_STRIDE, hypot(x, y))
+        return add(self.rest_position, (k * x, k * y, min(max(z, -LARGEST_RISE), LARGEST_RISE)))
 
     def flat(self, start: Vec3, turn: float) -> None:
         """Keep the height of a stride whose rise speaks for level ground; the rises of a track drift otherwise."""
-        (x, y, z), (x0, y0, z0) = self.position, start
-        slope = slope_evidence(hypot(x - x0, y - y0), z - z0)
+        x, y, rise = sub(self.position, start)
+        slope = slope_evidence(hypot(x, y), rise)
         if max(slope.up, slope.down) < -LEAST_LEVELNESS:
-            self.position = self.rest_position = (x, y, z0)
+            self.position = self.rest_position = add(start, (x, y, 0.0))
 
     def repair(self, yaw: float, position: Vec3) -> None:
         """Do nothing, because only strides with a gap need a repair, and `_dedrifted_end` ends those."""
@@ -206,8 +212,7 @@ class Projection(Strapdown):
         """Turn the state by `yaw` rad about the foot, which stands, and move it by `by` m, navigation frame."""
         self.turn_about(yaw, by)
         self.rest_attitude = normalise(multiply(from_yaw(yaw), self.rest_attitude))
-        (x, y, z), (dx, dy, dz) = self.rest_position, by
-        self.rest_position = (x + dx, y + dy, z + dz)
+        self.rest_position = add(self.rest_position, by)
 
     def bridge(self, dt: float) -> float:
         if dt <= LONGEST_BRIDGE:
@@ -228,9 +233,7 @@ class Projection(Strapdown):
         return covariance
 
     def covariance(self) -> tuple[float, ...]:
-        x, y, _ = self.position
-        x0, y0, _ = self.rest_position
-        variance = (STRIDE_ERROR * (self.length + hypot(x - x0, y - y0))) ** 2
+        variance = (STRIDE_ERROR * (self.length + hypot(*sub(self.position, self.rest_position)[:2]))) ** 2
         yaw = TURN_ERROR * TURN_ERROR * min(self.stride_count, MOST_TURN_ERRORS)
         rises = 0.0 if self.settings.as_printed else (RISE_ERROR / TURN_ERROR) ** 2 * yaw
         return (variance, 0.0, 0.0, variance, 0.0, rises, yaw)

@@ -12,7 +12,7 @@ first steps show it. Numbers without a source were chosen by hand."""
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import atan2, fsum, hypot, sqrt
+from math import atan2, hypot
 from typing import NamedTuple
 
 from ....calibration import Limbs
@@ -20,7 +20,7 @@ from ....events import Rejection
 from ....foot.rejection import RejectionReason, rejection_reason
 from ....types import OTHER, Foot, Quat, Sample, Site, Vec3
 from ....types.attrs import field, stateful
-from ....types.vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
+from ....types.vector import IDENTITY, ZERO, add, conjugate, from_yaw, multiply, normalise, rotate, unit
 from ..settings import ModesSettings
 from .segment import LimbSegment
 
@@ -39,10 +39,10 @@ ATTITUDE_VALID_TIME = 0.25
 """Time for which an attitude is used, s."""
 LEAST_FIRST_STEP = 0.15
 """Length of a step, m, from which it shows the first heading (as in foot/world.py)."""
+LARGEST_COMPONENT = 1e6
+"""Limit of the components of a valid quaternion, which may have any length but 0."""
 FARTHEST_AHEAD = 60.0
 """Largest time ahead of all earlier samples, s. Later ones are rejected, unless the site's last one was, too."""
-LARGEST_COMPONENT = 1e6
-"""Limit of the components of a valid quaternion; its length is at least 1 / LARGEST_COMPONENT."""
 
 
 class Transform(NamedTuple):
@@ -53,9 +53,8 @@ class Transform(NamedTuple):
 
     def then(self, other: Transform) -> Transform:
         """Return the product with `other`, which is given in the frame at the end of this transform."""
-        x, y, z = self.translation
-        dx, dy, dz = rotate(self.rotation, other.translation)
-        return Transform(multiply(self.rotation, other.rotation), (x + dx, y + dy, z + dz))
+        translation = add(self.translation, rotate(self.rotation, other.translation))
+        return Transform(multiply(self.rotation, other.rotation), translation)
 
 
 def joints(
@@ -111,16 +110,12 @@ class LowerLimbs:
         """Take the direction of the step that `foot` ends at `t` s for the wearer's heading, if that is not known.
 
         It is that of thighs and shanks alone. They hang down in the N-pose, so their vectors need no heading."""
-        if self.heading is not None:
-            return
-        x = y = 0.0
+        limbs, step = self.settings.limbs, ZERO
         for leg, sign in ((foot, 1.0), (OTHER[foot], -1.0)):
-            for site, length in zip(
-                LEG_SITES[leg], (self.settings.limbs.thigh, self.settings.limbs.shank), strict=False
-            ):
-                dx, dy, _ = rotate(self.segments[site].rotation(t), (0.0, 0.0, -length))
-                x, y = x + sign * dx, y + sign * dy
-        if hypot(x, y) > LEAST_FIRST_STEP:
+            for site, length in zip(LEG_SITES[leg], (limbs.thigh, limbs.shank), strict=False):
+                step = add(step, rotate(self.segments[site].rotation(t), (0.0, 0.0, -length)), sign)
+        x, y, _ = step
+        if self.heading is None and hypot(x, y) > LEAST_FIRST_STEP:
             self.facing = atan2(y, x)
 
     def add_limb(self, sample: Sample) -> RejectionReason | None:
@@ -140,13 +135,10 @@ class LowerLimbs:
     def add_attitude(self, site: Site, t: float, quat: Quat | None) -> None:
         """Add the time of a sample, and the attitude that it has, a quaternion of any length except 0."""
         self.newest = t if self.newest is None else max(self.newest, t)
-        if quat is None or not all([-LARGEST_COMPONENT < part < LARGEST_COMPONENT for part in quat]):
+        if quat is None or not all([abs(part) < LARGEST_COMPONENT for part in quat]):
             return
-        length = sqrt(fsum([part * part for part in quat]))
-        if length < 1.0 / LARGEST_COMPONENT:
-            return
-        w, x, y, z = (part / length for part in quat)
-        if self.segments[site].set_attitude(t, (w, x, y, z)):
+        attitude = unit(quat)
+        if attitude is not None and self.segments[site].set_attitude(t, attitude):
             self.restarted.append(site)
         if not (self.aligned or self.given_up or self.restless()):
             for segment in self.segments.values():
