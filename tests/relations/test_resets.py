@@ -75,7 +75,7 @@ InsoleLink.restart_clock: acc_scale cells gyro_scale info_digest layout packet_r
 InsoleLoads.reset: forefoot* forefoot_cells heel* heel_cells layout load_risen sum tare tare_total total* was_airborne
 LoneFoot.restart: is_known stood_since
 Looseness.reset: apart
-LowerLimbs.reset: aligned facing newest* restarted* segments* times
+LowerLimbs.reset: aligned facing newest* segments* times
 MeanOfFeet.reset: apart
 Modes.reset: pending places* recognition* reference signs touchdowns
   recognition.reset()

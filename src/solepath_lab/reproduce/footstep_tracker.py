@@ -39,10 +39,8 @@ NOT_ROWS = ("by stride", "by turn", *[turn.value for turn in Turn])
 CLAIMS = (
     ("corridor, one foot: closing at rest errs less than as printed",
      "corridor, printed %", "corridor, closed at rest %", "%"),
-    ("corridor, one foot: the clipped angles take some of it off",
-     "corridor, closed at rest %", "corridor, + clipped angles %", "%"),
-    ("corridor, one foot: the offset takes some of it off",
-     "corridor, + clipped angles %", "corridor, one foot %", "%"),
+    ("corridor, one foot: the offset takes some of it off", "corridor, closed at rest %", "corridor, + offset %", "%"),
+    ("corridor, one foot: the clipped angles take some more off", "corridor, + offset %", "corridor, one foot %", "%"),
     ("corridor: two feet err less than one", "corridor, one foot %", "corridor, two feet %", "%"),
     ("corridor: two feet err less than the stature's rule", "corridor, by height %", "corridor, two feet %", "%"),
     ("corridor's end: our two feet err less than the one-metre rule",

@@ -73,11 +73,12 @@ SETTINGS = (
 """Settings of the sensitivity rows; each differs from STANDARD in one thing."""
 
 _UNRESTORED = Projection(ProjectionSettings(restores_clipped=False))
-_SCALED = StaticZones(StaticZonesSettings(knows_offset=False))
 LENGTH_RECIPES = {
     "printed": FOOTSTEP_TRACKER_PRINTED,
-    "closed at rest": evolve(FOOTSTEP_TRACKER, corrector=_UNRESTORED, detector=_SCALED),
-    "+ clipped angles": evolve(FOOTSTEP_TRACKER, detector=_SCALED),
+    "closed at rest": evolve(
+        FOOTSTEP_TRACKER, corrector=_UNRESTORED, detector=StaticZones(StaticZonesSettings(knows_offset=False))
+    ),
+    "+ offset": evolve(FOOTSTEP_TRACKER, corrector=_UNRESTORED),
     "one foot": FOOTSTEP_TRACKER,
 }
 """Recipes of the stride length: printed, with our additions one after the other, and with all of them, one foot."""
