@@ -71,7 +71,7 @@ HOLDS = {
         "a stride: the mean with the other foot's last one errs less",
         "activities: more windows are right than as printed",
         "turns: the turn about the vertical errs less than (7)",
-        "a circle: ours errs less than the printed filter",
+        "a circle: ours errs less than (7) and the printed filter",
     ),
 }  # fmt: skip
 """Claims that the pages of two papers say hold."""

@@ -138,7 +138,9 @@ class LowerLimbs:
         if quat is None or not all([abs(part) < LARGEST_COMPONENT for part in quat]):
             return
         attitude = unit(quat)
-        if attitude is not None and self.segments[site].set_attitude(t, attitude):
+        if attitude is None:
+            return
+        if self.segments[site].set_attitude(t, attitude) and site not in self.restarted:
             self.restarted.append(site)
         if not (self.aligned or self.given_up or self.restless()):
             for segment in self.segments.values():
