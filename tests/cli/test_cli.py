@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from commands import no_control_codes, rows_in, run
 from programs import TAKES, drawn, in_terminal
+from soak import soaked
 
 from solepath.types.extras import install_hint
 
@@ -68,6 +69,21 @@ def test_the_demo_ends_with_a_table_against_the_truth_in_plain_text(demo):
     assert table["strides found"] == table["strides walked"]
     assert table["strides invented"] == ["0", "0"]
     assert all(float(error) < 5.0 for error in table["stride length, mean error %"])
+
+
+PAPERS = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
+
+
+@pytest.mark.parametrize(
+    "recipe", ["walking-modes", *soaked(*PAPERS[:2], *PAPERS[3:], *[f"{one}-printed" for one in PAPERS])]
+)
+def test_the_demo_of_a_paper_ends_with_what_the_paper_reports_beside_it(recipe):
+    done = run("demo", "--recipe", recipe, "--distance", "8")
+    assert done.returncode == 0 and done.stderr == "" and no_control_codes(done.stdout)
+    sensors = {"walking-modes": "seven sensors", "footstep-tracker": "a SensorTag"}
+    assert sensors.get(recipe.removesuffix("-printed"), "an insole") in done.stdout.splitlines()[0]
+    (row,) = [line for line in done.stdout.splitlines() if line.startswith("end of the wearer's track, error")]
+    assert " m, " in row and row.count("%") + row.count("20 m") >= 2, "ours, and the paper's"
 
 
 def test_the_recording_of_the_demo_gives_track_the_same_steps(demo, folder):

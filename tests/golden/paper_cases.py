@@ -13,7 +13,6 @@ from corpus import Call, Case, Item, given
 
 from solepath import Calibration, Foot, Sample, Site, WalkingMode
 from solepath.calibration import CalibrationError
-from solepath.papers.footstep_tracker.toe_out import ToeOutWalk, toe_out_calibration
 from solepath.papers.walking_modes.calibrate import ModeMark, mean_errors, step_errors, touchdowns
 from solepath.papers.walking_modes.limbs.standing import check_standing
 from solepath.recording.decoded import DecodedRecording
@@ -126,24 +125,6 @@ def renorthed(item: Sample, turn: tuple[float, float]) -> Sample:
 # --- calibrations -----------------------------------------------------------------------------------------------------
 
 
-def toe_outs() -> Iterator[Any]:
-    """Yield the toe-out so far of each foot all along a walk, or why there is none, and its calibration."""
-    walk = ToeOutWalk()
-    for k, item in enumerate(given("cc2541")):
-        walk.feed(item)
-        if k % 300 == 0:
-            for distance in (None, 12.0):
-                try:
-                    found = walk.feet(distance)
-                except CalibrationError as error:
-                    yield {"error": str(error)}
-                else:
-                    yield from found
-                    yield toe_out_calibration(found)
-        if item.t > 40.0:
-            break
-
-
 def compensations() -> Iterator[Any]:
     """Yield the errors of the steps of a walk against marks beside its own touchdowns, and their means."""
     suit = tuple(given("suit"))
@@ -160,7 +141,7 @@ def compensations() -> Iterator[Any]:
         for turn in (None, 0.3):
             errors = step_errors(marks, downs, turn)
             yield from errors
-            yield {"means": {foot.value: row for foot, row in mean_errors(errors, turn is not None).items()}}
+            yield {"means": {foot.value: row for foot, row in mean_errors(errors).items()}}
 
 
 def stood() -> Iterator[Any]:
@@ -168,7 +149,7 @@ def stood() -> Iterator[Any]:
     suit = tuple(given("suit"))
     for kept in (suit, tuple([bare(item) for item in suit]), tuple([item for item in suit if item.t > 4.0])):
         try:
-            yield from check_standing(kept)
+            yield {"tilts": {site.value: tilt for site, tilt in check_standing(kept).items()}}
         except CalibrationError as error:
             yield {"error": str(error)}
 
@@ -209,7 +190,6 @@ PAPERS: tuple[Case, ...] = (
     Case("nobody stood at first", SUIT(each(lambda item: None, until=3.0), until=20.0), "walking-modes"),
     Case("limbs that are measured",
          SUIT(above(lambda item: later(item, -0.015)), ordered, until=20.0), "touchdown-height", calibrated),
-    Case("toe-out", toe_outs),
     Case("compensation of walking modes", compensations),
     Case("a standing pose", stood),
 )  # fmt: skip

@@ -19,7 +19,7 @@ from solepath import Calibration, DefectFound, Flaw, SampleGap, Session, Site, S
 from solepath.body.part import ClockUnsettled, LayoutReported, Notice, Part, PartInput, StartGiven
 from solepath.events import Defect
 from solepath.foot.view import FootView
-from solepath.papers.footstep_tracker.snake import SnakeGame
+from solepath.papers.footstep_tracker.snake import PrintedSnake
 from solepath.place.placing import Particles
 from solepath.types.attrs import define
 
@@ -81,7 +81,7 @@ def meddled(event: Any, draw: float) -> list[Any]:
 def parts(name: str, recipe: str, until: float) -> Iterator[Any]:
     """Yield what each part of a recipe says to a walk that is meddled with, and all numbers that it keeps."""
     stream = noted(name, recipe, until)
-    places = (Particles(), SnakeGame()) if name.startswith("building") else ()
+    places = (Particles(), PrintedSnake()) if name.startswith("building") else ()
     for part in (*recipes.by_name(recipe).parts, *places):
         own, drawn = deepcopy(part).calibrated(Calibration()), draws(17)
         own.ready()

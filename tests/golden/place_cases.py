@@ -48,7 +48,7 @@ from solepath.body.part import StartGiven
 from solepath.floorplan.checks import find_fault, find_warnings
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlanError, Level, Wall
-from solepath.papers.footstep_tracker.snake import SnakeGame  # as Particles
+from solepath.papers.footstep_tracker.snake import PrintedSnake  # as Particles
 from solepath.place.placing import Particles  # a track with known errors is given to it, without a session
 from solepath.types import checking
 
@@ -318,7 +318,7 @@ class Tale:
         self.random.choice(usual * 4 + rare)()
 
 
-def told(numbers: range, method: Callable[[], Particles | SnakeGame] = Particles) -> Iterator[Any]:
+def told(numbers: range, method: Callable[[], Particles] = Particles) -> Iterator[Any]:
     """Yield the events of pedestrians of these numbers."""
     for number in numbers:
         plan, at = buildings()[number % len(buildings())]
@@ -649,7 +649,7 @@ def without_rooms() -> Iterator[Any]:
 
 MORE_PLACES: tuple[Case, ...] = (
     *[Case(f"pedestrians from {k} on", partial(told, range(k, k + 5))) for k in (0, 5)],
-    Case("pedestrians, the Snake game", partial(told, range(36, 40), SnakeGame)),
+    Case("pedestrians, the Snake game", partial(told, range(36, 40), PrintedSnake)),
     *[Case(f"floor plans of {kind}", partial(read, kind)) for kind in ("osm", "imdf", "geojson")],
     Case("stairs on a clock set back", stairs_again),
     Case("a person who hesitates on the stairs", hesitating),

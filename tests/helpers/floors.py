@@ -40,7 +40,6 @@ from solepath.floorplan.plan import (
     Start,
     Wall,
 )
-from solepath.papers.footstep_tracker.snake import SnakeGame
 from solepath.place.placing import Particles
 
 STOREY = 3.6
@@ -122,8 +121,8 @@ def indexed_office() -> IndexedPlan:
     return IndexedPlan(office())
 
 
-METHODS = (Particles, SnakeGame)
-Method = Particles | SnakeGame
+METHODS = (Particles,)
+Method = Particles
 """A part that estimates the place of a wearer on a plan."""
 
 

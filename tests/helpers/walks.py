@@ -190,7 +190,7 @@ def machines() -> dict[str, Machine]:
         all_machines.append(_session(name, packets()["few frames"], recipes.by_name(name)))
     all_machines.append(_session("seven sites", suited(), recipes.by_name("walking-modes")))
     all_machines.append(_placed("particles", plain, DEFAULT))
-    all_machines.append(_placed("Snake game", plain, recipes.by_name("footstep-tracker")))
+    all_machines.append(_placed("Snake game", plain, recipes.by_name("footstep-tracker-printed")))
     return {machine.name: machine for machine in all_machines}
 
 

@@ -101,6 +101,16 @@ def test_a_device_of_ones_own_is_one_file_and_its_vectors():
     assert sum("with a gap in it" in line for line in lines_out) == 1
 
 
+def test_a_suit_that_sends_over_udp_says_where_each_foot_comes_down():
+    """Eight steps of 6 m and the last one beside it, through a true socket."""
+    *lines_out, last = run("suit_over_udp").splitlines()
+    assert last == "7 sensors sent"
+    places = [float(line.split()[5]) for line in lines_out if " comes down at x " in line]
+    assert len(places) == len(lines_out) and places == sorted(places)
+    assert places[-1] == pytest.approx(6.0, abs=0.3)
+    assert [line.split()[0] for line in lines_out[:4]] in (["left", "right"] * 2, ["right", "left"] * 2)
+
+
 def test_two_insoles_give_the_way_of_both_feet():
     lines = run("two_insoles").splitlines()
     assert [line.split()[0] for line in lines[:2]] == ["left", "right"]

@@ -1,4 +1,4 @@
-"""Tests the page of what a person is guided through: a shoe held in postures, a walk that calibrates toe-out."""
+"""Tests the page of what a person is guided through: a shoe held in postures."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from page_events import foot_moved
 from shown import open_page, shown
 
 from solepath import Foot
-from solepath.show.page.guide import ShownFoot, ShownPosture, ShownToeOut
+from solepath.show.page.guide import ShownPosture
 from solepath.show.page.scene.scene import Scene
 
 
@@ -28,13 +28,3 @@ async def test_the_page_shows_pitch_target_and_task_as_they_change(chromium: Bro
         assert await view.text("posture-words") == "Left foot: steady, leans 7° sideways"
         target = await view.tab.locator("#posture-target").get_attribute("transform")
         assert target == "rotate(22.0 150,126)"
-
-
-@pytest.mark.soak
-async def test_a_walk_that_bends_shows_why_nothing_is_learnt(chromium: Browser) -> None:
-    foot = ShownFoot(Foot.LEFT, 9, 11.0, why="the left foot turns by 1.2 rad: is the walk straight?")
-    scene = Scene("A walk", "", guide=ShownToeOut("Walk.", None, (foot,)))
-    async with open_page(chromium, scene) as (view, _):
-        await view.until("document.querySelector('.foot-note')?.innerText.includes('turns by 1.2 rad')")
-        assert await view.tab.locator(".foot-angle").inner_text() == "–"
-        assert await view.tab.locator("#toe-out-done").is_hidden()

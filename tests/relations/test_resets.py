@@ -61,7 +61,6 @@ FootClocks._forget: feet* idle
 FootClocks.reset: feet* idle
 FootTracker.reset: corrector* cues* detector* gait* levelled lost_count* rest* rhythm sole* walk_scale*
   cues.reset() cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
-Footsteps.reset: idle paths* restart_position restarts apart
 Gait.reset: anchor_position bearing* heading_settled number path phase stride* template* world stride.cut()
   template.reset()
 GaitCues.reset: inertial* pressure sagittal inertial.reset()
@@ -75,12 +74,11 @@ InsoleLink.handle_reconnection: acc_scale cells gyro_scale info_digest layout pa
   reassembly.drop()
 InsoleLink.restart_clock: acc_scale cells gyro_scale info_digest layout packet_run* pressure_scale reassembly
 InsoleLoads.reset: forefoot* forefoot_cells heel* heel_cells layout load_risen sum tare tare_total total* was_airborne
-LimbSensors.reset: newest* times
 LoneFoot.restart: is_known stood_since
 Looseness.reset: apart
-LowerLimbs.reset: aligned facing segments* turn
+LowerLimbs.reset: aligned facing newest* segments* times
 MeanOfFeet.reset: apart
-Modes.reset: limb_sensors* pending places* recognition* reference signs touchdowns limb_sensors.reset()
+Modes.reset: pending places* recognition* reference signs touchdowns
   recognition.reset()
 PossibleMotion.reset: apart
 PressureHeight.restart: blocks compared newest noise apart
@@ -108,7 +106,6 @@ StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped first_pitc
   usual_flat_pitch usual_motion
 StrideTemplate.reset: age bridged first_position infilled last_stride longest_stride stance_duration straight_on*
   t_last_flat t_next_moment
-StrideTurn.reset: stride_turn
 Touch.restart: in_front
 TurnDetector.reset: feet* pause t_end apart
 Turns.reset: detector* apart detector.reset()
@@ -124,14 +121,13 @@ STARTS = ("start", "start_stride", "start_swing", "start_block", "_start_span", 
 STARTED = """
 BiasZupt.start: bias motion_acc
 CommonError.start_stride: covariance estimates foot_biases
-Contact.start: last_load layout swing_time t_end
 Cycle._start_span: highs lows past_high past_low sensor_height shoe
 ErrorStateFilter.start: interval level recovery rhythm velocity_error
 FootBlocks.start_block: blocks bottom flat_height rest_force rested strides strike_height top
 GatedTilt.start: velocity_change
 GyroscopeMagnitude._start_span: highs lows past_high past_low shoe
 Impact.start_swing: peak_shock_time
-Projection.start: largest_saturated least_saturated
+Projection.start: largest_saturated least_saturated turning
 Rest._start_span: bias bias_filter count grain last scale
 Sagittal.end_lift: forward pitch toe up
 SoftSwing.start: drift_time interval interval_velocity scale_excess

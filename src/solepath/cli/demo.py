@@ -12,6 +12,7 @@ from ..types import Foot
 from ..types.extras import install_hint
 from .common.failure import Failure, is_installed, note, parse_positive, parse_seconds, parse_share, tell
 from .common.files import RECORDING, OutputFile, add_force, check_outputs
+from .common.inputs import recipe_option
 from .common.parser import add_seed, command, one_of, option
 from .common.view import PageAddress, add_no_browser, page_address_of, play, speed_of, speed_option, view_option
 
@@ -38,7 +39,7 @@ def run(options: Namespace) -> int:
     demo = make_demo(options, emulated_radio, pressures=address is not None)
     distance = f"{demo.walk.walker.route.length:.0f} m{' through a building' if options.building else ''}"
     print(
-        f"An emulated wearer walks {distance} in {demo.walk.truth.duration:.0f} s with an insole in each shoe; "
+        f"An emulated wearer walks {distance} in {demo.walk.truth.duration:.0f} s with {demo.sensors}; "
         f"{100 * emulated_radio.loss:.3g} % of the packets get lost.",
         flush=True,
     )
@@ -77,7 +78,9 @@ def _show(demo: Demo, address: PageAddress, pace: float) -> None:
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
 
-    scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
+    scene = Scene(
+        "An emulated walk", demo.session.recipe.name, "demo", plan=None if demo.plan is None else demo.plan.plan
+    )
     player = Player(PackedItems(demo.walk.packets), demo.session, scene, demo.plan, on_events=demo.add_events)
     play(player, address, pace, "walk")
 
@@ -135,6 +138,7 @@ add_to = command(
     "live, on a page in the browser where aiohttp is installed; without a terminal it is computed as fast as it "
     "can be.",
     "solepath demo\nsolepath demo --building --record walk.jsonl",
+    recipe_option("compute with it; the wearer wears the sensors of its paper, whose figure stands beside"),
     add_seed,
     one_of(
         option(

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterator
+from math import dist
 from statistics import median
 
 from attrs import define, field
 
-from ..emulate.demo import BUILDING_WALK_SEED, ROUTE, straight
+from ..calibration import Calibration
+from ..emulate.demo import BUILDING_WALK_SEED, ROUTE, straight, worn
 from ..emulate.radio import Radio
 from ..emulate.routes.building import BUILDING
 from ..emulate.routes.ways import BuildingWalk, wandering
 from ..emulate.walk import EmulatedWalk, emulate
+from ..emulate.wearers.gait import Wearer
 from ..events import Event
 from ..floorplan.index import IndexedPlan
+from ..recipes import by_name
 from ..session import Session
 from ..show.tables.table import milliseconds, number, percent, table
 from ..types import Foot, Packet, Sample
@@ -33,6 +37,8 @@ class Demo:
 
     walk: EmulatedWalk
     session: Session
+    sensors: str = "an insole in each shoe"
+    """What the wearer wears, in words."""
     way: BuildingWalk | None = None
     """Walk through the emulated building; None when the walk is not in the building."""
     plan: IndexedPlan | None = None
@@ -56,10 +62,38 @@ class Demo:
         compared = compare(self.walk.truth, {foot: FootRun.of(self.found, foot) for foot in Foot})
         rows = list(zip(COMPARED, *map(_column, compared), strict=True))
         tables = [table(["against the truth", *[one.foot.value for one in compared]], rows)]
+        if (reported := paper_of(self.session.recipe.name)) is not None:
+            tables.append(self._beside_the_paper(*reported))
         if self.way is not None:
             events = [*self.found.placed, *self.found.made_turns]
             tables.append(place_table(score(self.way, self.walk.walker, self.walk.truth, events)))
         return tables
+
+    def _beside_the_paper(self, figure: str, paper: str) -> str:
+        """Return where the wearer's track ends, beside a figure of the recipe's paper."""
+        route, here = self.walk.walker.route, self.session.position
+        off = None if here is None else dist(here.position[:2], (route.end.x, route.end.y))
+        share = "" if off is None else f" m, {percent(off / route.length)} % of the way"
+        rows = [["end of the wearer's track, error", f"{number(off)}{share}", figure]]
+        return table([self.session.recipe.name, "emulated", paper], rows)
+
+
+PAPERS = {
+    "kupt": ("20.08 +- 0.51 m for 20 m, both feet", "Chen et al. 2019, table I"),
+    "zupt": ("20.97 +- 1.84 m for 20 m, left foot", "Chen et al. 2019, table I"),
+    "pressure-contour": ("4.30 +- 3.15 m, 0.4 % of a loop", "Bebek et al. 2010, table I"),
+    "gyroscope": ("4.87 +- 2.75 m, 0.4 % of a loop", "Bebek et al. 2010, table I"),
+    "walking-modes": ("0.03 m, 0.2 % of a rectangle", "Gong et al. 2023, table 4, A by IV"),
+    "touchdown": ("0.16 to 0.19 m, 1.3 % of a rectangle", "Gong et al. 2023, table 4, A by I to III"),
+    "footstep-tracker": ("2.64 m, 4.2 % of a corridor", "Liu et al. 2015, section V.D"),
+    "shoe-sensing": ("1.9 m, 10 % of 19.2 m", "Li et al. 2016, section 4.2.3"),
+}
+"""What papers report of the end of a walk, and where, by the first words of their recipes."""
+
+
+def paper_of(recipe: str) -> tuple[str, str] | None:
+    """Return what the paper of a recipe reports, and where; None for a recipe without a paper."""
+    return next((row for name, row in PAPERS.items() if recipe.startswith(name)), None)
 
 
 def make_demo(options: Namespace, radio: Radio, *, pressures: bool) -> Demo:
@@ -70,8 +104,12 @@ def make_demo(options: Namespace, radio: Radio, *, pressures: bool) -> Demo:
     if options.building:
         way, plan = wandering(BUILDING_WALK_SEED), IndexedPlan(BUILDING)
         route = way.route
-    session = Session(poses=True, pressures=pressures, floorplan=plan)
-    return Demo(emulate(route, radio=radio, seed=options.seed), session, way, plan)
+    limbs = Wearer().limbs
+    sensors, devices = worn(options.recipe, limbs, options.seed)
+    session = Session(
+        by_name(options.recipe), calibration=Calibration(limbs=limbs), poses=True, pressures=pressures, floorplan=plan
+    )
+    return Demo(emulate(route, devices=devices, radio=radio, seed=options.seed), session, sensors, way, plan)
 
 
 COMPARED_EVENTS = {"heel_strike": "heel-strike", "foot_flat": "foot-flat", "heel_off": "heel-off", "toe_off": "toe-off"}

@@ -9,6 +9,7 @@ from .sensors.dot import Dot
 from .sensors.insole_device import Insole
 from .sensors.insoles import layout
 from .sensors.sensortags import CC2541, CC2650
+from .sensors.suit import suit
 from .walk import EmulatedWalk, SampledWalk, emulate, sampled
 from .wearers.gait import Wearer
 from .wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
@@ -34,4 +35,5 @@ __all__ = [
     "emulate",
     "layout",
     "sampled",
+    "suit",
 ]

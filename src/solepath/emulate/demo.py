@@ -1,4 +1,4 @@
-"""Routes and radio of `solepath demo`: a default route, a straight walk, or a walk through the emulated building."""
+"""Routes, radio and sensors of `solepath demo`: a default route, a straight walk, or one through a building."""
 
 from __future__ import annotations
 
@@ -6,8 +6,15 @@ from math import pi
 
 from attrs import evolve
 
+from ..calibration import Limbs
+from ..types import SITE_OF_FOOT, Site
 from .radio import Radio
 from .routes.route import Route
+from .sensors.device import Device
+from .sensors.parts import RESISTIVE
+from .sensors.sensortags import CC2541
+from .sensors.suit import suit
+from .wearers.shoe import IN_SOLE
 
 RADIO = Radio(loss=0.03, duplicate=0.005, corrupt=0.005, latency=0.015, jitter=0.030)
 """A crowded 2.4 GHz band (assumed): 3 in 100 notifications never arrive, the others arrive after 15 to 45 ms."""
@@ -35,3 +42,14 @@ def straight(distance: float) -> Route:
 def radio(loss: float | None = None, jitter: float | None = None) -> Radio:
     """Return RADIO with this share of lost packets and this jitter, s; None keeps the value of RADIO."""
     return evolve(RADIO, loss=RADIO.loss if loss is None else loss, jitter=RADIO.jitter if jitter is None else jitter)
+
+
+def worn(recipe: str, limbs: Limbs, seed: int) -> tuple[str, dict[Site, Device] | None]:
+    """Return what the wearer of these limbs wears for a recipe, in words and as devices; None for two insoles.
+
+    The papers of walking-modes and footstep-tracker have other sensors: a suit, and tags at 20 Hz in the soles."""
+    if recipe.startswith(("walking-modes", "touchdown-")):
+        return "seven sensors at pelvis, thighs, shanks and feet", suit(limbs, seed, cell_part=RESISTIVE)
+    if recipe.startswith("footstep-tracker"):
+        return "a SensorTag in each shoe", {site: CC2541(mounting=IN_SOLE) for site in SITE_OF_FOOT.values()}
+    return "an insole in each shoe", None

@@ -188,19 +188,11 @@ NEAR_LANDING = 4.0
 """Largest distance from stairs or an elevator at which the wearer may be on them already, m."""
 
 
-def sway(
-    plan: IndexedPlan,
-    particles: Cloud,
-    move: Point,
-    error_factor: float,
-    turn: float,
-    random: int,
-    both_sides: bool = False,
-) -> Cloud:
+def sway(plan: IndexedPlan, particles: Cloud, move: Point, error_factor: float, turn: float, random: int) -> Cloud:
     """Return the particles after a move of the track, m, without those for which the plan forbids it.
 
     `error_factor` multiplies the track's usual errors, `turn` is the size of the wearer's turn, rad, and `random` the
-    first index in the table. With `both_sides`, a particle at a wall continues on both sides, not only the free one."""
+    first index in the table."""
     walls, new = plan.walls, _new
     kept: Cloud = []
     for k, factor, bends in ((random, error_factor, BEND_ANGLES), (random + 499, 2.0 * error_factor, WIDE_BEND_ANGLES)):
@@ -233,8 +225,7 @@ def sway(
                     nx, ny = x + a1 * dx - b1 * dy + error_x, y + b1 * dx + a1 * dy + error_y
                     if not walls[level].crosses(x, y, nx, ny):
                         kept.append(new(Particle, (nx, ny, a1, b1, w, level, origin, 0)))
-                        if not both_sides:
-                            break
+                        break
                 if len(kept) > count:
                     break
             else:

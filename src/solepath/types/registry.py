@@ -72,7 +72,6 @@ TABLE: dict[str, dict[str, str]] = {
         "solepath.papers.footstep_tracker.critical_cues:CriticalCues",
         "solepath.papers.footstep_tracker.footsteps:Footsteps",
         "solepath.papers.footstep_tracker.activity.two_second_windows:TwoSecondWindows",
-        "solepath.papers.footstep_tracker.snake:SnakeGame",
         "solepath.papers.footstep_tracker.snake:PrintedSnake",
         "solepath.papers.shoe_sensing.short_time_energy:ShortTimeEnergy",
         "solepath.papers.shoe_sensing.printed:GatedTilt",

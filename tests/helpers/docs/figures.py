@@ -43,8 +43,6 @@ LONG_WAYS = [
     "--markdown",
 ]
 """Options for four of the nine kinds of long walks."""
-EXPERIMENTS = ("walking-modes",)
-"""Experiments whose output docs/papers.md holds; the pages of the others have tables of several seeds."""
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
 IN_SHORT = {
     "pyshoe_vicon": (

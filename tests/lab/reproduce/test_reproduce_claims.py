@@ -8,6 +8,7 @@ Takes half an hour or more on two cores. A claim that is not reproduced is not a
 from __future__ import annotations
 
 import time
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -59,28 +60,26 @@ def test_what_the_pages_claim_holds_with_the_seed_of_today(experiment: Experimen
     assert {found[sentence] for sentence in HELD[experiment]} == {"holds"}
 
 
-def test_a_wearers_own_compensation_brings_three_corners_nearer_and_the_closed_walks_end_not() -> None:
-    found = walking_modes.reproduce(None, 1, Runner(processes=2))
-    for corner in "BCD":
-        x, y = ({method: values(found, f"{corner} {method} {axis}") for method in ("III", "IV")} for axis in ("x", "y"))
-        assert np.hypot(x["IV"].mean(), y["IV"].mean()) < np.hypot(x["III"].mean(), y["III"].mean()), corner
-        assert np.hypot(x["IV"], y["IV"]).mean() < 0.6 * np.hypot(x["III"], y["III"]).mean(), corner
-    for row in found.rows:
-        if row.name.startswith("modes by turn"):
-            assert np.mean(row.values) >= 95.0
+HOLDS = {
+    walking_modes: (
+        "at B IV is nearer than III", "at C IV is nearer than III", "at D IV is nearer than III",
+        "over all corners IV is nearer than III", "over all corners III is nearer than II",
+        "heel out, forefoot in, 4 mm: modes by turn are right more often than by table 2",
+    ),
+    footstep_tracker: (
+        "corridor, one foot: closing at rest errs less than as printed",
+        "a stride: the mean with the other foot's last one errs less",
+        "activities: more windows are right than as printed",
+        "turns: the turn about the vertical errs less than (7)",
+        "a circle: ours errs less than (7) and the printed filter",
+    ),
+}  # fmt: skip
+"""Claims that the pages of two papers say hold."""
 
 
-def test_footsteps_hold_with_our_additions_and_not_as_printed() -> None:
-    found = footstep_tracker.reproduce(10, 301, Runner(processes=2))
-    assert values(found, "corridor, two feet %").mean() <= 4.0 < 30.0 < values(found, "corridor, printed %").mean()
-    assert values(found, "activities %").mean() >= 96.0 and values(found, "STAIRS_DOWN %").mean() >= 90.0
-    assert values(found, "turn classes %").mean() >= 98.0
-    for title in ("asymmetric", "half turn"):
-        assert values(found, f"place, {title}, first heading m").mean() <= 1.0
-        kept = {
-            name: values(found, f"true one kept, {title}, {name} %")
-            for name in ("weights", "first heading", "dropped at walls")
-        }
-        assert kept["weights"].min() == kept["first heading"].min() == 100.0 > kept["dropped at walls"].mean()
-    assert values(found, "place, case study, two feet m").mean() <= 1.0
-    assert values(found, "true one kept, case study, two feet %").min() == 100.0
+@pytest.mark.parametrize("experiment", list(HOLDS), ids=lambda one: one.NAME)
+def test_what_a_page_says_holds_is_not_refuted_with_a_seed_of_the_clock(experiment: ModuleType) -> None:
+    seed = time.time_ns() // 10**6 % 100_000
+    found = experiment.reproduce(None, seed, Runner(processes=2))
+    verdicts = {one.sentence: one.verdict for one in found.claims}
+    assert {name: verdicts[name] for name in HOLDS[experiment] if verdicts[name] == "fails"} == {}, f"--seed {seed}"

@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
-from functools import cache
-from math import cos, degrees, hypot, pi, radians, sin
+from math import cos, degrees, pi, radians, sin
 
 import pytest
-from attrs import evolve
 from strides import stride
-from walks import LEFT, RIGHT
 
 from solepath.body.gait.turns import WEIGHTS, TurnDetector, TurningStrideFilter, TurnProcess, classify
-from solepath.calibration import Calibration, CalibrationError
-from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.sensortags import CC2541
-from solepath.emulate.walk import EmulatedWalk, emulate
-from solepath.emulate.wearers.gait import Wearer
-from solepath.emulate.wearers.shoe import IN_SOLE
+from solepath.calibration import Calibration
 from solepath.events import StrideTaken
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection
-from solepath.papers.footstep_tracker.toe_out import ToeOut, printed_angle, toe_out, toe_out_calibration
+from solepath.papers.footstep_tracker.stride_length import printed_toe_out
 from solepath.types import Foot, Turn
 from solepath_lab.train.turns import read, train_weights
 
@@ -34,7 +26,7 @@ def new_track() -> Footsteps:
     """Return the track of a wearer with sensors on both feet."""
     body = Footsteps()
     for path in body.paths.values():
-        path.has_samples = True
+        path.strides_alone = 0
     return body
 
 
@@ -52,23 +44,22 @@ def mean_position(body: Footsteps) -> tuple[float, float]:
     return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
 
 
-def test_the_wearer_is_at_the_mean_of_what_both_feet_went() -> None:
-    assert mean_position(walked(4, 1.2, 1.0)) == pytest.approx((4.4, 0.0))
+def test_feet_that_are_no_metre_apart_do_not_restart() -> None:
+    body = walked(4, 0.9, 1.0)
+    assert body.restarts == 0 and body.paths[Foot.RIGHT].displacement == pytest.approx((4.0, 0.0))
 
 
-def test_feet_that_are_more_than_a_metre_apart_restart_at_their_mean() -> None:
-    body = walked(6, 1.4, 1.0)
-    assert body.restarts > 0
-    assert mean_position(body) == pytest.approx((0.5 * 6 * 2.4, 0.0))
-    assert hypot(body.paths[Foot.LEFT].displacement[0] - body.paths[Foot.RIGHT].displacement[0], 0.0) < 2.0
+def test_feet_that_are_more_than_a_metre_apart_restart_at_their_mean_and_then_at_every_stride() -> None:
+    body = walked(6, 1.4, 1.2)
+    assert body.restarts == 12
+    assert mean_position(body) == pytest.approx((0.5 * 6 * 2.6, 0.0))
 
 
-def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
-    body = new_track()
-    for k in range(40):
-        body.add_stride(stride_of(Foot.LEFT, k + 0.5, way=(0.75 if k == 0 else 1.5, 0.0)))
-        body.add_stride(stride_of(Foot.RIGHT, k + 1.0, way=(1.5, 0.0)))
-    assert body.restarts == 0
+def test_a_foot_without_strides_moves_with_the_other() -> None:
+    body = Footsteps()
+    for k in range(5):
+        body.add_stride(stride_of(Foot.LEFT, float(k), way=(1.4, 0.0)))
+    assert body.restarts == 0 and mean_position(body) == pytest.approx((7.0, 0.0))
 
 
 def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
@@ -143,52 +134,16 @@ def test_the_weights_are_those_that_the_training_turns_give() -> None:
     assert train_weights(examples) == WEIGHTS
 
 
-@cache
-def corridor_walk(metres: float, seed: int = 1) -> EmulatedWalk:
-    device = CC2541(rate=20.0, mounting=IN_SOLE)
-    return emulate(
-        Route().stand(3.0).walk(metres, 1.3).stop(2.0), devices={LEFT: device, RIGHT: evolve(device)}, seed=seed
-    )
-
-
-def test_the_toe_out_angle_of_a_walk_is_the_wearers_within_twice_its_error() -> None:
-    true = Wearer().toe_out
-    for foot, packets in ((foot, corridor_walk(15.0).packets) for foot in Foot):
-        (one,) = (one for one in toe_out(packets) if one.foot is foot)
-        assert one.is_known and abs(one.angle - true) < 2.0 * one.sigma < radians(3.5)
-        assert toe_out_calibration([one]).toe_out == {foot: one.angle}
-
-
-def test_an_angle_that_is_less_than_two_of_its_errors_is_not_learnt() -> None:
-    one = ToeOut(Foot.LEFT, 12, 15.0, radians(2.0), radians(1.1))
-    assert not one.is_known and toe_out_calibration([one]) == Calibration()
-    assert evolve(one, angle=radians(-2.3)).is_known
-
-
-def test_the_printed_angle_is_the_arc_cosine_and_mostly_the_error_of_the_length() -> None:
-    angle, sigma = printed_angle(20.2, 20.0) or (0.0, 0.0)
-    assert degrees(angle) == pytest.approx(8.07, abs=0.01)  # arccos(20 / 20.2)
-    assert sigma == pytest.approx(0.024 / 0.14178, rel=1e-3)  # tan(8.07 degrees) = 0.14178
-    assert 2.0 * sigma > angle
-    assert printed_angle(19.9, 20.0) is None
-    assert printed_angle(20.0 + 1e-10, 20.0) == pytest.approx((0.0, 0.5 * pi), abs=1e-5), "not more than a right angle"
-
-
-def test_a_walk_of_another_length_or_of_no_steps_is_rejected() -> None:
-    packets = corridor_walk(15.0).packets
-    with pytest.raises(CalibrationError, match="length of the walk"):
-        toe_out(packets, 5.0)
-    with pytest.raises(CalibrationError, match="strides of a foot"):
-        toe_out(packets[:200], 5.0)
-    for distance in (0.0, -1.0, float("nan"), float("inf")):
-        with pytest.raises(ValueError, match="distance"):
-            toe_out(packets, distance)
+def test_the_printed_toe_out_is_an_arc_cosine_that_a_shorter_way_along_the_foot_does_not_have() -> None:
+    assert degrees(printed_toe_out(20.2, 20.0) or 0.0) == pytest.approx(8.07, abs=0.01)  # arccos(20 / 20.2)
+    assert printed_toe_out(20.0 * cos(radians(7.0)), 20.0) is None
 
 
 def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
-    known = Calibration(toe_out={Foot.RIGHT: 0.2})
+    known = Calibration(toe_out={foot: 0.2 for foot in Foot})
     left, right = (Projection().calibrated(foot, known).settings for foot in Foot)
-    assert (right.toe_out, right.outwards, left.toe_out, left.outwards) == (0.2, -1.0, 0.0, 1.0)
+    assert (left.phi, right.phi) == (0.2, -0.2)
+    assert Projection().calibrated(Foot.LEFT, Calibration()) == Projection()
 
 
 def test_a_curve_stays_a_curve_and_a_corner_keeps_its_first_and_last_turn() -> None:

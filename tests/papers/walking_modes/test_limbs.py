@@ -53,7 +53,7 @@ def stood(chain: LowerLimbs, mounted: dict[Site, Quat], segments: dict[Site, Qua
     for k in range(31):
         for site in SEGMENTS:
             turned = IDENTITY if segments is None else segments.get(site, IDENTITY)
-            chain.set_attitude(site, 0.02 * k, multiply(turned, mounted[site]))
+            chain.add_attitude(site, 0.02 * k, multiply(turned, mounted[site]))
 
 
 MOUNTINGS = {site: normalise((1.0, 0.1 * k, -0.2 * k, 0.3)) for k, site in enumerate(SEGMENTS)}
@@ -63,7 +63,7 @@ def swing_left_leg(chain: LowerLimbs, t: float, world: Quat = IDENTITY) -> None:
     """The left leg as one, by 30 degrees, which the chain knows; `world`: how that of the thigh's sensor is turned."""
     for site in (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT):
         attitude = multiply(pitch(30), MOUNTINGS[site])
-        chain.set_attitude(site, t, multiply(world, attitude) if site is Site.LEFT_THIGH else attitude)
+        chain.add_attitude(site, t, multiply(world, attitude) if site is Site.LEFT_THIGH else attitude)
     end = joints(IDENTITY, pitch(30), pitch(30), pitch(30), HIP, LIMBS)[3]
     assert chain.end(Foot.LEFT, t) == pytest.approx(end)
 
@@ -82,7 +82,7 @@ def test_who_does_not_stand_still_is_not_aligned() -> None:
     chain = LowerLimbs(SETTINGS)
     for k in range(100):
         for site in SEGMENTS:
-            chain.set_attitude(site, 0.02 * k, pitch(3.0 * k) if site is Site.LEFT_SHANK else IDENTITY)
+            chain.add_attitude(site, 0.02 * k, pitch(3.0 * k) if site is Site.LEFT_SHANK else IDENTITY)
     assert not chain.aligned
 
 
@@ -92,9 +92,9 @@ def test_the_first_step_shows_the_wearers_heading_in_the_world_of_the_sensors() 
     away = {site: multiply(from_yaw(north), q) for site, q in MOUNTINGS.items()}
     stood(chain, away)
     for site, lean in ((Site.LEFT_THIGH, -20), (Site.LEFT_SHANK, -20), (Site.RIGHT_THIGH, 15), (Site.RIGHT_SHANK, 15)):
-        chain.set_attitude(site, 0.62, multiply(multiply(from_yaw(north), pitch(lean)), MOUNTINGS[site]))
-    chain.add_touchdown(Foot.LEFT, 0.62)
-    assert chain.facing == pytest.approx(north)
+        chain.add_attitude(site, 0.62, multiply(multiply(from_yaw(north), pitch(lean)), MOUNTINGS[site]))
+    chain.add_first_step(Foot.LEFT, 0.62)
+    assert chain.heading == pytest.approx(north)
     step = np.subtract(chain.end(Foot.LEFT, 0.62), chain.end(Foot.RIGHT, 0.62))
     assert step[0] == pytest.approx(0.85 * (sin(radians(20)) + sin(radians(15))))
     assert step[1] == pytest.approx(0.2)

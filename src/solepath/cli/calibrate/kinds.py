@@ -17,7 +17,6 @@ from ..common.tables import samples_named, source_named, table_options
 from .limbs import add_limbs
 from .sensor import add_sensor
 from .shoe import add_shoe
-from .toe_out import add_toe_out
 
 LearntCalibration = tuple[Calibration, list[str]]
 """A calibration that was learnt, and the lines that report it."""
@@ -166,6 +165,6 @@ _add_walk = command(
     learn=_walk,
 )
 KINDS = (
-    _add_noise, add_shoe, _add_square, add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, add_sensor
+    _add_noise, add_shoe, _add_square, _add_newton, add_limbs, _add_modes, _add_walk, add_sensor
 )  # fmt: skip
 """Functions that add the kinds to the parser, in the order of the help text."""

@@ -22,16 +22,11 @@ def _limbs(options: Namespace, known: Calibration) -> tuple[Calibration, list[st
     stood = check_standing(samples)
     limbs = limbs_of(options.stature, options.spines, options.thigh, options.shank)
     rows = [
-        [
-            sensor.site.words,
-            number(degrees(sensor.tilt), 0),
-            "gyroscope" if sensor.own_world else "its own",
-            "strapped on askew?" if degrees(sensor.tilt) > STEEPEST_TILT else "",
-        ]
-        for sensor in stood
+        [site.words, number(degrees(tilt), 0), "strapped on askew?" if degrees(tilt) > STEEPEST_TILT else ""]
+        for site, tilt in stood.items()
     ]
     return Calibration(limbs=limbs), [
-        table(["sensor", "tilt deg", "attitude", ""], rows),
+        table(["sensor", "tilt deg", ""], rows),
         f"hip joints {100.0 * limbs.hip_width:.1f} cm apart, thigh {100.0 * limbs.thigh:.1f} cm, shank "
         f"{100.0 * limbs.shank:.1f} cm, foot ahead of the ankle {100.0 * limbs.foot:.1f} cm, ankle "
         f"{100.0 * limbs.ankle_height:.1f} cm high",

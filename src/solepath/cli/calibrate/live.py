@@ -36,11 +36,8 @@ def measure_live(options: Namespace, kind: Kind, purpose: str) -> None:
     need_bleak()
     address = page_address_of(options)
     from ..common.loop import run_to_end
+    from .shoe_live import measure
 
-    if options.kind == "shoe":
-        from .shoe_live import measure
-    else:
-        from .toe_out_live import measure
     status = run_to_end(partial(measure, options, address))
     if status != 0:
         raise SystemExit(status)

@@ -11,7 +11,7 @@ from ..wearers.shoe import ON_INSTEP, Mounting
 from .device import Device
 from .dot import Dot
 from .insole_device import Insole
-from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudeErrors
+from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudeErrors, CellErrors
 
 MISALIGNMENT = 0.15
 """Standard deviation, about each axis, of the misalignment of a sensor that is strapped on by hand, rad (assumed)."""
@@ -34,7 +34,13 @@ def limb_mounting(site: Site, limbs: Limbs, seed: int) -> Mounting:
 
 
 def suit(
-    limbs: Limbs, seed: int, *, attitude: AttitudeErrors = CRE_CC02, north: float = 0.0, rate: float = 50.0
+    limbs: Limbs,
+    seed: int,
+    *,
+    attitude: AttitudeErrors = CRE_CC02,
+    north: float = 0.0,
+    rate: float = 50.0,
+    cell_part: CellErrors = WORN_RESISTIVE,
 ) -> dict[Site, Device]:
     """Return seven devices for one session, mounted by `limb_mounting`.
 
@@ -53,6 +59,6 @@ def suit(
                 north=north,
                 mounting=mounting,
                 chip=MPU9250,
-                cell_part=WORN_RESISTIVE,
+                cell_part=cell_part,
             )
     return devices

@@ -21,14 +21,13 @@ Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import cos, inf, sin
 
-from ...types import Vec3
 from ...types.attrs import frozen
 from ...types.vector import GRAVITY
 from .critical_times import CriticalTimes, Row
-from .stride_length import angle, integrals, pitches, span
+from .stride_length import along_the_way, angle, integrals, pitches, span
 
 LEAST_VELOCITY_CHANGE = 1.0
 """Change of the velocity at rest for 1 rad of clipped angle, m/s, below which the angle cannot be estimated from it."""
@@ -38,41 +37,36 @@ LARGEST_CLIPPED_ANGLE = 1.0
 
 @frozen
 class RestToRest:
-    """The rows of a stride from uplift to rest, and the pitch that is zero at both."""
+    """The rows of a stride from uplift to rest, and their pitch theta, rad."""
 
     rows: tuple[Row, ...]
-    cosines: tuple[float, ...]
-    """Cosine of the pitch at each row."""
-    sines: tuple[float, ...]
-    """Sine of the pitch at each row."""
+    tilts: tuple[float, ...]
 
-    def length(self, toe_out: float = 0.0) -> Vec3:
-        """Return S_x, S_y, S_z of (6), m, with zero velocity at rest. `toe_out` is phi of (1), rad."""
-        along, across = cos(toe_out), sin(toe_out)
-        return (
-            self._closed([row[1] * across for row in self.rows]),  # (2), (4)
-            self._closed([row[2] * c * along for row, c in zip(self.rows, self.cosines, strict=True)]),
-            self._closed([row[3] * s * along for row, s in zip(self.rows, self.sines, strict=True)]),
-        )
+    def length(self, toe_out: float = 0.0) -> float:
+        """Return S of (5), m, from uplift, with zero velocity at rest. `toe_out` is phi of (1), rad."""
+        return self._closed(self._along(toe_out))
 
-    def across(self) -> float:
-        """Return the double integral of a_x, m, right positive, with zero velocity at rest."""
-        return self._closed([row[1] for row in self.rows])
+    def speed_at_rest(self) -> float:
+        """Return the velocity at rest by the integral of a_f (2), m/s: an error."""
+        return integrals(self.rows, self._along(0.0))[1]
 
     def rise(self) -> float:
         """Return the change of height, m, with zero velocity at rest.
 
         The force at right angles to a_f of (2) is a_y sin(theta) - a_z cos(theta), 1 g at rest; the paper does not use
         it."""
-        directions = zip(self.rows, self.cosines, self.sines, strict=True)
-        return self._closed([row[2] * s - row[3] * c - GRAVITY for row, c, s in directions])
+        tilted = zip(self.rows, self.tilts, strict=True)
+        return self._closed([row[2] * sin(tilt) - row[3] * cos(tilt) - GRAVITY for row, tilt in tilted])
 
     def turn(self) -> float:
         """Return the turn about the vertical, rad, positive to the left, without what was clipped."""
-        directions = zip(self.rows, self.cosines, self.sines, strict=True)
-        return integrals(self.rows, [row[6] * c + row[5] * s for row, c, s in directions])[1]
+        tilted = zip(self.rows, self.tilts, strict=True)
+        return integrals(self.rows, [row[6] * cos(tilt) + row[5] * sin(tilt) for row, tilt in tilted])[1]
 
-    def _closed(self, forces: list[float]) -> float:
+    def _along(self, toe_out: float) -> list[float]:
+        return [x + y + z for x, y, z in zip(*along_the_way(self.rows, self.tilts, toe_out), strict=True)]
+
+    def _closed(self, forces: Sequence[float]) -> float:
         distance, velocity = integrals(self.rows, forces)
         return distance - 0.5 * (self.rows[-1][0] - self.rows[0][0]) * velocity
 
@@ -82,10 +76,27 @@ def closed_stride(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -
 
     If g_x exceeded `end`, rad/s, in both directions, it is changed so that the velocity of a_f is zero at rest, too."""
     stride = span(rows, times.uplift, times.rest)
-    rates = _rates_closed_at_rest(stride, end)
-    changed = [(t, ax, ay, az, rate, gy, gz) for (t, ax, ay, az, _, gy, gz), rate in zip(stride, rates, strict=True)]
-    tilts = pitches(changed)
-    return RestToRest(tuple(changed), tuple(map(cos, tilts)), tuple(map(sin, tilts)))
+    angle_at_rest = angle(stride, 4)
+    toe_up, toe_down = _clipped_shape(stride, 1.0, end), _clipped_shape(stride, -1.0, end)
+    if not (toe_up and toe_down):
+        duration = stride[-1][0] - stride[0][0]
+        drift = angle_at_rest / duration if duration > 0.0 else 0.0
+        return _with_rates(stride, [row[4] - drift for row in stride])
+
+    def with_clipped(clipped: float) -> RestToRest:
+        """Return the stride whose toe rose by `clipped` rad more than was measured, and sank by what closes it."""
+        sunk = clipped + angle_at_rest
+        rates = [row[4] + clipped * up - sunk * down for row, up, down in zip(stride, toe_up, toe_down, strict=True)]
+        return _with_rates(stride, rates)
+
+    least = clipped = max(0.0, -angle_at_rest)
+    found = with_clipped(least)
+    slope = (with_clipped(least + 0.1).speed_at_rest() - found.speed_at_rest()) / 0.1
+    if abs(slope) >= LEAST_VELOCITY_CHANGE:
+        for _ in range(2):
+            clipped = min(max(clipped - found.speed_at_rest() / slope, least), least + LARGEST_CLIPPED_ANGLE)
+            found = with_clipped(clipped)
+    return found
 
 
 def vertical_turn(rows: Sequence[Row], times: CriticalTimes, stride: RestToRest, end: float = inf) -> float:
@@ -94,98 +105,54 @@ def vertical_turn(rows: Sequence[Row], times: CriticalTimes, stride: RestToRest,
     After rest a flat foot may still pivot. `end` is the end of the gyroscope's range, rad/s."""
     if not times.rest > times.uplift:
         return 0.0
-    return stride.turn() + angle(span(rows, times.rest, max(times.rest, rows[-1][0])), 6) + clipped_turn(rows, end)
+    return stride.turn() + angle(span(rows, times.rest, max(times.rest, rows[-1][0])), 6) + _clipped_turn(rows, end)
 
 
-def _rates_closed_at_rest(stride: Sequence[Row], end: float) -> list[float]:
-    """Return g_x of each row, rad/s, as `closed_stride` changes it."""
-    duration = stride[-1][0] - stride[0][0]
-    angle_at_rest = angle(stride, 4)
-    toe_up_clipped, toe_down_clipped = _clipped_peaks(stride, 1.0, end), _clipped_peaks(stride, -1.0, end)
-    toe_up_time = integrals(stride, toe_up_clipped)[1] if toe_up_clipped else 0.0
-    toe_down_time = integrals(stride, toe_down_clipped)[1] if toe_down_clipped else 0.0
-    if not (toe_up_time > 0.0 and toe_down_time > 0.0):
-        drift = angle_at_rest / duration if duration > 0.0 else 0.0
-        return [row[4] - drift for row in stride]
-
-    def with_clipped_angle(clipped: float) -> list[float]:
-        more, less = clipped / toe_up_time, (clipped + angle_at_rest) / toe_down_time
-        return [
-            row[4] + more * r - less * s for row, r, s in zip(stride, toe_up_clipped, toe_down_clipped, strict=True)
-        ]
-
-    # the toe rose `clipped` more than was measured, and sank `clipped` + `angle_at_rest` more
-    least = max(0.0, -angle_at_rest)
-    clipped, rates = least, with_clipped_angle(least)
-    speed = _speed_at_rest(stride, rates)
-    slope = (_speed_at_rest(stride, with_clipped_angle(least + 0.1)) - speed) / 0.1
-    if abs(slope) < LEAST_VELOCITY_CHANGE:
-        return rates
-    for k in range(2):
-        clipped = min(max(clipped - speed / slope, least), least + LARGEST_CLIPPED_ANGLE)
-        rates = with_clipped_angle(clipped)
-        if k == 0:
-            speed = _speed_at_rest(stride, rates)
-    return rates
+def _with_rates(stride: Sequence[Row], rates: Sequence[float]) -> RestToRest:
+    """Return the stride with these rates about x, rad/s."""
+    rows = [(t, ax, ay, az, rate, gy, gz) for (t, ax, ay, az, _, gy, gz), rate in zip(stride, rates, strict=True)]
+    return RestToRest(tuple(rows), tuple(pitches(rows)))
 
 
-def _speed_at_rest(stride: Sequence[Row], rates: Sequence[float]) -> float:
-    """Return the velocity of a_f (2) at the last row, m/s, zero at the first; `rates` is g_x of each row, rad/s."""
-    t, _, force_y, force_z, _, _, _ = stride[0]
-    force_z = 0.0  # sin(theta) is 0
-    rate, theta, speed_y, speed_z = rates[0], 0.0, 0.0, 0.0
-    for (next_t, _, ay, az, _, _, _), next_rate in zip(stride[1:], rates[1:], strict=True):
-        dt = next_t - t
-        theta += 0.5 * (rate + next_rate) * dt  # (3)
-        next_y, next_z = ay * cos(theta), az * sin(theta)
-        speed_y += 0.5 * (force_y + next_y) * dt
-        speed_z += 0.5 * (force_z + next_z) * dt
-        t, rate, force_y, force_z = next_t, next_rate, next_y, next_z
-    return speed_y + speed_z
+def _clipped_spans(rates: Sequence[float], end: float) -> Iterator[tuple[int, int]]:
+    """Yield the numbers [first, after) of each span of rates beyond `end`, rad/s."""
+    first = None
+    for i, rate in enumerate([*rates, -inf]):
+        if rate > end and first is None:
+            first = i
+        elif rate <= end and first is not None:
+            yield first, i
+            first = None
 
 
-def _clipped_peaks(stride: Sequence[Row], sign: float, end: float) -> list[float]:
-    """Return the shape of what was clipped of `sign` times g_x at each row, in any unit; [] if nothing was clipped.
+def _clipped_shape(stride: Sequence[Row], sign: float, end: float) -> list[float]:
+    """Return the shape of what was clipped of `sign` times g_x at each row, 1/s, with an integral of 1; [] for nothing.
 
     It is a parabola over each span. A smooth peak looks like that above the end of the range, rad/s. It leaves and
     reenters the range between two rows; the parabola is zero in the middle between them."""
-    if not any([sign * row[4] > end for row in stride]):
-        return []
-    shape = [0.0] * len(stride)
-    i, last = 0, len(stride) - 1
-    while i <= last:
-        if sign * stride[i][4] <= end:
-            i += 1
-            continue
-        first = i
-        while i <= last and sign * stride[i][4] > end:
-            i += 1
+    shape, last = [0.0] * len(stride), len(stride) - 1
+    for first, after in _clipped_spans([sign * row[4] for row in stride], end):
         left = 0.5 * (stride[max(first - 1, 0)][0] + stride[first][0])
-        right = 0.5 * (stride[i - 1][0] + stride[min(i, last)][0])
-        for k in range(first, i):
+        right = 0.5 * (stride[after - 1][0] + stride[min(after, last)][0])
+        for k in range(first, after):
             shape[k] = max(0.0, (stride[k][0] - left) * (right - stride[k][0]))
-    return shape
+    whole = integrals(stride, shape)[1]
+    return [value / whole for value in shape] if whole > 0.0 else []
 
 
-def clipped_turn(rows: Sequence[Row], end: float) -> float:
+def _clipped_turn(rows: Sequence[Row], end: float) -> float:
     """Return the clipped turn, rad, left positive: areas of cubics over the spans of g_z beyond `end`, rad/s."""
     total = 0.0
-    i, n = 2, len(rows)
-    while i < n - 2:
-        sign = 1.0 if rows[i][6] > 0.0 else -1.0
-        if sign * rows[i][6] < end:
-            i += 1
-            continue
-        first = i
-        while i < n - 2 and sign * rows[i][6] >= end:
-            i += 1
-        # rows first - 1 and i are the neighbours of the clipped span
-        highest_rate = max([sign * row[6] for row in rows[first:i]])
-        before = [(row[0], sign * row[6]) for row in (rows[first - 2], rows[first - 1], rows[first])]
-        after = [(-row[0], sign * row[6]) for row in (rows[i + 1], rows[i], rows[i - 1])]
-        (start, rise), (end_negated, fall) = _edge(before, highest_rate), _edge(after, highest_rate)
-        duration = max(0.0, -end_negated - start)
-        total += sign * min(duration * duration * (rise + fall) / 12.0, LARGEST_CLIPPED_ANGLE)
+    for sign in (1.0, -1.0):
+        rates = [sign * row[6] for row in rows]
+        for first, after in _clipped_spans(rates, end):
+            if first >= 2 and after <= len(rows) - 2:
+                highest_rate = max(rates[first:after])
+                points = [(row[0], rate) for row, rate in zip(rows, rates, strict=True)]
+                start, rise = _edge(points[first - 2 : first + 1], highest_rate)
+                back, fall = _edge([(-t, rate) for t, rate in points[after + 1 : after - 2 : -1]], highest_rate)
+                duration = max(0.0, -back - start)
+                total += sign * min(duration * duration * (rise + fall) / 12.0, LARGEST_CLIPPED_ANGLE)
     return total
 
 

@@ -8,11 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...foot.cues.cues import Cues, TimedCue
-from ...foot.cues.gait_cues import PressureCues
 from ...foot.phase import REMAINING_CUES, Cue
 from ...foot.stance.stance import Load, Stance
 from ...types import Phase, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define
 from .segment import StrideSegment
 
 
@@ -21,9 +20,7 @@ class CriticalCues(Cues):
     """Reports gait events at the critical times of a stride.
 
     Latency: all four are known when the static zone that ends the stride is detected, `loose_length` s after foot-flat
-    (static_zones.py); toe-off, some 0.6 s after it happened. `PressureCues` handles a foot that has only an insole."""
-
-    pressure: PressureCues = field(factory=PressureCues, init=False)
+    (static_zones.py); toe-off, some 0.6 s after it happened. A foot that has only an insole has no cues."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
@@ -40,8 +37,4 @@ class CriticalCues(Cues):
         return [TimedCue(cue, when[cue]) for cue in REMAINING_CUES[phase]]
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[TimedCue]:
-        seen = self.pressure.update(t, dt, load, phase) or self.pressure.update_areas(t, load, phase)
-        return () if seen is None else (seen,)
-
-    def restart(self) -> None:
-        self.pressure = PressureCues()
+        return ()

@@ -8,7 +8,12 @@ a_y = g sin(theta) and a_z = -g cos(theta), so that a_y cos(theta) + a_z sin(the
 
 - Uplift: g_x turns negative. Liftoff: a_y goes from negative to positive. Landing: a_y goes from positive to negative.
   Rest: both are zero again.
-- Algorithm 1 searches uplift and liftoff forward from the start of the segment, landing and rest backward from its end.
+- Algorithm 1 searches uplift and liftoff backward from the beginning of D_s, landing and rest forward from its end. D_s
+  is what lies between two static zones, phases (2) to (4), so uplift and rest lie in the zones before and after it: the
+  rows here have the ends of both. Uplift is searched backward from the heel's fastest rise, and rest backward from the
+  last row, the first time from which both are zero; these are the times that the paper means. Liftoff cannot lie before
+  D_s, where the foot stands, and landing not behind it. The text has "we extract among the segment" instead of lines 2
+  and 3, and so it is here: liftoff forward in the segment, landing backward from its end.
 - Values within a dead band, `RATE_DEAD_BAND` and `FORCE_DEAD_BAND`, count as zero. A crossing is where the straight
   line between two samples meets zero. For the uplift, which starts slowly, it is where the line meets the band's edge.
 - a_y also crosses zero in mid-swing, where the foot starts to slow down, and by chance as the heel rises; on recorded

@@ -8,13 +8,12 @@ stride_length.py has the equations for a stride's length and turn. The paper lea
 - A foot that pivots on its sole may seem to be in a static zone. Then its attitude follows the gyroscope.
 - The paper's track has no height. Here the rise of a stride is integrated like its length, because it distinguishes
   stairs from level ground. A stride whose rise is much likelier on level ground ends as high as it started.
-- `PRINTED` has the equations without the changes of stride_length.py, ignores pivots, and its strides have no rise.
+- `PRINTED` has (5) and (7) and the low-pass filter of turns alone, ignores pivots, and its strides have no rise.
 
 Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from enum import Enum
 from math import atan2, cos, fsum, hypot, inf, sin
 
 from ...body.activity.motion import slope_evidence
@@ -24,8 +23,20 @@ from ...foot.navigate.corrector import LONGEST_BRIDGE
 from ...foot.navigate.strapdown import Strapdown
 from ...foot.stance.stance import Stance
 from ...types import Foot, Phase, Quat, Vec3
-from ...types.attrs import define, evolve, field, frozen
-from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, heading_turned, multiply, normalise, rotate, tipped
+from ...types.attrs import evolve, field, frozen, state, stateful
+from ...types.vector import (
+    GRAVITY,
+    IDENTITY,
+    ZERO,
+    add,
+    from_yaw,
+    heading_turned,
+    multiply,
+    normalise,
+    rotate,
+    sub,
+    tipped,
+)
 from .closed_stride import closed_stride, vertical_turn
 from .critical_times import CriticalTimes
 from .segment import StrideSegment
@@ -57,73 +68,52 @@ UNSEEN_DISTANCE = 1.0
 """Distance assumed to be walked in a gap that is not integrated, m."""
 
 
-class Interval(Enum):
-    """The interval over which (5) is integrated."""
-
-    LIFTOFF_TO_LANDING = "liftoff to landing"
-    """As printed: zero velocity at liftoff."""
-    UPLIFT_TO_LANDING = "uplift to landing"
-    """Zero velocity at uplift."""
-    UPLIFT_TO_REST = "uplift to rest"
-    """Zero velocity and pitch at uplift and at rest: what the integrals give there is removed as an error."""
-
-
 @frozen
 class ProjectionSettings:
-    """Settings of `Projection`; phi of (1) in stride_length.py is `outwards` times `toe_out`."""
+    """Settings of `Projection`."""
 
-    toe_out: float = 0.0
-    """Toe-out angle phi of this foot, rad, outwards positive."""
-    outwards: float = 1.0
-    """Sign of the outward direction: 1 for a left foot, -1 for a right one."""
-    interval: Interval = Interval.UPLIFT_TO_REST
-    """Interval of the stride length."""
+    phi: float = 0.0
+    """Angle phi of (1) in stride_length.py, rad: the toe-out of a left foot, minus that of a right one."""
+    as_printed: bool = False
+    """Flag: (5) and (7) from liftoff to landing; otherwise closed_stride.py from uplift to rest, with a rise."""
     restores_clipped: bool = True
-    """Flag: angles beyond the range of the gyroscope are estimated."""
-    turns_about_vertical: bool = True
-    """Flag: the turn is that about the vertical up to rest, with pivots; otherwise (7) as printed."""
-    keeps_corners: bool = True
-    """Flag: a corner and a curve keep their whole angle (body/gait/turns.py)."""
-    has_rise: bool = True
-    """Flag: strides have a rise."""
+    """Flag: angles beyond the range of the gyroscope are estimated; not as printed."""
 
 
-PRINTED = ProjectionSettings(
-    interval=Interval.LIFTOFF_TO_LANDING, restores_clipped=False, turns_about_vertical=False, keeps_corners=False,
-    has_rise=False,
-)  # fmt: skip
+PRINTED = ProjectionSettings(as_printed=True)
 """Settings with which (5) and (7) are used as they are printed."""
 
 
-@define
+@stateful
 class Projection(Strapdown):
     """Corrector that moves the foot stride by stride, by the projected stride length.
 
     The frame is that of `Corrector`. Latency: a stride is known when the static zone that ends it is detected. Until
     then the live position and attitude are those of strapdown integration. They jump at the end of the stride."""
 
-    settings: ProjectionSettings = ProjectionSettings()
-    turning: TurningStrideFilter = field(factory=TurningStrideFilter)
-    largest_saturated: float = field(default=0.0, init=False)
+    settings: ProjectionSettings = field(default=ProjectionSettings())
+    turning: TurningStrideFilter = state(factory=TurningStrideFilter)
+    largest_saturated: float = 0.0
     """Largest rate about an axis in a sample that the device marked as saturated, rad/s; 0 before the first."""
-    least_saturated: float = field(default=0.0, init=False)
+    least_saturated: float = 0.0
     """Least rate, rad/s, of the saturated samples in which the gyroscope, not the accelerometer, was saturated."""
-    rest_attitude: Quat = field(default=IDENTITY, init=False)
+    rest_attitude: Quat = IDENTITY
     """Attitude at the last rest."""
-    rest_position: Vec3 = field(default=ZERO, init=False)
+    rest_position: Vec3 = ZERO
     """Position at the last rest, m."""
-    moving_time: float = field(default=0.0, init=False)
+    moving_time: float = 0.0
     """Time since the last rest, s."""
-    length: float = field(default=0.0, init=False)
+    length: float = 0.0
     """Distance walked since the last anchor, m."""
-    stride_count: int = field(default=0, init=False)
+    stride_count: int = 0
     """Number of strides since the last anchor."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> Projection:
         """Return the corrector for this foot, with its toe-out angle where it is known."""
-        outwards = 1.0 if foot is Foot.LEFT else -1.0
-        toe_out = calibration.toe_out.get(foot, self.settings.toe_out)
-        return evolve(self, settings=evolve(self.settings, toe_out=toe_out, outwards=outwards))
+        toe_out = calibration.toe_out.get(foot)
+        if toe_out is None:
+            return self
+        return evolve(self, settings=evolve(self.settings, phi=toe_out if foot is Foot.LEFT else -toe_out))
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         self.attitude = self.rest_attitude = attitude
@@ -149,7 +139,7 @@ class Projection(Strapdown):
         if self.moving_time > LONGEST_MOTION:
             self.velocity, self.position = ZERO, before
             return
-        if not self.settings.has_rise:
+        if self.settings.as_printed:
             vx, vy, _ = self.velocity
             x, y, _ = self.position
             self.velocity, self.position = (vx, vy, 0.0), (x, y, 0.0)
@@ -160,7 +150,7 @@ class Projection(Strapdown):
         segment = stance.detail
         if isinstance(segment, StrideSegment):
             self._end_stride(segment)
-        elif not self.settings.turns_about_vertical or self._rate_about_vertical() < PIVOT_RATE:
+        elif self.settings.as_printed or self._rate_about_vertical() < PIVOT_RATE:
             self.attitude = self.rest_attitude
         self.position, self.velocity = self.rest_position, ZERO
         self._level(min(self.moving_time, LONGEST_LEVELLING))
@@ -168,62 +158,52 @@ class Projection(Strapdown):
         return True
 
     def _end_stride(self, segment: StrideSegment) -> None:
-        x, y, z = self.rest_position
+        end = self.rest_position
         if segment.longest_gap >= LONGEST_GAP:
-            x, y, z = self._dedrifted_end()
+            end = self._dedrifted_end()
             self.turning.forget_corner()
         elif segment.times is not None:
-            x, y, z = self._stride_end(segment, segment.times)
+            end = self._stride_end(segment, segment.times)
         # without critical times the foot turned on the spot or shook, so it stays in place
-        x0, y0, _ = self.rest_position
-        self.length += hypot(x - x0, y - y0)
+        self.length += hypot(*sub(end, self.rest_position)[:2])
         self.stride_count += 1
         self.attitude = multiply(from_yaw(heading_turned(self.rest_attitude, self.attitude)), self.rest_attitude)
-        self.rest_position = (x, y, z)
+        self.rest_position = end
 
     def _stride_end(self, segment: StrideSegment, times: CriticalTimes) -> Vec3:
         """Return the position at the end of a stride by the equations, m."""
         settings, rows = self.settings, segment.rows
-        phi = settings.outwards * settings.toe_out
-        clips = settings.restores_clipped and self.least_saturated > 0.0
-        end = AXIS_SHARE * self.least_saturated if clips else inf
-        closed = closed_stride(rows, times, end)
-        match settings.interval:
-            case Interval.LIFTOFF_TO_LANDING:
-                length = fsum(stride_length(rows, times, phi))
-            case Interval.UPLIFT_TO_LANDING:
-                length = fsum(stride_length(rows, evolve(times, liftoff=times.uplift), phi))
-            case _:
-                length = fsum(closed.length(phi))
-        turn = vertical_turn(rows, times, closed, end) if settings.turns_about_vertical else swing_turn(rows, times)
-        rise = closed.rise() if settings.has_rise else 0.0
-        turn = self.turning.corner_turn(turn) if settings.keeps_corners else self.turning.turn(turn)
+        phi = settings.phi
+        if settings.as_printed:
+            length, rise = fsum(stride_length(rows, times, phi)), 0.0
+            turn = self.turning.turn(swing_turn(rows, times))
+        else:
+            clips = settings.restores_clipped and self.least_saturated > 0.0
+            end = AXIS_SHARE * self.least_saturated if clips else inf
+            closed = closed_stride(rows, times, end)
+            length, rise = closed.length(phi), closed.rise()
+            turn = self.turning.corner_turn(vertical_turn(rows, times, closed, end))
         fx, fy, _ = rotate(self.rest_attitude, segment.forward)
         # the direction of walking lies phi to the right of the foot's long axis
         direction = atan2(fy, fx) + 0.5 * turn - phi
         self.attitude = multiply(from_yaw(turn), self.rest_attitude)
         length = min(max(length, -LONGEST_STRIDE), LONGEST_STRIDE)
         rise = min(max(rise, -LARGEST_RISE), LARGEST_RISE)
-        x, y, z = self.rest_position
-        return x + length * cos(direction), y + length * sin(direction), z + rise
+        return add(self.rest_position, (length * cos(direction), length * sin(direction), rise))
 
     def _dedrifted_end(self) -> Vec3:
         """Return the live position without the drift that the velocity at rest implies, m."""
-        x, y, z = self.position
-        vx, vy, vz = self.velocity
-        half = 0.5 * min(self.moving_time, LONGEST_MOTION)
-        x, y, z = x - vx * half, y - vy * half, z - vz * half
-        x0, y0, z0 = self.rest_position
-        k = LONGEST_STRIDE / max(LONGEST_STRIDE, hypot(x - x0, y - y0))
-        rise = min(max(z - z0, -LARGEST_RISE), LARGEST_RISE)
-        return x0 + k * (x - x0), y0 + k * (y - y0), z0 + rise
+        end = add(self.position, self.velocity, -0.5 * min(self.moving_time, LONGEST_MOTION))
+        x, y, z = sub(end, self.rest_position)
+        k = LONGEST_STRIDE / max(LONGEST_STRIDE, hypot(x, y))
+        return add(self.rest_position, (k * x, k * y, min(max(z, -LARGEST_RISE), LARGEST_RISE)))
 
     def flat(self, start: Vec3, turn: float) -> None:
         """Keep the height of a stride whose rise speaks for level ground; the rises of a track drift otherwise."""
-        (x, y, z), (x0, y0, z0) = self.position, start
-        slope = slope_evidence(hypot(x - x0, y - y0), z - z0)
+        x, y, rise = sub(self.position, start)
+        slope = slope_evidence(hypot(x, y), rise)
         if max(slope.up, slope.down) < -LEAST_LEVELNESS:
-            self.position = self.rest_position = (x, y, z0)
+            self.position = self.rest_position = add(start, (x, y, 0.0))
 
     def repair(self, yaw: float, position: Vec3) -> None:
         """Do nothing, because only strides with a gap need a repair, and `_dedrifted_end` ends those."""
@@ -232,8 +212,7 @@ class Projection(Strapdown):
         """Turn the state by `yaw` rad about the foot, which stands, and move it by `by` m, navigation frame."""
         self.turn_about(yaw, by)
         self.rest_attitude = normalise(multiply(from_yaw(yaw), self.rest_attitude))
-        (x, y, z), (dx, dy, dz) = self.rest_position, by
-        self.rest_position = (x + dx, y + dy, z + dz)
+        self.rest_position = add(self.rest_position, by)
 
     def bridge(self, dt: float) -> float:
         if dt <= LONGEST_BRIDGE:
@@ -254,13 +233,9 @@ class Projection(Strapdown):
         return covariance
 
     def covariance(self) -> tuple[float, ...]:
-        x, y, _ = self.position
-        x0, y0, _ = self.rest_position
-        variance = (STRIDE_ERROR * (self.length + hypot(x - x0, y - y0))) ** 2
+        variance = (STRIDE_ERROR * (self.length + hypot(*sub(self.position, self.rest_position)[:2]))) ** 2
         yaw = TURN_ERROR * TURN_ERROR * min(self.stride_count, MOST_TURN_ERRORS)
-        rises = (
-            0.0 if not self.settings.has_rise else RISE_ERROR * RISE_ERROR * min(self.stride_count, MOST_TURN_ERRORS)
-        )
+        rises = 0.0 if self.settings.as_printed else (RISE_ERROR / TURN_ERROR) ** 2 * yaw
         return (variance, 0.0, 0.0, variance, 0.0, rises, yaw)
 
     def _rate_about_vertical(self) -> float:

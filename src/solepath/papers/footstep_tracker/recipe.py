@@ -3,33 +3,30 @@
 from __future__ import annotations
 
 from ...body.altitude import Altitude
+from ...body.fuse.both_feet import BothFeet
 from ...recipes import Recipe, usual_parts
 from .activity.two_second_windows import TwoSecondWindows
 from .critical_cues import CriticalCues
-from .footsteps import Footsteps, FootstepsSettings
+from .footsteps import Footsteps
 from .projection import PRINTED, Projection
-from .snake import PrintedSnake, SnakeGame
-from .static_zones import StaticZones, StaticZonesSettings
+from .snake import PrintedSnake
+from .static_zones import PRINTED_ZONES, StaticZones
 
 FOOTSTEP_TRACKER = Recipe(
-    "footstep-tracker",
-    StaticZones(),
-    Projection(),
-    CriticalCues(),
-    parts=usual_parts(Footsteps(), altitude=Altitude()),
-    place=SnakeGame(),
+    "footstep-tracker", StaticZones(), Projection(), CriticalCues(), parts=usual_parts(BothFeet(), altitude=Altitude())
 )
-"""Liu et al. 2015: strides between static zones, projected onto the ground; turns; a floor-plan game.
+"""Liu et al. 2015: strides between static zones, projected onto the ground; turns; places on a floor plan.
 
-Beyond the paper, strides have a rise, and the activities are those of `recipes.DEFAULT`. The wearer's height is that of
-elevators and air pressure; stairs count in it only where there is a barometer."""
+Beyond the paper, strides are closed at rest and have a rise. What both feet, activities and floor plans are made of is
+the same as in `recipes.DEFAULT`. The wearer's height is that of elevators and air pressure; stairs count in it only
+where there is a barometer."""
 
 FOOTSTEP_TRACKER_PRINTED = Recipe(
     "footstep-tracker-printed",
-    StaticZones(StaticZonesSettings(has_loose_rule=False, knows_offset=False)),
+    StaticZones(PRINTED_ZONES),
     Projection(PRINTED),
     CriticalCues(),
-    parts=usual_parts(Footsteps(FootstepsSettings(as_printed=True)), TwoSecondWindows()),
+    parts=usual_parts(Footsteps(), TwoSecondWindows()),
     place=PrintedSnake(),
 )
 """The same with the equations and rules as they are printed.

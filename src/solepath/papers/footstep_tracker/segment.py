@@ -5,11 +5,11 @@ Numbers without a source were chosen by hand."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import sqrt
+from math import hypot
 
 from ...types import Vec3
-from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY, ZERO, cross
+from ...types.attrs import frozen, stateful
+from ...types.vector import GRAVITY, ZERO, add, cross, dot, sub
 from .critical_times import CriticalTimes, Row
 
 MOST_MISFITS = 3
@@ -42,7 +42,7 @@ class StrideSegment:
     """Longest time between two samples of the stride, s."""
 
 
-@define
+@stateful
 class FootAxes:
     """Learns the foot's axes, x right and y forward, as unit vectors in the frame of a sensor in any mounting.
 
@@ -50,9 +50,9 @@ class FootAxes:
     start of a stride is a negative rotation. Forward is the foot's long axis, the paper's d_f, which is turned from the
     direction of walking by the toe-out angle."""
 
-    right: Vec3 | None = field(default=None, init=False)
+    right: Vec3 | None = None
     """Learnt axis to the right, sensor frame; None before the first stride."""
-    misfits: int = field(default=0, init=False)
+    misfits: int = 0
     """Number of consecutive strides whose axis to the right is more than 60 degrees off the learnt one."""
 
     def add_segment(self, rows: Sequence[Row], up: Vec3) -> None:
@@ -63,15 +63,14 @@ class FootAxes:
         if self.right is None:
             self.right = right
             return
-        (x, y, z), (u, v, w) = right, self.right
-        if u * x + v * y + w * z < MISFIT_COSINE:
+        learnt = self.right
+        if dot(right, learnt) < MISFIT_COSINE:
             self.misfits += 1
             if self.misfits < MOST_MISFITS:
                 return
-            u, v, w = right
+            learnt = right
         self.misfits = 0
-        k = STRIDE_WEIGHT
-        self.right = _unit((u + k * (x - u), v + k * (y - v), w + k * (z - w)))
+        self.right = _unit(add(learnt, sub(right, learnt), STRIDE_WEIGHT))
 
     def axes(self, up: Vec3) -> tuple[Vec3, Vec3] | None:
         """Return the axes (right, forward) at rest, when `up` points upwards, sensor frame; None while unknown."""
@@ -83,16 +82,13 @@ class FootAxes:
 
 def to_foot_axes(rows: Sequence[Row], right: Vec3, forward: Vec3, up: Vec3) -> tuple[Row, ...]:
     """Convert rows from the sensor frame, in which the axes are given, to the paper's axes with its sign of a_z."""
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = right, forward, up
+    vectors = [(row[0], row[1:4], row[4:7]) for row in rows]
     return tuple(
         [
-            (
-                t, ax * xx + ay * xy + az * xz, ax * yx + ay * yy + az * yz, -(ax * zx + ay * zy + az * zz),
-                gx * xx + gy * xy + gz * xz, gx * yx + gy * yy + gz * yz, gx * zx + gy * zy + gz * zz,
-            )
-            for t, ax, ay, az, gx, gy, gz in rows
+            (t, dot(a, right), dot(a, forward), -dot(a, up), dot(g, right), dot(g, forward), dot(g, up))
+            for t, a, g in vectors
         ]
-    )  # fmt: skip
+    )
 
 
 def scale_to_offset(rows: Sequence[Row], scale: float) -> tuple[Row, ...]:
@@ -109,12 +105,10 @@ def _rise(rows: Sequence[Row], up: Vec3) -> Vec3 | None:
     rotation, largest = ZERO, 0.0
     path: list[tuple[float, Vec3]] = []
     for before, row in zip(rows, rows[1:], strict=False):
-        dt = row[0] - before[0]
-        x, y, z = rotation
-        rotation = (x + row[4] * dt, y + row[5] * dt, z + row[6] * dt)
-        x, y, z = _horizontal(rotation, up)
-        angle = sqrt(x * x + y * y + z * z)
-        path.append((angle, (-x, -y, -z)))  # the heel rises about the axis to the left
+        rotation = add(rotation, row[4:7], row[0] - before[0])
+        level = _horizontal(rotation, up)
+        angle = hypot(*level)
+        path.append((angle, sub(ZERO, level)))  # the heel rises about the axis to the left
         if angle > largest:
             largest = angle
         elif largest > LEAST_RISE and angle < RISE_END_SHARE * largest:
@@ -124,11 +118,9 @@ def _rise(rows: Sequence[Row], up: Vec3) -> Vec3 | None:
 
 def _horizontal(v: Vec3, up: Vec3) -> Vec3:
     """Return the part of `v` at right angles to the unit vector `up`."""
-    k = v[0] * up[0] + v[1] * up[1] + v[2] * up[2]
-    return (v[0] - k * up[0], v[1] - k * up[1], v[2] - k * up[2])
+    return add(v, up, -dot(v, up))
 
 
 def _unit(v: Vec3) -> Vec3 | None:
-    x, y, z = v
-    length = sqrt(x * x + y * y + z * z)
-    return None if length < 1e-6 else (x / length, y / length, z / length)
+    length = hypot(*v)
+    return None if length < 1e-6 else add(ZERO, v, 1.0 / length)

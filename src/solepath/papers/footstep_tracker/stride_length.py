@@ -18,7 +18,8 @@ and signs are those of critical_times.py. The paper leaves these points open:
   1.23 m. From uplift, where the foot really rests, the integral gives 75 to 95 %, like the figure. So ours start at
   uplift (closed_stride.py).
 - A foot that moves along the way with its long axis turned by phi has a_f = a_m cos(phi) and a_x = a_m sin(phi). Only
-  then is (1) true. So the double integral of a_f is S cos(phi), and that of a_x is S sin(phi) (toe_out.py).
+  then is (1) true. So the double integral s_f of a_f is s cos(phi), which is shorter than the way s, and the printed
+  calibration phi = arccos(s / s_f) (`printed_toe_out`) has no angle. Where it has one, it is the error of the length.
 - The integrals use the trapezoidal rule. Between two samples, where the critical times lie, signals are straight lines.
 
 Numbers without a source were chosen by hand."""
@@ -26,7 +27,7 @@ Numbers without a source were chosen by hand."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, sin
+from math import acos, cos, sin
 
 from ...types import Vec3
 from .critical_times import CriticalTimes, Row
@@ -36,11 +37,19 @@ def stride_length(rows: Sequence[Row], times: CriticalTimes, toe_out: float = 0.
     """Return S_x, S_y, S_z of (6) as printed, m; S of (5) is their sum. `toe_out` is phi of (1), rad."""
     theta = angle(span(rows, times.uplift, times.liftoff), 4)
     stride = span(rows, times.liftoff, times.landing)
-    along, across, tilts = cos(toe_out), sin(toe_out), pitches(stride, theta)
+    x, y, z = (integrals(stride, part)[0] for part in along_the_way(stride, pitches(stride, theta), toe_out))
+    return x, y, z
+
+
+def along_the_way(
+    rows: Sequence[Row], tilts: Sequence[float], toe_out: float
+) -> tuple[list[float], list[float], list[float]]:
+    """Return the parts of a_m (4) that come from a_x, a_y and a_z, m/s^2, at each row; `tilts` is theta of (2), rad."""
+    along, across = cos(toe_out), sin(toe_out)
     return (
-        integrals(stride, [row[1] * across for row in stride])[0],  # (2), (4)
-        integrals(stride, [row[2] * cos(tilt) * along for row, tilt in zip(stride, tilts, strict=True)])[0],
-        integrals(stride, [row[3] * sin(tilt) * along for row, tilt in zip(stride, tilts, strict=True)])[0],
+        [row[1] * across for row in rows],
+        [row[2] * cos(tilt) * along for row, tilt in zip(rows, tilts, strict=True)],
+        [row[3] * sin(tilt) * along for row, tilt in zip(rows, tilts, strict=True)],
     )
 
 
@@ -49,14 +58,18 @@ def swing_turn(rows: Sequence[Row], times: CriticalTimes) -> float:
     return angle(span(rows, times.liftoff, times.landing), 6)
 
 
+def printed_toe_out(along: float, distance: float) -> float | None:
+    """Return phi = arccos(s / s_f), rad, as printed; None where s_f is shorter than s, so that no angle fits.
+
+    `along` is s_f, the sum of the double integrals of a_f, m, and `distance` is s, the length of a straight walk, m."""
+    return acos(distance / along) if along > distance else None
+
+
 def pitches(stride: Sequence[Row], theta: float = 0.0) -> list[float]:
     """Return the pitch (3) at every row, rad; at the first row it is `theta`."""
-    t, _, _, _, rate, _, _ = stride[0]
     found = [theta]
-    for next_t, _, _, _, next_rate, _, _ in stride[1:]:
-        theta += 0.5 * (rate + next_rate) * (next_t - t)
-        t, rate = next_t, next_rate
-        found.append(theta)
+    for before, row in zip(stride, stride[1:], strict=False):
+        found.append(found[-1] + 0.5 * (before[4] + row[4]) * (row[0] - before[0]))
     return found
 
 

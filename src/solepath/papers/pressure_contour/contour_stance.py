@@ -62,8 +62,10 @@ class GyroscopeMagnitude(Cycle):
     differ: in the recordings at hand the rate in the stillest 30 ms of a stance is 0.03 to 0.2 rad/s in a tied shoe and
     0.3 to 1.2 in loose insoles and shoes. So the threshold is that of `Cycle`. Latency: 25 ms."""
 
-    settings: CycleSettings = CycleSettings(threshold_position=RATE_POSITION, noise_per_rate_square=0.0, rolls=False)
-    shoe: ShoeDetector = state(factory=AngularRate)
+    settings: CycleSettings = field(
+        default=CycleSettings(threshold_position=RATE_POSITION, noise_per_rate_square=0.0, rolls=False)
+    )
+    shoe: AngularRate = state(factory=AngularRate)
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -82,7 +84,7 @@ class PrintedContour(Detector):
     before the first step, because cells are reported from then on (pressure/insole.py). With them a Limitation says
     that (3) misses stances."""
 
-    settings: ContourSettings = ContourSettings(pascals=PAPER_LEVELS)
+    settings: ContourSettings = field(default=ContourSettings(pascals=PAPER_LEVELS))
     contours: Contours = field(init=False)
     gyroscope: GyroscopeMagnitude = state(factory=GyroscopeMagnitude)
     lacking: str | None = None

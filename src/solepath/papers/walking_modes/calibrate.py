@@ -8,12 +8,14 @@ over steps. A mark is the point of the ground below the ankle.
 The paper's floor is surveyed, and its sensors have a common north. So errors may also turn every step to the same side,
 as those of a wearer do whose skin rolls over the muscles. They are kept if the heading of the wearer at the start is
 given; x of the marks is then that heading. Otherwise the marks may be in any frame. The angle to it is fitted to all
-steps, and what both feet err to the same side is left out, because it belongs to the unknown heading."""
+steps of a walk, which takes off what they err to one side on average."""
 
 from __future__ import annotations
 
+from cmath import rect
 from collections.abc import Iterable
-from math import atan2, cos, fsum, sin
+from itertools import pairwise
+from math import atan2, fsum
 from operator import attrgetter
 from pathlib import Path
 
@@ -26,6 +28,7 @@ from ...recording.decoded import DecodedRecording
 from ...session import Session
 from ...types import Foot, WalkingMode
 from ...types.attrs import evolve, frozen
+from ...types.vector import wrap_angle
 from ..tables import read_rows
 from .modes import Modes
 from .settings import ModesSettings
@@ -71,24 +74,20 @@ def read_marks(path: Path | str) -> list[ModeMark]:
     """Read the marks of a csv file with the columns foot (left, right), x, y (m), mode, and t (s) or step (from 1).
 
     Raises CalibrationError, with file and line, when the file does not have that form."""
-    rows = read_rows(path, ("foot", "x", "y", "mode"))
-    if not rows:
-        raise CalibrationError(f"{path}: no marks")
     marks = []
-    for row in rows:
+    for row in read_rows(path, ("foot", "x", "y", "mode")):
         foot = Foot(row.one_of("foot", [foot.value for foot in Foot]))
         mode = WalkingMode[row.one_of("mode", [mode.name for mode in MODES])]
-        mark = ModeMark(row.where, foot, row.number("x"), row.number("y"), mode)
-        if row.has("t"):
-            mark = evolve(mark, t=row.number("t"))
-        elif row.has("step"):
-            step = row.number("step")
-            if step != int(step) or step < 1:
-                raise CalibrationError(f"{row.where}: step is {step:g}, not a whole number from 1")
-            mark = evolve(mark, step=int(step))
-        else:
+        t = row.number("t") if row.has("t") else None
+        step = row.number("step") if t is None and row.has("step") else None
+        if step is not None and (step != int(step) or step < 1):
+            raise CalibrationError(f"{row.where}: step is {step:g}, not a whole number from 1")
+        if t is None and step is None:
             raise CalibrationError(f"{row.where}: neither t nor step says which touchdown it is")
-        marks.append(mark)
+        number = None if step is None else int(step)
+        marks.append(ModeMark(row.where, foot, row.number("x"), row.number("y"), mode, t, number))
+    if not marks:
+        raise CalibrationError(f"{path}: no marks")
     return marks
 
 
@@ -121,69 +120,40 @@ def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown], turn: float
         mark_of[k] = mark
     steps = []
     for k in range(3, len(downs)):
-        earliest, earlier, before, newest = (mark_of.get(j) for j in range(k - 3, k + 1))
-        if earliest is None or earlier is None or before is None or newest is None:
+        four = [mark_of[j] for j in range(k - 3, k + 1) if j in mark_of]
+        if len(four) < 4 or any([one.foot is next_one.foot for one, next_one in pairwise(four)]):
             continue
-        if not downs[k - 1].final:  # reported before the first heading was final: in another frame
-            continue
-        if not earliest.foot is before.foot is not newest.foot is earlier.foot:
-            continue
-        (x, y, _), (px, py, _) = downs[k].position, downs[k - 1].position
+        earliest, earlier, before, newest = four
         # the line through two touchdowns of one foot is the direction between them: for this foot one step before the
         # end, for the other foot two steps before; extrapolate to half a step before
         direction = atan2(newest.y - earlier.y, newest.x - earlier.x)
-        earlier_direction = atan2(before.y - earliest.y, before.x - earliest.x)
-        direction += 0.5 * atan2(sin(direction - earlier_direction), cos(direction - earlier_direction))
-        steps.append((newest, (newest.x - before.x, newest.y - before.y), (x - px, y - py), direction))
+        direction += 0.5 * wrap_angle(direction - atan2(before.y - earliest.y, before.x - earliest.x))
+        true = complex(newest.x - before.x, newest.y - before.y)
+        (x, y, _), (px, py, _) = downs[k].position, downs[k - 1].position
+        steps.append((newest, true, complex(x - px, y - py), direction))
     if turn is None:  # by least squares over all steps
-        turn = atan2(
-            fsum([mx * true[1] - my * true[0] for _, true, (mx, my), _ in steps]),
-            fsum([mx * true[0] + my * true[1] for _, true, (mx, my), _ in steps]),
-        )
-    c, s = cos(turn), sin(turn)
+        products = [true * measured.conjugate() for _, true, measured, _ in steps]
+        turn = atan2(fsum([one.imag for one in products]), fsum([one.real for one in products]))
     errors = []
-    for mark_reached, (tx, ty), (mx, my), direction in steps:
-        ex, ey = tx - (c * mx - s * my), ty - (s * mx + c * my)
-        ca, sa = cos(direction), sin(direction)
-        errors.append(StepError(mark_reached.foot, mark_reached.mode, ca * ex + sa * ey, ca * ey - sa * ex))
+    for reached, true, measured, direction in steps:
+        error = (true - measured * rect(1.0, turn)) * rect(1.0, -direction)
+        errors.append(StepError(reached.foot, reached.mode, error.real, error.imag))
     return errors
 
 
-def mean_errors(
-    errors: Iterable[StepError], known_heading: bool = False
-) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
-    """Return the mean errors (forward, left), m, by foot and mode.
-
-    Without `known_heading` they lack the error that a wrong heading causes."""
+def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
+    """Return the mean errors (forward, left), m, by foot and mode."""
     errors_of: dict[Foot, dict[WalkingMode, list[StepError]]] = {}
     for error in errors:
         errors_of.setdefault(error.foot, {}).setdefault(error.mode, []).append(error)
-    means = {
+    return {
         foot: {
-            mode: (
-                fsum([e.forward for e in mode_errors]) / len(mode_errors),
-                fsum([e.left for e in mode_errors]) / len(mode_errors),
-            )
-            for mode, mode_errors in errors_of[foot].items()
+            mode: (fsum([e.forward for e in of]) / len(of), fsum([e.left for e in of]) / len(of))
+            for mode, of in errors_of[foot].items()
         }
         for foot in Foot
         if foot in errors_of
     }
-    if not known_heading:
-        remove_heading_error(means)
-    return means
-
-
-def remove_heading_error(means: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> None:
-    """Remove from each mode the sideways error that both feet have in common, m.
-
-    A common error turns the whole path, as the heading error of a sensor does, which differs from walk to walk. The
-    sideways errors of misplaced touchdowns have opposite signs for the two feet."""
-    left, right = means.get(Foot.LEFT, {}), means.get(Foot.RIGHT, {})
-    for mode in left.keys() & right.keys():
-        common_error = 0.5 * (left[mode][1] + right[mode][1])
-        left[mode] = (left[mode][0], left[mode][1] - common_error)
-        right[mode] = (right[mode][0], right[mode][1] - common_error)
 
 
 def fit_modes(
@@ -198,15 +168,14 @@ def fit_modes(
     CalibrationError when a walk has no four consecutive marks."""
     known = Calibration() if known is None else known
     errors: list[StepError] = []
-    known_heading = heading is not None
     for walk, path in walks:
-        known_heading = known_heading and any([sample.site.foot is None for sample in walk.samples])
-        turn = 0.0 if known_heading else None
+        has_north = heading is not None and any([sample.site.foot is None for sample in walk.samples])
+        turn = 0.0 if has_north else None
         walk_errors = step_errors(read_marks(path), touchdowns(walk, known, heading), turn)
         if not walk_errors:
             raise CalibrationError(f"{path}: no four marks one after the other, left and right in turn")
         errors += walk_errors
-    return Calibration(modes=mean_errors(errors, known_heading))
+    return Calibration(modes=mean_errors(errors))
 
 
 def _touchdown_index(mark: ModeMark, downs: list[TouchedDown]) -> int:

@@ -18,14 +18,14 @@ The paper leaves these points open:
 - Height. The method is planar, so heights of touchdowns are those of the feet's own tracks. These drift apart, so
   without the chain method I compares heights above each foot's last foot-flat.
 - Undetected touchdowns. One is also reported if a foot becomes the reference after it has moved, or if the reference
-  foot comes down elsewhere. If a foot's sign fails (evidence.py), its own strides replace it. If one foot is absent,
+  foot comes down elsewhere. If a foot's sign fails (signs.py), its own strides replace it. If one foot is absent,
   the other is the only reference and follows its own track."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
-from math import atan2, fsum, hypot
+from math import fsum, hypot
 from typing import ClassVar
 
 from ...body.part import LimbSampled, PartInput, PartOutput, Position, TrackPart
@@ -38,14 +38,12 @@ from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site, Vec3
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIME_EPSILON, ZERO, sub
 from .compensation import epsilon_p, merge_own
-from .evidence import MOST_STRIDES_WITHOUT_SIGN
-from .limbs.limb_sensors import LimbSensors
-from .limbs.limbs import LIMB_SITES
+from .limbs.limbs import LIMB_SITES, Legs
 from .mode import LEAST_STEP_LENGTH
 from .places import FootPlaces
 from .recognition import Recognition
 from .settings import ModesSettings
-from .signs import Signs
+from .signs import MOST_STRIDES_WITHOUT_SIGN, Signs
 from .touchdown import AnyTouchdown, Height, PressureTouchdown, ReferenceFoot, displace
 
 LEAST_MOVED_DISTANCE = 0.03
@@ -71,7 +69,6 @@ class Modes(TrackPart):
     """Method that detects touchdowns."""
     settings: ModesSettings = ModesSettings()
     places: FootPlaces = field(init=False)
-    limb_sensors: LimbSensors = field(factory=LimbSensors, init=False)
     signs: Signs = field(init=False)
     recognition: Recognition = field(init=False)
     reference: ReferenceFoot = field(factory=ReferenceFoot, init=False)
@@ -83,12 +80,8 @@ class Modes(TrackPart):
     """Time of the newest touchdown of each foot, s; one that an older sample of the other foot shows is not earlier."""
     touchdowns: int = field(default=0, init=False)
     """Number of touchdowns so far."""
-    limitation_reported: bool = field(default=False, init=False)
-    """Flag: the reason why the chain is not used was reported."""
-    feet_reported_alone: list[Foot] = field(factory=list, init=False)
-    """Feet that were reported to continue without the other foot."""
-    feet_reported_blind: list[Foot] = field(factory=list, init=False)
-    """Feet whose cells were reported to show no mode."""
+    limitations: list[str] = field(factory=list, init=False)
+    """What was reported as a limitation: each kind once for a site."""
 
     def __attrs_post_init__(self) -> None:
         self.signs = Signs(deepcopy(self.touchdown))
@@ -99,7 +92,7 @@ class Modes(TrackPart):
         """Return the part with the wearer's limbs, weight and compensation; methods I to III take no compensation."""
         settings = self.settings
         compensation = settings.compensation
-        if compensation is not None and settings.own_compensation and calibration.modes:
+        if compensation is not None and calibration.modes and not settings.as_printed:
             compensation = merge_own(compensation, calibration.modes)
         limbs, weight = calibration.limbs or settings.limbs, calibration.weight or settings.weight
         return evolve(self, settings=evolve(settings, limbs=limbs, weight=weight, compensation=compensation))
@@ -107,18 +100,9 @@ class Modes(TrackPart):
     def with_heading(self, heading: float) -> Modes:
         return evolve(self, settings=evolve(self.settings, heading=heading))
 
-    def _add_limb(self, sample: Sample) -> Sequence[PartOutput]:
-        """Add a sample of pelvis, thigh or shank: its attitude, or acceleration and angular velocity."""
-        t = sample.t
-        wrong = self.limb_sensors.add_sample(sample, self.places.chain)
-        if wrong is not None:
-            return [rejected(sample, wrong, self.limb_sensors.times.get(sample.site))]
-        return self._resolve_pending(t, max(t, sample.known_at))
-
     def reset(self, site: Site) -> None:
         self.places.chain.reset(site)
         self.places.mean.reset(site)
-        self.limb_sensors.reset(site)
         if site.foot is not None:
             self.recognition.reset(site.foot)
             self.newest_t.clear()
@@ -129,19 +113,48 @@ class Modes(TrackPart):
             return [
                 output for event in events if isinstance(event, LimbSampled) for output in self._add_limb(event.sample)
             ]
-        foot, t, known_at, sample = view.foot, view.t, view.known_at, view.sample
-        self.limb_sensors.add_time(t)
+        foot, t = view.foot, view.t
         self.places.add_view(view)
-        if view.levelled and self.limb_sensors.times:  # without sensors above the ankles there is no chain
-            if sample.quat is not None:
-                self.places.chain.set_attitude(SITE_OF_FOOT[foot], t, sample.quat)
-            elif sample.acc is not None:
-                heading = None if view.north is None else atan2(-view.north[1], view.north[0])
-                self.places.chain.set_own_attitude(SITE_OF_FOOT[foot], t, view.attitude, heading)
+        self.places.chain.add_attitude(SITE_OF_FOOT[foot], t, view.sample.quat if view.levelled else None)
         self.signs.add_view(view, events, self.places.sides[foot].track[2])
         self.recognition.add_view(view, events)
         outputs = [] if view.pressed is None else self._add_pressure(view, view.pressed)
-        return outputs + self._update_reference(foot, t, known_at)
+        return outputs + self._update_reference(foot, t, view.known_at)
+
+    def _add_limb(self, sample: Sample) -> Sequence[PartOutput]:
+        """Add a sample of pelvis, thigh or shank."""
+        chain = self.places.chain
+        wrong = chain.add_limb(sample)
+        if wrong is not None:
+            return [rejected(sample, wrong, chain.times.get(sample.site))]
+        return self._resolve_pending(sample.t, max(sample.t, sample.known_at))
+
+    def _add_pressure(self, view: FootView, cells: PressedCells) -> list[Event]:
+        """Add the cells of a foot, and report the walking mode if it has changed."""
+        foot, t, known_at, state = view.foot, view.t, view.known_at, self.signs.add_pressure(view.foot, cells)
+        both_feet = self.signs.feet[OTHER[foot]].has_samples
+        mode = self.recognition.add_pressure(foot, state, cells.values, cells.layout, t, both_feet)
+        events: list[Event] = []
+        if mode is not None:
+            events.append(WalkingModeChanged(t=t, known_at=known_at, mode=mode, foot=foot))
+        if self.recognition.is_blind(foot):
+            what = f"the cells of the {foot.value} insole do not tell left from right: no walking modes"
+            events += self._limit("blind", what, SITE_OF_FOOT[foot], t, known_at)
+        return events
+
+    def _limit(self, kind: str, what: str, site: Site | None, t: float, known_at: float) -> list[Event]:
+        """Return a limitation, unless one of this kind was reported for this site."""
+        name = f"{kind} {site}"
+        if name in self.limitations:
+            return []
+        self.limitations.append(name)
+        return [Limitation(t=t, known_at=known_at, site=site, what=what)]
+
+    def _is_alone(self, foot: Foot, t: float) -> bool:
+        """Return whether the other foot is lost, or has sent no samples while this one took strides."""
+        if not self.signs.feet[OTHER[foot]].has_samples:
+            return self.signs.feet[foot].stride_count >= MOST_STRIDES_WITHOUT_SIGN
+        return self.places.is_lost(OTHER[foot], t)
 
     def _update_reference(self, foot: Foot, t: float, known_at: float) -> list[Event]:
         """Update the reference foot, and return the events of a touchdown."""
@@ -149,50 +162,38 @@ class Modes(TrackPart):
         sign_t = self._measure_heights(t) if isinstance(self.touchdown, Height) else t
         other = OTHER[foot]
         alone = foot if self._is_alone(foot, t) else other if self._is_alone(other, t) else None
-        if alone is None and len(self.signs.states) < len(Foot):
+        if alone is None and not all([sign.has_samples for sign in self.signs.feet.values()]):
             return events
-        if alone is foot and foot not in self.feet_reported_alone:
-            self.feet_reported_alone.append(foot)
+        if alone is foot:
             what = f"the {other.value} foot is not heard: the wearer goes by the {foot.value} foot's own track"
-            events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[other], what=what))
-        down_before = self.reference.down
+            events += self._limit("alone", what, SITE_OF_FOOT[other], t, known_at)
+        down_before, reference = self.reference.down, self.reference.foot
         flags = self.signs.down_flags(t, alone, known_at, events)
         change = self.reference.update(flags)
-        if change is None:
-            reference_foot = self.reference.foot
-            k = 0 if reference_foot is Foot.LEFT else 1
-            if (
-                reference_foot is not None
-                and flags[k]
-                and not down_before[k]
-                and self.places.sides[reference_foot].moved_distance > LEAST_OWN_STEP_LENGTH
-            ):
+        if change is not None:
+            new_reference, comes_down = change
+            # a foot that was down all the time makes no touchdown
+            if comes_down or self.places.sides[new_reference].moved_distance >= LEAST_STEP_LENGTH:
                 events += self._flush_pending(known_at)
-                events += self._add_touchdown(reference_foot, t, known_at, by_own_track=True)
-            return events
-        if not change[1] and self.places.sides[change[0]].moved_distance < LEAST_STEP_LENGTH:
-            return events  # the foot was down all the time, so this is no touchdown
-        events += self._flush_pending(known_at)
-        self.pending = (change[0], sign_t)
-        return events + self._resolve_pending(t, known_at)
-
-    def _is_alone(self, foot: Foot, t: float) -> bool:
-        """Return whether the other foot is lost, or has sent no samples while this one took strides."""
-        other = OTHER[foot]
-        if other not in self.signs.states:
-            return self.signs.evidence[foot].stride_count >= MOST_STRIDES_WITHOUT_SIGN
-        return self.places.is_lost(other, t)
+                self.pending = (new_reference, sign_t)
+                events += self._resolve_pending(t, known_at)
+        elif reference is not None:
+            k = 0 if reference is Foot.LEFT else 1
+            came_down = flags[k] and not down_before[k]
+            if came_down and self.places.sides[reference].moved_distance > LEAST_OWN_STEP_LENGTH:
+                events += self._flush_pending(known_at)
+                events += self._add_touchdown(reference, t, known_at, by_own_track=True)
+        return events
 
     def _measure_heights(self, t: float) -> float:
         """Set the heights of both feet at the latest instant at which the chain is known; return that instant, s."""
         chain = self.places.chain
         complete = chain.complete() if chain.is_current(t) else None
-        if complete is not None and complete == self.heights_t:
-            return min(t, complete)
-        self.heights_t = complete
-        for foot, state in self.signs.states.items():
-            own = self.places.sides[foot].track[2] - state.flat_height
-            state.height = own if complete is None else chain.height(foot, complete)
+        if complete is None or complete != self.heights_t:
+            self.heights_t = complete
+            for foot, sign in self.signs.feet.items():
+                own = self.places.sides[foot].track[2] - sign.flat_height
+                sign.state.height = own if complete is None else chain.height(foot, complete)
         return t if complete is None else min(t, complete)
 
     def _flush_pending(self, known_at: float) -> list[Event]:
@@ -207,25 +208,11 @@ class Modes(TrackPart):
         if self.pending is None:
             return []
         (_, touchdown_t), chain = self.pending, self.places.chain
-        if chain.is_current(touchdown_t) and t - touchdown_t < LONGEST_WAIT:
+        if t - touchdown_t < LONGEST_WAIT and chain.is_current(touchdown_t):
             complete = chain.complete()
             if complete is not None and complete < touchdown_t - TIME_EPSILON:
                 return []
         return self._flush_pending(known_at)
-
-    def _add_pressure(self, view: FootView, cells: PressedCells) -> list[Event]:
-        """Add the cells of a foot, and report the walking mode if it has changed."""
-        foot, t, known_at, state = view.foot, view.t, view.known_at, self.signs.add_pressure(view.foot, cells)
-        both_feet = OTHER[foot] in self.signs.states
-        mode = self.recognition.add_pressure(foot, state, cells.values, cells.layout, t, both_feet)
-        events: list[Event] = []
-        if mode is not None:
-            events.append(WalkingModeChanged(t=t, known_at=known_at, mode=mode, foot=foot))
-        if self.recognition.is_blind(foot) and foot not in self.feet_reported_blind:
-            self.feet_reported_blind.append(foot)
-            what = f"the cells of the {foot.value} insole do not tell left from right: no walking modes"
-            events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[foot], what=what))
-        return events
 
     def _add_touchdown(self, foot: Foot, t: float, known_at: float, by_own_track: bool = False) -> list[Event]:
         """Add a touchdown, as in the flow of fig. 12.
@@ -233,15 +220,13 @@ class Modes(TrackPart):
         `by_own_track` is True if the foot itself is the reference, so that only its own track has its place."""
         places, side, chain = self.places, self.places.sides[foot], self.places.chain
         if chain.is_current(t):
-            first_step_foot = places.first_step_foot(foot)
-            x, y, _ = sub(places.sides[first_step_foot].own_position, places.sides[first_step_foot].place)
-            chain.add_touchdown(first_step_foot, t, atan2(y, x) if places.heading_settled else 0.0)
+            chain.add_first_step(places.first_step_foot(foot), t)
         if by_own_track or self._is_alone(foot, t):
             (x, y, _), chained = side.own_position, False
             place = (x, y, side.track[2])
         else:
             place, chained = places.locate(foot, t)
-        dx, dy = place[0] - side.place[0], place[1] - side.place[1]
+        dx, dy, _ = sub(place, side.place)
         step = hypot(dx, dy)
         self.recognition.add_touchdown(foot, step)
         if step < LEAST_MOVED_DISTANCE:
@@ -249,23 +234,20 @@ class Modes(TrackPart):
         compensation, mode = ZERO, self.recognition.mode_at_touchdown(foot)
         if step > LEAST_STEP_LENGTH:
             side.direction = places.walking_direction(t) if chained else (dx / step, dy / step)
-            if not chain.aligned:
-                chain.given_up = True
+            chain.given_up = chain.given_up or not chain.aligned
             if self.settings.compensation is not None:
                 compensation = epsilon_p(self.settings.compensation, foot, mode, side.direction)
         places.set_down(foot, displace(place, compensation), chained, t)
         t = self.newest_t[foot] = max(t, self.newest_t.get(foot, t))
         self.touchdowns += 1
+        legs = chain.legs(t)
         events: list[Event] = []
-        if not (chained or self.limitation_reported or chain.is_current(t)):
-            self.limitation_reported = True
-            reason = chain.why_unusable(t, self.limb_sensors.times)
-            what = f"{reason}: the feet are where their own inertial tracks have them"
-            events.append(Limitation(t=t, known_at=known_at, site=None, what=what))
-        final = places.heading_settled or not (chained or chain.may_recover())
+        if not chained and legs is None:
+            what = f"{chain.why_unusable(t)}: the feet are where their own inertial tracks have them"
+            events = self._limit("chain", what, None, t, known_at)
         touchdown = TouchedDown(
-            t=t, known_at=max(t, known_at), final=final, foot=foot, position=side.place, mode=mode,
-            compensation=compensation, legs=chain.legs(t),
+            t=t, known_at=max(t, known_at), final=places.heading_settled or not chained, foot=foot,
+            position=side.place, mode=mode, compensation=compensation, legs=legs,
         )  # fmt: skip
         return [*events, touchdown]
 
@@ -277,28 +259,33 @@ class Modes(TrackPart):
         t = max([pose.t for pose in poses])
         for pose in poses:
             if OTHER[pose.foot] not in feet or self.places.is_lost(OTHER[pose.foot], t):
-                x, y, z = self.places.middle(pose.foot)
-                return Position(t, (x, y, z), self._covariance(x, y, [pose]))
-        reference = self.reference.foot
-        places = []
-        for foot, side in self.places.sides.items():
-            moving = reference is not None and foot is not reference
-            places.append(self.places.locate(foot, t)[0] if moving else side.place)
-        x, y, z = (0.5 * (one + other) for one, other in zip(*places, strict=True))
-        return Position(t, (x, y, z), self._covariance(x, y, poses))
+                place = self.places.middle(pose.foot)
+                return Position(t, place, self._covariance(place, [pose]))
+        moving = None if self.reference.foot is None else OTHER[self.reference.foot]
+        both = [self.places.locate(foot, t)[0] if foot is moving else side.place
+                for foot, side in self.places.sides.items()]  # fmt: skip
+        x, y, z = (0.5 * (one + other) for one, other in zip(*both, strict=True))
+        return Position(t, (x, y, z), self._covariance((x, y, z), poses))
 
     @property
-    def legs(self) -> tuple[float, tuple[tuple[Vec3, ...], tuple[Vec3, ...]]] | None:
+    def legs(self) -> tuple[float, Legs] | None:
         """Time, s, and rods of both legs then, as they are known now; None while an attitude is not known."""
-        return self.places.chain.newest_legs()
+        t = self.places.chain.complete()
+        rods = None if t is None else self.places.chain.legs(t)
+        return None if t is None or rods is None else (t, rods)
 
-    def _covariance(self, x: float, y: float, poses: list[FootPose]) -> Covariance3:
+    def _covariance(self, place: Vec3, poses: list[FootPose]) -> Covariance3:
         """Return the covariance by errors of touchdowns, scale and first heading, m^2; for z, that of the tracks."""
+        x, y, _ = place
         variance = STEP_SIGMA**2 * (1 + self.touchdowns)
         scale, turn = SCALE_SIGMA**2, HEADING_SIGMA**2
-        xx, yy = variance + scale * x * x + turn * y * y, variance + scale * y * y + turn * x * x
-        xy = (scale - turn) * x * y
-        track_covariance = [fsum([foot.covariance[i] for foot in poses]) / len(poses) ** 2 for i in range(6)]
-        if not self.places.chain.aligned:
-            xx, xy, yy = xx + track_covariance[0], xy + track_covariance[1], yy + track_covariance[3]
-        return (xx, xy, 0.0, yy, 0.0, track_covariance[5])
+        of_tracks = [fsum(c) / len(poses) ** 2 for c in zip(*[foot.covariance for foot in poses], strict=True)]
+        k = 0.0 if self.places.chain.aligned else 1.0
+        return (
+            variance + scale * x * x + turn * y * y + k * of_tracks[0],
+            (scale - turn) * x * y + k * of_tracks[1],
+            0.0,
+            variance + scale * y * y + turn * x * x + k * of_tracks[3],
+            0.0,
+            of_tracks[5],
+        )

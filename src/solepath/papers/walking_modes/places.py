@@ -1,4 +1,4 @@
-"""Places of both feet from P_L, P_R and the vector V_change between these, and the first heading (walking-modes).
+"""Places of both feet from P_L, P_R and the vector V_change between these (walking-modes).
 
 After Gong et al. 2023 (Sensors 23, 5417), equations (1) to (3). P_L and P_R are the ends of the feet in the chain of
 seven attitudes (limbs.py) if it is known. Otherwise they are the positions of the feet's own inertial tracks, which
@@ -10,13 +10,13 @@ Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, hypot
 
-from ...body.fuse.position import MeanOfFeet, PlacedTrack
+from ...body.fuse.position import MeanOfFeet
 from ...foot.view import FootView
 from ...types import OTHER, Foot, Vec3
-from ...types.attrs import define, field
-from ...types.vector import ZERO, sub
+from ...types.attrs import define, field, state, stateful
+from ...types.vector import ZERO, add, sub, turned, wrap_angle
 from .limbs.limbs import LowerLimbs
 from .mode import LEAST_STEP_LENGTH
 from .settings import ModesSettings
@@ -24,12 +24,12 @@ from .touchdown import displace, v_change
 
 FIRST_DISTANCE = 1.5
 """Distance, m, from the start to the middle between the feet, from which on the first heading is final."""
-LEAST_DIRECTION = 0.15
-"""Length of the sum of both feet's unit vectors below which they are nearly opposite and show no direction."""
-CLEAR_DISTANCE = 0.15
-"""Distance, m, by which one foot must be further from the start than the other for it to have stepped first."""
 LEAST_HEADING_DISTANCE = 0.075
 """Distance, m, from the start to the middle between the feet below which it shows no heading."""
+CLEAR_DISTANCE = 0.15
+"""Distance, m, by which one foot must be further from the start than the other for it to have stepped first."""
+LEAST_DIRECTION = 0.15
+"""Length of the sum of both feet's unit vectors below which they are nearly opposite and show no direction."""
 
 
 @define
@@ -50,27 +50,26 @@ class FootPlace:
     @property
     def own_position(self) -> Vec3:
         """Last touchdown plus the movement of the foot's own track since then, world frame, m."""
-        return displace(self.track, self.offset)
+        return add(self.track, self.offset)
 
     @property
     def moved_distance(self) -> float:
         """Horizontal distance from the last touchdown to `own_position`, m."""
-        x, y, _ = sub(self.own_position, self.place)
-        return hypot(x, y)
+        return hypot(*sub(self.own_position, self.place)[:2])
 
 
-@define
+@stateful
 class FootPlaces:
     """The places of both feet and the chain between them."""
 
-    settings: ModesSettings
+    settings: ModesSettings = field()
     chain: LowerLimbs = field(init=False)
     """Chain of the seven segments."""
     sides: dict[Foot, FootPlace] = field(init=False)
     """Place by foot."""
     heading_settled: bool = field(init=False)
     """Flag: the first heading is final."""
-    mean: MeanOfFeet = field(factory=MeanOfFeet, init=False)
+    mean: MeanOfFeet = state(factory=MeanOfFeet)
     """Part that puts a foot beside the other one after a silence."""
 
     def __attrs_post_init__(self) -> None:
@@ -83,27 +82,23 @@ class FootPlaces:
             self.sides[foot] = FootPlace(place, place, (settings.limbs.foot, 0.0))
 
     def add_view(self, view: FootView) -> None:
-        """Add the position of a foot by its own track."""
+        """Add the position of a foot by its own track.
+
+        When `mean` moves a track, the place of the foot stays; when it puts one beside the other after a silence, the
+        feet stand abreast."""
         tracks = self.mean.tracks
-        before = [(track.offset, track.unplaced) for track in tracks.values()]
+        before = {foot: (track.offset, track.unplaced) for foot, track in tracks.items()}
         self.mean.add_view(view)
-        for (foot, track), (offset, was_unplaced) in zip(tracks.items(), before, strict=True):
+        for foot, track in tracks.items():
+            offset, was_unplaced = before[foot]
             if track.offset is not offset:
-                self._move_track(foot, track, offset, was_unplaced)
+                side, other = self.sides[foot], self.sides[OTHER[foot]]
+                here, side.track = side.own_position, track.newest
+                if was_unplaced and not track.unplaced:
+                    here = side.place = add(add(other.offset, (*self._side_offset(foot, other), 0.0)), side.track)
+                side.offset = sub(here, side.track)
         if view.levelled:
             self.sides[view.foot].track = tracks[view.foot].newest
-
-    def _move_track(self, foot: Foot, placed_track: PlacedTrack, offset: Vec3, was_unplaced: bool) -> None:
-        """Adapt the place of a foot to the offset of `placed_track`, which was `offset` before, world frame, m."""
-        side, other = self.sides[foot], self.sides[OTHER[foot]]
-        if was_unplaced and not placed_track.unplaced:  # placed again after a silence, as if the feet stood abreast
-            side.track = placed_track.newest
-            x, y = self._side_offset(foot, other)
-            side.offset = displace(other.offset, (x, y, 0.0))
-            side.place = side.own_position
-        else:  # the track moves, but not the place of the foot
-            shift = sub(placed_track.offset, offset)
-            side.offset, side.track = sub(side.offset, shift), displace(side.track, shift)
 
     def _side_offset(self, foot: Foot, other: FootPlace) -> tuple[float, float]:
         """Return the vector from `other` to `foot`, world frame, m, when both stand abreast, facing its direction."""
@@ -148,43 +143,35 @@ class FootPlaces:
 
     def first_step_foot(self, foot: Foot) -> Foot:
         """Return the foot that took the first step: `foot`, unless the other is clearly further from the start."""
-        other = OTHER[foot]
-        (x, y, _), (u, v, _) = self.sides[foot].track, self.sides[other].track
-        return other if hypot(u, v) > hypot(x, y) + CLEAR_DISTANCE else foot
+        (x, y, _), (u, v, _) = self.sides[foot].track, self.sides[OTHER[foot]].track
+        return OTHER[foot] if hypot(u, v) > hypot(x, y) + CLEAR_DISTANCE else foot
 
     def set_down(self, foot: Foot, place: Vec3, chained: bool, t: float) -> None:
         """Set the touchdown of the foot at `t` s to `place`, world frame, m; `chained` if it comes from the chain."""
         side = self.sides[foot]
         side.place = place
+        side.offset = sub(side.place, side.track)
         if chained:
             side.reach = self._reach(foot, t)
-        side.offset = sub(side.place, side.track)
-        self._turn_world(chained)
+            self._settle_heading()
+
+    def _settle_heading(self) -> None:
+        """Turn the chain's world so that x points from the start to the wearer, until `FIRST_DISTANCE` is reached.
+
+        A single touchdown does not suffice, because it may be several centimetres too far to the left or right."""
+        left, right = self.sides.values()
+        x, y, _ = add(left.place, right.place)  # twice the middle
+        if self.heading_settled or self.chain.facing is None or hypot(x, y) < 2.0 * LEAST_HEADING_DISTANCE:
+            return
+        self.heading_settled = hypot(x, y) > 2.0 * FIRST_DISTANCE
+        turn = atan2(y, x)
+        self.chain.facing = wrap_angle(self.chain.facing + turn)
+        for side in (left, right):
+            before, side.place = side.place, turned(side.place, -turn)
+            side.offset = add(side.offset, sub(side.place, before))
+            (dx, dy, _), (rx, ry, _) = (turned((*of, 0.0), -turn) for of in (side.direction, side.reach))
+            side.direction, side.reach = (dx, dy), (rx, ry)
 
     def _reach(self, foot: Foot, t: float) -> tuple[float, float]:
         x, y = self.chain.forward(foot, t)
         return self.settings.limbs.foot * x, self.settings.limbs.foot * y
-
-    def _turn_world(self, chained: bool) -> None:
-        """Turn the chain's world so that x points from the start to the wearer, until `FIRST_DISTANCE` is reached.
-
-        A single touchdown does not suffice, because it may be several centimetres too far to the left or right. The
-        world of the feet's own tracks is not turned: its x is along the first heading already."""
-        if self.heading_settled:
-            return
-        left, right = self.sides.values()
-        x, y = left.place[0] + right.place[0], left.place[1] + right.place[1]  # twice the middle
-        if hypot(x, y) < 2.0 * LEAST_HEADING_DISTANCE:
-            return
-        self.heading_settled = hypot(x, y) > 2.0 * FIRST_DISTANCE
-        if not chained or self.chain.facing is None:
-            return
-        turn = atan2(y, x)
-        self.chain.turn = (self.chain.turn + turn + pi) % (2.0 * pi) - pi
-        c, s = cos(turn), -sin(turn)
-        for side in self.sides.values():
-            (px, py, pz), (rx, ry), (dx, dy) = side.place, side.reach, side.direction
-            side.place = (c * px - s * py, s * px + c * py, pz)
-            side.offset = displace(side.offset, sub(side.place, (px, py, pz)))
-            side.reach = (c * rx - s * ry, s * rx + c * ry)
-            side.direction = (c * dx - s * dy, s * dx + c * dy)

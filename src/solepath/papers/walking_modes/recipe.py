@@ -8,7 +8,7 @@ from ...foot.stance.cycle import Cycle
 from ...recipes import Recipe, usual_parts
 from .compensation import TABLE_1
 from .modes import Modes
-from .settings import ModeRule, ModesSettings
+from .settings import ModesSettings
 from .touchdown import Height, NetAcceleration, PressureTouchdown
 
 _OWN_HEIGHTS = ErrorStateFilter(ErrorStateSettings(level=False))
@@ -23,13 +23,11 @@ WALKING_MODES = Recipe(
 )
 """Method IV of Gong et al. 2023, and ours in two places: touchdowns by maximum pressure, compensated by walking mode.
 
-The mode follows from how the feet turn (turning.py), and the compensation is the wearer's own if there is one
+The mode follows from how the feet turn (recognition.py), and the compensation is the wearer's own if there is one
 (`solepath calibrate modes`). Without it, it is the paper's table 1, which holds for the paper's wearers."""
 
 WALKING_MODES_PRINTED = WALKING_MODES.replace_part(
-    Modes,
-    Modes(settings=ModesSettings(TABLE_1, rule=ModeRule.TABLE_2, own_compensation=False)),
-    "walking-modes-printed",
+    Modes, Modes(settings=ModesSettings(TABLE_1, as_printed=True)), "walking-modes-printed"
 )
 """Method IV as printed: the mode by the loaded regions of table 2, the compensation (8) by table 1, for any wearer."""
 

@@ -2,24 +2,10 @@
 
 from __future__ import annotations
 
-from enum import Enum
-
 from ...calibration import Limbs
 from ...types import Foot, WalkingMode
 from ...types.attrs import frozen
 from .compensation import Compensation, compensation_of
-from .mode import MODE_THRESHOLD
-
-
-class ModeRule(Enum):
-    """Rule by which the walking mode is recognised."""
-
-    TURN = "turn"
-    """By how far the feet turn over a stride (turning.py); ours."""
-    TABLE_2 = "table 2"
-    """By the loaded regions of the soles (mode.py), as printed."""
-    TABLE_2_AT_SPEED = "table 2 at speed"
-    """By the loaded regions after conversion to one speed (mode.py)."""
 
 
 @frozen
@@ -35,12 +21,9 @@ class ModesSettings:
     heading: float | None = None
     """Heading of the wearer in the N-pose (limbs.py), rad, left positive, in the world that the devices share. None for
     the direction of the first step. On a surveyed floor it may be known beforehand."""
-    rule: ModeRule = ModeRule.TURN
-    """Rule by which the walking mode is recognised."""
-    th: float = MODE_THRESHOLD
-    """Threshold th of mode.py, as a multiple of the mean load of a cell; for the rules of table 2."""
-    own_compensation: bool = True
-    """Flag: a wearer's own compensation (`Calibration.modes`) replaces `compensation`; as printed, it does not."""
+    as_printed: bool = False
+    """Flag: the mode is that of the loaded regions (mode.py), and `compensation` holds for any wearer. Otherwise the
+    mode is that of how the feet turn (recognition.py), and a wearer's own compensation replaces `compensation`."""
 
     @property
     def feet_distance(self) -> float:

@@ -8,14 +8,14 @@ method I, `NetAcceleration` method II, `PressureTouchdown` method III (and IV, w
 The other foot's position is measured from the reference foot. The paper does not say which foot is the reference while
 both are down, or neither. Here (`ReferenceFoot`) a foot that comes down becomes the reference. When the reference foot
 comes up, the other foot becomes the reference if it is down. So in walking each foot is the reference from its own
-touchdown to the other's. A foot whose sign fails (evidence.py) may become the reference after an undetected touchdown
+touchdown to the other's. A foot whose sign fails (signs.py) may become the reference after an undetected touchdown
 (modes.py)."""
 
 from __future__ import annotations
 
 from ...types import OTHER, Foot, Vec3
-from ...types.attrs import define, field, frozen
-from ...types.vector import TIME_EPSILON, ZERO, sub
+from ...types.attrs import define, stateful
+from ...types.vector import TIME_EPSILON, ZERO, add, sub
 
 
 def v_change(left: Vec3, right: Vec3, reference: Foot) -> Vec3:
@@ -27,11 +27,7 @@ def v_change(left: Vec3, right: Vec3, reference: Foot) -> Vec3:
 
 def displace(reference: Vec3, change: Vec3, compensation: Vec3 = ZERO) -> Vec3:
     """Return the sum of the vectors: P_s = P_t + V_change (3) + epsilon_P (8), all in m and in one frame."""
-    return (
-        reference[0] + change[0] + compensation[0],
-        reference[1] + change[1] + compensation[1],
-        reference[2] + change[2] + compensation[2],
-    )
+    return add(add(reference, change), compensation)
 
 
 @define
@@ -46,10 +42,6 @@ class FootState:
     """Value of the most loaded cell, MaxPressure of (6), unit of the samples."""
     highest_pressure: float | None = None
     """Highest value of any cell so far; None if the samples are in N."""
-    in_swing: bool = False
-    """Flag: the foot is in swing by its phase (types.Phase)."""
-    flat_height: float = 0.0
-    """Height of the foot by its own track at its last foot-flat, m."""
 
 
 Flags = tuple[bool, bool]
@@ -69,11 +61,11 @@ RELEASE_SHARE = 0.5
 """Pressure below which a foot is no longer down, as a share of the threshold: a noisy cell must not make touchdowns."""
 
 
-@define
+@stateful
 class Height:
     """Method I, equation (4): the lower foot is down."""
 
-    down: Flags = field(default=(False, False), init=False)
+    down: Flags = (False, False)
     """Flags of the last sample."""
 
     def update(self, t: float, left: FootState, right: FootState) -> Flags:
@@ -85,45 +77,40 @@ class Height:
         return self.down
 
 
-@define
+@stateful
 class NetAcceleration:
     """Method II, equation (5): a foot is down while |A|, without gravity, is below A_a."""
 
-    moving_t: tuple[float | None, float | None] = field(default=(None, None), init=False)
+    moving_t: tuple[float | None, float | None] = (None, None)
     """Time, s, at which the left and the right foot last exceeded the threshold; None before the first value."""
 
     def update(self, t: float, left: FootState, right: FootState) -> Flags:
-        (left_moving_t, down_left), (right_moving_t, down_right) = (
-            self._foot_down(t, left.acceleration, self.moving_t[0]),
-            self._foot_down(t, right.acceleration, self.moving_t[1]),
-        )
-        self.moving_t = (left_moving_t, right_moving_t)
-        return down_left, down_right
-
-    def _foot_down(self, t: float, acceleration: float | None, moving_t: float | None) -> tuple[float | None, bool]:
-        if acceleration is None:
-            return moving_t, False
-        if moving_t is None or moving_t > t or acceleration >= A_A:
-            return t, False
-        return moving_t, t - moving_t >= STEADY_TIME - TIME_EPSILON
+        a, b = self.moving_t
+        self.moving_t = (_last_moved(t, left.acceleration, a), _last_moved(t, right.acceleration, b))
+        down = [
+            foot.acceleration is not None and moved is not None and t - moved >= STEADY_TIME - TIME_EPSILON
+            for foot, moved in zip((left, right), self.moving_t, strict=True)
+        ]
+        return down[0], down[1]
 
 
-@frozen
-class PressureTouchdownSettings:
-    """Settings of `PressureTouchdown`."""
-
-    threshold: float = 5.0
-    """Threshold of the most loaded cell, N: the least force that the paper's insole records (section 3.1)."""
-    share: float = 0.1
-    """Threshold as a share of the highest value of this foot's cells so far, if their unit is not known to be N."""
+def _last_moved(t: float, acceleration: float | None, before: float | None) -> float | None:
+    """Return the time, s, at which a foot last exceeded A_a, which was `before` until this sample at `t` s."""
+    if acceleration is None:
+        return before
+    return t if before is None or before > t or acceleration >= A_A else before
 
 
-@define
+THRESHOLD, THRESHOLD_SHARE = 5.0, 0.1
+"""Threshold of the most loaded cell, N: the least force that the paper's insole records (section 3.1). Share of the
+highest value of this foot's cells so far that takes its place if their unit is not known to be N (chosen by hand)."""
+
+
+@stateful
 class PressureTouchdown:
     """Method III, equation (6): a foot is down while its most loaded cell is above a threshold."""
 
-    settings: PressureTouchdownSettings = PressureTouchdownSettings()
-    down: Flags = field(default=(False, False), init=False)
+    down: Flags = (False, False)
     """Flags of the last sample."""
 
     def update(self, t: float, left: FootState, right: FootState) -> Flags:
@@ -134,9 +121,7 @@ class PressureTouchdown:
         """Return whether a foot is down; `down` is true if it was down in the previous sample."""
         if foot.pressure is None:
             return False
-        threshold = (
-            self.settings.threshold if foot.highest_pressure is None else self.settings.share * foot.highest_pressure
-        )
+        threshold = THRESHOLD if foot.highest_pressure is None else THRESHOLD_SHARE * foot.highest_pressure
         return foot.pressure > (threshold * RELEASE_SHARE if down else threshold)
 
 
@@ -144,13 +129,13 @@ AnyTouchdown = Height | NetAcceleration | PressureTouchdown
 """Method I, II or III."""
 
 
-@define
+@stateful
 class ReferenceFoot:
     """The choice of the reference foot, from which the other foot's place is measured."""
 
-    foot: Foot | None = field(default=None, init=False)
+    foot: Foot | None = None
     """Reference foot; None before any foot was down."""
-    down: Flags = field(default=(False, False), init=False)
+    down: Flags = (False, False)
     """Flags of the last sample."""
 
     def update(self, flags: Flags) -> tuple[Foot, bool] | None:

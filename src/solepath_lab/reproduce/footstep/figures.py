@@ -10,7 +10,7 @@ import numpy as np
 from solepath.types import Turn
 
 from ..tables import Bars, Panel, PictureTrack, Plot, WalkResults, pooled
-from .activities import CLASSES, variant_title
+from .activities import CLASSES, row_of_variant
 from .turning import TURN_ANGLES
 
 TWO_AND_ONE = ("two feet", "one foot")
@@ -30,21 +30,21 @@ def panels(
 ) -> tuple[Panel, ...]:
     """Return the panels (a) to (h), and the way of fig. 15; single curves are of the first wearer."""
     shares = {
-        name: tuple([mean(pooled(activities, f"{one.value}{variant_title(name)} %")) for one in CLASSES])
+        name: tuple([mean(pooled(activities, row_of_variant(one.value, name))) for one in CLASSES])
         for name in ("ours", "printed")
     }
     angles = [round(degrees(angle)) for angle in TURN_ANGLES]
     by_angle = {
-        name: zip(angles, mean_series(turns, row), strict=True)
-        for name, row in (("ours", "turn angle deg"), ("(7) as printed", "turn angle, (7) printed deg"))
+        name: zip(angles, mean_series(turns, f"turn angle, {name} deg"), strict=True) for name in ("ours", "printed")
     }
-    errors = {name: sorted(pooled(corridors, f"step: {name}")) for name in ("one foot", "two feet")}
+    errors = {name: sorted(pooled(corridors, f"step, {name} m")) for name in ("one foot", "two feet")}
     distributions = {name: zip(of, np.arange(1.0, len(of) + 1.0) / len(of), strict=True) for name, of in errors.items()}
-    by_stride = {name: enumerate(pooled(places[:1], f"by stride: {name}"), 1) for name in TWO_AND_ONE}
+    by_stride = {name: enumerate(pooled(places[:1], f"by stride, {name}"), 1) for name in TWO_AND_ONE}
     # from the second turn on as in the paper, for turns that all made
-    by_turn = {name: list(enumerate(mean_series(places, f"by turn: {name}"), 1))[1:] for name in TWO_AND_ONE}
+    by_turn = {name: list(enumerate(mean_series(places, f"by turn, {name}"), 1))[1:] for name in TWO_AND_ONE}
     users = {
-        name: tuple([mean(pooled([one], f"place, case study, {name} m")) for one in places]) for name in TWO_AND_ONE
+        name: tuple([mean(pooled([one], f"place, case study, {row} m")) for one in places])
+        for name, row in zip(TWO_AND_ONE, ("ours", "one foot"), strict=True)
     }
     classes = tuple([mean(pooled(turns, turn.value)) for turn in Turn])
     return (

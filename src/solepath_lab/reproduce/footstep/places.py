@@ -1,7 +1,7 @@
 """Place on the floor plan (figs. 13 f to h, 14 and 15): by one foot, by two, with walls that drop and with weights.
 
 The way of the paper's case study is walked in FOUR_LOOPS, which has no symmetry; ways of the wearer's own are walked
-there and in HALF_TURN, whose halves differ in nothing but where they lie."""
+there and in HALF_TURN, whose halves differ in nothing but where they lie, so that only a heading tells them apart."""
 
 from __future__ import annotations
 
@@ -28,54 +28,48 @@ from ...emulated.evidence import HEADING_ERROR
 from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults
 from .wearers import DROPS_AT_WALLS, WearerJob
 
-BUILDINGS = {"asymmetric": FOUR_LOOPS, "half turn": HALF_TURN}
-"""Buildings of the wearers' own ways."""
+VARIANTS = {"ours": FOOTSTEP_TRACKER, "dropped at walls": DROPS_AT_WALLS, "printed": FOOTSTEP_TRACKER_PRINTED}
 
 
 def score_places(job: WearerJob) -> WalkResults:
-    """Return the places of one wearer: the rows by the way and the variant, such as "case study, two feet".
+    """Return the places of one wearer: mean errors from the second turn on, m, and whether the true one was kept, %.
 
-    "by stride: VARIANT" are errors after each placed stride of the case study, m, and "by turn: VARIANT" mean errors
+    "by stride, VARIANT" are errors after each placed stride of the case study, m, and "by turn, VARIANT" mean errors
     between each of its turns and the next one."""
+    values = Values()
+
+    def add(title: str, way: BuildingWalk, walk: EmulatedWalk, events: list[Event]) -> PlaceScore:
+        score = emulated_place.score(way, walk.walker, walk.truth, events)
+        values[f"place, {title} m"] = (sum(score.off) / len(score.off),) if score.off else ()
+        values[f"true one kept, {title} %"] = (100.0 if score.strides and not score.dropped else 0.0,)
+        return score
+
     way = case_study()
     walk = job.walk(way.route)
-    one_foot = [packet for packet in walk.packets if packet.site is Site.RIGHT_FOOT]
-    runs: dict[str, list[Event]] = {
-        "two feet": _run(FOOTSTEP_TRACKER, walk.packets, way),
-        "one foot": _run(FOOTSTEP_TRACKER, one_foot, way),
-        "dropped at walls": _run(DROPS_AT_WALLS, walk.packets, way),
-        "printed": _run(FOOTSTEP_TRACKER_PRINTED, walk.packets, way),
-    }
-    found = {f"case study, {name}": _score(way, walk, events) for name, events in runs.items()}
-    values = Values()
-    for name in ("two feet", "one foot"):
-        values[f"by stride: {name}"], values[f"by turn: {name}"] = _errors(way, walk, runs[name])
-    for title, building in BUILDINGS.items():
-        way = wandering(job.seed, building)
-        walk = job.walk(way.route, more=800)
-        error = float(np.random.default_rng([job.seed, 19]).normal(0.0, HEADING_ERROR))
-        start = Start(heading=(way.start.heading or 0.0) + error)
-        runs = {
-            "weights": _run(FOOTSTEP_TRACKER, walk.packets, way),
-            "dropped at walls": _run(DROPS_AT_WALLS, walk.packets, way),
-            "first heading": _run(FOOTSTEP_TRACKER, walk.packets, way, start),
-        }
-        found |= {f"{title}, {name}": _score(way, walk, events) for name, events in runs.items()}
-    for name, one in found.items():
-        values[f"place, {name} m"] = (sum(one.off) / len(one.off),) if one.off else ()
-        values[f"true one kept, {name} %"] = (100.0 if one.strides and not one.dropped else 0.0,)
-    drawn = found["case study, two feet"]
+    one_foot = _run(FOOTSTEP_TRACKER, [packet for packet in walk.packets if packet.site is Site.RIGHT_FOOT], way)
+    add("case study, one foot", way, walk, one_foot)
+    runs = {name: _run(recipe, walk.packets, way) for name, recipe in VARIANTS.items()}
+    drawn, *_ = (add(f"case study, {name}", way, walk, events) for name, events in runs.items())
+    for name, events in {"one foot": one_foot, "two feet": runs["ours"]}.items():
+        values[f"by stride, {name}"], values[f"by turn, {name}"] = _errors(way, walk, events)
+    values["place m"] = values["place, case study, ours m"]
     values["steps until decided"] = () if drawn.decided is None else (float(drawn.decided),)
+
+    way = wandering(job.seed, FOUR_LOOPS)
+    walk = job.walk(way.route, more=800)
+    for name in ("ours", "dropped at walls"):
+        add(f"own ways, {name}", way, walk, _run(VARIANTS[name], walk.packets, way))
+    way = wandering(job.seed, HALF_TURN)
+    walk = job.walk(way.route, more=800)
+    error = float(np.random.default_rng([job.seed, 19]).normal(0.0, HEADING_ERROR))
+    for name, start in {"no heading": None, "first heading": Start(heading=(way.start.heading or 0.0) + error)}.items():
+        add(f"half-turn plan, {name}", way, walk, _run(FOOTSTEP_TRACKER, walk.packets, way, start))
     return WalkResults(values, (_floor(drawn),))
 
 
 def _run(recipe: Recipe, packets: Sequence[Packet], way: BuildingWalk, start: Start | None = None) -> list[Event]:
     session = Session(recipe, floorplan=way.building.plan, start=start)
     return session.feed(packets) + session.finish()
-
-
-def _score(way: BuildingWalk, walk: EmulatedWalk, events: list[Event]) -> PlaceScore:
-    return emulated_place.score(way, walk.walker, walk.truth, events)
 
 
 def _floor(place: PlaceScore) -> Plot:

@@ -14,7 +14,7 @@ from solepath.types import Packet, Turn
 
 from ..tables import Values, WalkResults
 from ..walks import final_strides, run_session
-from .wearers import PRINTED_FILTER, PRINTED_TURN, WearerJob
+from .wearers import PRINTED_TURN, WearerJob
 
 TURN_ANGLES = tuple(radians(angle) for angle in range(-180, 181, 30) if angle)
 """Turn angles of fig. 13 (d), rad, positive to the left."""
@@ -26,8 +26,9 @@ TURN_SPREAD = radians(15.0)
 """Standard deviation of the turn angle, rad, because nobody turns by exactly 90 degrees.
 
 The classifier was trained with the same value (lab/train/turns.py)."""
-CURVE_RADIUS = 6.0
-"""Radius of a curve that no corridor of the building has, m: a stride turns by some 12 degrees."""
+CIRCLE = Route(speed=1.2).stand(2.5).walk(6.0).turn(2.0 * pi, 6.0).walk(6.0).stop(3.0)
+"""A circle of 6 m, wider than any corner of the building: a stride turns by some 12 degrees."""
+VARIANTS = {"ours": FOOTSTEP_TRACKER, "printed": PRINTED_TURN}
 
 
 def score_turns(job: WearerJob) -> WalkResults:
@@ -37,19 +38,20 @@ def score_turns(job: WearerJob) -> WalkResults:
     rng = np.random.default_rng([job.seed, 18])
     values = Values()
     angles = [(angle, _packets(job, angle, rng, 600 + k)) for k, angle in enumerate(TURN_ANGLES)]
-    for name, printed in (("turn angle deg", False), ("turn angle, (7) printed deg", True)):
-        values[name] = tuple([_error(_turns(packets, printed), angle) for angle, packets in angles])
+    circle = job.walk(CIRCLE, 800).packets
+    for name, recipe in VARIANTS.items():
+        values[f"turn angle, {name} deg"] = tuple([_error(_turns(recipe, packets), angle) for angle, packets in angles])
+        strides = final_strides(run_session(recipe, circle))
+        turned = 0.5 * fsum([one.heading_change for one in strides])
+        values[f"circle, {name} deg"] = (abs(degrees(turned - 2.0 * pi)),)
     for turn, angles_of_class in CLASS_ANGLES.items():
         n_right = 0
         for k in range(TURNS_PER_CLASS):
             angle = angles_of_class[k % len(angles_of_class)] + float(rng.normal(0.0, TURN_SPREAD))
-            packets = _packets(job, angle, rng, 700 + k)
-            n_right += [one.turn for one in _turns(packets) if one.turn is not None] == [turn]
+            found = _turns(FOOTSTEP_TRACKER, _packets(job, angle, rng, 700 + k))
+            n_right += [one.turn for one in found if one.turn is not None] == [turn]
         values[turn.value] = (100.0 * n_right / TURNS_PER_CLASS,)
-    circle = Route(speed=1.2).stand(2.5).walk(6.0).turn(2.0 * pi, CURVE_RADIUS).walk(6.0).stop(3.0)
-    packets = job.walk(circle, 800).packets
-    for name, recipe in (("curve of 360 deg", FOOTSTEP_TRACKER), ("curve of 360, filter printed deg", PRINTED_FILTER)):
-        values[name] = (_curve_error(recipe, packets),)
+    values["turn classes %"] = (fsum([values[turn.value][0] for turn in Turn]) / len(Turn),)
     return WalkResults(values)
 
 
@@ -60,17 +62,10 @@ def _packets(job: WearerJob, angle: float, rng: np.random.Generator, more: int) 
     return job.walk(route.walk(6.0).stop(3.0), more).packets
 
 
-def _turns(packets: tuple[Packet, ...], printed: bool = False) -> list[TurnMade]:
-    events = run_session(PRINTED_TURN if printed else FOOTSTEP_TRACKER, packets)
-    return [event for event in events if isinstance(event, TurnMade)]
+def _turns(recipe: Recipe, packets: tuple[Packet, ...]) -> list[TurnMade]:
+    return [event for event in run_session(recipe, packets) if isinstance(event, TurnMade)]
 
 
 def _error(turns: list[TurnMade], angle: float) -> float:
     """Return the error of the sum of the turns, degrees; a turn by 180 degrees to the left is one to the right."""
-    return abs(degrees(remainder(sum([one.angle for one in turns]) - angle, 2.0 * pi)))
-
-
-def _curve_error(recipe: Recipe, packets: tuple[Packet, ...]) -> float:
-    """Return the error of the mean of both feet's sums of turns on a full circle to the left, degrees."""
-    strides = final_strides(run_session(recipe, packets))
-    return abs(degrees(0.5 * fsum([one.heading_change for one in strides]) - 2.0 * pi))
+    return abs(degrees(remainder(fsum([one.angle for one in turns]) - angle, 2.0 * pi)))

@@ -8,6 +8,8 @@ from __future__ import annotations
 import numpy as np
 from attrs import evolve, frozen
 
+from solepath.body.fuse.both_feet import BothFeet
+from solepath.emulate.radio import CLEAN, Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.air import STILL_AIR, Air, PressureStep
 from solepath.emulate.sensors.device import Device
@@ -17,8 +19,8 @@ from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.contact import RIGID, GroundContact
 from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP
-from solepath.papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
-from solepath.papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
+from solepath.papers.footstep_tracker.footsteps import Footsteps
+from solepath.papers.footstep_tracker.projection import Projection, ProjectionSettings
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
 from solepath.papers.footstep_tracker.snake import PrintedSnake
 from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
@@ -41,7 +43,7 @@ emulate/sensors/air.py has the sources of the sizes; when the steps come, and ho
 
 @frozen(eq=False)
 class FootstepSetting:
-    """The shoe, the sensors and the air of a walk."""
+    """The shoe, the sensors, the radio and the air of a walk."""
 
     name: str
     """Name in the table."""
@@ -49,13 +51,15 @@ class FootstepSetting:
     """Contact of the sole with the ground."""
     device: Device = CC2541(rate=RATE, mounting=IN_SOLE)
     """Sensor in each shoe."""
+    radio: Radio = CLEAN
+    """Radio channel of each sensor."""
     air: Air = STILL_AIR
     """Air of the building."""
     activities: bool = False
     """Flag: activities are scored with this setting too; other settings change only the corridor."""
 
 
-STANDARD = FootstepSetting("worn sole, CC2541")
+STANDARD = FootstepSetting("worn sole, CC2541", activities=True)
 SETTINGS = (
     FootstepSetting("rigid sole", RIGID),
     FootstepSetting("slip 2 cm", SLIPPING),
@@ -63,37 +67,25 @@ SETTINGS = (
     FootstepSetting("on the instep", device=CC2541(rate=RATE, mounting=ON_INSTEP)),
     FootstepSetting("CC2650", device=CC2650(rate=RATE, mounting=IN_SOLE), activities=True),
     FootstepSetting("MPU-6050", device=CC2650(rate=RATE, mounting=IN_SOLE, chip=MPU6050), activities=True),
+    FootstepSetting("3 % lost", radio=Radio(loss=0.03), activities=True),
+    FootstepSetting("weather", air=WEATHER, activities=True),
 )
-"""Settings of the sensitivity rows; each differs from STANDARD in one thing, and has no toe-out (score_corridor)."""
-IN_WEATHER = FootstepSetting("weather", air=WEATHER, activities=True)
-"""Air that changes by itself, which touches only activities."""
+"""Settings of the sensitivity rows; each differs from STANDARD in one thing."""
 
+_UNRESTORED = Projection(ProjectionSettings(restores_clipped=False))
 LENGTH_RECIPES = {
     "printed": FOOTSTEP_TRACKER_PRINTED,
-    "+ from uplift": evolve(
-        FOOTSTEP_TRACKER_PRINTED, corrector=Projection(evolve(PRINTED, interval=Interval.UPLIFT_TO_LANDING))
+    "closed at rest": evolve(
+        FOOTSTEP_TRACKER, corrector=_UNRESTORED, detector=StaticZones(StaticZonesSettings(knows_offset=False))
     ),
-    "+ closed at rest": evolve(
-        FOOTSTEP_TRACKER_PRINTED, corrector=Projection(evolve(PRINTED, interval=Interval.UPLIFT_TO_REST))
-    ),
-    "+ clipped angles": evolve(
-        FOOTSTEP_TRACKER_PRINTED,
-        corrector=Projection(evolve(PRINTED, interval=Interval.UPLIFT_TO_REST, restores_clipped=True)),
-    ),
-    "+ loose zones": evolve(FOOTSTEP_TRACKER, detector=StaticZones(StaticZonesSettings(knows_offset=False))),
-    "+ offset": FOOTSTEP_TRACKER,
+    "+ offset": evolve(FOOTSTEP_TRACKER, corrector=_UNRESTORED),
+    "one foot": FOOTSTEP_TRACKER,
 }
-"""Our additions to the stride length, one after the other; the last one has all but the toe-out."""
-ONE_METRE_RULE = FOOTSTEP_TRACKER.replace_part(
-    Footsteps, Footsteps(FootstepsSettings(as_printed=True)), "one-metre rule"
-)
-"""Ours with the one-metre rule as printed."""
-PRINTED_TURN = evolve(
-    FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False, keeps_corners=False))
-)
-"""Ours with (7) as printed, from liftoff to landing."""
-PRINTED_FILTER = evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(keeps_corners=False)))
-"""Ours with the low-pass filter of turns alone, without `TurningStrideFilter.corner_turn`."""
+"""Recipes of the stride length: printed, with our additions one after the other, and with all of them, one foot."""
+ONE_METRE_RULE = FOOTSTEP_TRACKER.replace_part(BothFeet, Footsteps(), "one-metre rule")
+"""Ours with the one-metre rule in the place of the fusion."""
+PRINTED_TURN = evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(as_printed=True)))
+"""Ours with (5), (7) and the low-pass filter of turns alone."""
 DROPS_AT_WALLS = evolve(FOOTSTEP_TRACKER, place=PrintedSnake())
 """Ours with the Snake game as printed."""
 BAROMETERS = ("cc2541/barometer", "cc2650/barometer")
@@ -124,9 +116,12 @@ class WearerJob:
 
     def walk(self, route: Route, more: int = 0, wearer: Wearer | None = None) -> EmulatedWalk:
         """Emulate a walk; `more` is added to the seed of gait and sensors, so that the wearer walks another time."""
-        devices = {site: self.setting.device for site in SITE_OF_FOOT.values()}
-        wearer = self.wearer if wearer is None else in_shoes(wearer, self.setting)
-        return emulate(route, wearer=wearer, devices=devices, air=self.setting.air, seed=self.seed + more)
+        setting = self.setting
+        devices = {site: setting.device for site in SITE_OF_FOOT.values()}
+        wearer = self.wearer if wearer is None else in_shoes(wearer, setting)
+        return emulate(
+            route, wearer=wearer, devices=devices, radio=setting.radio, air=setting.air, seed=self.seed + more
+        )
 
 
 def in_shoes(wearer: Wearer, setting: FootstepSetting) -> Wearer:

@@ -64,6 +64,6 @@ def rods(seed: int) -> Plot:
                 rod = [(ahead + x, z) for x, _, z in chain.rods(foot, t)]
                 points += [*rod, *rod[::-1], (float("nan"), float("nan"))]
         if sample.quat is not None:
-            chain.set_attitude(sample.site, sample.t, sample.quat)
+            chain.add_attitude(sample.site, sample.t, sample.quat)
     tracks = [PictureTrack(f"{foot.value} leg", points[:-1]) for foot, points in sides.items()]
     return Plot("rods of the legs over one stride, from the left, y up (fig. 8)", tracks)

@@ -7,7 +7,6 @@ by the law of the literature and by chance, not by that of the rules of table 2.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
 from attrs import astuple, evolve, frozen
@@ -21,9 +20,7 @@ from solepath.emulate.wearers.gait import LoadLaw, Wearer
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import TouchedDown
 from solepath.papers.walking_modes.calibrate import MODES, ModeMark, StepError, mean_errors, step_errors, touchdowns
-from solepath.papers.walking_modes.modes import Modes
-from solepath.papers.walking_modes.recipe import WALKING_MODES
-from solepath.papers.walking_modes.settings import ModeRule, ModesSettings
+from solepath.papers.walking_modes.recipe import WALKING_MODES, WALKING_MODES_PRINTED
 from solepath.recipes import Recipe
 from solepath.recording.decoded import DecodedRecording
 from solepath.types import SITE_OF_FOOT, Foot, Sample
@@ -47,6 +44,8 @@ LENGTH_ERRORS = (0.010, 0.010, 0.010, 0.005, 0.005)
 
 A joint found by regression is 12.3 mm off in space, with images as the truth (Mantovani et al. 2016, Gait & Posture
 44): 7 mm on one axis, and 10 mm for the distance of two. The others are assumed for a tape over the skin."""
+RULES = {"by turn": WALKING_MODES, "table 2": WALKING_MODES_PRINTED}
+"""Recipes by the rule by which they recognise the mode."""
 MAX_TIME_DIFFERENCE = 0.4
 """Largest time between a reported touchdown and the true one that it matches, s."""
 
@@ -138,7 +137,7 @@ def learn(job: MarkedWalks) -> Calibration:
             ]
             recording = DecodedRecording(tuple(job.conditions.samples(walker, measured, round_seed)), {})
             errors += step_errors(marks, touchdowns(recording, measured, heading=0.0), turn=0.0)
-    return merged(measured, Calibration(modes=mean_errors(errors, known_heading=True)))
+    return merged(measured, Calibration(modes=mean_errors(errors)))
 
 
 @frozen
@@ -178,15 +177,9 @@ def deviations(walks: Iterable[WalkResults], point: str, method: str) -> Floats:
     return np.array([pooled(walks, corner_row(point, method, axis)) for axis in "xy"]).T
 
 
-def with_settings(recipe: Recipe, **changes: Any) -> Recipe:
-    """Return the recipe with other settings of its part for walking modes."""
-    modes = next(part for part in recipe.parts if isinstance(part, Modes))
-    return recipe.replace_part(Modes, evolve(modes, settings=evolve(modes.settings, **changes)))
-
-
 def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
     """Return the final touchdowns by foot of a session that knows the direction of the rectangle's first side."""
-    events = run_session(with_settings(recipe, heading=0.0), samples, calibration)
+    events = run_session(recipe.with_heading(0.0), samples, calibration)
     return {foot: [e for e in events if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 
@@ -227,17 +220,16 @@ def recognise(job: BendsJob) -> WalkResults:
     """Return the share of touchdowns, in percent, with the right mode in each of the five walks, by rule."""
     conditions = job.conditions
     calibration = conditions.calibration(job.subject)
-    shares: Values = dict.fromkeys([rule.name for rule in ModeRule], ())
+    shares: Values = dict.fromkeys(RULES, ())
     for k, mode in enumerate(MODES):
         walker = Walker(marked(mode, job.steps), conditions.wearer(job.subject), 10 * job.seed + k)
         samples = conditions.samples(walker, calibration, job.seed)
         true = [mark for mark in marks_of(walker) if mark.mode is mode]
-        for rule in ModeRule:
-            recipe = WALKING_MODES.replace_part(Modes, Modes(settings=ModesSettings(rule=rule)))
+        for rule, recipe in RULES.items():
             found = _touchdowns(recipe, samples, calibration)
             right = sum(
                 any(down.mode is mode and abs(down.t - mark.t) < MAX_TIME_DIFFERENCE for down in found[mark.foot])
                 for mark in true
             )
-            shares[rule.name] += (100.0 * right / len(true),)
+            shares[rule] += (100.0 * right / len(true),)
     return WalkResults(shares)

@@ -17,7 +17,8 @@ The paper leaves these points open:
   So the mean is compared with the mean while the same foot stood (`StandingForce`).
 - In fig. 4 a_z is about -9.8 at rest, so "smaller" in hypergravity means more negative. Here specific force is positive
   upwards, so it is larger in hypergravity.
-- The wait for the second pulse ends when the wearer walks away, and after `LONGEST_RIDE`. Then there was no ride.
+- The wait for the second pulse ends when the wearer walks away, and after `LONGEST_RIDE`. Then there was no ride. With
+  the second pulse the ride is reported, from the first one on.
 - The windows of both feet at one time are combined: variances and means are averaged, log-likelihoods are added.
 - Running is none of the paper's activities. It is reported as WALKING.
 
@@ -27,7 +28,7 @@ an elevator. A change between walking and stairs is in the middle of the window.
 contain standing, which makes them look like stairs. So the hidden Markov model starts with the first window without
 standing. A movement is reported after one more moving window: a foot that is only put elsewhere within half a second
 has not walked. So an activity is known this long after its start: a pulse, 0.5 s; movement, 2.5 s; standing, 2 s;
-stairs after walking, 1.5 s. A ride in an elevator is not final until its second pulse.
+stairs after walking, 1.5 s; a ride in an elevator, with its second pulse.
 
 Numbers without a source were chosen by hand."""
 
@@ -41,7 +42,7 @@ from ....body.part import ActivityPart, PartInput, PartOutput
 from ....events import ActivityChanged, Event, LiftRidden, Limitation
 from ....foot.view import FootView
 from ....types import Activity, Foot, Site
-from ....types.attrs import define, field, frozen
+from ....types.attrs import define, field, frozen, state, stateful
 from .hmm import bayes_update, forward, scaled_likelihoods
 from .window_model import WindowModel, shipped
 from .windows import BLOCKS, HOP, QUICK_SHARE, WINDOW, FootWindow, FootWindows, StandingForce
@@ -76,12 +77,10 @@ class ElevatorPulses:
     """Number of the first window with a pulse."""
     up: bool
     """Flag: the elevator goes up."""
+    newest: int
+    """Number of the last window of the first pulse."""
     braking: bool = False
     """Flag: the second pulse has started."""
-    newest: int = 0
-    """Number of the last window with a pulse."""
-    first_pulse_windows: int = 1
-    """Number of windows of the first pulse."""
 
 
 @frozen
@@ -92,32 +91,32 @@ class TwoSecondSettings:
     """Learnt model; None is the one that comes with this release."""
 
 
-@define
+@stateful
 class TwoSecondWindows(ActivityPart):
     """Classifies activities by windows of two seconds (footstep-tracker)."""
 
     needs_samples: ClassVar[bool] = True
 
-    settings: TwoSecondSettings = TwoSecondSettings()
-    activity: Activity = field(default=Activity.UNKNOWN, init=False)
+    settings: TwoSecondSettings = field(default=TwoSecondSettings())
+    activity: Activity = Activity.UNKNOWN
     """Newest reported activity."""
-    origin: float | None = field(default=None, init=False)
+    origin: float | None = None
     """Time of the first sample, from which windows are numbered, s."""
-    feet: dict[Foot, FootWindows] = field(factory=dict, init=False)
+    feet: dict[Foot, FootWindows] = state(factory=dict)
     """Windows by foot."""
-    standing: dict[Foot, StandingForce] = field(factory=dict, init=False)
+    standing: dict[Foot, StandingForce] = state(factory=dict)
     """Force of standing by foot."""
-    newest_decided: int | None = field(default=None, init=False)
+    newest_decided: int | None = None
     """Number of the newest window that was classified."""
-    belief: tuple[float, ...] | None = field(default=None, init=False)
+    belief: tuple[float, ...] | None = None
     """Probabilities of the states of the hidden Markov model; None while the wearer stands."""
-    ride: ElevatorPulses | None = field(default=None, init=False)
+    ride: ElevatorPulses | None = None
     """Pulses of the present elevator ride; None without one."""
-    moving_windows: int = field(default=0, init=False)
+    moving_windows: int = 0
     """Number of consecutive moving windows up to now."""
-    limitation_reported: bool = field(default=False, init=False)
+    limitation_reported: bool = False
     """Flag: what these activities cannot tell was reported."""
-    reported_t: float | None = field(default=None, init=False)
+    reported_t: float | None = None
     """Time `t` of the newest event, s."""
 
     def ready(self) -> None:
@@ -141,7 +140,7 @@ class TwoSecondWindows(ActivityPart):
         if view.foot not in self.feet:
             feet = {**self.feet, view.foot: FootWindows()}
             self.feet = {one: feet[one] for one in Foot if one in feet}
-            self.standing.setdefault(view.foot, StandingForce())
+            self.standing[view.foot] = StandingForce()
         outputs: list[Event] = []
         if not self.limitation_reported:
             self.limitation_reported = True
@@ -168,8 +167,7 @@ class TwoSecondWindows(ActivityPart):
     def _decide(self, index: int, windows: dict[Foot, FootWindow], known_at: float) -> list[Event]:
         events: list[Event] = []
         if self.newest_decided is not None and index - self.newest_decided > LONGEST_GAP:
-            events = [] if self.ride is None else self._withdraw_ride(self.ride, known_at)
-            self.belief = None
+            self.belief = self.ride = None
             events += self._change(self._block_start(self.newest_decided) + HOP, Activity.UNKNOWN, known_at)
         self.newest_decided = index
         model = self.settings.model or shipped()
@@ -177,20 +175,14 @@ class TwoSecondWindows(ActivityPart):
             self.moving_windows += 1
             for foot in windows:
                 self.standing[foot].add_movement()
-            if self.moving_windows < FIRST_WHOLE_WINDOW:
-                return events
-            state = self._state(model, windows)
-            return (
-                events
-                if self.moving_windows < FEWEST_WINDOWS
-                else events + self._add_moving_window(index, state, known_at)
-            )
+            if self.moving_windows >= FIRST_WHOLE_WINDOW:
+                state = self._state(model, windows)
+                if self.moving_windows >= FEWEST_WINDOWS:
+                    events += self._add_moving_window(index, state, known_at)
+            return events
         self.moving_windows, self.belief = 0, None
-        difference = 0.0
-        for foot, window in windows.items():
-            mean = self.standing[foot].mean
-            difference += 0.0 if mean is None else window.mean - mean
-        difference /= len(windows)
+        means = [(self.standing[foot].mean, window.mean) for foot, window in windows.items()]
+        difference = fsum([now - usual for usual, now in means if usual is not None]) / len(windows)
         pulse = 0 if abs(difference) < model.pulse else 1 if difference > 0.0 else -1
         if pulse == 0:
             for foot, window in windows.items():
@@ -212,10 +204,7 @@ class TwoSecondWindows(ActivityPart):
 
     def _add_moving_window(self, index: int, state: Activity, known_at: float) -> list[Event]:
         t_start = self._block_start(index - self.moving_windows + 1)
-        events: list[Event] = []
-        if self.ride is not None:
-            ride = self.ride
-            events = self._end_ride(ride, t_start, known_at) if ride.braking else self._withdraw_ride(ride, known_at)
+        events = self._end_ride(t_start, known_at)
         if self.activity in MOVING_ACTIVITIES:
             t_start = self._block_start(index) + 0.5 * (HOP - WINDOW)  # the middle of the window
         return events + self._change(t_start, state, known_at)
@@ -223,68 +212,47 @@ class TwoSecondWindows(ActivityPart):
     def _add_standing_window(
         self, index: int, pulse: int, windows: dict[Foot, FootWindow], known_at: float
     ) -> list[Event]:
-        ride, events = self.ride, list[Event]()
+        ride = self.ride
         if ride is not None:
             direction = 1 if ride.up else -1
-            if pulse == -direction:
-                if not ride.braking:
-                    events += self._change(ride.t_start, self.activity, known_at, revises=ride.t_start)
-                ride.braking, ride.newest = True, index
-                if index - ride.index < LONGEST_RIDE + LONGEST_PULSE:
-                    return events
+            if pulse == -direction and index - ride.index <= LONGEST_RIDE + LONGEST_PULSE:
+                ride.braking = True
+                return self._change(ride.t_start, ELEVATOR_ACTIVITY[ride.up], known_at)
+            if pulse == direction and not ride.braking and index - ride.newest <= BLOCKS:
+                ride.newest = index
+                if index - ride.index <= LONGEST_PULSE:
+                    return []
+                self.standing |= {foot: StandingForce(window.mean, QUICK_SHARE) for foot, window in windows.items()}
                 pulse = 0
-            if ride.braking:
-                events += self._end_ride(ride, self._start(index), known_at)
+            elif pulse == 0 and not ride.braking and index - ride.index <= LONGEST_RIDE:
+                return []
+            elif ride.braking:
                 pulse = 0  # an elevator that brakes hard rebounds, which looks like a pulse
-            elif pulse == direction and index - ride.newest <= BLOCKS:
-                ride.newest, ride.first_pulse_windows = index, ride.first_pulse_windows + 1
-                if ride.first_pulse_windows <= LONGEST_PULSE:
-                    return events
-                is_first_standing = all(self.standing[foot].windows <= LONGEST_PULSE for foot in windows)
-                for foot, window in windows.items():
-                    self.standing[foot] = StandingForce(window.mean, QUICK_SHARE, LONGEST_PULSE)
-                if is_first_standing:  # what was taken for standing was the pulse, and this is standing
-                    ride.up, ride.first_pulse_windows = not ride.up, 1
-                    return events + self._change(
-                        ride.t_start, ELEVATOR_ACTIVITY[ride.up], known_at, final=False, revises=ride.t_start
-                    )
-                pulse = 0
-                events += self._withdraw_ride(ride, known_at)
-            elif pulse == direction or index - ride.index > LONGEST_RIDE:
-                events += self._withdraw_ride(ride, known_at)  # the second pulse never came
-            else:
-                return events
-        if pulse == 0:
-            return events + self._change(self._start(index), Activity.STANDING, known_at)
-        t_start = self._not_before_reported(self._block_start(index))
-        self.ride = ElevatorPulses(t_start, index, pulse > 0, newest=index)
-        return events + self._change(t_start, ELEVATOR_ACTIVITY[pulse > 0], known_at, final=False)
+        events = self._end_ride(self._start(index), known_at)
+        if pulse != 0:
+            self.ride = ElevatorPulses(self._not_before_reported(self._block_start(index)), index, pulse > 0, index)
+            return events
+        return events + self._change(self._start(index), Activity.STANDING, known_at)
 
-    def _end_ride(self, ride: ElevatorPulses, t: float, known_at: float) -> list[Event]:
-        self.ride = None
+    def _end_ride(self, t: float, known_at: float) -> list[Event]:
+        """Return the events at the end of a ride; nothing if there is none, or if its second pulse never came."""
+        ride, self.ride = self.ride, None
+        if ride is None or not ride.braking:
+            return []
         t = self._not_before_reported(t)
         ridden = LiftRidden(t=t, known_at=max(known_at, t), t_start=ride.t_start, up=ride.up, height=None)
         return [ridden, *self._change(t, Activity.STANDING, known_at)]
 
-    def _withdraw_ride(self, ride: ElevatorPulses, known_at: float) -> list[Event]:
-        self.ride = None
-        return self._change(ride.t_start, Activity.STANDING, known_at, revises=ride.t_start)
-
-    def _change(
-        self, t: float, activity: Activity, known_at: float, *, final: bool = True, revises: float | None = None
-    ) -> list[Event]:
-        """Return the event of this activity if the activity changes or an event is revised, otherwise nothing."""
-        if activity is self.activity and revises is None:
+    def _change(self, t: float, activity: Activity, known_at: float) -> list[Event]:
+        """Return the event of this activity if the activity changes, otherwise nothing."""
+        if activity is self.activity:
             return []
-        if revises is None:
-            t = self._not_before_reported(t)
+        t = self._not_before_reported(t)
         if self.reported_t is None and self.origin is not None:
             t = self.origin  # the first window also stands for the half-second before it, used for levelling
         self.activity, self.reported_t = activity, t
         known_at = max(known_at, t)  # feet whose clocks are far apart have windows of the future
-        return [
-            ActivityChanged(t=t, known_at=known_at, final=final, activity=activity, probability=None, revises=revises)
-        ]
+        return [ActivityChanged(t=t, known_at=known_at, activity=activity, probability=None)]
 
     def _not_before_reported(self, t: float) -> float:
         """Return `t`, or the time of the newest event if that is later."""

@@ -68,22 +68,12 @@ class WindowBlock:
     """Flag: the axis of a_z was known."""
     count: int = 0
     """Number of samples."""
-    x: float = 0.0
-    """Sum of the specific force along the sensor's x, m/s^2; `y` and `z` likewise."""
-    y: float = 0.0
-    z: float = 0.0
-    along: float = 0.0
-    """Sum of a_z minus standard gravity, m/s^2. Without the subtraction powers would lose digits."""
-    square: float = 0.0
-    """Sum of the squares of a_z minus standard gravity, m^2/s^4."""
-    cube: float = 0.0
-    """Sum of the cubes of a_z minus standard gravity, m^3/s^6."""
-    energy: float = 0.0
-    """Sum of the squared specific force, all axes, m^2/s^4."""
-    turning: float = 0.0
-    """Sum of the squared angular rate, rad^2/s^2."""
     turns: int = 0
     """Number of samples with an angular rate."""
+    sums: tuple[float, ...] = (0.0,) * 8
+    """Sums of the specific force along the sensor's x, y and z, m/s^2; of a_z minus standard gravity, without which
+    powers would lose digits, m/s^2, of its square and of its cube; of the squared specific force, all axes, m^2/s^4;
+    and of the squared angular rate, rad^2/s^2."""
 
 
 @define
@@ -114,20 +104,13 @@ class FootWindows:
         x, y, z = acc
         ux, uy, uz = self.axis
         along = ux * x + uy * y + uz * z - GRAVITY
-        square = along * along
-        block.count += 1
-        block.x += x
-        block.y += y
-        block.z += z
-        block.along += along
-        block.square += square
-        block.cube += square * along
-        block.energy += x * x + y * y + z * z
+        square, turning = along * along, 0.0
         if gyro is not None:
-            x, y, z = gyro
-            square = x * x + y * y + z * z
-            block.turning += square if square < HIGHEST_RATE_SQUARE else HIGHEST_RATE_SQUARE
+            turning = min(gyro[0] * gyro[0] + gyro[1] * gyro[1] + gyro[2] * gyro[2], HIGHEST_RATE_SQUARE)
             block.turns += 1
+        block.count += 1
+        values = (x, y, z, along, square, square * along, x * x + y * y + z * z, turning)
+        block.sums = tuple([total + value for total, value in zip(block.sums, values, strict=True)])
         return is_next_block
 
     def _start_block(self, index: int) -> None:
@@ -146,13 +129,8 @@ class FootWindows:
         self.newest = index
 
     def _level(self) -> None:
-        x = y = z = 0.0
-        count = 0
-        for block in self.blocks:
-            x += block.x
-            y += block.y
-            z += block.z
-            count += block.count
+        count = sum([block.count for block in self.blocks])  # whole numbers
+        x, y, z = (fsum([block.sums[axis] for block in self.blocks]) for axis in range(3))
         length = sqrt(x * x + y * y + z * z)
         if length > LEAST_FORCE * count:
             self.axis = (x / length, y / length, z / length)
@@ -161,15 +139,11 @@ class FootWindows:
 
 def measure_window(blocks: deque[WindowBlock]) -> FootWindow | None:
     """Return the window of these blocks; None when it has too few samples."""
-    count = sum([block.count for block in blocks])  # whole numbers
+    count, turns = (sum(numbers) for numbers in zip(*[(block.count, block.turns) for block in blocks], strict=True))
     if count < FEWEST_SAMPLES:
         return None
-    share = 1.0 / count
-    x, y, z = (share * fsum([getattr(block, axis) for block in blocks]) for axis in "xyz")
-    m1, m2, m3, energy = (
-        share * fsum([getattr(block, name) for block in blocks]) for name in ("along", "square", "cube", "energy")
-    )
-    turns = sum([block.turns for block in blocks])  # whole numbers
+    sums = [fsum(column) for column in zip(*[block.sums for block in blocks], strict=True)]
+    x, y, z, m1, m2, m3, energy, _ = (total / count for total in sums)
     variance = max(0.0, m2 - m1 * m1)
     third = m3 - 3.0 * m1 * m2 + 2.0 * m1 * m1 * m1
     return FootWindow(
@@ -177,7 +151,7 @@ def measure_window(blocks: deque[WindowBlock]) -> FootWindow | None:
         mean=sqrt(x * x + y * y + z * z),
         variance=variance,
         skewness=third / (variance * sqrt(variance)) if variance > 1e-9 else 0.0,
-        turning=fsum([block.turning for block in blocks]) / turns if turns >= FEWEST_SAMPLES else None,
+        turning=sums[-1] / turns if turns >= FEWEST_SAMPLES else None,
         across=max(0.0, energy - (m2 + 2.0 * GRAVITY * m1 + GRAVITY * GRAVITY)),
     )
 
@@ -189,12 +163,9 @@ class StandingForce:
     mean: float | None = None
     share: float = 1.0
     """Weight that the next window of standing will have in the mean."""
-    windows: int = 0
-    """Number of windows of standing so far."""
 
     def add_window(self, mean: float) -> None:
         """Add the mean specific force of another window of standing, m/s^2."""
-        self.windows += 1
         self.mean = mean if self.mean is None else self.mean + self.share * (mean - self.mean)
         self.share = max(SLOW_SHARE, self.share / (1.0 + self.share))
 

@@ -6,19 +6,21 @@ O_3 the end of the foot. P_R and P_L are "from the last column" of the product (
 Sensors may have any mounting. So the rotation between a sensor and its segment is computed at the first time at which
 all seven segments are still. The wearer is then taken to be in the N-pose: upright, thighs and shanks vertical, feet
 level, all segments facing the first heading. Attitudes come from the devices (`Sample.quat`), which share one world
-with z up, as sensors with a magnetometer do. Or they are computed from acceleration and angular velocity
-(inclination.py), each in a world with its own heading. Numbers without a source were chosen by hand."""
+with z up, as sensors with a magnetometer do. How the wearer's first heading lies in that world is given, or the
+first steps show it. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import atan2, cos, fsum, hypot, sin, sqrt
+from math import atan2, hypot
 from typing import NamedTuple
 
 from ....calibration import Limbs
-from ....types import OTHER, Foot, Quat, Site, Vec3
-from ....types.attrs import define, field
-from ....types.vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
+from ....events import Rejection
+from ....foot.rejection import RejectionReason, rejection_reason
+from ....types import OTHER, Foot, Quat, Sample, Site, Vec3
+from ....types.attrs import field, state, stateful
+from ....types.vector import IDENTITY, ZERO, add, conjugate, from_yaw, multiply, normalise, rotate, unit
 from ..settings import ModesSettings
 from .segment import LimbSegment
 
@@ -37,9 +39,10 @@ ATTITUDE_VALID_TIME = 0.25
 """Time for which an attitude is used, s."""
 LEAST_FIRST_STEP = 0.15
 """Length of a step, m, from which it shows the first heading (as in foot/world.py)."""
-
 LARGEST_COMPONENT = 1e6
-"""Limit of the components of a valid quaternion; its length is at least 1 / LARGEST_COMPONENT."""
+"""Limit of the components of a valid quaternion, which may have any length but 0."""
+FARTHEST_AHEAD = 60.0
+"""Largest time ahead of all earlier samples, s. Later ones are rejected, unless the site's last one was, too."""
 
 
 class Transform(NamedTuple):
@@ -50,9 +53,8 @@ class Transform(NamedTuple):
 
     def then(self, other: Transform) -> Transform:
         """Return the product with `other`, which is given in the frame at the end of this transform."""
-        x, y, z = self.translation
-        dx, dy, dz = rotate(self.rotation, other.translation)
-        return Transform(multiply(self.rotation, other.rotation), (x + dx, y + dy, z + dz))
+        translation = add(self.translation, rotate(self.rotation, other.translation))
+        return Transform(multiply(self.rotation, other.rotation), translation)
 
 
 def joints(
@@ -73,139 +75,126 @@ def joints(
     return to_hip.translation, to_knee.translation, to_ankle.translation, to_end.translation
 
 
-@define
+Legs = tuple[tuple[Vec3, ...], tuple[Vec3, ...]]
+"""Rods of the left and of the right leg, m."""
+
+
+@stateful
 class LowerLimbs:
     """Computes the ends of one wearer's feet from the attitudes of seven segments."""
 
-    settings: ModesSettings = ModesSettings()
-    facing: float | None = field(init=False)
-    """Heading of the wearer in the N-pose, or of the first step, in the world that the devices share, rad; None while
-    unknown."""
-    turn: float = field(default=0.0, init=False)
-    """Angle from `facing` to the x axis of the world frame, rad, left positive."""
-    segments: dict[Site, LimbSegment] = field(init=False)
+    settings: ModesSettings = field(default=ModesSettings())
+    facing: float | None = None
+    """Heading of the wearer in the N-pose by the first steps, in the world that the devices share, rad; None before."""
+    segments: dict[Site, LimbSegment] = state(factory=lambda: {site: LimbSegment() for site in SEGMENTS})
     """Segment by the site of its sensor."""
-    aligned: bool = field(default=False, init=False)
+    aligned: bool = False
     """Flag: the N-pose of all segments is known."""
-    given_up: bool = field(default=False, init=False)
+    given_up: bool = False
     """Flag: the wearer started to walk before all seven segments were still."""
+    restarted: list[Site] = state(factory=list)
+    """Sites whose sensor came back after the N-pose with another world."""
+    times: dict[Site, float] = state(factory=dict)
+    """Time of the newest used sample by site, s, for the sites above the ankles."""
+    newest: float | None = None
+    """Time of the newest sample of any site, s."""
+    ahead_t: dict[Site, float] = state(factory=dict)
+    """Time of a site's last sample, s, if it was rejected for being too far ahead."""
 
-    def __attrs_post_init__(self) -> None:
-        self.facing = self.settings.heading
-        self.segments = {site: LimbSegment() for site in SEGMENTS}
+    @property
+    def heading(self) -> float | None:
+        """Heading of the wearer in the N-pose, in the world that the devices share, rad; None while unknown."""
+        return self.facing if self.settings.heading is None else self.settings.heading
 
-    def set_attitude(self, site: Site, t: float, quat: Quat) -> None:
-        """Set a new attitude of a sensor; the quaternion may have any length except 0."""
-        if not all([-LARGEST_COMPONENT < part < LARGEST_COMPONENT for part in quat]):
+    def add_first_step(self, foot: Foot, t: float) -> None:
+        """Take the direction of the step that `foot` ends at `t` s for the wearer's heading, if that is not known.
+
+        It is that of thighs and shanks alone. They hang down in the N-pose, so their vectors need no heading."""
+        limbs, step = self.settings.limbs, ZERO
+        for leg, sign in ((foot, 1.0), (OTHER[foot], -1.0)):
+            for site, length in zip(LEG_SITES[leg], (limbs.thigh, limbs.shank), strict=False):
+                step = add(step, rotate(self.segments[site].rotation(t), (0.0, 0.0, -length)), sign)
+        x, y, _ = step
+        if self.heading is None and hypot(x, y) > LEAST_FIRST_STEP:
+            self.facing = atan2(y, x)
+
+    def add_limb(self, sample: Sample) -> RejectionReason | None:
+        """Add a sample of a site above the ankles; return the reason for its rejection, or None if it is used."""
+        site, t = sample.site, sample.t
+        reason = rejection_reason(sample, self.times.get(site))
+        if reason is None and self.newest is not None and t - self.newest > FARTHEST_AHEAD:
+            last, self.ahead_t[site] = self.ahead_t.get(site), t
+            if last is None or not last < t <= last + FARTHEST_AHEAD:
+                reason = RejectionReason(Rejection.ABSURD, f"{t - self.newest:.4g} s ahead of everything before")
+        if reason is None:
+            self.ahead_t.pop(site, None)
+            self.times[site] = t
+            self.add_attitude(site, t, sample.quat)
+        return reason
+
+    def add_attitude(self, site: Site, t: float, quat: Quat | None) -> None:
+        """Add the time of a sample, and the attitude that it has, a quaternion of any length except 0."""
+        self.newest = t if self.newest is None else max(self.newest, t)
+        if quat is None or not all([abs(part) < LARGEST_COMPONENT for part in quat]):
             return
-        length = sqrt(fsum([part * part for part in quat]))
-        if length < 1.0 / LARGEST_COMPONENT:
+        attitude = unit(quat)
+        if attitude is None:
             return
-        k = 1.0 / length
-        segment = self.segments[site]
-        segment.set_attitude(t, (quat[0] * k, quat[1] * k, quat[2] * k, quat[3] * k))
-        if segment.world_changed and segment.still_time() >= STANDING_TIME:
-            self._realign(segment)
-        if not self.aligned and not self.given_up:
-            self._align()
+        if self.segments[site].set_attitude(t, attitude) and site not in self.restarted:
+            self.restarted.append(site)
+        if not (self.aligned or self.given_up or self.restless()):
+            for segment in self.segments.values():
+                segment.standing = normalise(segment.attitude_sum)
+            self.aligned = True
 
-    def set_own_attitude(self, site: Site, t: float, quat: Quat, heading: float | None) -> None:
-        """Set a new attitude of a sensor with a world of its own.
-
-        `heading` is the wearer's first heading in that world, rad; None while unknown. The attitude is not used if the
-        site has sent an attitude in the shared world."""
-        segment = self.segments[site]
-        if segment.own_world or segment.t is None:
-            segment.own_world, segment.heading = True, heading
-            self.set_attitude(site, t, quat)
+    def restless(self) -> list[Site]:
+        """Return the sites that have not been still for `STANDING_TIME`."""
+        return [site for site, segment in self.segments.items() if segment.still_time() < STANDING_TIME]
 
     def reset(self, site: Site) -> None:
-        """Discard the times of a sensor whose clock restarts; its attitudes may be in another world from now on."""
+        """Discard the times of a sensor whose clock restarts."""
         segment = self.segments[site]
         segment.t = segment.earlier_t = segment.still_since = None
-        segment.world_changed = segment.standing is not None and not segment.own_world
-
-    def _realign(self, segment: LimbSegment) -> None:
-        """Compute the rotation from a sensor's new world to its old one while its segment stands as in the N-pose.
-
-        The heading of the segment is taken to have changed since the N-pose as those of the other segments have."""
-        standing = segment.standing
-        references = [
-            s for s in self.segments.values() if s is not segment and s.standing is not None and not s.own_world
-        ]
-        x = y = 0.0
-        for other in references:
-            if other.standing is not None and other.t is not None and not other.world_changed:
-                w, _, _, z = multiply(other.sensor, conjugate(other.standing))
-                yaw = 2.0 * atan2(z, w)
-                x, y = x + cos(yaw), y + sin(yaw)
-        if standing is None or hypot(x, y) < 1e-6:
-            return
-        expected = multiply(from_yaw(atan2(y, x)), standing)
-        w, _, _, z = multiply(normalise(segment.attitude_sum), conjugate(expected))
-        segment.world = from_yaw(-2.0 * atan2(z, w))
-        segment.sensor = segment.earlier_attitude = multiply(segment.world, segment.sensor)
-        segment.world_changed = False
-
-    def _align(self) -> None:
-        """Take the present attitudes for those of the N-pose if all segments have been still for long enough."""
-        if any([segment.still_time() < STANDING_TIME for segment in self.segments.values()]):
-            return
-        for segment in self.segments.values():
-            segment.standing = normalise(segment.attitude_sum)
-        self.aligned = True
+        self.times.pop(site, None)
+        self.ahead_t.pop(site, None)
+        self.newest = max(self.times.values(), default=None)
 
     def is_current(self, t: float) -> bool:
         """Return whether the chain can be used at `t` s."""
-        if not self.aligned:
-            return False
-        for segment in self.segments.values():
-            if segment.t is None or abs(t - segment.t) >= ATTITUDE_VALID_TIME or segment.world_changed:
-                return False
-            if segment.own_world and segment.heading is None:
-                return False
-        return True
+        return self.aligned and not self.restarted and not self._ages(t)
 
-    def may_recover(self) -> bool:
-        """Return whether the chain may become usable later."""
-        return (self.aligned or not self.given_up) and not self.missing()
+    def _ages(self, t: float) -> dict[Site, float]:
+        """Return the ages of the newest attitudes that are too old, or too far ahead, at `t` s."""
+        ages = {site: t - segment.t for site, segment in self.segments.items() if segment.t is not None}
+        return {site: age for site, age in ages.items() if abs(age) >= ATTITUDE_VALID_TIME}
 
-    def missing(self) -> tuple[Site, ...]:
+    def missing(self) -> list[Site]:
         """Return the sites above the ankles without an attitude."""
-        return tuple([site for site in LIMB_SITES if self.segments[site].t is None])
+        return [site for site in LIMB_SITES if self.segments[site].t is None]
 
-    def why_unusable(self, t: float, sampled_sites: Iterable[Site]) -> str:
-        """Return the reason why the chain cannot be used at `t` s; `sampled_sites` are those that have sent samples."""
+    def why_unusable(self, t: float) -> str:
+        """Return the reason why the chain cannot be used at `t` s."""
         missing = self.missing()
         if missing:
-            silent = [site for site in missing if site not in sampled_sites]
-            if silent:
-                return f"no sensor heard at the {_names(silent)}"
-            return f"no attitude, and no acceleration with angular velocity, of the {_names(missing)}"
-        world_changed = [site for site in SEGMENTS if self.segments[site].world_changed]
-        if world_changed:
-            return f"the sensor at the {_names(world_changed)} restarted, and its world with it"
+            silent = [site for site in missing if site not in self.times]
+            return f"no sensor heard at the {names(silent)}" if silent else f"no attitude of the {names(missing)}"
+        if self.restarted:
+            return f"the sensor at the {names(self.restarted)} restarted, and its world with it"
         if not self.aligned:
             return "the wearer did not stand still before the first step"
-        ages = [
-            (site, t - s.t)
-            for site, s in self.segments.items()
-            if s.t is not None and abs(t - s.t) >= ATTITUDE_VALID_TIME
-        ]
-        if ages:
-            oldest = max([age for _, age in ages], key=abs)
-            names = _names([site for site, _ in ages])
-            return f"the newest attitude of the {names} is {abs(oldest):.2g} s {'old' if oldest > 0.0 else 'ahead'}"
-        names = _names([site for site, s in self.segments.items() if s.own_world and s.heading is None])
-        return f"the sensor at the {names} does not know yet which way the wearer goes"
-
-    def _attitude(self, site: Site, t: float) -> Quat:
-        return self.segments[site].attitude(self.facing or 0.0, self.turn, t)
+        ages = self._ages(t)
+        oldest = max(ages.values(), key=abs, default=0.0)
+        return f"the newest attitude of the {names(ages)} is {abs(oldest):.2g} s {'old' if oldest > 0.0 else 'ahead'}"
 
     def complete(self) -> float | None:
         """Return the time up to which the attitudes of all segments are known, s; None if one has none."""
         times = [segment.t for segment in self.segments.values() if segment.t is not None]
         return min(times) if len(times) == len(SEGMENTS) else None
+
+    def _attitude(self, site: Site, t: float) -> Quat:
+        """Return the attitude at `t` s, from the segment to the world frame."""
+        facing = self.heading or 0.0
+        return multiply(multiply(from_yaw(-facing), self.segments[site].rotation(t)), from_yaw(facing))
 
     def end(self, foot: Foot, t: float) -> Vec3:
         """Return P_L or P_R at `t` s: the end of the foot relative to the middle of the hips, world frame, m."""
@@ -213,34 +202,27 @@ class LowerLimbs:
 
     def rods(self, foot: Foot, t: float) -> tuple[Vec3, Vec3, Vec3, Vec3]:
         """Return hip, knee, ankle and end of the foot at `t` s, relative to the middle of the hips, world frame, m."""
-        thigh, shank, foot_attitude = [self._attitude(site, t) for site in LEG_SITES[foot]]
-        side = 0.5 if foot is Foot.LEFT else -0.5
-        limbs = self.settings.limbs
-        hip = (0.0, side * limbs.hip_width, 0.0)
-        return joints(self._attitude(Site.PELVIS, t), thigh, shank, foot_attitude, hip, limbs)
+        pelvis, thigh, shank, ankle = (self._attitude(site, t) for site in (Site.PELVIS, *LEG_SITES[foot]))
+        return joints(pelvis, thigh, shank, ankle, self._hip(foot), self.settings.limbs)
 
-    def legs(self, t: float) -> tuple[tuple[Vec3, ...], tuple[Vec3, ...]] | None:
-        """Return the rods of both legs, left and right, at `t` s; None if an attitude is not known then."""
+    def _hip(self, foot: Foot) -> Vec3:
+        return (0.0, (0.5 if foot is Foot.LEFT else -0.5) * self.settings.limbs.hip_width, 0.0)
+
+    def legs(self, t: float) -> Legs | None:
+        """Return the rods of both legs at `t` s; None if an attitude is not known then."""
         return (self.rods(Foot.LEFT, t), self.rods(Foot.RIGHT, t)) if self.is_current(t) else None
-
-    def newest_legs(self) -> tuple[float, tuple[tuple[Vec3, ...], tuple[Vec3, ...]]] | None:
-        """Return the newest instant at which all attitudes are known, s, and the rods then; None if one is missing."""
-        t = self.complete()
-        rods = None if t is None else self.legs(t)
-        return None if t is None or rods is None else (t, rods)
 
     def height(self, foot: Foot, t: float) -> float:
         """Return the height of the sole below the ankle at `t` s, relative to the middle of the hips, upwards, m.
 
         The height of the foot's end, P_Lz and P_Rz of (4), is not used: the chain has no toe joint, so when the heel
         rises, the end goes below the floor, and the foot that pushes off would be the lower one."""
-        segments, limbs = self.segments, self.settings.limbs
-        thigh_upright, shank_upright, foot_upright = [segments[site].upright(t) for site in LEG_SITES[foot]]
-        side = 0.5 if foot is Foot.LEFT else -0.5
-        _, _, hip_height = rotate(self._attitude(Site.PELVIS, t), (0.0, side * limbs.hip_width, 0.0))
-        return (
-            hip_height - limbs.thigh * thigh_upright - limbs.shank * shank_upright - limbs.ankle_height * foot_upright
-        )
+        limbs = self.settings.limbs
+        height = rotate(self._attitude(Site.PELVIS, t), self._hip(foot))[2]
+        for site, length in zip(LEG_SITES[foot], (limbs.thigh, limbs.shank, limbs.ankle_height), strict=True):
+            _, x, y, _ = self.segments[site].rotation(t)
+            height -= length * (1.0 - 2.0 * (x * x + y * y))  # times the cosine of the angle from the vertical
+        return height
 
     def forward(self, foot: Foot, t: float) -> tuple[float, float]:
         """Return the horizontal unit vector in the direction of a foot, world frame; (1, 0) if it points up or down."""
@@ -248,26 +230,7 @@ class LowerLimbs:
         length = hypot(x, y)
         return (x / length, y / length) if length > 1e-6 else (1.0, 0.0)
 
-    def add_touchdown(self, foot: Foot, t: float, direction: float = 0.0) -> None:
-        """Add a touchdown of the foot at `t` s; the first step gives the wearer's first heading.
 
-        It is computed from thighs and shanks alone. They hang down in the N-pose, so their vectors need no heading.
-        `direction` is the angle from the world's x axis to the step, rad, left positive; it is not 0 if the wearer has
-        walked before the chain was known."""
-        if self.facing is not None or not self.aligned:
-            return
-        limbs = self.settings.limbs
-        x = y = 0.0
-        for leg, sign in ((foot, 1.0), (OTHER[foot], -1.0)):
-            for site, length in zip(LEG_SITES[leg], (limbs.thigh, limbs.shank), strict=False):
-                dx, dy, _ = rotate(self.segments[site].attitude(0.0, 0.0, t), (0.0, 0.0, -length))
-                x += sign * dx
-                y += sign * dy
-        if hypot(x, y) > LEAST_FIRST_STEP:
-            self.facing = atan2(y, x)
-            if not any([segment.own_world for segment in self.segments.values()]):  # own worlds have the first heading
-                self.facing -= direction
-
-
-def _names(sites: Iterable[Site]) -> str:
+def names(sites: Iterable[Site]) -> str:
+    """Return the names of sites, for messages."""
     return ", ".join([site.words for site in sites])

@@ -12,11 +12,8 @@ from math import acos
 
 from ....calibration import CalibrationError, Limbs
 from ....types import Sample, Site
-from ....types.attrs import frozen
-from ....types.vector import rotate
-from .inclination import Inclination
-from .limb_sensors import LimbSensors
-from .limbs import SEGMENTS, STANDING_TIME, LowerLimbs
+from ....types.vector import IDENTITY, rotate
+from .limbs import SEGMENTS, STANDING_TIME, LowerLimbs, names
 
 STATURE = 1.75
 """Stature of a wearer with the default `Limbs`, m."""
@@ -25,17 +22,6 @@ JOINT_DISTANCE_SHARE = 0.72
 
 Bell, Brand and Pedersen 1989, Human Movement Science 8."""
 _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-
-
-@frozen
-class StoodSensor:
-    """A sensor while the wearer stood."""
-
-    site: Site
-    tilt: float
-    """Angle from the vertical to the axis of the sensor that is nearest to it, rad."""
-    own_world: bool
-    """Flag: the sensor sends no attitude, so that its heading drifts with its gyroscope."""
 
 
 def limbs_of(
@@ -55,31 +41,26 @@ def limbs_of(
     )
 
 
-def check_standing(samples: Iterable[Sample]) -> list[StoodSensor]:
-    """Return how the seven sensors sat while the wearer stood.
+def check_standing(samples: Iterable[Sample]) -> dict[Site, float]:
+    """Return the tilt of each of the seven sensors while the wearer stood, rad.
 
-    Raises CalibrationError, which names the sites, when one sent no attitude or when they were never still at once."""
-    chain, sensors = LowerLimbs(), LimbSensors()
-    feet = {site: Inclination() for site in SEGMENTS if site.foot is not None}
+    It is the angle from the vertical to the axis of the sensor that is nearest to it. Raises CalibrationError, which
+    names the sites, when one sent no attitude or when they were never still at once."""
+    chain = LowerLimbs()
     for sample in samples:
         if sample.site.foot is None:
-            sensors.add_sample(sample, chain)
-        elif sample.quat is not None:
-            chain.set_attitude(sample.site, sample.t, sample.quat)
-        elif sample.acc is not None and sample.gyro is not None:
-            attitude = feet[sample.site].update(sample.t, sample.acc, sample.gyro)
-            if attitude is not None:
-                chain.set_own_attitude(sample.site, sample.t, attitude, None)
-    silent = [site.words for site in SEGMENTS if chain.segments[site].t is None]
+            chain.add_limb(sample)
+        else:
+            chain.add_attitude(sample.site, sample.t, sample.quat)
+    silent = [site for site in SEGMENTS if chain.segments[site].t is None]
     if silent:
-        raise CalibrationError(f"no attitude of the {', '.join(silent)}: all seven sensors are needed")
+        raise CalibrationError(f"no attitude of the {names(silent)}: all seven sensors are needed")
     if not chain.aligned:
-        restless = [site.words for site in SEGMENTS if chain.segments[site].still_time() < STANDING_TIME]
-        names = f": the {', '.join(restless)} moved last" if restless else ""
-        raise CalibrationError(f"the wearer never stood still for {STANDING_TIME:g} s with all seven sensors{names}")
-    found = []
-    for site in SEGMENTS:
-        segment = chain.segments[site]
-        axes = [abs(rotate(segment.standing, axis)[2]) for axis in _AXES] if segment.standing is not None else [1.0]
-        found.append(StoodSensor(site, acos(min(1.0, max(axes))), segment.own_world))
-    return found
+        restless = chain.restless()
+        moved = f": the {names(restless)} moved last" if restless else ""
+        raise CalibrationError(f"the wearer never stood still for {STANDING_TIME:g} s with all seven sensors{moved}")
+    tilts = {}
+    for site, segment in chain.segments.items():
+        axes = [abs(rotate(segment.standing or IDENTITY, axis)[2]) for axis in _AXES]
+        tilts[site] = acos(min(1.0, max(axes)))
+    return tilts

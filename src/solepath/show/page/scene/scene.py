@@ -36,7 +36,7 @@ from ....types.attrs import NOT_SAVED
 from ....walk.valid import has_valid_numbers
 from ....walk.walk import REJECTIONS, Walk
 from ..body import LiveBody, body_frame
-from ..guide import Guide, ShownPosture, ShownToeOut
+from ..guide import ShownPosture
 from ..messages import members, plain
 from ..player.playback import Playback
 from .bending import bend_of
@@ -61,7 +61,7 @@ class Scene:
 
     Times are in s on the session's clock; positions in m, in the world frame, places on `plan` in the plan frame.
     `source` is "live", "demo" or "recording". `newtons` are the feet whose calibration turns counts into N. A player
-    writes `playback`, who measures a shoe or a walk `guide`. The scene feeds `walk` and shows its counts. An event with
+    writes `playback`, who measures a shoe `guide`. The scene feeds `walk` and shows its counts. An event with
     a number that is not finite is not shown, as it is not counted. `take` is cheap: it is called for every packet.
     Memory is bounded. Two threads must not use a scene at once."""
 
@@ -70,7 +70,7 @@ class Scene:
     source: str = "live"
     plan: PlanDrawing | None = field(default=None, converter=draw_plan, metadata=NOT_SAVED)
     playback: Playback | None = field(default=None, metadata=NOT_SAVED)
-    guide: Guide | None = field(default=None, metadata=NOT_SAVED)
+    guide: ShownPosture | None = field(default=None, metadata=NOT_SAVED)
     body: LiveBody | None = field(default=None, metadata=NOT_SAVED)
     newtons: tuple[Foot, ...] = ()
     walk: Walk = field(factory=lambda: Walk(limit=0))
@@ -227,8 +227,7 @@ class Scene:
             "findings": findings_frame(walk, silent),
             "links": links,
             "playback": None if self.playback is None else self.playback.frame(),
-            "posture": plain(self.guide) if isinstance(self.guide, ShownPosture) else None,
-            "toe_out": plain(self.guide) if isinstance(self.guide, ShownToeOut) else None,
+            "posture": None if self.guide is None else plain(self.guide),
         }
 
 

@@ -12,7 +12,7 @@ import { bodyFigure } from "./body.js";
 import { reducedMotion } from "./canvas.js";
 import { Connection, WORDS } from "./connection.js";
 import { Gait } from "./gait.js";
-import { posturePanel, toeOutPanel } from "./guides.js";
+import { posturePanel } from "./guides.js";
 import { Height } from "./height.js";
 import { Here } from "./here.js";
 import { Links } from "./links.js";
@@ -42,7 +42,7 @@ const track = new Track(redraw);
 const playback = new Playback(send, announce);
 const looking = new Looking(track, redraw);
 const here = new Here(track, send, announce, redraw, WORDS.watchOnly);
-const whileGuiding = [notice, posturePanel, toeOutPanel, new Links(), logPanel]; // while a shoe or a walk is measured
+const whileGuiding = [notice, posturePanel, new Links(), logPanel]; // while a shoe is measured
 const panels = [
   ...whileGuiding,
   new Soles(redraw),
@@ -91,7 +91,7 @@ function draw(now) {
   if (panels.some((panel) => panel.moving) || changed.size > 0) mark();
 }
 
-const isGuided = () => state.posture !== null || state.toe_out !== null;
+const isGuided = () => state.posture !== null;
 
 function writeHeading() {
   write("title", state.source === "demo" ? `${state.title} · ${SOURCES.demo}` : state.title);
