@@ -42,7 +42,8 @@ def stand(session: Session, start: float, seconds: float, bias: float) -> None:
     rng = np.random.default_rng(int(start))
     for k in range(int(seconds * RATE)):
         gyro = (0.0, 0.0, bias + 2e-4 * float(rng.standard_normal()))
-        session.feed(Sample(t=start + k / RATE, site=Site.LEFT_FOOT, acc=(0.0, 0.0, GRAVITY), gyro=gyro))
+        acc = (0.0, 0.0, GRAVITY + 0.01 * float(rng.standard_normal()))
+        session.feed(Sample(t=start + k / RATE, site=Site.LEFT_FOOT, acc=acc, gyro=gyro))
 
 
 def bias_of(session: Session) -> Bias:

@@ -21,6 +21,7 @@ from ..foot.stance.stance import Detector
 from ..saving.codec import Json, SnapshotError, load, save
 from ..saving.schema import has_state, record_of
 from ..types import Foot, Layout, Sample, Site
+from ..types.attrs import NOT_SAVED
 from ..types.vector import IDENTITY
 from .harness import harness_for
 
@@ -100,7 +101,9 @@ def _run(harness: Any, samples: Iterable[Sample]) -> list[Any]:
 
 def _changed_fields(part: Any, restored: Any) -> Iterator[str]:
     """Yield a sentence for every field whose restored value differs; the type annotation decides how it is restored."""
-    for name in attrs.fields_dict(type(part)):
+    for name, field in attrs.fields_dict(type(part)).items():
+        if field.metadata == NOT_SAVED:
+            continue
         old, new = getattr(part, name), getattr(restored, name)
         if type(old) is not type(new) and not isinstance(old, int | float):
             yield f"its field {name} comes back as a {type(new).__name__} and was a {type(old).__name__}"

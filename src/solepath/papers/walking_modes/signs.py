@@ -77,10 +77,11 @@ class Signs:
         sign.in_swing = view.phase is Phase.SWING
         for event in events:
             if isinstance(event, StrideTaken):
-                sign.strides_since_change += 1
                 sign.stride_count += 1
             elif isinstance(event, FootFlat):
                 sign.flat_height = height
+        # once a sample, because a bout's first stride comes with its second one
+        sign.strides_since_change += any([isinstance(event, StrideTaken) for event in events])
         if isinstance(self.method, NetAcceleration) and view.levelled and view.sample.acc is not None:
             x, y, z = rotate(view.attitude, view.sample.acc)
             sign.state.acceleration = hypot(x, y, z - GRAVITY)

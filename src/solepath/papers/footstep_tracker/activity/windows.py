@@ -139,7 +139,7 @@ class FootWindows:
 
 def measure_window(blocks: deque[WindowBlock]) -> FootWindow | None:
     """Return the window of these blocks; None when it has too few samples."""
-    count, turns = (sum(numbers) for numbers in zip(*[(block.count, block.turns) for block in blocks], strict=True))
+    count, turns = [sum([block.count for block in blocks]), sum([block.turns for block in blocks])]  # whole numbers
     if count < FEWEST_SAMPLES:
         return None
     sums = [fsum(column) for column in zip(*[block.sums for block in blocks], strict=True)]
