@@ -107,11 +107,11 @@ class Flaw(Enum):
 class StrideTaken(BaseEvent):
     """One stride: a foot went from a foot-flat to its next foot-flat.
 
-    `t` is the second foot-flat. The stride is known with that FootFlat once the foot is known to carry its walker. The
-    first stride of a bout is known with the second one, after at most four strides or 5 s (foot/bearing.py); what a foot
-    does on a pedal, in a vehicle or below a chair is no stride. Vectors are in the world frame, m. The first stride
-    after the foot stood starts at the foot-flat before the standing, and so contains it: `t_end` - `t_start` is
-    then no stride time. GaitCycleMeasured, from contact to contact, contains no standing of the start."""
+    `t` is the second foot-flat. The stride is known with that FootFlat once the foot is known to carry its walker.
+    The first stride of a bout is known with the second one, after at most four strides or 5 s (foot/bearing.py). What
+    a foot does on a pedal, in a vehicle or below a chair is no stride. Vectors are in the world frame, m. The first
+    stride after the foot stood starts at the foot-flat before the standing, and so contains it: `t_end` - `t_start`
+    is then no stride time. GaitCycleMeasured, from contact to contact, contains no standing of the start."""
 
     foot: Foot
     """Foot that took the stride."""

@@ -10,7 +10,7 @@ from ..events import Event, StrideTaken
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import evolve, field, state, stateful
 from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub
-from .bearing import FARTHEST, Bearing, evidence_of
+from .bearing import FARTHEST, IMPOSSIBLE, Bearing, evidence_of
 from .cues.cues import Cues, TimedCue
 from .gap import Infill
 from .navigate.corrector import Corrector
@@ -168,7 +168,7 @@ class Gait:
         """Move a foot that carries nobody back to where the strides began that were none."""
         apply_shift = getattr(corrector, "shift", None)
         # a lone stride is no bout, but it moved the foot all the same
-        moves = [one.displacement for one in dropped if evidence_of(one, None) < 0.0]
+        moves = [one.displacement for one in dropped if evidence_of(one, None) < IMPOSSIBLE]
         if apply_shift is None or not moves or not hypot(*[hypot(*move) for move in moves]) < FARTHEST:
             return
         x, y, z = [-fsum(values) for values in zip(*moves, strict=True)]
