@@ -21,7 +21,7 @@ from solepath.wire.insole import InsoleFrame, build_frame, parse_frame
 
 LOOP_ROUTE = Route().stand(1.0).walk(30.0, 1.3).turn(6.0, radius=2.0).walk(20.0).stop(1.0)
 """A route of about a minute, which is walked many times."""
-MAX_SNAPSHOT_LENGTH = 134_000
+MAX_SNAPSHOT_LENGTH = 150_000
 """Largest length of a snapshot, characters; a tenth of it is the wearer's gait, heights and the sensors' ranges."""
 TICK_INTERVAL = 328
 """Number of ticks (1/32768 s) of the emulated insoles between two samples."""

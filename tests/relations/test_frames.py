@@ -58,7 +58,7 @@ RELATIONS = {
         {
             "footstep-tracker-printed": (
                 "the wearer is where the right foot is, until the one-metre rule",
-                {"WearerMoved.position": 2.0, "WearerMoved.covariance": 0.2},
+                STRIDES_ALONE | {"t": 1e-9, "displacement": 1e-9, "length": 1e-9, "heading_change": 1e-9},
             ),
             "walking-modes-printed": (
                 "table 1 of the paper is no mirror image, and no calibration replaces it",

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import StrEnum
-from math import exp, fsum, inf
+from math import exp, fsum
 
 from ...events import ActivityChanged, Event, LiftRidden
 from ...types import Activity, Floats
@@ -17,7 +17,7 @@ from .chain import ACTIVITIES, STAND, UNKNOWN, Chain
 from .elevator_evidence import PULSE_ACCELERATION, PULSE_DEVIATION, ElevatorEvidence, RestLevels
 from .hypotheses import ActivitySegment, Hypotheses
 from .motion import SlopeEvidence
-from .reconcile import BOUT_PAUSE, SETTLING_TIME, Strides
+from .reconcile import LONGEST_TURN, SETTLING_TIME, Strides
 
 # Activities that were reported and are not final yet, and the events by which they change.
 
@@ -44,6 +44,8 @@ class ActivityReport:
     """Settled elevator rides that wait until all strides in them are known, each with its end, s."""
     final: ActivitySegment = NO_ACTIVITY
     """Newest activity that was reported as final."""
+    known_until: float = NO_ACTIVITY.t
+    """Time up to which that activity goes on whatever comes, s."""
     provisional: list[Early] = state(factory=list)
     """Segments that were reported and are not final, oldest first, each with its newest probability."""
     withdrawn_at: float | None = None
@@ -65,15 +67,15 @@ class ActivityReport:
         path = () if best is None else best.path if hypotheses.settled is None else best.path[1:]
         likely = [*self.settled, *[(segment, hypotheses.probability(segment)) for segment in path], *early]
         agreed = self.strides.reconcile(likely, settled_by)
-        settled_until = self.settled[-1][0].t if self.settled else -inf
-        known_until = inf if ending else min(settled_until, settled_by - SETTLING_TIME) + TIME_EPSILON
+        known_until = min(hypotheses.settled_until(settled_by), settled_by - SETTLING_TIME) + TIME_EPSILON
         events = self._report_rides(settled_by, known_at, ending)
         newest = self._newest(agreed)
-        while newest and newest[0][0].t <= known_until:
+        while newest and (ending or newest[0][0].t <= known_until):
             segment, probability = newest.pop(0)
             revises = self.provisional[0][0].t if self.provisional else self.withdrawn_at
             events.append(self._event(segment, known_at, True, revises, probability))
             self.provisional, self.withdrawn_at, self.final = [], None, segment
+        self.known_until = max(self.known_until, known_until, self.final.t)
         self._trim()
         return events + self._report_newest(newest, known_at, ending)
 
@@ -82,18 +84,18 @@ class ActivityReport:
         newest: list[Early] = []
         for segment, probability in agreed:
             after = segment
-            if segment.t <= self.final.t:
-                newest = []  # what was there before the newest final activity is settled
-                after = ActivitySegment(self.final.t + TIME_EPSILON, segment.activity)
+            if segment.t <= self.known_until:
+                newest = []  # what was there before is settled
+                after = ActivitySegment(self.known_until + TIME_EPSILON, segment.activity)
             if segment.activity is not (newest[-1][0] if newest else self.final).activity:
                 newest.append((after, probability))
         return newest
 
     def _trim(self) -> None:
         """Drop what no later report needs."""
-        while len(self.settled) > 1 and self.settled[1][0].t <= self.final.t:
+        while len(self.settled) > 1 and self.settled[1][0].t <= self.known_until:
             self.settled.pop(0)
-        self.strides.drop_before(self.final.t - BOUT_PAUSE)
+        self.strides.drop_before(min([self.known_until - LONGEST_TURN, *[ride.t for ride, _ in self.rides]]))
 
     def _report_rides(self, now: float, known_at: float, ending: bool) -> list[Event]:
         """Return the rides whose strides are all known: whoever walked for most of one was in no elevator."""

@@ -334,6 +334,12 @@ class Hypotheses:
             i = 1
         return settled_segments
 
+    def settled_until(self, now: float) -> float:
+        """Return the time up to which no likely path changes its activity any more, at most `now`, s."""
+        i = 0 if self.settled is None else 1
+        open_paths = [token.path[i:] for token in self.tokens if token.score >= -AGREEMENT_LIMIT]
+        return min([now, *[path[0].t for path in open_paths if path]])
+
     def probability(self, segment: ActivitySegment) -> float:
         """Return the share of the whole likelihood of tokens that have the segment's activity at its start."""
         agreeing = total = 0.0

@@ -270,12 +270,12 @@ def wrong_axes(axes: Axes | None) -> Finding:
 
 # Detection of a sensor that is filtered so much that it does not follow the impacts and the swing of a foot.
 
-LEAST_ACC, LEAST_GYRO = 2.6, 2.0
+LEAST_ACC, LEAST_GYRO = 2.6, 1.8
 """Usual number of cycles a stride of specific force and of angular rate below which they are filtered.
 
 It is a number for each stride, because all that a slow walker does is slow. Of 375 recordings of a foot, the smallest
-are 3.2 and 2.5, of emulated walks at 0.3 m/s 3.7 and 2.1. Averaged over 0.33 s, with which a tracker loses stances, 95
-in 100 are below 2.2 and 1.9."""
+are 3.2 and 2.5, of emulated walks at 0.3 m/s 3.7 and 2.1, of an emulated jog at 2.2 m/s 1.82. Averaged over 0.33 s,
+with which a tracker loses stances, 95 in 100 are below 2.2 and 1.9."""
 STRIDES = 6
 """Number of strides whose median is judged."""
 

@@ -28,6 +28,7 @@ FOOTSTEP_TRACKER_PRINTED = Recipe(
     CriticalCues(),
     parts=usual_parts(Footsteps(), TwoSecondWindows()),
     place=PrintedSnake(),
+    every_stride=True,
 )
 """The same with the equations and rules as they are printed.
 

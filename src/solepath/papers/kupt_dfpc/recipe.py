@@ -47,6 +47,7 @@ KUPT_DFPC_PRINTED = evolve(
     detector=KnownVelocity(KnownVelocitySettings(area_on=SOME_LOAD, area_off=SOME_LOAD), touch=Touch(_AIR)),
     corrector=SwingDedrift(),
     cues=CopCues(_AIR),
+    every_stride=True,
 )
 """Chen et al. 2019 as printed: (1) to (13), with exact rolling velocities, linear drift and weights by error index."""
 

@@ -21,6 +21,7 @@ PRESSURE_CONTOUR_PRINTED = evolve(
     name="pressure-contour-printed",
     detector=PrintedContour(),
     corrector=BiasZupt(settings=AS_PRINTED),
+    every_stride=True,
 )
 """The same as printed: contours of 20 to 70 kPa slower than 4 mm/s (3), and no removal of the drift of a swing."""
 

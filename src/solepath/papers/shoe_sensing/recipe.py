@@ -20,6 +20,7 @@ SHOE_SENSING_PRINTED = evolve(
     SHOE_SENSING.replace_part(Activities, AnglePerMetre(), "shoe-sensing-printed"),
     detector=printed_energy(),
     corrector=GatedTilt(),
+    every_stride=True,
 )
 """Li et al. 2016 as printed: energy alone, the first attitude from four seconds of samples, no addition of ours.
 

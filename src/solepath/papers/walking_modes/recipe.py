@@ -6,6 +6,7 @@ from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.settings import ErrorStateSettings
 from ...foot.stance.cycle import Cycle
 from ...recipes import Recipe, usual_parts
+from ...types.attrs import evolve
 from .compensation import TABLE_1
 from .modes import Modes
 from .settings import ModesSettings
@@ -26,8 +27,9 @@ WALKING_MODES = Recipe(
 The mode follows from how the feet turn (recognition.py), and the compensation is the wearer's own if there is one
 (`solepath calibrate modes`). Without it, it is the paper's table 1, which holds for the paper's wearers."""
 
-WALKING_MODES_PRINTED = WALKING_MODES.replace_part(
-    Modes, Modes(settings=ModesSettings(TABLE_1, as_printed=True)), "walking-modes-printed"
+WALKING_MODES_PRINTED = evolve(
+    WALKING_MODES.replace_part(Modes, Modes(settings=ModesSettings(TABLE_1, as_printed=True)), "walking-modes-printed"),
+    every_stride=True,
 )
 """Method IV as printed: the mode by the loaded regions of table 2, the compensation (8) by table 1, for any wearer."""
 
