@@ -43,7 +43,7 @@ MOST_GAPS = 8
 RESTING_RATE, RESTING_SHARE = 0.3**2, 0.15**2
 """Squares of the angular rate below which a foot rests, rad/s, and of its share of the peak rate of the stride.
 
-A foot in stance has a median of 4 to 15 % of its peak, on a pedal 20 (docs/activities.md)."""
+Both were chosen by hand: 0.3 rad/s is the stance of the slowest walkers, whose peaks are 1.5 to 2."""
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
 

@@ -16,6 +16,7 @@ from math import dist, exp, fsum, hypot, inf, log, tanh
 from operator import truediv
 from typing import Any
 
+from ...foot.bearing import RISE_ERROR, RISE_ERROR_SHARE, TREADS_RISE
 from ...types import Activity, Floats
 from ...types.attrs import frozen
 from .chain import Chain, Chances, Shifts, chain_of
@@ -29,18 +30,12 @@ from .foot_blocks import FIRST_GYRO_FEATURE, MAX_RISE, MOVING_VARIANCE, Activity
 # level is evidence that anyone can check, beside that of a network which may never have seen how this wearer climbs. A
 # ramp of one in twelve is level by it. A track without heights has strides without rise, which are level.
 
-TREADS_RISE, TREADS_DEVIATION = 0.34, 0.06
-"""Rise of a stride over two treads and its standard deviation, m: risers of 0.14 to 0.20 m (Approved Document K of the
-Building Regulations 2010 allows 0.15 to 0.22 m)."""
+TREADS_DEVIATION = 0.06
+"""Standard deviation of `TREADS_RISE`, m."""
 DOUBLE_RISE, DOUBLE_DEVIATION, DOUBLE_SHARE = 0.58, 0.1, 0.2
 """The same two treads at a time, with the largest rise that is distinguished, and the share of such strides.
 
 All three are assumed."""
-RISE_ERROR, RISE_ERROR_SHARE = 0.05, 0.08
-"""Standard deviation of a measured rise, m, and its growth with the length, no unit.
-
-Level strides of an accelerometer that clips at 2 g (hugadb) rise by 0.10 m over 0.9 m. Chosen of three pairs there, all
-wearers in view (0.04 and 0.06 have 1.3 points less, 0.06 and 0.1 as many), and on emulated walks backwards."""
 MOST_EVIDENCE = 6.0
 """Largest logarithm of the likelihood ratio of one stride: 400 to 1, because a step over something is no stairs."""
 BLOCK_SHARE = 0.5

@@ -242,18 +242,17 @@ class MeanOfFeet(TrackPart):
             this.out = True
             return
         this.out = False
-        if has_returned:
-            pass
-        elif this.t is None:
-            this.started_at = t
-            # at the start the feet stand side by side, but not when a foot's first sample comes during a walk
-            has_returned = (
-                other.started_at is not None and t - other.started_at >= ABSENCE_TIME and other.variance is not None
-            )
-        elif t - this.t >= ABSENCE_TIME:
-            has_returned = this.absent
-        elif t > this.t and other.t is not None:
-            other.absent_for += t - this.t
+        if not has_returned:
+            if this.t is None:
+                this.started_at = t
+                # at the start the feet stand side by side, but not when a foot's first sample comes during a walk
+                has_returned = (
+                    other.started_at is not None and t - other.started_at >= ABSENCE_TIME and other.variance is not None
+                )
+            elif t - this.t >= ABSENCE_TIME:
+                has_returned = this.absent
+            elif t > this.t and other.t is not None:
+                other.absent_for += t - this.t
         this.t, this.absent_for, this.newest_place = t, 0.0, view.position
         if view.north is not None:
             (c, s), (x, y, z) = view.north, view.position
