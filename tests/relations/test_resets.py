@@ -100,10 +100,10 @@ StraightWays.reset: straightness.reset()
 Straightness.reset: direction
 StreamLink.handle_reconnection: last_t newest_arrival off_rate_interval off_rate_packets packet_run* periodic*
 StreamLink.restart_clock: off_rate_interval off_rate_packets packet_run* periodic*
-StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped first_pitch flat_pitch flaws heel_strike_pitch
-  least_force load_count load_sum longest_rest most_force next_pitch peak_height peak_rate peak_speed pitch pitch_high
-  pitch_low pitches rest start stride_rate t_heel_off t_heel_strike t_mid_stance t_pitch t_toe_off toe_off_pitch
-  usual_flat_pitch usual_motion
+StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped creep first_pitch flat_pitch flaws
+  heel_strike_pitch least_force load_count load_sum longest_rest most_force next_pitch peak_height peak_rate
+  peak_speed pitch pitch_high pitch_low pitches rest start stride_rate t_heel_off t_heel_strike t_mid_stance t_pitch
+  t_toe_off toe_off_pitch usual_flat_pitch usual_motion
 StrideTemplate.reset: age bridged first_position infilled last_stride longest_stride stance_duration straight_on*
   t_last_flat t_next_moment
 Touch.restart: in_front

@@ -145,7 +145,9 @@ class StrideTaken(BaseEvent):
     longest_gap: float = 0.0
     """Time from one sample to the next in the longest gap of the stride, s; 0 without a gap."""
     length_sigma: float = 0.0
-    """Standard deviation of `length`, m, with what its gaps add; 0 where the recipe's corrector keeps no covariance."""
+    """Standard deviation of `length`, m, with what its gaps and the correction of its start add.
+
+    Without gaps it is 0 where the recipe's corrector keeps no covariance."""
     flaws: tuple[Flaw, ...] = ()
     """What makes the stride wrong rather than less sure. A gap that is bridged well, as most lost packets, is none.
     `degraded` is whether there are any."""

@@ -10,7 +10,7 @@ from ..events.foot import LONGEST_HARMLESS_GAP
 from ..types import Foot, Quat, Vec2, Vec3
 from ..types.attrs import define, field
 from ..types.vector import GRAVITY, IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
-from .navigate.corrector import LONGEST_BRIDGE, Corrector
+from .navigate.corrector import Corrector
 from .rhythm import follow
 from .view import FASTEST_RUN
 from .world import Covariance3, World
@@ -37,7 +37,10 @@ Two swings and a stance take more than twice that time. On recordings without da
 MOTION_GAIN, LARGEST_MOTION_RATIO = 0.2, 1.3
 """Weight of the newest time in the usual one, and the limit of its ratio to the usual one in the average."""
 GUESSED_SPEED_SIGMA = 1.0
-"""Standard deviation of the speed of a foot in a gap that no motion bridges, m/s (`solepath-lab damage losses`)."""
+"""Standard deviation of the speed of a foot in a gap that is a flaw, m/s (`solepath-lab damage losses`)."""
+FLAT_SIGMA = 0.01
+"""Standard deviation of the place of the sensor, m, when its foot comes to lie flat: a shoe gives way, a foot settles
+(strides without losses of the first walks of pyshoe_vicon, `solepath-lab damage losses`)."""
 MOST_GAPS = 8
 """Number of the newest gaps that are kept one by one, because a foot-flat may be dated back before them."""
 RESTING_RATE, RESTING_SHARE = 0.3**2, 0.15**2
@@ -56,7 +59,7 @@ class GapSums(NamedTuple):
     longest: float = 0.0
     """Longest time from one sample to the next."""
     guessed: float = 0.0
-    """Square root of the sum of the squared times of gaps that no motion bridges."""
+    """Square root of the sum of the squared times of gaps that are a flaw."""
 
     def with_gap(self, gap: Vec3, t_start: float, t_end: float) -> GapSums:
         """Return the sums with a gap of a stride from `t_start` to `t_end`, s."""
@@ -65,7 +68,7 @@ class GapSums(NamedTuple):
         if inside <= 0.0:
             return self
         missing = max(0.0, min(inside, t_next - t_last - interval))
-        guessed = inside if t_next - t_last > LONGEST_BRIDGE else 0.0
+        guessed = inside if t_next - t_last > LONGEST_HARMLESS_GAP else 0.0
         return GapSums(self.missing + missing, max(self.longest, inside), hypot(self.guessed, guessed))
 
 
@@ -92,6 +95,10 @@ class StrideBuilder:
     """Of the newest gaps, the last sample before it, the first one after it, and the usual interval, s."""
     older_gaps: GapSums = GapSums()
     """Sums over gaps of the stride that are no longer among the newest."""
+    creep: float = 0.0
+    """Square of the horizontal distance, m^2, that a foot at rest has moved since the start.
+
+    A foot at rest does not move: the start was wrong by as much, and what corrects it is part of this stride."""
     peak_height: float = 0.0
     """Largest height of the sensor in the stride, navigation frame, m."""
     peak_speed: float = 0.0
@@ -172,7 +179,7 @@ class StrideBuilder:
         self.newest_gaps = tuple([gap for gap in self.newest_gaps if gap[1] > t])
         self.older_gaps = GapSums()
         self.peak_height = position[2]
-        self.peak_speed = self.pitch = self.pitch_low = self.pitch_high = 0.0
+        self.creep = self.peak_speed = self.pitch = self.pitch_low = self.pitch_high = 0.0
         self.peak_rate, self.stride_rate = self.stride_rate, 0.0
         self.rest = self.longest_rest = (0.0, 0.0)
         self.least_force = GRAVITY * GRAVITY
@@ -203,9 +210,9 @@ class StrideBuilder:
         self.flawed_until, self.newest_gaps, self.older_gaps = {}, (), GapSums()
 
     def add_motion(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, height: float, speed: float, sagittal: float, still: bool
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, position: Vec3, speed: float, sagittal: float, still: bool
     ) -> None:
-        """Add one sample: height in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown).
+        """Add one sample: position in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown).
 
         `still` is True when zero-velocity evidence was accepted."""
         (x, y, z), (u, v, w) = acc, gyro
@@ -225,8 +232,9 @@ class StrideBuilder:
                 self.longest_rest = rest
         elif duration:
             self.rest = (0.0, 0.0)
-        if height > self.peak_height:
-            self.peak_height = height
+        x, y, z = position
+        if z > self.peak_height:
+            self.peak_height = z
         if speed > self.peak_speed:
             self.peak_speed = speed
         pitch = self.pitch = self.pitch + sagittal * dt
@@ -239,6 +247,8 @@ class StrideBuilder:
         elif pitch > self.pitch_high:
             self.pitch_high = pitch
         if still and self.t_toe_off is None:
+            u, v, _ = self.start
+            self.creep = (x - u) * (x - u) + (y - v) * (y - v)
             t_contact = self.t_contact
             if t_contact is None or t <= self.t_mid_stance or t - t_contact > LONGEST_CONTACT:
                 self.flat_pitch = pitch
@@ -341,7 +351,7 @@ class StrideBuilder:
             t_heel_strike=self.t_heel_strike,
             missing=min(1.0, gaps.missing / (t - self.t_start)) if t > self.t_start else 0.0,
             longest_gap=gaps.longest,
-            length_sigma=_length_sigma(displacement, covariance, gaps.guessed),
+            length_sigma=_length_sigma(displacement, covariance, gaps.guessed, self.creep),
             flaws=flaws,
             features=StrideFeatures(
                 clearance=self.peak_height - max(corrector.position[2], self.start[2]),
@@ -361,10 +371,14 @@ class StrideBuilder:
         )
 
 
-def _length_sigma(displacement: Vec3, covariance: Covariance3, guessed_time: float) -> float:
-    """Return the standard deviation of the horizontal length of a stride, m, with its time that was guessed, s."""
+def _length_sigma(displacement: Vec3, covariance: Covariance3, guessed_time: float, creep: float) -> float:
+    """Return the standard deviation of the horizontal length of a stride, m.
+
+    To what the corrector knows, if it keeps a covariance, come the creep of the start, m^2, and both ends; to that the
+    time that was guessed, s."""
     (x, y, _), (xx, xy, _, yy, _, _) = displacement, covariance
     square = x * x + y * y
     along = (x * x * xx + 2.0 * x * y * xy + y * y * yy) / square if square > 0.0 else 0.5 * (xx + yy)
+    known = along + creep + 2.0 * FLAT_SIGMA * FLAT_SIGMA if along > 0.0 else 0.0
     guessed = GUESSED_SPEED_SIGMA * guessed_time
-    return sqrt(max(0.0, along) + guessed * guessed)
+    return sqrt(known + guessed * guessed)

@@ -267,7 +267,7 @@ class FootTracker:
         template, position = gait.template, corrector.position
         if template.t_heel_off is not None and t >= template.t_next_moment:
             template.add_moment(t, corrector.attitude, corrector.velocity, position, acc, gyro)
-        gait.stride.add_motion(t, dt, acc, gyro, position[2], speed, cues.sagittal, still)
+        gait.stride.add_motion(t, dt, acc, gyro, position, speed, cues.sagittal, still)
         if timed_cues:
             for timed_cue in timed_cues:
                 self._apply_cue(timed_cue, known_at, events)
