@@ -85,7 +85,7 @@ PressureHeight.restart: blocks compared newest noise apart
 RateIntegral.restart: instants* t*
 Reassembly.drop: frame_id skipping
 Recognition.reset: load_count mean_load soles* apart
-Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing watches
+Recovery.reset: acc_clipping* clipped earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing watches
   acc_clipping.reset()
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()

@@ -134,9 +134,12 @@ class FootTracker:
             rest.bias, rest.grain if rest.count else 0.0, pressed, after,
         )  # fmt: skip
 
-    def mark_defect(self) -> None:
-        """Mark all strides as flawed from now until `reset`, because a defect of the data was found."""
-        self.gait.stride.mark_flawed(Flaw.DEFECT, MAX_TIME)
+    def mark_defect(self, defect: Defect) -> None:
+        """Mark strides as flawed from now until `reset`: all, or those whose peaks are cut off if that is the defect."""
+        if defect is Defect.CLIPPED:
+            self.gait.stride.clips = True
+        else:
+            self.gait.stride.mark_flawed(Flaw.DEFECT, MAX_TIME)
 
     def shift(self, yaw: float, by: Vec3) -> None:
         """Turn the foot by `yaw` rad and move it by `by` m, world frame, from now on.
@@ -279,7 +282,7 @@ class FootTracker:
 
     def _stuck_sensor(self, what: str, t: float, known_at: float) -> DefectFound:
         """Return the event of a stuck sensor, whose samples are not used."""
-        self.mark_defect()
+        self.mark_defect(Defect.REPEATED)
         site = SITE_OF_FOOT[self.foot]
         return DefectFound(t=t, known_at=known_at, site=site, defect=Defect.REPEATED, what=what)
 

@@ -377,7 +377,7 @@ class SessionState:
                 events[:] = [item.by if event is item.event else event for event in events]
             else:
                 if isinstance(item, DefectFound) and item.spoils and item.site.foot in self.feet:
-                    self.feet[item.site.foot].mark_defect()
+                    self.feet[item.site.foot].mark_defect(item.defect)
                 events.append(item)
 
     def _make_moved(self, known_at: float) -> WearerMoved | None:
