@@ -24,6 +24,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import cos, inf, sin
 
+from ...types import Floats
 from ...types.attrs import frozen
 from ...types.vector import GRAVITY
 from .critical_times import CriticalTimes, Row
@@ -40,7 +41,7 @@ class RestToRest:
     """The rows of a stride from uplift to rest, and their pitch theta, rad."""
 
     rows: tuple[Row, ...]
-    tilts: tuple[float, ...]
+    tilts: Floats
 
     def length(self, toe_out: float = 0.0) -> float:
         """Return S of (5), m, from uplift, with zero velocity at rest. `toe_out` is phi of (1), rad."""

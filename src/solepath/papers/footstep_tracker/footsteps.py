@@ -13,14 +13,14 @@ paper leaves these points open:
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from math import cos, fsum, hypot, pi, sin
 from typing import ClassVar
 
-from ...body.part import PartInput, PartOutput, Position, TrackPart
+from ...body.part import Inputs, Outputs, Position, TrackPart
 from ...events import StrideTaken
 from ...foot.view import FootPose, FootView
-from ...types import OTHER, Foot, Vec3
+from ...types import OTHER, Foot, Vec2, Vec3
 from ...types.attrs import define, state, stateful
 from ...types.vector import ZERO
 
@@ -31,7 +31,7 @@ LARGEST_DISTANCE = 1.0
 ABSENT_STRIDES = 3
 """Number of strides of the other foot after which a foot without a stride is absent; chosen by hand."""
 
-Horizontal = tuple[float, float]
+Horizontal = Vec2
 """Horizontal vector, m."""
 
 
@@ -72,7 +72,7 @@ class Footsteps(TrackPart):
     restarts: int = 0
     """Number of restarts."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         if not self.idle and view is not None and view.sample.acc is not None and view.sample.gyro is not None:
             if self.paths[view.foot].is_absent:
                 self.paths[view.foot].strides_alone = 0

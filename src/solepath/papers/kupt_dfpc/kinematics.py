@@ -59,7 +59,7 @@ def shoe_for(insole_length: float) -> ShoeGeometry:
     return evolve(shoe, heel_radius=k * shoe.heel_radius, forefoot_radius=radius, pivot_to_toe=to_toe)
 
 
-def heel_position(shoe: ShoeGeometry, toe_up: float) -> tuple[float, float]:
+def heel_position(shoe: ShoeGeometry, toe_up: float) -> Vec2:
     """Return the sensor's position (P_h ahead of the heel's end, P_z above ground), m, at a toe-up pitch, rad (4)."""
     s, c = sin(toe_up), cos(toe_up)
     return shoe.heel_radius * c - shoe.height * s, shoe.heel_radius * s + shoe.height * c
@@ -72,7 +72,7 @@ def _curve(coefficients: Floats, pitch: float) -> float:
     return value
 
 
-def forefoot_position(shoe: ShoeGeometry, heel_up: float) -> tuple[float, float]:
+def forefoot_position(shoe: ShoeGeometry, heel_up: float) -> Vec2:
     """Return the sensor's position (P_h + L_p2t behind the toe, P_z above ground), m, at a heel-up pitch, rad (6).
 
     L_r and L_p2t are fitted curves from flat to the steepest measured posture; outside they are constant."""

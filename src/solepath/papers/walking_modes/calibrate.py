@@ -26,7 +26,7 @@ from ...foot.stance.cycle import Cycle
 from ...recipes import Recipe, usual_parts
 from ...recording.decoded import DecodedRecording
 from ...session import Session
-from ...types import Foot, WalkingMode
+from ...types import Foot, Vec2, WalkingMode
 from ...types.attrs import evolve, frozen
 from ...types.vector import wrap_angle
 from ..tables import read_rows
@@ -141,7 +141,7 @@ def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown], turn: float
     return errors
 
 
-def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
+def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, Vec2]]:
     """Return the mean errors (forward, left), m, by foot and mode."""
     errors_of: dict[Foot, dict[WalkingMode, list[StepError]]] = {}
     for error in errors:

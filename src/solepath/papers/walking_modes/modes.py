@@ -23,12 +23,12 @@ The paper leaves these points open:
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from copy import deepcopy
 from math import fsum, hypot
 from typing import ClassVar
 
-from ...body.part import LimbSampled, PartInput, PartOutput, Position, TrackPart
+from ...body.part import Inputs, LimbSampled, Outputs, Position, TrackPart
 from ...calibration import Calibration
 from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ...foot.rejection import rejected
@@ -107,7 +107,7 @@ class Modes(TrackPart):
             self.recognition.reset(site.foot)
             self.newest_t.clear()
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot or a limb; update the reference foot, touchdowns and walking mode."""
         if view is None:
             return [
@@ -121,7 +121,7 @@ class Modes(TrackPart):
         outputs = [] if view.pressed is None else self._add_pressure(view, view.pressed)
         return outputs + self._update_reference(foot, t, view.known_at)
 
-    def _add_limb(self, sample: Sample) -> Sequence[PartOutput]:
+    def _add_limb(self, sample: Sample) -> Outputs:
         """Add a sample of pelvis, thigh or shank."""
         chain = self.places.chain
         wrong = chain.add_limb(sample)

@@ -25,7 +25,7 @@ from math import fsum
 
 from ...events import StrideTaken
 from ...foot.view import FootView
-from ...types import OTHER, Foot, Layout, Phase, Quat, WalkingMode
+from ...types import OTHER, Floats, Foot, Layout, Phase, Quat, WalkingMode
 from ...types.attrs import field, state, stateful
 from ...types.vector import heading_turned
 from .mode import LEAST_STEP_LENGTH, STANDING_WEIGHT, decide, regions
@@ -110,7 +110,7 @@ class SoleContact:
         self.t_start, self.total, self.too_long = t, 0.0, False
         self.sums = dict.fromkeys(self.region_cells, 0.0)
 
-    def add(self, cells: tuple[float, ...], total: float) -> None:
+    def add(self, cells: Floats, total: float) -> None:
         """Add one sample of the foot on the ground."""
         if self.layout is None or len(cells) != len(self.layout.cells):
             return
@@ -160,7 +160,7 @@ class Recognition:
             sole.newest = view.attitude
 
     def add_pressure(
-        self, foot: Foot, state: FootState, cells: tuple[float, ...], layout: Layout | None, t: float, both_feet: bool
+        self, foot: Foot, state: FootState, cells: Floats, layout: Layout | None, t: float, both_feet: bool
     ) -> WalkingMode | None:
         """Add a sample of the cells of `foot` at `t` s; return the foot's mode if it has changed, otherwise None.
 

@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections import deque
 from math import fsum, radians, sqrt
 
-from ....types import Vec3
+from ....types import Floats, Vec3
 from ....types.attrs import define, field, frozen
 from ....types.vector import GRAVITY, TIME_EPSILON
 
@@ -70,7 +70,7 @@ class WindowBlock:
     """Number of samples."""
     turns: int = 0
     """Number of samples with an angular rate."""
-    sums: tuple[float, ...] = (0.0,) * 8
+    sums: Floats = (0.0,) * 8
     """Sums of the specific force along the sensor's x, y and z, m/s^2; of a_z minus standard gravity, without which
     powers would lose digits, m/s^2, of its square and of its cube; of the squared specific force, all axes, m^2/s^4;
     and of the squared angular rate, rad^2/s^2."""
