@@ -38,8 +38,8 @@ from ...body.part import Inputs, Outputs, Position, TrackPart
 from ...events import StrideFused, StrideTaken
 from ...foot.pressure.insole import centre
 from ...foot.view import FootPose, FootView
-from ...types import OTHER, Floats, Foot, Site, Vec3
-from ...types.attrs import define, field
+from ...types import OTHER, Floats, Foot, PerFoot, Site, Vec3, per_foot
+from ...types.attrs import define, field, state, stateful
 from ...types.vector import ZERO, add, sub
 
 KEPT_STRIDES = 3
@@ -93,7 +93,7 @@ class CalibratedPath:
     """Number of strides of the other foot since this foot's last stride."""
 
 
-@define
+@stateful
 class DoubleFoot(TrackPart):
     """Fuses the strides of both feet, and reports one `StrideFused` for each stride.
 
@@ -107,22 +107,18 @@ class DoubleFoot(TrackPart):
     needs_samples: ClassVar[bool] = True
     idle = True
 
-    paths: dict[Foot, CalibratedPath] = field(init=False)
-    error_balance: float = field(default=0.0, init=False)
+    paths: PerFoot[CalibratedPath] = state(factory=lambda: per_foot(CalibratedPath))
+    error_balance: float = 0.0
     """Sum of (13), m^2/s: positive when the left foot errs more."""
-    chosen: Foot | None = field(default=None, init=False)
+    chosen: Foot | None = None
     """Chosen foot by (13); None before the first stride."""
 
-    def __attrs_post_init__(self) -> None:
-        self.paths = {foot: CalibratedPath() for foot in Foot}
-
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
-        strides = [event for event in events if isinstance(event, StrideTaken)] if events else []
-        if view is None or view.after is None or not strides:
+        if view is None or view.after is None:
             return ()
         layout = view.after.layout
         middle = None if layout is None else centre(layout)
-        return [self.add_stride(stride, middle) for stride in strides]
+        return [self.add_stride(event, middle) for event in events if isinstance(event, StrideTaken)]
 
     def reset(self, site: Site) -> None:
         """Discard the foot's strides so far, because their times are on another clock."""

@@ -25,7 +25,7 @@ from math import fsum
 
 from ...events import StrideTaken
 from ...foot.view import FootView
-from ...types import OTHER, Floats, Foot, Layout, Phase, Quat, WalkingMode
+from ...types import OTHER, Floats, Foot, Layout, PerFoot, Phase, Quat, WalkingMode, per_foot
 from ...types.attrs import field, state, stateful
 from ...types.vector import heading_turned
 from .mode import LEAST_STEP_LENGTH, STANDING_WEIGHT, decide, regions
@@ -137,7 +137,7 @@ class Recognition:
     """Recognises the walking mode from all samples of the cells and all touchdowns."""
 
     settings: ModesSettings = field(default=ModesSettings())
-    soles: dict[Foot, SoleContact] = state(factory=lambda: {foot: SoleContact() for foot in Foot})
+    soles: PerFoot[SoleContact] = state(factory=lambda: per_foot(SoleContact))
     """Contact by foot."""
     contact_detector: PressureTouchdown = state(factory=PressureTouchdown)
     """Detector of the start and the end of a contact."""
