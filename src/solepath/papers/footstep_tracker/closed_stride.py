@@ -111,7 +111,7 @@ def vertical_turn(rows: Sequence[Row], times: CriticalTimes, stride: RestToRest,
 
 def _with_rates(stride: Sequence[Row], rates: Sequence[float]) -> RestToRest:
     """Return the stride with these rates about x, rad/s."""
-    rows = [(t, ax, ay, az, rate, gy, gz) for (t, ax, ay, az, _, gy, gz), rate in zip(stride, rates, strict=True)]
+    rows = [(*row[:4], rate, *row[5:]) for row, rate in zip(stride, rates, strict=True)]
     return RestToRest(tuple(rows), tuple(pitches(rows)))
 
 

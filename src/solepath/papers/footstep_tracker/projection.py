@@ -127,8 +127,7 @@ class Projection(Strapdown):
         before = self.position
         self.integrate(dt, acc, gyro)
         if saturated:
-            x, y, z = gyro
-            rate = max(abs(x), abs(y), abs(z))
+            rate = max(map(abs, gyro))
             self.largest_saturated = max(self.largest_saturated, rate)
             if (
                 self.least_saturated < RANGE_END_SHARE * self.largest_saturated
@@ -140,9 +139,7 @@ class Projection(Strapdown):
             self.velocity, self.position = ZERO, before
             return
         if self.settings.as_printed:
-            vx, vy, _ = self.velocity
-            x, y, _ = self.position
-            self.velocity, self.position = (vx, vy, 0.0), (x, y, 0.0)
+            self.velocity, self.position = (*self.velocity[:2], 0.0), (*self.position[:2], 0.0)
 
     def correct(self, t: float, stance: Stance) -> bool:
         if stance.hint is not Phase.STATIONARY:

@@ -28,7 +28,7 @@ from math import asin, cos, hypot, sin, sqrt
 from ...calibration import ShoeGeometry
 from ...types import Floats, Quat, Vec2, Vec3
 from ...types.attrs import evolve, stateful
-from ...types.vector import ZERO, add, dot, rotate, sub
+from ...types.vector import ZERO, across, add, dot, rotate, sub
 
 DEFAULT_LENGTH = 0.285
 """Length of the shoe whose geometry is the default, m."""
@@ -179,8 +179,3 @@ def length(v: Vec3) -> float:
 def of_length_1(v: Vec3) -> Vec3:
     """Return the unit vector in the direction of `v`, which is not zero."""
     return add(ZERO, v, 1.0 / length(v))
-
-
-def across(v: Vec3, axis: Vec3) -> Vec3:
-    """Return the part of `v` across `axis`, which has the length 1."""
-    return add(v, axis, -dot(v, axis))

@@ -6,7 +6,7 @@ there."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import exp, fsum, isfinite
+from math import exp, fsum
 
 from ....types import Floats
 
@@ -18,12 +18,9 @@ Matrix = tuple[Floats, ...]
 
 
 def scaled_likelihoods(log_likelihoods: Sequence[float]) -> Floats:
-    """Return likelihoods relative to the largest, each in [LEAST_LIKELIHOOD, 1]; 1 for a value that is not finite."""
-    finite = [value if isfinite(value) else None for value in log_likelihoods]
-    highest = max([value for value in finite if value is not None], default=0.0)
-    return tuple(
-        [1.0 if value is None else max(LEAST_LIKELIHOOD, exp(max(-700.0, value - highest))) for value in finite]
-    )
+    """Return likelihoods relative to the largest, each in [LEAST_LIKELIHOOD, 1]; the logarithms are finite."""
+    highest = max(log_likelihoods)
+    return tuple([max(LEAST_LIKELIHOOD, exp(max(-700.0, value - highest))) for value in log_likelihoods])
 
 
 def forward(belief: Sequence[float], transitions: Matrix, likelihoods: Sequence[float]) -> Floats:
