@@ -148,15 +148,16 @@ class Sagittal:
 
     def heel_position(self, shoe: ShoeGeometry) -> Vec3:
         """Return the sensor's position relative to the heel's end, navigation frame, m (4)."""
-        ahead, above = heel_position(shoe, self.pitch)
-        x, y = self.forward
-        return (ahead * x, ahead * y, above)
+        return self._along(*heel_position(shoe, self.pitch))
 
     def forefoot_position(self, shoe: ShoeGeometry) -> Vec3:
         """Return the sensor's position relative to the toe, navigation frame, m: (6) with the sign of (7)."""
         behind, above = forefoot_position(shoe, -self.pitch)
+        return self._along(-behind, above)
+
+    def _along(self, ahead: float, above: float) -> Vec3:
         x, y = self.forward
-        return (-behind * x, -behind * y, above)
+        return (ahead * x, ahead * y, above)
 
 
 def mean_velocity(last_position: Vec3, position: Vec3, dt: float) -> Vec3:
