@@ -22,6 +22,7 @@ Numbers without a source were chosen by hand."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import groupby
 from math import cos, inf, sin
 
 from ...types import Floats
@@ -117,13 +118,12 @@ def _with_rates(stride: Sequence[Row], rates: Sequence[float]) -> RestToRest:
 
 def _clipped_spans(rates: Sequence[float], end: float) -> Iterator[tuple[int, int]]:
     """Yield the numbers [first, after) of each span of rates beyond `end`, rad/s."""
-    first = None
-    for i, rate in enumerate([*rates, -inf]):
-        if rate > end and first is None:
-            first = i
-        elif rate <= end and first is not None:
-            yield first, i
-            first = None
+    first = 0
+    for beyond, span_of in groupby([rate > end for rate in rates]):
+        after = first + len(list(span_of))
+        if beyond:
+            yield first, after
+        first = after
 
 
 def _clipped_shape(stride: Sequence[Row], sign: float, end: float) -> list[float]:
