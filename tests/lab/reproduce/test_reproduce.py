@@ -16,7 +16,7 @@ from solepath_lab.reproduce.command import NAMES
 from solepath_lab.reproduce.contour.walks import LOOPS
 from solepath_lab.reproduce.kupt import walks as kupt_walks
 from solepath_lab.reproduce.shoe import walks as shoe_walks
-from solepath_lab.reproduce.tables import PUBLISHED, Reproduction, Statistics, statistics
+from solepath_lab.reproduce.tables import CLAIMS, PUBLISHED, Reproduction, Statistics, statistics
 
 FIVE = ["mean", "std", "q1", "median", "q3"]
 
@@ -47,6 +47,17 @@ def test_the_papers_own_figures_are_those_that_they_print():
             for axis, value in (("x", -left), ("y", ahead)):
                 row = PUBLISHED["walking-modes"]["rows"][f"table 1 {foot.value} {mode.value} {axis}"]
                 assert row == [pytest.approx(value)]
+
+
+PAGES = Path(__file__).parents[3] / "docs" / "papers"
+
+
+@pytest.mark.parametrize("name", ["kupt-dfpc", "pressure-contour", "shoe-sensing"])
+def test_a_page_compares_what_the_command_compares(name):
+    table = (PAGES / f"{name}.md").read_text(encoding="utf-8").partition("| claim | margin")[2].partition("\n\n")[0]
+    shown = [line.split("|")[1].strip() for line in table.splitlines()[2:]]
+    claims = [f"{title}{claim['claim']}" for claim in CLAIMS[name] for title in claim.get("of", [""])]
+    assert sorted(shown) == sorted(claims)
 
 
 @pytest.mark.long
