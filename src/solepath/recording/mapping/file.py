@@ -27,7 +27,7 @@ def read_mapping(path: Path | str) -> TableMapping:
     if len(data) > MAX_SIZE:
         raise RecordingError(path, f"is larger than {MAX_SIZE // 1_000_000} MB, so it is no mapping")
     try:
-        values: dict[str, Any] = tomllib.loads(data.decode("utf-8"))
+        values: dict[str, Any] = tomllib.loads(data.decode("utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise RecordingError(path, f"is not TOML ({error})") from None
     problems = [

@@ -13,8 +13,9 @@ from attrs import evolve
 from numpy.lib.format import read_array
 from numpy.typing import NDArray
 
-from ..errors import RecordingError, describe_error, open_file, printable
+from ..errors import RecordingError, describe_error, printable
 from ..mapping.mapping import COMPONENTS, KEYS, TableMapping
+from ..unpacking import open_unpacked
 from .columns import TableColumns
 from .sheet import SheetLayout
 from .table import MAX_VALUES
@@ -81,7 +82,7 @@ def read_arrays(path: Path, is_used: Callable[[str], bool]) -> dict[str, NDArray
 
 def _read_members(path: Path, is_used: Callable[[str], bool]) -> dict[str, NDArray[Any] | None]:
     """Return all keys of an archive in order; the values of those that are not used are None."""
-    with open_file(path) as file:
+    with open_unpacked(path) as file:
         stream: BinaryIO = file
         if not file.seekable():
             stream = BytesIO(file.read(MAX_PIPED + 1))

@@ -19,6 +19,7 @@ from ..bad_rows import BadRows
 from ..errors import RecordingError, Report, printable, warn
 from ..mapping.mapping import MEASURED, TableMapping
 from ..mapping.words import foot_of_text
+from ..unpacking import content_name
 from .columns import TableColumns, find_columns
 from .guess import UnknownTable, guess_mapping, merge_guesses
 from .join import join_files
@@ -139,7 +140,7 @@ def _feet_of_files(paths: Sequence[Path], patterns: Mapping[str, str]) -> Iterat
     use_folders = len({path.parent for path in paths}) > 1
     for path in paths:
         matching = [Foot(foot) for foot, pattern in patterns.items() if fnmatchcase(path.name, pattern)]
-        foot = matching[0] if len(matching) == 1 else foot_of_text(path.stem)
+        foot = matching[0] if len(matching) == 1 else foot_of_text(Path(content_name(path)).stem)
         yield foot_of_text(path.parent.name) if foot is None and use_folders else foot
 
 
@@ -148,7 +149,7 @@ def _read_file(file: SampleFile, bad_rows: BadRows, headers: list[TableColumns],
 
     There are none for a sheet whose columns have faults."""
     path, mapping = file.path, file.mapping
-    if path.suffix.lower() == ".npz":
+    if Path(content_name(path)).suffix.lower() == ".npz":
         from .npz import check_lengths, open_npz  # imports numpy, which text does not need
 
         layout, mapping, columns = open_npz(path, mapping)
