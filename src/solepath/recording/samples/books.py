@@ -1,8 +1,8 @@
 """Rows of workbooks (.xlsx) and Parquet files, one after the other, so that their size takes no memory.
 
 A workbook is a .zip of XML (ECMA-376 part 1, 18). It is read as a stream with what Python brings: what it claims of its
-dimensions is not used, blank cells cost nothing, and entities, which could grow without end, are rejected. Parquet needs
-pyarrow or polars (extra `tables`)."""
+dimensions is not used, blank cells cost nothing, and entities, which could grow without end, are rejected. Parquet
+needs pyarrow or polars (extra `tables`)."""
 
 from __future__ import annotations
 
