@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 _SAVE = "save its table as .csv or .xlsx"
+_UNPACK = "unpack it, and give what is in it; the log of an iPhone (logs/Bluetooth) is for `solepath convert`"
 UNREAD_SAMPLES = {
     ".xls": _SAVE,
     ".xlsb": _SAVE,
@@ -15,6 +16,8 @@ UNREAD_SAMPLES = {
     ".h5": _SAVE,
     ".hdf5": _SAVE,
     ".feather": _SAVE,
+    ".tar": _UNPACK,
+    ".tgz": _UNPACK,
     ".mat": "in MATLAB, writematrix([t, acc, gyro], 'walk.csv') with columns of your own; then give walk.csv"
     " with --columns t=1,acc=2,3,4,gyro=5,6,7",
 }

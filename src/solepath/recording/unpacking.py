@@ -71,7 +71,8 @@ def _only_recording(path: Path, names: Sequence[str]) -> str:
     if len(found) != 1:
         which = f" ({printable(', '.join(found), 80)})" if found else ""
         what = f"holds {len(found) or 'no'} recordings{which}, not one"
-        raise RecordingError(path, what, repair="unpack it, and give the files that belong together")
+        repair = "unpack it, and give the files that belong together; `solepath convert` takes a phone's bug report"
+        raise RecordingError(path, what, repair=repair)
     return found[0]
 
 

@@ -16,16 +16,16 @@ from solepath.types import Foot
 
 LENGTH = 20.0
 """Length of the walk, m."""
-ROUTE = Route().stand(2.0).walk(LENGTH, speed=1.3).stop(1.5)
 NAMES = ["t", "ax", "ay", "az", "gx", "gy", "gz"]
 COLUMNS = "t=t,acc=ax,ay,az,gyro=gx,gy,gz"
 UNTIMED = "acc=ax,ay,az,gyro=gx,gy,gz"
 
 
 @cache
-def walked(foot: Foot = Foot.LEFT, rate: float = 100.0) -> np.ndarray:
+def walked(foot: Foot = Foot.LEFT, rate: float = 100.0, speed: float = 1.3) -> np.ndarray:
     """Return rows of time (s), specific force (g) and angular rate (deg/s) of one foot."""
-    t, acc, gyro = columns(tuple(Walker(ROUTE, seed=3).samples(foot, rate, LSM6DSOX)))
+    route = Route().stand(2.0).walk(LENGTH, speed=speed).stop(1.5)
+    t, acc, gyro = columns(tuple(Walker(route, seed=3).samples(foot, rate, LSM6DSOX)))
     return np.column_stack([t, acc, gyro])
 
 

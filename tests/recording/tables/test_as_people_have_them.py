@@ -182,6 +182,18 @@ def test_a_zip_of_several_tables_says_to_unpack_it(tmp_path: Path) -> None:
     assert "holds no recordings, not one" in one_line(run("track", tmp_path / "none.zip"))
 
 
+def test_rows_of_an_archive_are_chosen_too(tmp_path: Path) -> None:
+    rows = walked() * [1.0, *[9.80665] * 3, *[np.pi / 180.0] * 3]
+    both = np.repeat(rows, 2, axis=0)
+    device = np.tile([3, 7], len(rows))
+    np.savez(tmp_path / "left.npz", t=both[:, 0], acc=both[:, 1:4], gyro=both[:, 4:], device=device)
+    assert "rows of several devices" in one_line(run("track", tmp_path / "left.npz"))
+    works(tmp_path / "left.npz", "--rows", "device=7")
+    assert "has no row with device = 1; there are 3.0; 7.0" in one_line(
+        run("track", tmp_path / "left.npz", "--rows", "device=1")
+    )
+
+
 @pytest.mark.parametrize("name", ["walk.mat", "walk.xls", "walk.ods", "walk.h5", "walk.mat.gz"])
 def test_a_file_that_is_not_read_says_what_to_do(tmp_path: Path, name: str) -> None:
     (tmp_path / name).write_bytes(b"MATLAB 5.0 MAT-file" if not name.endswith("gz") else gzip.compress(b"MATLAB"))
@@ -226,9 +238,11 @@ def test_one_broken_sensor_costs_that_sensor(
     assert checked.returncode == 1 and f"its {sensor} is broken" in must
 
 
-@pytest.mark.parametrize("rate", [200.0, 150.0, 66.0, 50.0])
-def test_a_rate_that_is_wrong_by_half_is_noticed(tmp_path: Path, rate: float) -> None:
-    path = table(tmp_path / "left.csv", NAMES[1:], walked()[:, 1:])
+@pytest.mark.parametrize(
+    ("speed", "rate"), [(1.3, 200.0), (1.3, 150.0), (1.3, 66.0), (0.7, 50.0), (1.6, 200.0), (1.6, 300.0)]
+)
+def test_a_rate_that_is_wrong_by_half_and_more_is_noticed(tmp_path: Path, speed: float, rate: float) -> None:
+    path = table(tmp_path / "left.csv", NAMES[1:], walked(speed=speed)[:, 1:])
     options = ("--columns", UNTIMED, "--units", UNITS, "--rate", f"{rate:g}")
     done = run("check", path, *options)
     assert done.returncode == 1 and "the times of the samples are too" in done.stdout

@@ -31,7 +31,7 @@ def open_npz(path: Path, mapping: TableMapping) -> tuple[SheetLayout, TableMappi
 
     A key holds all components of a quantity, which become columns such as acc_x, or one of them. RecordingError as for
     `read_arrays`, and for an array that is used and does not hold columns of numbers."""
-    given = {name.lstrip("-") for names in mapping.columns.values() for name in names}
+    given = {name.lstrip("-") for names in (*mapping.columns.values(), mapping.rows) for name in names}
     parts: dict[str, list[str]] = {}
     names: list[str] = []
     columns: dict[int, list[float]] = {}

@@ -8,6 +8,8 @@ from contextlib import suppress
 from itertools import accumulate, pairwise
 from math import isnan, nan
 
+from attrs import evolve
+
 from ..bad_rows import BadRows
 from ..errors import RecordingError, printable
 from ..exports import OWN
@@ -65,6 +67,15 @@ def read_rows(rows: Iterator[Row], found: TableColumns, bad_rows: BadRows) -> li
         if len(lines) * len(values) > MAX_VALUES:
             raise RecordingError(header.path, f"holds more than {MAX_VALUES:,} numbers")
     return fill_tables(found, values, counts, lines) if lines else []
+
+
+def choose_values(found: TableColumns, columns: Mapping[int, Sequence[float]]) -> dict[int, list[float]]:
+    """Return the values of columns, of the same length, in the rows that the mapping chooses."""
+    rows = (Row(row, list(cells)) for row, cells in enumerate(zip(*columns.values(), strict=False)))
+    order = {index: k for k, index in enumerate(columns)}
+    chosen = {order[index]: value for index, value in found.chosen.items()}
+    kept = [row.content for row in _chosen(rows, evolve(found, chosen=chosen))]
+    return {index: list(values) for index, values in zip(columns, zip(*kept, strict=True), strict=True)}
 
 
 def _chosen(rows: Iterator[Row], found: TableColumns) -> Iterator[Row]:

@@ -24,7 +24,7 @@ from .columns import TableColumns, find_columns
 from .guess import UnknownTable, guess_mapping, merge_guesses
 from .join import join_files
 from .mixed import find_mixture, repair_mixture
-from .numbers import fill_tables, read_rows
+from .numbers import choose_values, fill_tables, read_rows
 from .plausible import list_unit_problems
 from .sheet import open_sheet
 from .table import FootTable, floats, remove_bad_rows
@@ -175,6 +175,7 @@ def _read_file(file: SampleFile, bad_rows: BadRows, headers: list[TableColumns],
         if found.is_empty or found.list_problems(found.elsewhere):
             return []
         if columns:
+            columns = choose_values(found, columns) if found.chosen else columns
             tables = fill_tables(found, columns, check_lengths(found, columns), None)
         else:
             tables = read_rows(rows, found, bad_rows)
