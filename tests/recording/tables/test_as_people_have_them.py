@@ -146,6 +146,9 @@ def test_rows_are_chosen_by_several_columns_in_a_mapping_and_in_python(tmp_path:
         '[rows]\ncanal = 7\nplace = "a"\n'
     )
     works(path, "--mapping", tmp_path / "lab.toml", "--foot", "left")
+    (tmp_path / "lab.toml").write_text((tmp_path / "lab.toml").read_text().partition("[rows]")[0])
+    line = one_line(run("track", path, "--mapping", tmp_path / "lab.toml"))
+    assert 'repair: in lab.toml: "canal" = "3" below [rows] (there are 7, too)' in line
     mapping = TableMapping.parse(COLUMNS, UNITS, rows=["canal=3", "place=a"])
     assert len(list(read_samples(path, mapping=mapping))) == len(walked())
     for rows, sentence in (

@@ -183,17 +183,17 @@ class TableMapping:
     def write_scale(self, changes: Mapping[str, str]) -> str:
         """Return what gives these scales: the whole --scale, or lines in the file of this mapping."""
         scales = {**{quantity: f"{scale:.6g}" for quantity, scale in self.scale.items()}, **changes}
-        if self.origin:
-            return self.write_setting(*next(iter(changes.items()))) + " below [scale]" * bool(changes)
-        return f"--scale {','.join(f'{quantity}={scale}' for quantity, scale in scales.items())}" if scales else ""
+        return self._write_lines("scale", changes) if self.origin else f"--scale {_join(scales)}" if scales else ""
 
     def write_rows(self, changes: Mapping[str, str]) -> str:
         """Return what chooses these rows: all of --rows, or lines in the file of this mapping."""
-        if self.origin:
-            lines = [f'{json.dumps(name)} = "{value}"' for name, value in changes.items()]
-            return f"in {self.origin}: {', '.join(lines)} below [rows]"
-        return " ".join(
-            [f"--rows {shlex.quote(f'{name}={value}')}" for name, value in {**self.rows, **changes}.items()]
+        chosen = [f"--rows {shlex.quote(_join({name: value}))}" for name, value in {**self.rows, **changes}.items()]
+        lines = {json.dumps(name): json.dumps(value) for name, value in changes.items()}
+        return self._write_lines("rows", lines) if self.origin else " ".join(chosen)
+
+    def _write_lines(self, table: str, changes: Mapping[str, str]) -> str:
+        return (
+            f"in {self.origin}: {', '.join([f'{name} = {value}' for name, value in changes.items()])} below [{table}]"
         )
 
     def write_setting(self, key: str, value: str) -> str:
@@ -221,6 +221,10 @@ def match_name(names: Sequence[str], given: str) -> list[NamedColumn]:
         if found:
             return [NamedColumn(k, names[k], sign) for k in found]
     return []
+
+
+def _join(values: Mapping[str, str]) -> str:
+    return ",".join([f"{name}={value}" for name, value in values.items()])
 
 
 def join_names(names: Iterable[str]) -> str:

@@ -21,7 +21,7 @@ from ...types.extras import install_hint
 from ..bad_rows import LONGEST_LINE
 from ..errors import RecordingError, describe_error
 from ..unpacking import check_ratio, content_name, open_member, open_unpacked
-from .table import MAX_VALUES
+from .table import FLOAT_SIZE, MAX_VALUES
 
 MAX_BOOK = 256_000_000
 """Largest size of a Parquet file, bytes."""
@@ -38,8 +38,6 @@ DAY_0 = (datetime(1899, 12, 30), datetime(1904, 1, 1))
 """Day 0 of a workbook, with which the days from March 1900 on are right, and of one whose days count from 1904."""
 BATCH = 8192
 """Number of rows of a Parquet file that are unpacked at once."""
-FLOAT_SIZE = 8
-"""Size of a number in memory, bytes."""
 VALUES = {"v", "t"}
 """Elements with the value of a cell, or the text that cells share."""
 

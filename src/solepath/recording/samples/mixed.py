@@ -56,7 +56,7 @@ def find_mixture(table: FootTable) -> Mixture | None:
     if len(order) < LEAST_ROWS:
         return None
     t = [table.t[row] for row in order]
-    usual = evolve(table, t=floats(t), columns={}).interval
+    usual = evolve(table, t=floats(t), columns={}).pace
     starts = [row for row, (before, after) in enumerate(pairwise(t), 1) if after - before > SAME_TIME * usual]
     late, count = len(table) - len(order), len(table)
     if late > MIXED_SHARE * count or not starts:

@@ -18,12 +18,10 @@ from ..mapping.mapping import COMPONENTS, KEYS, TableMapping
 from ..unpacking import open_unpacked
 from .columns import TableColumns
 from .sheet import SheetLayout
-from .table import MAX_VALUES
+from .table import FLOAT_SIZE, MAX_VALUES
 
 MAX_PIPED = 256_000_000
 """Largest size of an archive that comes through a pipe, bytes; which is kept whole, as its list is at its end."""
-FLOAT_SIZE = 8
-"""Size of a number in memory, bytes."""
 
 
 def open_npz(path: Path, mapping: TableMapping) -> tuple[SheetLayout, TableMapping, dict[int, list[float]]]:

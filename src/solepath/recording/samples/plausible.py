@@ -75,7 +75,7 @@ def find_wrong_units(table: FootTable) -> Iterator[WrongUnit]:
     """Yield each quantity whose unit is certainly not SI; a wrong unit can give a plausible track.
 
     A unit is offered if the numbers are right with it."""
-    interval = table.interval
+    interval = table.pace
     if len(table) > 2 and not MIN_INTERVAL <= interval <= MAX_INTERVAL:
         raw = interval / table.factor("t")
         is_count = raw == 1.0 and len({b - a for a, b in pairwise(table.t)}) == 1

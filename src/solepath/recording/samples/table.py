@@ -21,6 +21,8 @@ from ..mapping.units import SI, UNITS
 
 MAX_VALUES = 100_000_000
 """Largest count of numbers in a file of samples, which take 0.8 GB: three hours of two feet with 16 cells at 200 Hz."""
+FLOAT_SIZE = 8
+"""Size of a number in memory, bytes."""
 LONGEST_BURST = 32
 """Number of samples over which the time between two of them is averaged; a packet has at most some 20."""
 
@@ -70,6 +72,11 @@ class FootTable:
 
     @property
     def interval(self) -> float:
+        """Usual time between two samples, s; 0 with fewer than two."""
+        return median([b - a for a, b in pairwise(self.t)]) if len(self) > 1 else 0.0
+
+    @property
+    def pace(self) -> float:
         """Usual time between two samples, s, also of those that come in bursts; 0 with fewer than two."""
         span = min(LONGEST_BURST, len(self) - 1)
         return median([b - a for a, b in zip(self.t, self.t[span:], strict=False)]) / span if len(self) > 1 else 0.0
