@@ -212,6 +212,16 @@ def test_a_folder_names_the_recordings_in_it(tmp_path):
     assert read_until_damage(tmp_path)[1].endswith("it has a.txt, b.jsonl, c.NPZ")
 
 
+def test_a_packet_behind_more_blanks_than_a_line_may_have_is_left_out(tmp_path):
+    lines = recorded(tmp_path / "walk.jsonl", PACKETS).read_bytes().splitlines(keepends=True)
+    (tmp_path / "walk.jsonl").write_bytes(
+        b"".join([*lines[:2], b" " * (LONGEST_LINE + 1) + lines[2], b"  \n", *lines[3:], b" "])
+    )
+    reports = []
+    assert list(read_packets(tmp_path / "walk.jsonl", report=reports.append)) == [PACKETS[0], PACKETS[2]]
+    assert len(reports) == 1 and "line 3: is longer than 65536 bytes; this line is left out" in reports[0]
+
+
 def test_a_byte_order_mark_is_no_part_of_a_recording(tmp_path):
     path = recorded(tmp_path / "walk.jsonl", PACKETS)
     path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())

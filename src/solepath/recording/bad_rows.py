@@ -49,7 +49,7 @@ def read_lines(file: IO[AnyStr], line_feed: AnyStr) -> Iterator[Line[AnyStr]]:
     number = size = skipped = 0
     while skipped < MAX_SKIPPED and (data := file.readline(LONGEST_LINE + 1)):
         number, size, skipped, part = number + 1, size + len(data), 0, data
-        if not data.strip():
+        if len(data) <= LONGEST_LINE and not data.strip():
             continue
         while len(data) > LONGEST_LINE and part and not part.endswith(line_feed) and skipped < MAX_SKIPPED:
             part = file.readline(LONGEST_LINE)
