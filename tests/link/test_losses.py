@@ -106,11 +106,13 @@ class Course:
 
 
 def spans(most: int, duration: float, longest: float) -> Any:
-    return st.lists(st.tuples(st.floats(0.1, duration), st.floats(0.01, longest)), max_size=most).map(tuple)
+    return st.lists(st.tuples(st.floats(0.5, duration), st.floats(0.01, longest)), max_size=most).map(tuple)
 
 
 def courses(duration: float) -> Any:
-    """Return the strategy of courses; the device restarts no sooner than its counters show it (protocol/clock.md)."""
+    """Return the strategy of courses (protocol/clock.md).
+
+    The device restarts no sooner than its counters show it, and loses none before its first packets show its period."""
     restarts = st.tuples(st.integers(30, int(10.0 * duration)), st.integers(1, 25)).map(
         lambda n: (n[0] / 10, n[1] / 10)
     )

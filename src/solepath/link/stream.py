@@ -83,7 +83,7 @@ class StreamLink(DeviceLink):
         """Return the samples and events of one value that arrived at `arrival`, s."""
         reading = driver.read(channel, data, self.known)
         self._check(driver, channel, reading)
-        out = self._make_samples(driver, channel, reading, arrival) if reading.samples else []
+        out = self._make_samples(driver, data, reading, arrival) if reading.samples else []
         self._update_settings(driver, reading)
         return self._make_events(reading, arrival) + out + self._take_slow_values(reading, arrival)
 
@@ -159,13 +159,13 @@ class StreamLink(DeviceLink):
         t = self._make_increasing(arrival)
         return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
 
-    def _make_samples(self, driver: Driver, channel: str, reading: Reading, arrival: float) -> Output:
+    def _make_samples(self, driver: Driver, data: bytes, reading: Reading, arrival: float) -> Output:
         axis = driver.axis
         rate = self.rate if reading.rate is None else reading.rate
         if axis is TimeAxis.ARRIVAL:
             self._set_rate(rate)
             longest_loss = 0.0 if self.may_be_silent else driver.profile.stale_after
-            sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss)
+            sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss, data)
         elif axis is TimeAxis.TICKS:
             position = self._locate_by_ticks(driver, reading, rate)
             sample_times = self.packet_run.accept(position, driver.tick_rate, arrival)
@@ -263,10 +263,12 @@ class StreamLink(DeviceLink):
             self.rate, self.off_rate_packets = driver.tick_rate / distance, 0
             self.packet_run.packet_ticks = float(position.ticks_after)
 
-    def _time_by_arrival(self, count: int, rate: float, arrival: float, longest_loss: float) -> SampleTimes:
+    def _time_by_arrival(
+        self, count: int, rate: float, arrival: float, longest_loss: float, data: bytes
+    ) -> SampleTimes:
         if self.periodic is None:
             self.periodic = PeriodicClock(count / rate)
-        sample_times = self.periodic.add_packet(arrival, longest_loss)
+        sample_times = self.periodic.add_packet(arrival, longest_loss, data)
         (last,), interval = sample_times.times, self.periodic.period / count
         sample_times.times = [last - (count - 1 - j) * interval for j in range(count)]
         sample_times.lost_count *= count

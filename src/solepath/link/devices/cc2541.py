@@ -171,10 +171,10 @@ class Cc2541Link(DeviceLink):
         match channel:
             case "cc2541/accelerometer":
                 acc = scaled(value.acc, GRAVITY / counts_per_g(self.firmware, self.code))
-                return self._add(self.acc_clock, self.gyro_clock, self.assembler.add_acc, acc, arrival)
+                return self._add(self.acc_clock, self.gyro_clock, self.assembler.add_acc, acc, arrival, data)
             case "cc2541/gyroscope":
                 gyro = scaled(value.gyro, GYRO_SCALE)
-                return self._add(self.gyro_clock, self.acc_clock, self.assembler.add_gyro, gyro, arrival)
+                return self._add(self.gyro_clock, self.acc_clock, self.assembler.add_gyro, gyro, arrival, data)
             case "cc2541/magnetometer":
                 self.assembler.mag = scaled(value.mag, MAG_SCALE)
             case "cc2541/barometer":
@@ -212,9 +212,11 @@ class Cc2541Link(DeviceLink):
     def flush(self, known_at: float) -> Output:
         return [*self.assembler.flush(known_at)]
 
-    def _add(self, clock: PeriodicClock, other: PeriodicClock, add: Add, value: Vec3, arrival: float) -> Output:
+    def _add(
+        self, clock: PeriodicClock, other: PeriodicClock, add: Add, value: Vec3, arrival: float, data: bytes
+    ) -> Output:
         """Return the samples and events of a value; an absence is one of both streams."""
-        sample_times = clock.add_packet(arrival, PROFILE.stale_after)
+        sample_times = clock.add_packet(arrival, PROFILE.stale_after, data)
         (t,), newest = sample_times.times, other.newest_arrival
         if not sample_times.lost_count and newest is not None and arrival - newest <= PROFILE.stale_after:
             sample_times.gap_start = None
