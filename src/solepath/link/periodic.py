@@ -50,20 +50,24 @@ MAX_RADIO_DELAY, SLIPPED_PERIODS = 0.04, 2.0
 """Largest delay that a radio may cause at any time, s; if the period is shorter, a gap does not show a loss.
 
 Then packets that stay behind by this delay do, or by so many periods, if that is less."""
-WRONG_PERIOD_TIME, WRONG_PERIOD_PERIODS = 0.24, 2.5
-"""Time, s, by which arrivals get ahead of their slots or fall behind them when the period is wrong, above radio jitter;
-of a period of 0.1 s and more, periods."""
+WRONG_PERIOD_TIME, WRONG_PERIOD_GAPS = 0.24, 2.5
+"""Time by which arrivals get ahead of their slots or fall behind them when the period is wrong, s, above radio jitter;
+for long gaps, in usual gaps."""
 SUSPICIOUS_TIME = 0.08
 """Delay of arrivals behind their slots, without gaps that stand out, from which on it may be the period, s."""
 LOOK_AGAIN = (1.0, 3.0)
 """Times since the fit began at which the period is compared with the time over the count, s: a burst of 60 ms is then 6
 and 2 % of it. The first one only follows a correction. Until the last, a radio's delay shows no loss."""
+LONG_GAP = 0.06
+"""Usual gap above which those times are longer in proportion, s."""
 WRONG_SHARE = 0.02
 """Smallest relative difference of the two that is corrected; the fit follows smaller ones (clock.py)."""
 COPY_PERIODS = 0.25
 """Largest distance of a value that may be a copy of the one before, periods."""
 MEMORY = 1.0 / 16.0
 """Weight of the newest packet in running means and the like."""
+STEADY_SHARE = 0.25
+"""Largest distance from whole periods by which the delay grows from one half of those packets to the other."""
 STAND_OUT = 1.75
 """Smallest ratio of a gap to usual ones with which it stands out: lost bursts double it, and memory and jitter shorten
 the usual one by a third."""
@@ -100,7 +104,9 @@ class PeriodicClock:
     slipped_packets: int = 0
     """Number of packets in a row that were behind their slots."""
     slip_delay: float = 0.0
-    """Least delay of those packets behind their slots, s."""
+    """Least delay of those packets behind their slots, s; of the second half of those that a loss needs."""
+    first_delay: float = 0.0
+    """Least delay of the first half of those packets that a loss needs, s."""
     slip_gap: float = 0.0
     """Widest gap before those packets, s."""
     jitter_before_slip: float = 0.0
@@ -133,7 +139,7 @@ class PeriodicClock:
     """Number of slots left out after gaps in a row, which are reported as lost if the period is right."""
     last_value: int = -1
     """Checksum of the newest value; -1 before the first."""
-    repeats: float = 1.0
+    repeats: float = 0.5
     """Share of values that repeat the one before them though they came at their own pace."""
 
     def add_packet(self, arrival: float, longest_loss: float, value: bytes = b"") -> SampleTimes:
@@ -214,17 +220,22 @@ class PeriodicClock:
             return lost_count if shows_loss else 0
         if self.slipped_packets == 0:
             self.slip_delay, self.slip_gap, self.jitter_before_slip = delay, 0.0, self.jitter
+        needed = max(SLIPPED_PACKETS, SLIPPED_DURATION / period)
+        if self.slipped_packets < needed / 2.0 <= self.slipped_packets + 1:
+            self.first_delay, self.slip_delay = self.slip_delay, delay
         self.slip_gap = max(self.slip_gap, gap)
         self.slip_delay = min(self.slip_delay, delay)
         self.slipped_packets += 1
-        if (
-            self.slipped_packets < max(SLIPPED_PACKETS, SLIPPED_DURATION / period)
-            or self.behind - self.stand_out > max(SUSPICIOUS_TIME, MIN_GAP * period)
-        ):
+        if self.slipped_packets < needed or self.behind - self.stand_out > max(SUSPICIOUS_TIME, MIN_GAP * period):
             return 0
         self.slipped_packets, self.jitter = 0, self.jitter_before_slip
-        is_known = self.regular >= MIN_REGULAR and (gap_is_evidence or self.slot * period >= LOOK_AGAIN[-1])
-        lost_time = self.slip_delay if is_known else min(self.slip_delay, self._excess(self.slip_gap, period))
+        growth = (self.slip_delay - self.first_delay) / period
+        if STEADY_SHARE < growth < 1.0 - STEADY_SHARE or self.slip_gap < MIN_GAP * period:
+            return 0  # the delay grows, though not by whole packets, or without a gap: the device is slower
+        lost_time = min(self.first_delay, self.slip_delay)
+        if self.regular < MIN_REGULAR or (not gap_is_evidence and self.slot * period < LOOK_AGAIN[-1]):
+            excess = self._excess(self.slip_gap, period)
+            lost_time = min(lost_time, excess if excess >= MAX_RADIO_DELAY else 0.0)
         return max(0, floor(lost_time / period + 1.0 - MIN_LATE_PERIODS))
 
     def _is_regular(self, gap: float, period: float) -> bool:
@@ -243,15 +254,15 @@ class PeriodicClock:
         self.widest_gap = max(self.widest_gap, gap)
         self.stand_out += self._excess(self.widest_gap, period) - excess
         self.regular += (float(self._is_regular(gap, period)) - self.regular) * MEMORY
-        self.last_gap, slots = gap, 1.0 + lost_count
+        self.last_gap, slots = gap, 1.0 + (lost_count if period >= MAX_RADIO_DELAY else 0)
         self.count += slots
         step, allowed = gap - slots * period, MAX_DRIFT * slots * period
         self.ahead = max(0.0, self.ahead + max(0.0, -self.behind - step) - allowed)
         self.behind = max(0.0, self.behind + step - allowed)
-        self.stand_out = max(0.0, min(self.stand_out - lost_count * period, self.behind))
-        limit = max(WRONG_PERIOD_TIME, WRONG_PERIOD_PERIODS * period)
+        self.stand_out = max(0.0, min(self.stand_out - (slots - 1.0) * period, self.behind))
+        limit = max(WRONG_PERIOD_TIME, WRONG_PERIOD_GAPS * max(period, self.usual_gap))
         elapsed = arrival - self.count_start
-        is_due = self.looks < len(LOOK_AGAIN) and elapsed >= max(LOOK_AGAIN[self.looks], 10.0 * period)
+        is_due = self.looks < len(LOOK_AGAIN) and elapsed >= LOOK_AGAIN[self.looks] * max(1.0, self.usual_gap / LONG_GAP)
         is_wrong = max(self.ahead, self.behind - self.stand_out) > limit and elapsed >= WRONG_PERIOD_TIME
         if is_wrong or is_due:
             counted = (elapsed - self.stand_out) / self.count
