@@ -26,7 +26,8 @@ from __future__ import annotations
 from binascii import crc32
 from math import floor
 
-from ..events import Rejection
+from ..events import Defect, DefectFound, Limitation, Rejection
+from ..types import Site
 from ..types.attrs import define, field
 from ..wire.error import WireError
 from .clock import MAX_DRIFT, MIN_INCREMENT, Clock
@@ -79,6 +80,9 @@ MIN_REGULAR = 0.4
 An exponential jitter of half a period leaves 0.6 of them; bursts of a radio leave none."""
 CATCH_UP_SHARE = 0.4
 """Largest share of a period by which assigned times catch up in each slot after a correction of the period."""
+LEAST_RATE, OTHER_RATE = 5.0, 0.1
+"""Smallest rate that shows a step, which lasts half a second, Hz; and relative difference from the rate that was said
+above which it is reported, more than clocks differ and a radio loses."""
 SAME_SILENCE = 0.2
 """Largest relative difference of two silences in a row with one packet in between that are the period."""
 
@@ -93,6 +97,10 @@ class PeriodicClock:
     """Fit of slot numbers to arrivals, which starts with the first packet."""
     slot: float = 0.0
     """Slot number of the newest packet."""
+    said_period: float | None = None
+    """Period that was written to the device, or that its profile has, s; None before the first packet."""
+    rate_reported: bool = False
+    """Flag: a rate that is another, or too low, was reported."""
     newest_arrival: float | None = None
     """Arrival of the newest packet, s; None before the first, and after a change of period or a new connection."""
     last_t: float | None = None
@@ -156,6 +164,8 @@ class PeriodicClock:
         if not is_near:
             self.repeats += (float(checksum == self.last_value) - self.repeats) * MEMORY
         self.last_value = checksum
+        if self.said_period is None:
+            self.said_period = self.period
         if self.newest_arrival is None:
             return self._restart(arrival)
         if gap > max(longest_loss, MIN_GAP * period):
@@ -198,8 +208,32 @@ class PeriodicClock:
 
     def set_period(self, period: float) -> None:
         """Set a period (s) that was written to the device; slots restart with the next packet, if it is another one."""
+        self.said_period = period
         if period != self.period:
             self.period, self.newest_arrival, self.looks, self.usual_gap = period, None, len(LOOK_AGAIN), 0.0
+
+    def report_rate(self, samples: int, site: Site, t: float) -> list[DefectFound | Limitation]:
+        """Return, once and when the rate is known, that it is too low, or another one than was said.
+
+        `samples`: number of samples of a packet. `t`: arrival of the newest, s."""
+        if self.rate_reported or self.said_period is None or self.slot * self.period < LOOK_AGAIN[-1]:
+            return []
+        period = self.period * (1.0 + self.clock.drift) / samples
+        if self.looks < len(LOOK_AGAIN) and period < 1.0 / LEAST_RATE:
+            return []
+        count = f"{1.0 / period:.3g} samples a second" if period < 0.95 else "one sample a second"
+        if period > 1.05:
+            count = f"one sample in {period:.2g} s"
+        if period * LEAST_RATE > 1.0:
+            self.rate_reported = True
+            what = f"{count}; set the period of the sensor: a step shows in ten samples a second or more"
+            return [DefectFound(t=t, site=site, defect=Defect.LOW_RATE, what=what)]
+        said = self.said_period / samples
+        if abs(said / period - 1.0) <= OTHER_RATE:
+            return []
+        self.rate_reported = True
+        what = f"{count} arrive, not the {1.0 / said:.3g} that were set: the times of the samples go by what arrives"
+        return [Limitation(t=t, site=site, what=what)]
 
     def _is_copy(self, arrival: float, period: float) -> bool:
         """Return whether a value that repeats the newest one, directly after it, is the same measurement."""

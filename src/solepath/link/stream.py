@@ -79,6 +79,10 @@ class StreamLink(DeviceLink):
         clock = self.packet_run.clock if self.periodic is None else self.periodic.clock
         return None if clock is None else clock.unsettled_until
 
+    @property
+    def interval(self) -> float:
+        return 0.0 if self.periodic is None else self.periodic.period
+
     def feed(self, channel: str, data: bytes, arrival: float, driver: Driver) -> Output:
         """Return the samples and events of one value that arrived at `arrival`, s."""
         reading = driver.read(channel, data, self.known)
@@ -179,6 +183,8 @@ class StreamLink(DeviceLink):
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
         out: Output = [*sample_times.make_events(self.site, arrival)]
+        if self.periodic is not None:
+            out += self.periodic.report_rate(len(reading.samples), self.site, arrival)
         if not self.limitation_reported:
             unused = UNUSED_TICKS if reading.ticks is not None and not driver.tick_rate else ""
             out += self.report_limitation("; ".join(filter(None, (driver.limitation, unused))), arrival)

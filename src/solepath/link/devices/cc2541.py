@@ -161,6 +161,10 @@ class Cc2541Link(DeviceLink):
         return not (self.acc_on or self.gyro_on)
 
     @property
+    def interval(self) -> float:
+        return max(self.acc_clock.period, self.gyro_clock.period)
+
+    @property
     def unsettled_until(self) -> float | None:
         """Newest time that is not comparable with times of other devices (clock.py), s."""
         acc_time = self.acc_clock.clock.unsettled_until
@@ -221,6 +225,8 @@ class Cc2541Link(DeviceLink):
         if not sample_times.lost_count and newest is not None and arrival - newest <= PROFILE.stale_after:
             sample_times.gap_start = None
         out: Output = [*sample_times.make_events(self.site, arrival)]
+        if clock is self.acc_clock:
+            out += clock.report_rate(1, self.site, arrival)
         return out + [*add(t, value, clock.period, arrival)]
 
     def _read_barometer(self, temperature: int, raw: int, arrival: float) -> Output:
