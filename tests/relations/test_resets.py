@@ -31,7 +31,7 @@ LOOK_EVERY = 61
 
 STAYS = """
 Activities._restart: feet flights strides
-Activities.reset: feet* apart flights.reset() left.feet.restart() right.feet.restart()
+Activities.reset: feet* held* apart flights.reset() left.feet.restart() right.feet.restart()
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now*
 AnglePerMetre.reset: activity limitation_reported apart flights.reset()
@@ -59,7 +59,7 @@ FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares r
   strike_height top total tracked
 FootClocks._forget: feet* idle
 FootClocks.reset: feet* idle
-FootTracker.reset: corrector* cues* detector* gait* levelled lost_count* rest* rhythm sole* walk_scale*
+FootTracker.reset: corrector* cues* detector* gait* levelled limitations lost_count rest* rhythm sole* walk_scale*
   cues.reset() cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
 Gait.reset: anchor_position bearing* heading_settled number path phase stride* template* world stride.cut()
   template.reset()

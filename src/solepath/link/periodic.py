@@ -2,8 +2,8 @@
 
 SensorTags, the Thingy:52 and most boards of one's own send neither sequence numbers nor ticks. They measure once a
 period, which the host wrote or the profile names, and which may be wrong. Time is counted in slots of one period; each
-notification belongs to one slot. Slot numbers replace ticks in the fit (clock.py). The rules and their numbers are those
-of protocol/clock.md, "Devices without counters":
+notification belongs to one slot. Slot numbers replace ticks in the fit (clock.py). The rules and their numbers are
+those of protocol/clock.md, "Devices without counters":
 
 - The period is the time over the count, whatever was written: arrivals that get ahead of their slots, or fall behind
   them, by a quarter of a second more than a clock may, show another period. It is looked at again after 1 s and 3 s.
@@ -17,8 +17,8 @@ of protocol/clock.md, "Devices without counters":
 
 A radio may hold packets back for some connection events, up to 40 ms. If the period is shorter, a gap does not show a
 loss: only packets that stay at least two periods, or 40 ms, behind for 0.32 s do, and those that come in bursts only as
-far as a gap stood out. If connection events are a whole number of periods apart, a clock that drifts past them moves all
-packets by one period, so one period is no evidence. A loss of one packet that does not add up to two looks like
+far as a gap stood out. If connection events are a whole number of periods apart, a clock that drifts past them moves
+all packets by one period, so one period is no evidence. A loss of one packet that does not add up to two looks like
 lateness, and the fit corrects it."""
 
 from __future__ import annotations
@@ -198,7 +198,9 @@ class PeriodicClock:
         self.slot += 1.0 + skipped
         self.settled_packets = min(self.settled_packets + 1, SETTLED_PACKETS)
         self.revisable_packets = REVISABLE_PACKETS if skipped else max(0, self.revisable_packets - 1)
-        may_be_wrong = (settled and self.slipped_packets) or (self.revisable_packets and delay < (0.0 if settled else -0.3 * period))
+        may_be_wrong = (settled and self.slipped_packets) or (
+            self.revisable_packets and delay < (0.0 if settled else -0.3 * period)
+        )
         if skipped == 0 and not may_be_wrong:  # the fit does not use a slot that may be a wrong guess
             self.clock.observe(self.slot, arrival)
             if settled:
@@ -296,7 +298,9 @@ class PeriodicClock:
         self.stand_out = max(0.0, min(self.stand_out - (slots - 1.0) * period, self.behind))
         limit = max(WRONG_PERIOD_TIME, WRONG_PERIOD_GAPS * max(period, self.usual_gap))
         elapsed = arrival - self.count_start
-        is_due = self.looks < len(LOOK_AGAIN) and elapsed >= LOOK_AGAIN[self.looks] * max(1.0, self.usual_gap / LONG_GAP)
+        is_due = self.looks < len(LOOK_AGAIN) and elapsed >= LOOK_AGAIN[self.looks] * max(
+            1.0, self.usual_gap / LONG_GAP
+        )
         is_wrong = max(self.ahead, self.behind - self.stand_out) > limit and elapsed >= WRONG_PERIOD_TIME
         if is_wrong or is_due:
             counted = (elapsed - self.stand_out) / self.count
