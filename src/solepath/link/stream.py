@@ -10,6 +10,8 @@ Times come from the best source that the device has, by the rules of protocol/cl
 
 from __future__ import annotations
 
+from binascii import crc32
+
 from ..events import BatteryLevel, KeysChanged, LayoutKnown, Rejection
 from ..types import Sample, Site, Vec3
 from ..types.attrs import define, field
@@ -64,6 +66,8 @@ class StreamLink(DeviceLink):
     periodic: PeriodicClock | None = None
     newest_arrival: float | None = None
     """Arrival of the newest packet with samples, s."""
+    last_value: int = -1
+    """Checksum of that packet; -1 before the first."""
     last_t: float | None = None
     """Time of the newest sample, s; sample times strictly increase."""
     mag: Vec3 | None = None
@@ -164,8 +168,11 @@ class StreamLink(DeviceLink):
         return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
 
     def _make_samples(self, driver: Driver, data: bytes, reading: Reading, arrival: float) -> Output:
-        axis = driver.axis
+        axis, run = driver.axis, self.packet_run
         rate = self.rate if reading.rate is None else reading.rate
+        checksum = crc32(data)
+        if checksum == self.last_value and run.after_reconnection and axis is not TimeAxis.ARRIVAL:
+            raise WireError(Rejection.DUPLICATE, "the newest packet again, after a new connection")
         if axis is TimeAxis.ARRIVAL:
             self._set_rate(rate)
             longest_loss = 0.0 if self.may_be_silent else driver.profile.stale_after
@@ -182,6 +189,7 @@ class StreamLink(DeviceLink):
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
+        self.last_value = checksum
         out: Output = [*sample_times.make_events(self.site, arrival)]
         if self.periodic is not None:
             out += self.periodic.report_rate(len(reading.samples), self.site, arrival)
