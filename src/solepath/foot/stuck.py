@@ -78,12 +78,8 @@ class Stuck:
         if not self.awake:
             self.awake = acc != ZERO or gyro != ZERO
             self.held = not self.awake
-            if self.held and not self.named and t - self.acc.since >= OFF_TIME:
-                self.named = True
-                return (
-                    f"every value has been 0 for {OFF_TIME:g} s: the sensor is off, or gravity was removed; restart it"
-                )
-            return None
+            if self.held:
+                return self._judge_zeros(t)
         if not same_gyro:
             self.first_acc = acc
             if not same_acc:  # nearly always
@@ -97,6 +93,12 @@ class Stuck:
         self.acc.motion += rate * dt
         self.gyro.motion = max(self.gyro.motion, dist(acc, self.first_acc))
         return self._judge(t, rate > MOVING)
+
+    def _judge_zeros(self, t: float) -> str | None:
+        if self.named or t - self.acc.since < OFF_TIME:
+            return None
+        self.named = True
+        return f"every value has been 0 for {OFF_TIME:g} s: the sensor is off, or gravity was removed; restart it"
 
     def _judge(self, t: float, moves: bool) -> str | None:
         """Return a sentence on what is stuck, once; the newest angular rate is that of a foot that moves or not."""
