@@ -139,6 +139,8 @@ class PeriodicClock:
     """Widest gap of late, s."""
     usual_gap: float = 0.0
     """Second widest gap of late, s."""
+    mean_gap: float = 0.0
+    """Running mean of the gaps without losses, s."""
     last_gap: float = 0.0
     """Newest gap, s."""
     regular: float = 0.0
@@ -245,7 +247,7 @@ class PeriodicClock:
     def _count_lost(self, gap: float, delay: float, period: float) -> int:
         """Return the number of packets lost before a packet that is `delay` s behind its slot, after `gap` s."""
         gap_is_evidence = period >= MAX_RADIO_DELAY
-        shows_loss = gap_is_evidence and gap >= MIN_GAP * period
+        shows_loss = gap_is_evidence and gap >= MIN_GAP * max(period, self.mean_gap)
         if self.settled_packets < SETTLED_PACKETS and shows_loss:  # lateness may still be a slow device
             return round(gap / period) - 1 if delay >= MIN_UNSETTLED_LATE_PERIODS * period else 0
         lost_count = floor(delay / period + 1.0 - MIN_LATE_PERIODS)
@@ -292,20 +294,21 @@ class PeriodicClock:
         self.regular += (float(self._is_regular(gap, period)) - self.regular) * MEMORY
         self.last_gap, slots = gap, 1.0 + (lost_count if period >= MAX_RADIO_DELAY else 0)
         self.count += slots
+        self.mean_gap += (gap / slots - self.mean_gap) * (MEMORY if self.mean_gap else 1.0)
         step, allowed = gap - slots * period, MAX_DRIFT * slots * period
         self.ahead = max(0.0, self.ahead + max(0.0, -self.behind - step) - allowed)
         self.behind = max(0.0, self.behind + step - allowed)
         self.stand_out = max(0.0, min(self.stand_out - (slots - 1.0) * period, self.behind))
         limit = max(WRONG_PERIOD_TIME, WRONG_PERIOD_GAPS * max(period, self.usual_gap))
         elapsed = arrival - self.count_start
-        is_due = self.looks < len(LOOK_AGAIN) and elapsed >= LOOK_AGAIN[self.looks] * max(
-            1.0, self.usual_gap / LONG_GAP
-        )
+        coarseness = max(1.0, self.usual_gap / LONG_GAP)
+        starts_burst = gap >= 0.5 * self.usual_gap  # from one start of a burst to another, the count is exact
+        is_due = self.looks < len(LOOK_AGAIN) and elapsed >= coarseness * LOOK_AGAIN[self.looks]
         is_wrong = max(self.ahead, self.behind - self.stand_out) > limit and elapsed >= WRONG_PERIOD_TIME
-        if is_wrong or is_due:
+        if starts_burst and (is_wrong or is_due):
             counted = (elapsed - self.stand_out) / self.count
             self.looks = min(self.looks + 1, len(LOOK_AGAIN)) if is_due else 0
-            is_other = abs(counted / period - 1.0) > max(WRONG_SHARE, self.usual_gap / elapsed)
+            is_other = abs(counted / period - 1.0) > max(WRONG_SHARE, 0.25 * self.usual_gap / elapsed)
             return counted if is_other or is_wrong else None
         if self.behind <= period and self.ahead == 0.0:
             self.stand_out = 0.0
