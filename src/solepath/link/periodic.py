@@ -220,12 +220,14 @@ class PeriodicClock:
         """Return, once and when the rate is known, that it is too low, or another one than was said.
 
         `samples`: number of samples of a packet. `t`: arrival of the newest, s."""
-        if self.rate_reported or self.said_period is None or self.slot * self.period < LOOK_AGAIN[-1]:
+        is_known = self.slot >= SLIPPED_PACKETS and self.slot * self.period >= LOOK_AGAIN[-1]
+        if self.rate_reported or self.said_period is None or not is_known:
             return []
         period = self.period * (1.0 + self.clock.drift) / samples
         if self.looks < len(LOOK_AGAIN) and period < 1.0 / LEAST_RATE:
             return []
-        count = f"{1.0 / period:.3g} samples a second" if period < 0.95 else "one sample a second"
+        digits = 2 if period * LEAST_RATE > 1.0 else 3
+        count = f"{1.0 / period:.{digits}g} samples a second" if period < 0.95 else "one sample a second"
         if period > 1.05:
             count = f"one sample in {period:.2g} s"
         if period * LEAST_RATE > 1.0:

@@ -55,8 +55,8 @@ if TYPE_CHECKING:
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
 
-LEAP, WRONG_LEAP, LEAP_TIME = 3600.0, 10.0, 2.0
-"""Smallest step of `advance` that is no passing time unless LEAP_TIME goes on without packets, s; and the smallest by
+JUMP, WRONG_JUMP, JUMP_TIME = 3600.0, 10.0, 2.0
+"""Smallest step of `advance` that is no passing time unless JUMP_TIME goes on without packets, s; and the smallest by
 which a packet that arrives before `now` shows that the step was of another clock, s, after which it is a leap too.
 
 A program that lets time pass feeds what has arrived within a second; an hour is longer than any sensor is away from a
@@ -96,9 +96,9 @@ class SessionState:
     """Newest known time, s, packets' clock; None before the first."""
     advanced: float | None = None
     """Value of `now` that `advance` has set, s; None after a packet."""
-    leap: float | None = None
-    """First time of a leap of `advance` that is not used yet, s; None without one."""
-    leaps_are_wrong: bool = False
+    jump: float | None = None
+    """First time of a jump of `advance` that is not used yet, s; None without one."""
+    jumps_are_wrong: bool = False
     """Flag: packets have contradicted `advance`, which was reported."""
     decoders: dict[Site, Decoder] = state(factory=dict)
     finished: bool = False
@@ -168,14 +168,14 @@ class SessionState:
             for other_site, other in self.decoders.items():
                 if other_site is not site and other.newest_arrival is not None and other.newest_arrival > packet.t:
                     self.use_items(other_site, other.restart_clock(packet.t), events)
-        reached = self.leap or self.advanced
-        if reached is not None and reached - packet.t > WRONG_LEAP:
+        reached = self.jump or self.advanced
+        if reached is not None and reached - packet.t > WRONG_JUMP:
             self.now = packet.t
-            if not self.leaps_are_wrong:
-                self.leaps_are_wrong = True
+            if not self.jumps_are_wrong:
+                self.jumps_are_wrong = True
                 what = OTHER_CLOCK.format(reached - packet.t)
                 events += self.report(site, Limitation(t=packet.t, known_at=packet.t, site=None, what=what))
-        self.advanced = self.leap = None
+        self.advanced = self.jump = None
         if self.now is None or packet.t > self.now:
             self.now = packet.t
         if decoder.link is not None:
@@ -209,11 +209,11 @@ class SessionState:
 
     def advance(self, now: float, kinds: DeviceKinds) -> list[Event]:
         """Let time pass until `now`, s, packets' clock."""
-        if self.now is not None and now - self.now > (WRONG_LEAP if self.leaps_are_wrong else LEAP):
-            self.leap = now if self.leap is None or now < self.leap else self.leap
-            if now - self.leap < LEAP_TIME:
+        if self.now is not None and now - self.now > (WRONG_JUMP if self.jumps_are_wrong else JUMP):
+            self.jump = now if self.jump is None or now < self.jump else self.jump
+            if now - self.jump < JUMP_TIME:
                 return []
-        self.leap = None
+        self.jump = None
         if self.now is None or now > self.now:
             self.now = self.advanced = now
         events: list[Event] = []
