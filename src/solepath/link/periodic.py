@@ -97,7 +97,7 @@ class PeriodicClock:
     """Fit of slot numbers to arrivals, which starts with the first packet."""
     slot: float = 0.0
     """Slot number of the newest packet."""
-    said_period: float | None = None
+    declared_period: float | None = None
     """Period that was written to the device, or that its profile has, s; None before the first packet."""
     rate_reported: bool = False
     """Flag: a rate that is another, or too low, was reported."""
@@ -166,8 +166,8 @@ class PeriodicClock:
         if not is_near:
             self.repeats += (float(checksum == self.last_value) - self.repeats) * MEMORY
         self.last_value = checksum
-        if self.said_period is None:
-            self.said_period = self.period
+        if self.declared_period is None:
+            self.declared_period = self.period
         if self.newest_arrival is None:
             return self._restart(arrival)
         if gap > max(longest_loss, MIN_GAP * period):
@@ -212,7 +212,7 @@ class PeriodicClock:
 
     def set_period(self, period: float) -> None:
         """Set a period (s) that was written to the device; slots restart with the next packet, if it is another one."""
-        self.said_period = period
+        self.declared_period = period
         if period != self.period:
             self.period, self.newest_arrival, self.looks, self.usual_gap = period, None, len(LOOK_AGAIN), 0.0
 
@@ -221,7 +221,7 @@ class PeriodicClock:
 
         `samples`: number of samples of a packet. `t`: arrival of the newest, s."""
         is_known = self.slot >= SLIPPED_PACKETS and self.slot * self.period >= LOOK_AGAIN[-1]
-        if self.rate_reported or self.said_period is None or not is_known:
+        if self.rate_reported or self.declared_period is None or not is_known:
             return []
         period = self.period * (1.0 + self.clock.drift) / samples
         if self.looks < len(LOOK_AGAIN) and period < 1.0 / LEAST_RATE:
@@ -234,11 +234,11 @@ class PeriodicClock:
             self.rate_reported = True
             what = f"{count}; set the period of the sensor: a step shows in ten samples a second or more"
             return [DefectFound(t=t, site=site, defect=Defect.LOW_RATE, what=what)]
-        said = self.said_period / samples
-        if abs(said / period - 1.0) <= OTHER_RATE:
+        declared = self.declared_period / samples
+        if abs(declared / period - 1.0) <= OTHER_RATE:
             return []
         self.rate_reported = True
-        what = f"{count} arrive, not the {1.0 / said:.3g} that were set: the times of the samples go by what arrives"
+        what = f"{count} arrive, not the {1.0 / declared:.3g} that were set: sample times go by what arrives"
         return [Limitation(t=t, site=site, what=what)]
 
     def _is_copy(self, arrival: float, period: float) -> bool:
@@ -330,20 +330,20 @@ class PeriodicClock:
         """Start a fit with another period, whose times go on after those of the old one."""
         next_t = (arrival if self.last_t is None else self.last_t) + period
         self.period = period
-        self._begin(arrival, None)
+        self._start_fit(arrival, None)
         self.catch_up = arrival - next_t
         return SampleTimes([self._assign(0.0)])
 
     def _restart(self, arrival: float) -> SampleTimes:
         """Restart the slots with this packet, in a new fit whose times come after those of the old fit."""
         last_t = self.last_t
-        self._begin(arrival, None if last_t is None else last_t + 0.5 * self.period)
+        self._start_fit(arrival, None if last_t is None else last_t + 0.5 * self.period)
         self.catch_up = 0.0
         t = self._assign(0.0)
         is_gap = last_t is not None and t - last_t > MIN_GAP * self.period
         return SampleTimes([t], gap_start=last_t if is_gap else None)
 
-    def _begin(self, arrival: float, t_min: float | None) -> None:
+    def _start_fit(self, arrival: float, t_min: float | None) -> None:
         self.clock = Clock(1.0 / self.period, t_min=t_min)
         self.clock.observe(0.0, arrival)
         self.slot, self.newest_arrival, self.count_start = 0.0, arrival, arrival
