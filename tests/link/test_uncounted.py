@@ -122,7 +122,7 @@ def test_a_walk_has_its_length_whatever_rate_was_said(walk: tuple[float, float, 
     assert float(rate) == pytest.approx(true * (1.0 - loss), rel=0.04)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_of_200_walks_over_devices_without_counters_95_in_100_have_their_length_or_the_true_rate_is_said() -> None:
     random, good, plain_findings = Random(11), 0, 0
     for number in range(200):
@@ -136,11 +136,12 @@ def test_of_200_walks_over_devices_without_counters_95_in_100_have_their_length_
         rates = re.findall(r"([\d.]+) samples a second arrive", words)
         is_said = any(abs(float(rate) / true - 1.0) < 0.08 for rate in rates)
         good += abs(length - 24.0) <= 0.03 * 24.0 or is_said
-        plain = follow(board(round(true)), Radio(seed=number).deliver(sent(float(round(true)), 12.0)))[1]
-        plain_findings += any(one.act for one in findings(plain)) or bool(plain.links[SITE].missing)
+        if number % 2 == 0:
+            plain = follow(board(round(true)), Radio(seed=number).deliver(sent(float(round(true)), 12.0)))[1]
+            plain_findings += any(one.act for one in findings(plain)) or bool(plain.links[SITE].missing)
         sent.cache_clear()
     assert good >= 190
-    assert plain_findings <= 2
+    assert plain_findings <= 1
 
 
 @pytest.mark.parametrize(
