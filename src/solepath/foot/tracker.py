@@ -217,7 +217,10 @@ class FootTracker:
                 self.load = load  # cells and inertial sensor send separately: the next inertial sample uses this load
                 return events
         dt = 0.0 if t_last is None else t - t_last
-        if t_last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
+        is_gap = t_last is not None and self.rhythm.update(dt)
+        if t_last is not None and (is_gap or dt > LONGEST_BRIDGE):
+            if is_gap:
+                self._report_gap(t_last, t, known_at, events)
             dt = self._cross_gap(t_last, t, known_at, sample, events)
         elif self.lost_after is not None and t > self.lost_after:  # what is missing was interpolated, or reset
             self._report_gap(self.lost_after if t_last is None else t_last, t, known_at, events)
@@ -314,12 +317,11 @@ class FootTracker:
         events.append(SampleGap(t=t_last, known_at=known_at, site=site, duration=t - t_last, count=count))
 
     def _cross_gap(self, t_last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
-        """Report a gap between two samples; return the time to integrate over, s.
+        """Return the time to integrate over between two samples that are far apart, s.
 
         If there is a stride template (gap.py), the gap is filled and the phases that it hid are appended to `events`;
         else it is crossed by a straight line."""
         duration = t - t_last
-        self._report_gap(t_last, t, known_at, events)
         corrector, gait = self.corrector, self.gait
         template = gait.template
         gait.stride.add_gap(t_last, t, self.rhythm.usual_interval or 0.0 if duration <= LONGEST_LOSS else duration)

@@ -161,6 +161,10 @@ class Cc2541Link(DeviceLink):
         return not (self.acc_on or self.gyro_on)
 
     @property
+    def interval(self) -> float:
+        return max(self.acc_clock.period, self.gyro_clock.period)
+
+    @property
     def unsettled_until(self) -> float | None:
         """Newest time that is not comparable with times of other devices (clock.py), s."""
         acc_time = self.acc_clock.clock.unsettled_until
@@ -171,10 +175,10 @@ class Cc2541Link(DeviceLink):
         match channel:
             case "cc2541/accelerometer":
                 acc = scaled(value.acc, GRAVITY / counts_per_g(self.firmware, self.code))
-                return self._add(self.acc_clock, self.gyro_clock, self.assembler.add_acc, acc, arrival)
+                return self._add(self.acc_clock, self.gyro_clock, self.assembler.add_acc, acc, arrival, data)
             case "cc2541/gyroscope":
                 gyro = scaled(value.gyro, GYRO_SCALE)
-                return self._add(self.gyro_clock, self.acc_clock, self.assembler.add_gyro, gyro, arrival)
+                return self._add(self.gyro_clock, self.acc_clock, self.assembler.add_gyro, gyro, arrival, data)
             case "cc2541/magnetometer":
                 self.assembler.mag = scaled(value.mag, MAG_SCALE)
             case "cc2541/barometer":
@@ -212,13 +216,17 @@ class Cc2541Link(DeviceLink):
     def flush(self, known_at: float) -> Output:
         return [*self.assembler.flush(known_at)]
 
-    def _add(self, clock: PeriodicClock, other: PeriodicClock, add: Add, value: Vec3, arrival: float) -> Output:
+    def _add(
+        self, clock: PeriodicClock, other: PeriodicClock, add: Add, value: Vec3, arrival: float, data: bytes
+    ) -> Output:
         """Return the samples and events of a value; an absence is one of both streams."""
-        sample_times = clock.add_packet(arrival, PROFILE.stale_after)
+        sample_times = clock.add_packet(arrival, PROFILE.stale_after, data)
         (t,), newest = sample_times.times, other.newest_arrival
         if not sample_times.lost_count and newest is not None and arrival - newest <= PROFILE.stale_after:
             sample_times.gap_start = None
         out: Output = [*sample_times.make_events(self.site, arrival)]
+        if clock is self.acc_clock:
+            out += clock.report_rate(1, self.site, arrival)
         return out + [*add(t, value, clock.period, arrival)]
 
     def _read_barometer(self, temperature: int, raw: int, arrival: float) -> Output:

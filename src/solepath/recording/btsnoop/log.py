@@ -143,7 +143,8 @@ def _describe_omissions(devices: Sequence[LoggedDevice]) -> Iterator[str]:
             yield f"{values} of {device.address} left out: no discovery says what is {which}"
         if device.site is None and device.count:
             values = _count_text(device.count, "value")
-            yield f"{values} of {device.address}, {device.noun}, left out: nobody says where it was worn"
+            how = f"--site {device.address}=left_foot"
+            yield f"{values} of {device.address}, {device.noun}, left out: nobody says where it was worn: {how}"
         others += any(one.uuid for one in valued.values()) and not any(one.channels for one in valued.values())
     if others:
         yield f"{_count_text(others, 'other device')} left out"
