@@ -172,7 +172,8 @@ class TurnDetector:
         angle = foot.stride_filter.turn(event.heading_change)
         if event.t_end in foot.pivots:
             return None
-        foot.stride_end = event.t_end
+        # the first strides of a bout are known late
+        foot.stride_end = event.t_end if foot.stride_end is None else max(event.t_end, foot.stride_end)
         if angle != 0.0:
             return self._add_turn(foot, other, event.t_start, event.t_end, angle)
         foot.straight_strides += 1
