@@ -305,22 +305,18 @@ class CellHealth:
                 self.window_start, self.swings, self.span = t, 0, CellSpan()
         return events
 
-    def usable(self, cells: Floats) -> Floats:
-        """Return `cells`, those of the last `update`, with 0 for failed cells and for values that are no numbers.
+    def usable(self, cells: Floats, unloaded: Floats = ()) -> Floats:
+        """Return `cells`, those of the last `update`, with the values without load for what is failed or no number.
 
-        The result is () when no cell can be used."""
+        `unloaded` holds the value of each cell without load, or nothing while it is unknown, which is then 0. The
+        result is () when no cell can be used."""
         if len(cells) != self.count:
             return ()
-        if not self.non_numeric:
-            if not self.excluded:
-                return cells
-            usable_cells = list(cells)
-        else:
-            usable_cells = [value if _is_number(value) else 0.0 for value in cells]
-            if len(self.non_numeric) == self.count:
-                return ()
-        for i in self.excluded:
-            usable_cells[i] = 0.0
+        if len(self.non_numeric) == self.count:
+            return ()
+        usable_cells = list(cells)
+        for i in [*self.excluded, *[i for i, _ in self.non_numeric]]:
+            usable_cells[i] = unloaded[i] if i < len(unloaded) else 0.0
         return tuple(usable_cells)
 
     def _accept_count(self, t: float, known_at: float, count: int, layout: Layout | None, events: list[Event]) -> bool:

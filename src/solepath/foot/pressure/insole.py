@@ -25,6 +25,7 @@ from ..limitations import Limitations
 from ..settings import FootSettings, InsoleSettings
 from ..stance.stance import Load
 from .cell_health import CellHealth, add_up
+from .unloaded import UnloadedLevel
 
 SPAN_DURATION = 2.0
 """Duration of one of the five spans over which the lowest and highest load are kept, s."""
@@ -97,12 +98,14 @@ class InsoleLoads:
     """Extremes of the load of the heel area."""
     forefoot: Extremes = state(factory=Extremes)
     """Extremes of the load of the forefoot area."""
-    tare: list[float] = state(factory=list)
+    tare: Floats = ()
     """Value of each cell in the air, unit of the samples."""
     tare_total: float = 0.0
     """Sum of the cells at the sample that gave the tare, unit of the samples."""
     was_airborne: bool = False
     """The foot was in the air in the last sample."""
+    unloaded: UnloadedLevel = state(factory=UnloadedLevel)
+    """Level of the total load while the foot is in the air."""
     load_risen: bool = False
     """The load has risen again after it had fallen, so that it is known."""
 
@@ -113,7 +116,7 @@ class InsoleLoads:
         heel_end, forefoot_start = settings.heel_end * layout.length, settings.forefoot_start * layout.length
         self.heel_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x < heel_end])
         if len(self.tare) != len(layout.cells):
-            self.tare = [0.0] * len(layout.cells)
+            self.tare = (0.0,) * len(layout.cells)
         self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_start])
 
     def reset(self) -> None:
@@ -143,19 +146,23 @@ class InsoleLoads:
         for extremes, value in sums:
             extremes.update(t, value)
         low, high = self.total.low, self.total.high
-        load_range = high - low
-        if load_range <= LEAST_LOAD_RANGE * high or load_range <= 0.0:
+        level = self.unloaded.update(t, total, high - low)
+        full = high if level is None else high - level
+        if high - low <= LEAST_LOAD_RANGE * full or high <= low:
             self.load_risen = False
             return None
+        if level is not None:
+            low = level
+        load_range = high - low
         if not self.load_risen:
-            self.load_risen = total - low > LEAST_LOAD_RANGE * high
+            self.load_risen = total - low > LEAST_LOAD_RANGE * full
             if not self.load_risen:
                 return None
         share = (total - low) / load_range
         airborne = share < AIRBORNE_LOAD
         # in the first airborne samples the toe has hardly left the ground, so samples with a lower total are better
         if airborne and (not self.was_airborne or total < self.tare_total):
-            self.tare = list(cells)
+            self.tare = cells
             self.tare_total = total
         self.was_airborne = airborne
         # an area without variation is dead or absent, so it has no load
@@ -165,7 +172,9 @@ class InsoleLoads:
         if has_areas and self.forefoot.high - self.forefoot.low > LEAST_AREA_RANGE * load_range:
             forefoot = (forefoot_sum - self.forefoot.low) / load_range
         centre = self.centre_of_pressure(cells) if with_centre and not airborne else None
-        return Load(share, heel, forefoot, airborne, cells, centre)
+        return Load(
+            share, heel, forefoot, airborne, cells, self.tare if self.unloaded.level is not None else (), centre
+        )
 
     def above_tare(self, cells: Floats) -> Floats:
         """Return the cells minus their tare, at least 0, unit of `cells`; without a tare the cells as they are."""
@@ -368,7 +377,7 @@ class Sole:
         events += self.health.update(t, known_at, pressure, phase, sample.gyro, known_layout)
         health = self.health
         has_unusable_cells = health.excluded or health.non_numeric or len(pressure) != health.count
-        cells = health.usable(pressure) if has_unusable_cells else pressure
+        cells = health.usable(pressure, self.insole.tare) if has_unusable_cells else pressure
         if not cells:
             return None
         self.had_cells = True

@@ -1,0 +1,109 @@
+"""The unloaded level of an insole: the sum of its cells while the foot is in the air, learnt from the sums alone.
+
+A cell without load may show any value: that of its voltage divider, of its amplifier, or of the shoe that presses on
+it, and it drifts with temperature and supply. In walking the sum falls once a stride into a valley with a flat ground,
+the swing. A wearer who stands and sways makes valleys, too, but they have no flat ground: what falls rises again.
+
+It is a module because it is the one part of the insole that knows about strides."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from ...types.attrs import define, field
+from ...types.vector import TIME_EPSILON
+
+VALLEY_DEPTH = 0.35
+"""Fall of the sum that starts a valley, and rise that ends it, as a share of the range of the last 8 to 10 s.
+
+Half of it would take mid-stance for a valley, where the load of few cells lies between them."""
+FLAT_BAND = 0.02
+"""Half the width of the band in which the ground of a valley is flat, as a share of that range."""
+FLAT_SHARE = 0.33
+"""Smallest share of its samples that a valley with a flat ground has in that band.
+
+A sine has 0.21. Of the valleys of recorded soles of 2, 8, 16 and 35 cells, half have 0.25 to 0.7."""
+SHORTEST_FLAT = 0.1
+"""Shortest time that a flat ground lasts, s."""
+AGREEMENT = 0.1
+"""Largest difference between the grounds of two valleys in a row that show the same level, as a share of that range."""
+GROUNDS = 4
+"""Number of valleys."""
+LONGEST_DRIFT = 3.0
+"""Time after a valley for which the level is expected to drift on, s."""
+
+
+@define
+class UnloadedLevel:
+    """Follows the unloaded level of a sum of cells. Latency: a valley is known when it has ended, at heel-strike."""
+
+    grounds: list[tuple[float, float]] = field(factory=list)
+    """End, s, and ground of the last flat valleys that show one level, the newest last."""
+    level: float | None = None
+    """Level at `level_t`; None before two valleys agreed."""
+    level_t: float = 0.0
+    """Time of the level, s."""
+    drift: float = 0.0
+    """Drift of the level, 1/s."""
+    top: float = 0.0
+    """Highest sum since the last valley; in a valley, that at its start."""
+    bottom: float | None = None
+    """Lowest sum of the current valley; None outside of a valley."""
+    base: float = 0.0
+    """Sum at which the band of the current ground was laid."""
+    base_t: float = 0.0
+    """Time of the first sample in that band, s."""
+    flat_t: float = 0.0
+    """Time of the last sample in that band, s."""
+    flat: int = 0
+    """Number of samples in that band."""
+    count: int = 0
+    """Number of samples in the current valley."""
+
+    def update(self, t: float, total: float, load_range: float) -> float | None:
+        """Add the sum of a sample and return the level without load; None while it is unknown.
+
+        `load_range` is the range of the sums of the last 8 to 10 s."""
+        depth = VALLEY_DEPTH * load_range
+        if self.bottom is None:
+            if total > self.top:
+                self.top = total
+            elif self.top - total > depth:
+                self.bottom, self.count = total, 0
+                self._lay_band(t, total)
+        elif total > self.bottom + depth:
+            self._end_valley(t, self.bottom, load_range)
+            self.bottom, self.top = None, total
+        else:
+            self.count += 1
+            band = FLAT_BAND * load_range
+            if total < self.bottom:
+                self.bottom = total
+            if total < self.base - band:
+                self._lay_band(t, total)
+            elif total <= self.base + band:
+                self.flat += 1
+                self.flat_t = t
+        if self.level is None:
+            return None
+        level = self.level + self.drift * min(t - self.level_t, LONGEST_DRIFT)
+        if self.bottom is not None and level > self.bottom + AGREEMENT * load_range:
+            return self.bottom + AGREEMENT * load_range
+        return level
+
+    def _lay_band(self, t: float, total: float) -> None:
+        self.base, self.base_t, self.flat_t, self.flat = total, t, t, 1
+
+    def _end_valley(self, t: float, ground: float, load_range: float) -> None:
+        """Learn from the valley that ends at `t`, s, if its ground is flat."""
+        if self.flat_t - self.base_t < SHORTEST_FLAT - TIME_EPSILON or self.flat < FLAT_SHARE * self.count:
+            return
+        grounds = self.grounds = [*self.grounds[1 - GROUNDS :], (self.base_t, ground)]
+        slopes = [(b - a) / (t_b - t_a) for (t_a, a), (t_b, b) in pairwise(grounds)]
+        drift = 0.0
+        if len(grounds) == GROUNDS:
+            drift = max(min(slopes), 0.0) + min(max(slopes), 0.0)
+        drifted = [value + drift * (self.base_t - at) for at, value in grounds]
+        agreeing = [value for value in drifted if abs(value - ground) <= AGREEMENT * load_range]
+        if len(agreeing) > 1:
+            self.level, self.level_t, self.drift = max(agreeing), self.base_t, drift
