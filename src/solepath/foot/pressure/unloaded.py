@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from ...types import Floats
 from ...types.attrs import define, field
 from ...types.vector import TIME_EPSILON
 
@@ -27,10 +28,19 @@ SHORTEST_FLAT = 0.1
 """Shortest time that a flat ground lasts, s."""
 AGREEMENT = 0.1
 """Largest difference between the grounds of two valleys in a row that show the same level, as a share of that range."""
+MOVED_SHARE = 0.1
 GROUNDS = 4
 """Number of valleys."""
 LONGEST_DRIFT = 3.0
 """Time after a valley for which the level is expected to drift on, s."""
+
+
+def moved_alike(before: Floats, now: Floats) -> bool:
+    """Return whether all cells have moved by about the same amount from `before` to `now`."""
+    if len(before) != len(now) or not now:
+        return False
+    changes = [b - a for a, b in zip(before, now, strict=True)]
+    return min(changes) > 0.5 * max(changes) > 0.0 or max(changes) < 0.5 * min(changes) < 0.0
 
 
 @define
@@ -45,8 +55,16 @@ class UnloadedLevel:
     """Time of the level, s."""
     drift: float = 0.0
     """Drift of the level, 1/s."""
+    moved: bool = False
+    """The level has moved by more than valleys differ that show one level, and nobody was told."""
     top: float = 0.0
     """Highest sum since the last valley; in a valley, that at its start."""
+    cells: Floats = ()
+    """Cells at the ground of the last valley."""
+    sure_ground: float | None = None
+    """Ground of the last valley of which all that are kept showed one level; None before any."""
+    sure_cells: Floats = ()
+    """Cells at that ground."""
     bottom: float | None = None
     """Lowest sum of the current valley; None outside of a valley."""
     base: float = 0.0
@@ -60,7 +78,7 @@ class UnloadedLevel:
     count: int = 0
     """Number of samples in the current valley."""
 
-    def update(self, t: float, total: float, load_range: float) -> float | None:
+    def update(self, t: float, total: float, cells: Floats, load_range: float) -> float | None:
         """Add the sum of a sample and return the level without load; None while it is unknown.
 
         `load_range` is the range of the sums of the last 8 to 10 s."""
@@ -79,6 +97,7 @@ class UnloadedLevel:
             band = FLAT_BAND * load_range
             if total < self.bottom:
                 self.bottom = total
+                self.cells = cells
             if total < self.base - band:
                 self._lay_band(t, total)
             elif total <= self.base + band:
@@ -90,6 +109,13 @@ class UnloadedLevel:
         if self.bottom is not None and level > self.bottom + AGREEMENT * load_range:
             return self.bottom + AGREEMENT * load_range
         return level
+
+    def shift(self, by: float) -> None:
+        """Add `by` to all sums."""
+        self.grounds = [(at, value + by) for at, value in self.grounds]
+        self.level = None if self.level is None else self.level + by
+        self.bottom = None if self.bottom is None else self.bottom + by
+        self.top, self.base = self.top + by, self.base + by
 
     def _lay_band(self, t: float, total: float) -> None:
         self.base, self.base_t, self.flat_t, self.flat = total, t, t, 1
@@ -107,3 +133,7 @@ class UnloadedLevel:
         agreeing = [value for value in drifted if abs(value - ground) <= AGREEMENT * load_range]
         if len(agreeing) > 1:
             self.level, self.level_t, self.drift = max(agreeing), self.base_t, drift
+        if len(agreeing) == GROUNDS:
+            moved = self.sure_ground is not None and abs(ground - self.sure_ground) > MOVED_SHARE * load_range
+            self.moved = moved and moved_alike(self.sure_cells, self.cells)
+            self.sure_ground, self.sure_cells = ground, self.cells

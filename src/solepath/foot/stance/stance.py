@@ -30,12 +30,12 @@ class Load:
     """The foot is in the air: there is hardly any load."""
     cells: Floats = ()
     """Value of each cell without noise, in N with a calibration, otherwise in the unit of the samples."""
-    unloaded: Floats = ()
-    """Value of each of `cells` in the air, as learnt in the last swing; empty before any."""
     centre: Vec2 | None = None
     """Centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout.
 
     It is computed only for detectors and cues that say so (`uses_centre`), otherwise None."""
+    unloaded: Floats = ()
+    """Value of each of `cells` in the air, as learnt in the last swing; empty before any."""
 
 
 class Stance(NamedTuple):
