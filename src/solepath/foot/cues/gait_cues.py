@@ -28,7 +28,9 @@ AREA_LOADED = 0.06
 AREA_UNLOADED = 0.03
 """Load below which an area, heel or forefoot, is unloaded, as a share of the full load."""
 LEAST_SWING_SPEED, LARGEST_LANDING_SPEED = 1.0, 0.6
-"""Speed that a foot reaches in a swing, m/s, and that at which it lands, as a share of the highest in that swing."""
+"""Speed that a foot reaches in a swing, m/s, and the highest at which it lands, as a share of the highest of that swing.
+
+On soles with cells it lands at 0.1 to 0.35 of it."""
 LONGEST_DENIAL = 0.25
 """Time for which a foot may move as only one in the air does while its cells show load, s."""
 LONGEST_DATING_BACK = 0.3
@@ -125,6 +127,7 @@ class GaitCues(Cues):
         if load is None and seen is None:
             return ()
         if load is not None:
+            # a foot that has pushed off and moves fast is in the air: its cells have drifted, jumped or are stuck
             fast_since = inertial.fast_since
             if phase is PUSH_OFF and fast_since is not None and t - fast_since >= LONGEST_DENIAL:
                 self.contradicted = True

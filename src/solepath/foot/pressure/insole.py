@@ -7,6 +7,8 @@ alike.
 
 There is no `Load` before the sum has once fallen to a small share of its highest value and risen again. Until then a
 falling sum would always be the lowest so far, and a foot that is about to leave the ground would seem to be in the air.
+Cells that never show a small value, because of their voltage divider, have no load before two swings have shown their
+level without load (unloaded.py). From then on the load is measured from that level, wherever it is, and follows it.
 The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
@@ -41,8 +43,9 @@ HIGHEST_DECAY = 0.9999
 LEAST_AREA_RANGE = 0.05
 """Smallest range of the load of an area with working cells, as a share of the full load."""
 
+# what is said of the cells of one insole, with the name of its foot
 BURST = "now and then many cells of the {} insole show one and the same value for a moment; those samples are not used"
-STEP = "all cells of the {} insole have jumped at once by the same amount, as when a supply voltage changes; it is taken off"
+STEP = "all cells of the {} insole have jumped by the same amount, as when a supply voltage changes; it is taken off"
 INVERTED = "the cells of the {} insole fall under load, as if wired the other way round; their values are turned"
 MOVED = "the cells of the {} insole show other values without load than before; these were learnt anew"
 
@@ -124,7 +127,7 @@ class InsoleLoads:
     inverted: bool = False
     """The values of all cells fall under load, so that their signs are changed before `update`."""
     trouble: str = ""
-    """What was wrong with the cells since this was last set to ""; one of BURST, STEP and MOVED."""
+    """What was wrong with the cells since this was last set to ""; one of BURST, STEP, INVERTED and MOVED."""
     load_risen: bool = False
     """The load has risen again after it had fallen, so that it is known."""
 
@@ -141,6 +144,9 @@ class InsoleLoads:
     def reset(self) -> None:
         """End the current spans because times restart; the extremes stay."""
         self.total.span_end = self.heel.span_end = self.forefoot.span_end = None
+        self.unloaded.restart()
+        self.turned.restart()
+        self.jumps = Jumps(bursts=self.jumps.bursts)
 
     def update(self, t: float, cells: Floats, with_centre: bool = True) -> Load | None:
         """Return the load of one sample, as shares of the full load; None while that is unknown.
@@ -174,6 +180,7 @@ class InsoleLoads:
             extremes.update(t, value)
         low, high = self.total.low, self.total.high
         level = self.unloaded.update(t, total, cells, high - low)
+        # swings that lie on top, and none below, are those of cells that are wired the other way round
         if self.unloaded.sure_ground is None and not self.inverted:
             self.turned.update(t, -total, cells, high - low)
             if self.turned.sure_ground is not None and not self.unloaded.grounds:
