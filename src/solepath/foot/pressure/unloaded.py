@@ -32,6 +32,8 @@ AGREEMENT = 0.1
 """Largest difference between the grounds of two valleys in a row that show the same level, as a share of that range."""
 MOVED_SHARE = 0.05
 """Smallest change of the level that is reported, as a share of that range: a contact is seen at 5 % of the load."""
+LEAST_DRIFT = 0.01
+"""Smallest drift that is reported, as a share of that range in a second."""
 GROUNDS = 4
 """Number of valleys that are kept. Their highest ground is the level, because cells creep back slowly after a stance.
 
@@ -145,5 +147,6 @@ class UnloadedLevel:
             self.level, self.level_t, self.drift = max(agreeing), self.base_t, drift
         if len(agreeing) == GROUNDS:
             moved = self.sure_ground is not None and abs(ground - self.sure_ground) > MOVED_SHARE * load_range
-            self.moved = moved and moved_alike(self.sure_cells, self.cells)
+            drifts = abs(drift) > LEAST_DRIFT * load_range
+            self.moved = (moved or drifts) and moved_alike(self.sure_cells, self.cells)
             self.sure_ground, self.sure_cells = ground, self.cells
