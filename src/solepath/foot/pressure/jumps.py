@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from ...types import Floats
 from ...types.attrs import define
-from ..cues.cues import MOST_SINGLE_CELLS
 
 SHORT_INTERVAL = 0.025
 """Longest time between two samples in which a foot loads too little to be taken for a jump, s."""
@@ -43,7 +42,8 @@ class Jumps:
     def is_burst(self, t: float, total: float, cells: Floats, load_range: float) -> bool:
         """Return whether the cells of a sample show a burst, so that this sample must not be used.
 
-        `total` is their sum and `load_range` its range in the last 8 to 10 s. Call `find_step` for other samples."""
+        `total` is their sum and `load_range` its range in the last 8 to 10 s. Call this and then `find_step` for a
+        sample whose sum differs by LEAST_STEP or more from that of the sample before, and keep what the others show."""
         count, burst = len(cells), self.burst
         if burst is not None:
             if 2 * cells.count(burst) >= count and 0.0 <= t - self.burst_t < LONGEST_BURST:
@@ -52,7 +52,7 @@ class Jumps:
             self.burst = None
             return False
         change = total - self.total
-        if self.t is None or count < 2 or abs(change) <= LEAST_BURST * load_range or load_range <= 0.0:
+        if self.t is None or count < 2 or abs(change) <= LEAST_BURST * load_range:
             return False
         is_quick = t - self.t <= SHORT_INTERVAL
         value = max(cells) if change > 0.0 else min(cells)
@@ -64,16 +64,12 @@ class Jumps:
             return True
         return False
 
-    def find_step(self, t: float, total: float, cells: Floats, load_range: float) -> float:
+    def find_step(self, t: float, total: float, cells: Floats) -> float:
         """Return by how much all cells have jumped at once; 0 if they have not."""
-        before, t_before, change = self.cells, self.t, total - self.total
-        count = len(cells)
-        self.t, self.total = t, total
-        self.cells = cells if count <= MOST_SINGLE_CELLS else ()
-        if load_range <= 0.0 or abs(change) <= LEAST_STEP * load_range or not LEAST_STEP_CELLS <= count == len(before):
+        before, count = self.cells, len(cells)
+        if self.t is None or t - self.t > SHORT_INTERVAL or not LEAST_STEP_CELLS <= count == len(before):
             return 0.0
-        if t_before is None or t - t_before > SHORT_INTERVAL:
-            return 0.0
+        change = total - self.total
         step = change / count
         tolerance = STEP_TOLERANCE * abs(step)
         for value, value_before in zip(cells, before, strict=True):
