@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cache, cached_property, lru_cache
 from math import exp, fsum, log
+from operator import mul
 from typing import Any
 
 from ...foot.bearing import RISE_ERROR, RISE_ERROR_SHARE, TREADS_RISE
@@ -164,12 +165,8 @@ def motion_votes(model: MotionModel, feet: Sequence[BlockFeatures | None]) -> Fl
 
 def log_probabilities(columns: Sequence[Row], values: Row) -> list[float]:
     """Return the natural logarithm of the probability of each of `MOTIONS`, by the weights of each and the features."""
-    sums: list[float] = []
-    for weights in columns:
-        total = weights[0]
-        for weight, value in zip(weights[1:], values, strict=True):
-            total += weight * value
-        sums.append(total)
+    inputs = (1.0, *values)
+    sums = [fsum(map(mul, weights, inputs)) for weights in columns]
     highest = max(sums)
     total = highest + log(fsum([exp(value - highest) for value in sums]))
     return [value - total for value in sums]

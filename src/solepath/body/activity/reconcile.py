@@ -140,6 +140,9 @@ class Strides:
         for span in self.spans:
             if bouts:
                 start, end = bouts[-1]
+                if span.start - end <= BOUT_PAUSE + TIME_EPSILON:  # whatever moves between is in the bout
+                    bouts[-1] = (start, max(end, span.end))
+                    continue
                 moved = [t for t in self.moved if end < t < span.start]
                 pauses = [after - before for before, after in pairwise([end, *moved, span.start])]
                 if max(pauses) <= BOUT_PAUSE + TIME_EPSILON and span.start - end <= LONGEST_TURN + TIME_EPSILON:
