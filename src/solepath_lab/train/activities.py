@@ -2,7 +2,7 @@
 
     solepath-lab train activities DATA_DIR
 
-writes activities.json beside the part. The same data give the same file.
+writes activities.json beside the part, and prints what each kind of evidence earns. The same data give the same file.
 
 The training data are hugadb, as recorded and at other rates; level walks of other wearers, sensors and mountings;
 emulated wearers and patients with seeds from 101; and what is not walking: the bicycles of hugadb_daily and emulated
@@ -51,14 +51,16 @@ from solepath.link.decoder import Decoder
 from solepath.recipes import Recipe
 from solepath.recording.samples import load_samples
 from solepath.recording.samples.npz import read_arrays
+from solepath.show.tables.table import percent
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from solepath.types.vector import TIME_EPSILON
 
 from ..emulated import other_motions, slow_walkers
 from ..evaluate.not_walking import MOTIONS
+from ..tables import markdown
 from . import emulated
 from .activities_course import FootEvidence, LabelledCourse, chances, shifts
-from .activities_fit import CLASSES, fit_both, to_json
+from .activities_fit import CLASSES, STRIDE_FEATURES, fit, fit_both, to_json
 from .hugadb import FOLDS, Span, fold_of, labels, recordings, spans
 from .resampling import resampled
 
@@ -344,8 +346,40 @@ def joined(used: Sequence[Blocks]) -> tuple[Floats, Floats, NDArray[np.int64], N
     )
 
 
+EVIDENCE: dict[str, tuple[str, ...]] = {
+    "everything": (),
+    "no shares of forces": ("steady", "hard"),
+    "no angular rates": ("turning", "turning_squared", "turning_around", "fast"),
+    "no velocities up and down": ("climb", "climb_squared", "sink", "climb_now", "sink_now"),
+    "no strides": STRIDE_FEATURES,
+}
+"""Features that are left out, by the name of what is left."""
+
+
+def ablation(sources: Iterable[Blocks]) -> str:
+    """Return the table of the half seconds of one foot that are right without each kind of evidence.
+
+    Each is judged with weights that were learnt in the other folds, of wearers or of recordings of bicycles."""
+    used = [blocks for blocks in sources if len(blocks.classes)]
+    rows = []
+    for title, left_out in EVIDENCE.items():
+        names = [name for name in FEATURES if name not in left_out]
+        columns = [FEATURES.index(name) for name in names]
+        counts = np.zeros((len(motion.MOTIONS), len(motion.MOTIONS)))
+        for fold in range(len(FOLDS)):
+            features, _, classes, wearers = joined([blocks for blocks in used if blocks.fold != fold])
+            known = ~np.isnan(features[:, 0])
+            weights = np.array([*fit(names, features[known][:, columns], classes[known], wearers[known]).values()])
+            features, _, classes, _ = joined([blocks for blocks in used if blocks.fold == fold])
+            judged = (features[:, columns] @ weights[1:] + weights[0]).argmax(1)
+            np.add.at(counts, (classes, judged), 1.0)
+        shares = [np.trace(counts) / counts.sum(), *(np.diag(counts) / counts.sum(1))]
+        rows.append([title, *[percent(share) for share in shares]])
+    return "\n".join(markdown.table(["right", "all", *[name.replace("_", " ") for name in motion.MOTIONS]], rows))
+
+
 def run(options: Namespace) -> int:
-    """Train the activity model on all training data and write it; return the exit status."""
+    """Train the activity model on all training data, write it and print the table; return the exit status."""
     note = (
         f"all wearers of HuGaDB (without {' and '.join(MISLABELLED)}) as recorded and at 20 and 10 Hz; level "
         f"walks of {', '.join(LEVEL_WALKS)}; emulated wearers, seeds {EMULATED[0]} to {EMULATED[-1]}, patients and "
@@ -354,4 +388,5 @@ def run(options: Namespace) -> int:
     sources = [*hugadb(options.dir / "hugadb", frozenset()), *level_walks(options.dir), *emulated_walks()]
     sources += [*emulated_patients(), *other_motions_of(), *rides(options.dir / "hugadb_daily")]
     Path(motion.__file__).with_name("activities.json").write_text(to_json(fit_model(sources, note)), encoding="utf-8")
+    print(ablation(sources))
     return 0

@@ -8,7 +8,7 @@ delays that chain.py uses."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cache, cached_property, lru_cache
 from math import exp, fsum, log
 from operator import mul
@@ -71,7 +71,7 @@ MOTIONS = ("still", "walking", "running", "stairs_up", "stairs_down", "other")
 
 CONSTANT = "constant"
 """Name of the first row of weights, whose feature is 1."""
-Weights = Mapping[str, Row]
+Weights = dict[str, Row]
 """Weights by the name of the feature, one for each of `MOTIONS`; the first row is `CONSTANT`."""
 
 
