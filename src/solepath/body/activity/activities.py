@@ -110,10 +110,10 @@ class Activities(ActivityPart):
         self.flights.reset()
         self.strides.clear()
         if known and all([side.index is None for side in self.feet.values()]):
-            t = self._time(max(known) + 1)
+            t, activity = self._time(max(known) + 1), self.activity
             last = self.report.add(self.hypotheses, (), 1e6 + t, t, True)
             self.held = [one for one in last if one.t < t and isinstance(one, ActivityChanged | LiftRidden)]
-            if self.held or self.activity is not Activity.UNKNOWN:
+            if self.held or activity is not Activity.UNKNOWN:
                 self.held.append(self.report.end(t))
             self._restart()
 
