@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from math import log
 
-from ..events import StrideTaken
+from ..events import Flaw, StrideTaken
 from ..types.attrs import define, evolve, field
 from ..types.vector import GRAVITY, TIME_EPSILON
 
@@ -69,7 +69,7 @@ A lone step, or one of somebody who crawls, is no bout but moves the foot. Of 35
 KNOWN, SUREST = 2.0, 5.0
 """Evidence from which on a foot is known to carry its walker, and its largest value."""
 MOST_MISSING = 0.1
-"""Largest share of missing samples of a stride that can be evidence against a foot that carries."""
+"""Largest share of missing samples of a stride that can be evidence against a foot that carries, if none is a flaw."""
 MOST_WAITING = 4
 """Number of strides that wait until it is known whether the foot carries, the newest included."""
 FARTHEST = 1e6
@@ -154,7 +154,7 @@ class Bearing:
             previous, self.evidence = None, min(self.evidence, 0.0)
         least, most = (-MOST_OF_FIRST, MOST_OF_FIRST) if previous is None else (MOST_AGAINST, MOST_FOR)
         one = max(least, min(most, evidence_of(stride, previous)))
-        if stride.missing > MOST_MISSING:
+        if stride.missing > MOST_MISSING or Flaw.GAP in stride.flaws:
             one = max(0.0, one)  # what a gap hides speaks against nobody
         self.evidence = max(-KNOWN, min(SUREST, self.evidence + one))
         self.previous = stride

@@ -225,15 +225,12 @@ class SessionState:
         self._find_awake()
 
     def report(self, site: Site, event: Event) -> list[Event]:
-        """Use an event of a link; return it and the events that follow from it.
-
-        The tracker of a foot reports a loss, with the first sample after it."""
+        """Use an event of a link; return it and the events that follow from it."""
         if isinstance(event, ClockReset):
             self._reset_parts(site)
         foot = site.foot
         if isinstance(event, SampleGap) and foot in self.feet:
-            self.feet[foot].add_loss(event)
-            return []
+            self.feet[foot].gap_end = event.t + event.duration
         if foot is not None and isinstance(event, LayoutKnown):
             tracker = self._tracker(foot)
             tracker.set_layout(event.layout)
@@ -417,7 +414,7 @@ class SessionState:
                 part.calibrated(foot, calibration) if hasattr(part, "calibrated") else part for part in parts
             ]
             tracker = FootTracker(foot, detector, corrector, cues, settings)
-            tracker.lost_count = 0 if SITE_OF_FOOT[foot] in self.decoders else None
+            tracker.counts_losses = SITE_OF_FOOT[foot] not in self.decoders
         return tracker
 
     def _add_tracker(self, tracker: FootTracker) -> None:

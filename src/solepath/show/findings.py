@@ -221,7 +221,7 @@ def _beside(one: Finding, walk: Walk) -> Finding:
 
 def _of_link(link: LinkLedger, now: float) -> Iterator[tuple[str, str, bool]]:
     """Yield code and words of each figure of a link, "" for none, and whether somebody must act on it."""
-    yield "samples_missing", missing_words(link, now), False
+    yield "samples_missing" if link.missing else "sensor_absent", missing_words(link, now), False
     is_unknown = link.unknown.total() > LARGE_SHARE * link.packets
     names = ", ".join([printable(name, 80) for name, _ in link.unknown.most_common(MAX_NAMED)])
     unknown = (

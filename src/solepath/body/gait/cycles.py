@@ -18,7 +18,7 @@ from ...events import (
 from ...events.foot import LONGEST_HARMLESS_GAP
 from ...foot.bearing import LONGEST_WAIT
 from ...foot.view import FootView
-from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, per_foot
+from ...types import OTHER, Foot, PerFoot, Site, per_foot
 from ...types.attrs import define, field, state, stateful
 from ..part import ClockUnsettled, Inputs, Outputs, Part, PartOutput
 from .means import GaitMeans, GaitParameters
@@ -287,6 +287,9 @@ class GaitCycles(Part):
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its events and return the cycles that are complete."""
+        for event in events:
+            if isinstance(event, SampleGap) and event.site.foot is not None:
+                self.feet[event.site.foot].add_gap(event)
         outputs = () if view is None else self._add_sample(view, events)
         for event in events:
             if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
@@ -320,8 +323,6 @@ class GaitCycles(Part):
                 this.add_toe_off(event)
             elif isinstance(event, StrideTaken):
                 this.add_stride(event)
-            elif isinstance(event, SampleGap) and event.site is SITE_OF_FOOT[view.foot]:
-                this.add_gap(event)
         if this.ended_cycle is not None and this.ended_cycle.foot_was_flat:
             this.close_cycle()
         return self._release(view.known_at)
