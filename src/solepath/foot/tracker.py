@@ -314,7 +314,9 @@ class FootTracker:
         self._report_gap(t_last, t, known_at, events)
         corrector, gait = self.corrector, self.gait
         template = gait.template
-        gait.stride.add_gap(t_last, t, self.rhythm.usual_interval or 0.0 if duration <= self.rhythm.longest_loss else duration)
+        gait.stride.add_gap(
+            t_last, t, self.rhythm.usual_interval or 0.0 if duration <= self.rhythm.longest_loss else duration
+        )
         if duration > LONGEST_BRIDGE:
             self.rest.end_rest()
             self.levelling = Levelling()

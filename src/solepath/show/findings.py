@@ -115,7 +115,7 @@ SENTENCES: dict[type[Event], tuple[Concern, bool, str]] = {
 }  # fmt: skip
 """Concern of each event that says what is wrong, whether results are wrong until somebody acts, and the sentences."""
 FLAWS = {
-    Flaw.GAP: f"a gap of more than {1e3 * LONGEST_HARMLESS_GAP:.0f} ms",
+    Flaw.GAP: f"a gap of more than {1e3 * LONGEST_HARMLESS_GAP:.0f} ms and two samples",
     Flaw.RANGE: "values at the end of a range",
     Flaw.TWO_STRIDES: "two strides in one",
     Flaw.IMPOSSIBLE: "a speed or a height that cannot be",

@@ -89,7 +89,7 @@ class Assembler:
         """Time of the newest measurement, of the accelerometer if it has sent any, s; None before any."""
         return self.newest_acc_t if self.newest_acc_t is not None or self.gyro_newest is None else self.gyro_newest[0]
 
-    def start_anew(self) -> Assembler:
+    def after_absence(self) -> Assembler:
         """Return the assembler of what comes after an absence of both streams."""
         return Assembler(self.site, mag=self.mag, air_pressure=self.air_pressure, last_t=self.last_t)
 

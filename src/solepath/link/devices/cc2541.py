@@ -17,9 +17,9 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD
+from ..counters import SampleTimes
 from ..driver import scaled
 from ..kinds import MAX_PRESSURE_WAIT, DeviceKind, DeviceLink, Output
-from ..counters import SampleTimes
 from ..periodic import PeriodicClock
 from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_sensor, ti_uuid
 from .assembler import Assembler
@@ -218,12 +218,12 @@ class Cc2541Link(DeviceLink):
         return self._end_absence(self.assembler.flush(known_at), known_at)
 
     def _add(self, clock: PeriodicClock, add: Add, value: Vec3, arrival: float) -> Output:
-        """Return the samples and events of a value; an absence is one of both streams, which then start anew."""
+        """Return the samples and events of a value; an absence is one of both streams; both then restart."""
         out: Output = []
         if self.newest_arrival is None or arrival - self.newest_arrival > PROFILE.stale_after:
             out += self.flush(arrival)
             self.absent_since = self.assembler.newest_t or self.absent_since
-            self.assembler = self.assembler.start_anew()
+            self.assembler = self.assembler.after_absence()
             self.acc_clock.newest_arrival = self.gyro_clock.newest_arrival = None
         self.newest_arrival = arrival
         sample_times = clock.add_packet(arrival, PROFILE.stale_after)
