@@ -154,6 +154,8 @@ class Cc2541Link(DeviceLink):
     acc_on: bool = True
     gyro_on: bool = True
     calibration: BarometerCalibration | None = None
+    ahead: float = 0.0
+    """Time by which the newest accelerometer time is ahead of its fit, s: the gyroscope's times are as much ahead."""
     newest_arrival: float | None = None
     """Arrival of the newest packet of either stream, s; None before the first, and after a new connection."""
     absent_since: float | None = None
@@ -231,6 +233,11 @@ class Cc2541Link(DeviceLink):
         if not sample_times.lost_count or self.absent_since is not None:
             sample_times.gap_start = None
         out += sample_times.make_events(self.site, arrival)
+        fitted = clock.clock.fit_time(clock.slot)
+        if clock is self.acc_clock:
+            self.ahead = t - fitted
+        elif self.assembler.newest_acc_t is not None:  # two late starts are caught up with from different times
+            t = fitted + self.ahead
         return out + self._end_absence(add(self.assembler, t, value, clock.period, arrival), arrival)
 
     def _end_absence(self, samples: list[Sample], arrival: float) -> Output:
