@@ -113,9 +113,9 @@ def test_what_cannot_be_converted_replaces_nothing(log, tmp_path):
 def test_impossible_file_names_are_rejected(log, tmp_path):
     walk = recording(tmp_path / "walk.jsonl")
     assert "ends neither in .jsonl nor in .mcap nor in .sto" in complaint(log, tmp_path / "walk.csv")
-    assert "is no btsnoop log; a recording is converted to" in complaint(walk, tmp_path / "other.jsonl")
+    assert "is no Bluetooth log; a recording is converted to" in complaint(walk, tmp_path / "other.jsonl")
     site = ("--site", f"{TAG}=pelvis")
-    assert "--site and --handle are for btsnoop logs" in complaint(walk, tmp_path / "walk.mcap", *site)
+    assert "--site and --handle are for Bluetooth logs" in complaint(walk, tmp_path / "walk.mcap", *site)
 
 
 def test_a_new_file_has_the_mode_that_new_files_have_and_a_link_stays_one(log, tmp_path):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from copy import copy, deepcopy
 from decimal import Decimal
 from enum import Enum, IntEnum
@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from attrs import evolve
+from attrs import define, evolve
 from soak import soaked
 from toys import BOTH
 from walks import LEFT, insoles, machines, of, run_session, samples
@@ -30,10 +30,13 @@ from solepath import (
     Rejection,
     Sample,
     Session,
+    StrideTaken,
 )
+from solepath.body.part import Part, PartInput, PartOutput
 from solepath.calibration import ShoeGeometry
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.settings import ErrorStateSettings
+from solepath.foot.view import FootView
 from solepath.link.driver import Measured, Reading, check_reading
 from solepath.recipes import DEFAULT
 from solepath.wire.error import WireError
@@ -136,6 +139,52 @@ def test_the_events_before_an_item_that_cannot_be_used_come_with_the_error() -> 
     assert raised.value.events + session.feed(walk[700:]) == whole.feed(walk)
     with pytest.raises(ItemError, match="item 1: feed takes packets or samples, not str"):
         session.feed([evolve(walk[-1], t=walk[-1].t + 0.01), "x"])
+
+
+@pytest.mark.parametrize("error", [OSError("the disk is gone"), ValueError("a wrong line"), StopAsyncIteration()])
+def test_the_events_before_an_iterator_fails_come_with_the_error_and_feeding_goes_on(error: Exception) -> None:
+    walk, session = samples(), Session()
+
+    def read() -> Iterator[Sample]:
+        yield from walk[:700]
+        raise error
+
+    with pytest.raises(ItemError, match="item 700") as raised:
+        session.feed(read())
+    assert (raised.value.number, raised.value.__cause__) == (700, error)
+    assert raised.value.events + session.feed(walk[700:]) == Session().feed(walk)
+
+
+@define
+class Careless(Part):
+    """A part of an app that raises at its third stride."""
+
+    strides: int = 0
+    has_raised: bool = False
+
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        self.strides += sum(isinstance(event, StrideTaken) for event in events)
+        if self.strides > 2 and not self.has_raised:
+            self.has_raised = True
+            raise ZeroDivisionError("a part of the app")
+        return []
+
+
+@pytest.mark.parametrize("one_by_one", [True, False])
+def test_what_the_feet_found_in_a_sample_comes_with_the_error_of_an_apps_own_part(one_by_one: bool) -> None:
+    walk, found = samples(), []
+    session = Session(evolve(DEFAULT, name="own", parts=(*DEFAULT.parts, Careless())))
+    rest, raised = list(walk), 0
+    while rest:
+        try:
+            found += session.feed(rest.pop(0) if one_by_one else iter(rest))
+            rest = rest if one_by_one else []
+        except ItemError as error:
+            assert isinstance(error.__cause__, ZeroDivisionError)
+            found, raised = found + error.events, raised + 1
+            rest = rest if one_by_one else rest[error.number + 1 :]
+    assert raised == 1 and len(of(StrideTaken, found)) > 3
+    assert of(StrideTaken, found) == of(StrideTaken, Session().feed(walk))
 
 
 def test_texts_and_flags_of_numpy_can_be_saved() -> None:

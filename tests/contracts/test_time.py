@@ -10,7 +10,7 @@ import pytest
 from attrs import evolve
 from walks import DEVICE_NAMES, LEFT, RIGHT, machines, of, often, samples
 
-from solepath import Foot, Sample, Session, StreamResumed, StreamStale, StrideTaken, recipes
+from solepath import Foot, Limitation, Sample, Session, StreamResumed, StreamStale, StrideTaken, recipes
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -50,6 +50,36 @@ def test_nothing_happens_by_advancing_what_is_fed_by_samples_alone() -> None:
     session = Session()
     session.feed(samples())
     assert session.advance(1e6) == []
+
+
+@pytest.mark.parametrize("name", DEVICE_NAMES[:3])
+@pytest.mark.parametrize(("offset", "silences"), [(1.7e9, 0), (86_400.0, 0), (90.0, 1), (20.0, 1)])
+def test_a_leap_to_another_clock_is_taken_back_when_packets_contradict_it(
+    name: str, offset: float, silences: int
+) -> None:
+    machine = machines()[name]
+    session, emitted = machine.start(), []
+    for number, item in enumerate(machine.items):
+        emitted += session.feed(item)
+        if number % 7 == 6:
+            emitted += session.advance(item.t + offset)
+    assert session.now == pytest.approx(machine.items[-1].t, abs=1.0)
+    (limitation,) = [event for event in of(Limitation, emitted) if "another clock" in event.what]
+    assert "Packet.t" in limitation.what
+    sites = {item.site for item in machine.items}
+    assert len(of(StreamStale, emitted)) <= silences * len(sites)
+    plain = machine.start().feed(machine.items)
+    assert of(StrideTaken, emitted) == of(StrideTaken, plain)
+
+
+def test_an_hour_without_packets_passes_after_two_seconds_more() -> None:
+    machine = machines()[DEVICE_NAMES[0]]
+    session = machine.start()
+    session.feed(machine.items)
+    now = machine.items[-1].t + 5000.0
+    assert session.advance(now) == session.advance(now + 1.9) == []
+    assert len(of(StreamStale, session.advance(now + 2.1))) == 2
+    assert session.now == now + 2.1
 
 
 ROUTE = Route().stand(2.0).walk(16.0, 1.3).stop(2.0)

@@ -87,7 +87,7 @@ def _orphe_info(foot: Foot) -> bytes:
     return bytes([2, foot is Foot.RIGHT, 0, 0, 0, 0, 0, 0, 3, 3]) + bytes(10)
 
 
-ORPHE = Worn(orphe.DRIVER, 104.0, 2, _orphe, {"orphe/info": _orphe_info, "device/firmware": lambda foot: b"1.0"})
+ORPHE = Worn(orphe.DRIVER, 100.4, 2, _orphe, {"orphe/info": _orphe_info, "device/firmware": lambda foot: b"1.0"})
 DOT = Worn(dot.DRIVER, 60.0, 1, _dot, {"dot/battery": lambda foot: b"\x5a\x00"})
 THINGY = Worn(
     thingy.DRIVER,

@@ -7,11 +7,14 @@ from math import nextafter
 import pytest
 
 from solepath.ble.candidates import Advertisement, Candidates
+from solepath.link.devices.cc2541 import PROFILE as OLD_TAG
 from solepath.link.devices.cc2650 import PROFILE as TAG
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.setup.config import DeviceConfig, check_configs, identify
-from solepath.link.setup.device_setup import RecentTroubles, shorten, trouble
+from solepath.link.setup.device_setup import GattCharacteristic, RecentTroubles, find_profile, shorten, trouble
+from solepath.session.host import Host
 from solepath.session.json_host import filters
+from solepath.session.session import Session
 from solepath.types import Site
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
@@ -86,3 +89,56 @@ def test_a_trouble_is_said_again_after_a_minute_and_cut_to_whole_letters() -> No
     many = [trouble(str(k)) for k in range(200)]
     assert recent.leave_out(many, 61.0) == many and recent.leave_out(many, 62.0) == many[98:]
     assert shorten("aé", 2) == "a" and shorten("aé", 3) == "aé" and len(trouble("é" * 999)[1]) == 500
+
+
+IDENTIFIER = "8C1F6F6E-2B1D-4D0A-9E50-4B7A1C2D3E4F"
+"""Identifier of a device on macOS."""
+
+
+@pytest.mark.parametrize("which", ["f0:f1:f2:f3:f4:f5", "F0-F1-F2-F3-F4-F5", "f0f1f2f3f4f5", " F0.F1.F2.F3.F4.F5 "])
+def test_an_address_is_the_same_in_any_spelling(which: str) -> None:
+    assert DeviceConfig(LEFT, which).matches("F0:F1:F2:F3:F4:F5", "", ())
+    assert not DeviceConfig(LEFT, which).matches("F0:F1:F2:F3:F4:F6", "", ())
+    with pytest.raises(ValueError):
+        check_configs([DeviceConfig(LEFT, which), DeviceConfig(RIGHT, "F0:F1:F2:F3:F4:F5")])
+
+
+@pytest.mark.parametrize("which", [IDENTIFIER.lower(), IDENTIFIER.replace("-", ""), "{" + IDENTIFIER + "}"])
+def test_an_identifier_of_macos_is_the_same_in_any_spelling(which: str) -> None:
+    assert DeviceConfig(LEFT, which).matches(IDENTIFIER, "", ())
+
+
+def test_what_was_seen_is_listed_when_the_device_is_not_found() -> None:
+    choice = candidates(DeviceConfig(LEFT, "F0:F1:F2:F3:F4:F5"))
+    for found in (tag(IDENTIFIER, 1.0), Advertisement("11", "", (), -30, 2.0), tag("22", 3.0, "SensorTag 2")):
+        assert not choice.add(found)
+    words = choice.choose(10.0)[1]
+    assert words.startswith("no device 'F0:F1:F2:F3:F4:F5' is in range")
+    assert words.endswith(f"; seen: SensorTag 2 (22), SensorTag 2.0 ({IDENTIFIER}), without a name (11)")
+    crowd = candidates(DeviceConfig(LEFT, "x"))
+    for number in range(500):
+        crowd.add(tag(f"{number:03}", 1.0, f"Beacon {number}"))
+    words = crowd.choose(10.0)[1]
+    assert words.endswith("and 95 more") and len(words) < 500
+
+
+def test_an_advertisement_without_a_name_does_not_drop_a_device_with_one() -> None:
+    for config in (DeviceConfig(LEFT, "SensorTag 2.0"), DeviceConfig(LEFT, profile=TAG)):
+        choice = candidates(config)
+        assert choice.add(tag("A", 0.0)) and choice.add(tag("A", 0.4, name="")) and choice.add(tag("A", 0.8, name=""))
+        choice.choose(0.9)
+        found, _ = choice.choose(2.0)
+        assert found is not None and (found.name, found.t) == ("SensorTag 2.0", 0.8)
+
+
+@pytest.mark.parametrize("name", ["", "SensorTag", "CC2650 SensorTag", "My tag"])
+@pytest.mark.parametrize("write", [str, str.upper])
+def test_a_connected_device_is_known_by_what_it_has_whatever_it_advertises(name: str, write: type[str]) -> None:
+    for profile in (TAG, OLD_TAG):
+        has = [GattCharacteristic(write(one.service), write(one.characteristic), True) for one in profile.channels]
+        assert find_profile(name, has) is profile
+        commands = []
+        host = Host(Session(), lambda packet, events: None)
+        host.add("A", LEFT)
+        commands = host.connect("A", name, has, 0.0)
+        assert commands and all(command.request is not None for command in commands)

@@ -51,7 +51,7 @@ ORPHE_SAMPLE = {"quat": (16384, 0, 0, 0), "gyro": (0, 0, 0), "acc": (0, 0, 2048)
 
 
 def orphe(k: int) -> list[tuple[str, bytes]]:
-    ms = round(1000 * k * 2 / 208)
+    ms = round(1000 * k * 2 / 100.4)
     time = {"hour": 1, "minute": ms // 60000, "second": ms // 1000 % 60, "millisecond": ms % 1000}
     samples = [ORPHE_SAMPLE] * 2
     return [written("orphe/values", header=56, serial=k, **time, samples=samples, unused="00" * 32)]
@@ -65,7 +65,7 @@ SENDERS = {
         samples=4,
         sites=(LEFT,),
     ),
-    "orphe": Sender(104 / 2, orphe, samples=2),
+    "orphe": Sender(100.4 / 2, orphe, samples=2),
     "dot": Sender(60.0, lambda k: [written("dot/rates", ticks=round(1e6 * k / 60), acc=(0, 0, 9.8), gyro=(0, 0, 0))]),
     "dot-orientation": Sender(
         60.0, lambda k: [written("dot-orientation/quaternion", ticks=round(1e6 * k / 60), quat=(1, 0, 0, 0))]
@@ -106,11 +106,13 @@ class Course:
 
 
 def spans(most: int, duration: float, longest: float) -> Any:
-    return st.lists(st.tuples(st.floats(0.1, duration), st.floats(0.01, longest)), max_size=most).map(tuple)
+    return st.lists(st.tuples(st.floats(0.5, duration), st.floats(0.01, longest)), max_size=most).map(tuple)
 
 
 def courses(duration: float) -> Any:
-    """Return the strategy of courses; the device restarts no sooner than its counters show it (protocol/clock.md)."""
+    """Return the strategy of courses (protocol/clock.md).
+
+    The device restarts no sooner than its counters show it, and loses none before its first packets show its period."""
     restarts = st.tuples(st.integers(30, int(10.0 * duration)), st.integers(1, 25)).map(
         lambda n: (n[0] / 10, n[1] / 10)
     )

@@ -71,11 +71,18 @@ def test_a_plan_of_ones_own_is_walked_on_and_gives_the_room(here: Path) -> None:
     assert (here / "out" / "plan.svg").exists()
 
 
-def test_a_device_is_declared_proven_and_walked_with() -> None:
-    (*_, vectors, walked), _ = run_page("docs/device.md")
+def test_a_sole_of_ones_own_is_declared_proven_and_walked_with(here: Path) -> None:
+    (*_, vectors, walked), _ = run_page("docs/device.md", "__main__")
     assert vectors == "the vectors agree\n"
-    true = len(Walker(Route().stand(2).walk(6).stop(2)).truth().strides(Foot.LEFT))
+    true = len(Walker(Route().stand(2).walk(12).stop(2)).truth().strides(Foot.LEFT))
     assert sum(line.startswith("StrideTaken(") for line in walked.splitlines()) == true
     (lost,) = [line for line in walked.splitlines() if line.startswith("SampleGap(")]
     assert "count=1" in lost
+    (here / "sole.py").write_text("\n".join(blocks(PAGES["docs/device.md"], "python")), encoding="utf-8")
+    check = run("check", "walk.jsonl", "--driver", "sole.py")
+    assert check.returncode == 0 and "1 of 1436 samples missing" in check.stdout
+    track = run("track", "walk.jsonl", "--driver", "sole.py")
+    assert track.returncode == 0 and f"1435  100.0{true:9}" in track.stdout
+    noise = run("calibrate", "noise", "walk.jsonl", "--driver", "sole.py", "--out", "me.json")
+    assert noise.returncode == 0 and "200.00" in noise.stdout
     assert json.loads((EXAMPLES / "own_device.json").read_text())["channel"] == "shoe/motion"

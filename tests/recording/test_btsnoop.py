@@ -119,7 +119,7 @@ def test_a_device_whose_place_nobody_knows_is_left_out_and_named(tmp_path):
     log.notify(0x42, 0x12, b"\x48")
     packets, reports = read(log, tmp_path)
     assert {device for device, *_ in packets} == {LEFT}
-    nobody = f"1 value of {TAG}, a cc2650, left out: nobody says where it was worn"
+    nobody = f"1 value of {TAG}, a cc2650, left out: nobody says where it was worn: --site {TAG}=left_foot"
     assert sorted(reports) == ["1 other device left out", nobody], "other people's devices are not described"
     alone = start_connection(Log(), 0x41, TAG, {0x31: full(0xAA81)})
     alone.notify(0x41, 0x31, MOVEMENT)

@@ -90,7 +90,7 @@ FLAWS = {
         lambda log: log.add_request(0x40, "12170001", "0112170080"),
     ),
     "a cut record": (
-        "records that the logger cut short",
+        "packets that the capture cut short (a snap length, or an Android log that is Filtered)",
         lambda log: log.record(ACL, b"\x40\x20\x40\0\x3c\0", False, 68),
     ),
     "half a header": (NO_HCI, lambda log: log.record(ACL, b"\x40\x20\x04", False)),

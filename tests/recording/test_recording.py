@@ -1,6 +1,10 @@
 """Reading and writing of recordings of packets, clause by clause of protocol/recording.md."""
 
+import bz2
+import gzip
 import json
+import lzma
+import zipfile
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -206,3 +210,49 @@ def test_a_folder_names_the_recordings_in_it(tmp_path):
     )
     (tmp_path / "d.csv").unlink()
     assert read_until_damage(tmp_path)[1].endswith("it has a.txt, b.jsonl, c.NPZ")
+
+
+def test_a_packet_behind_more_blanks_than_a_line_may_have_is_left_out(tmp_path):
+    lines = recorded(tmp_path / "walk.jsonl", PACKETS).read_bytes().splitlines(keepends=True)
+    (tmp_path / "walk.jsonl").write_bytes(
+        b"".join([*lines[:2], b" " * (LONGEST_LINE + 1) + lines[2], b"  \n", *lines[3:], b" "])
+    )
+    reports = []
+    assert list(read_packets(tmp_path / "walk.jsonl", report=reports.append)) == [PACKETS[0], PACKETS[2]]
+    assert len(reports) == 1 and "line 3: is longer than 65536 bytes; this line is left out" in reports[0]
+
+
+def test_a_byte_order_mark_is_no_part_of_a_recording(tmp_path):
+    path = recorded(tmp_path / "walk.jsonl", PACKETS)
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    assert list(read_packets(path, report=pytest.fail)) == PACKETS
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be"])
+def test_a_recording_in_another_encoding_says_which_is_wanted(tmp_path, encoding):
+    path = recorded(tmp_path / "walk.jsonl", PACKETS)
+    path.write_bytes(path.read_text().encode(encoding))
+    _, sentence = read_until_damage(path)
+    assert sentence.endswith("line 1: is text in UTF-16; a recording is in UTF-8: save it so")
+
+
+@pytest.mark.parametrize("suffix", [".gz", ".bz2", ".xz", ".zip"])
+def test_a_compressed_recording_is_read_as_it_is_and_a_torn_one_up_to_there(tmp_path, suffix):
+    plain, path = recorded(tmp_path / "walk.jsonl", PACKETS * 500), tmp_path / f"walk.jsonl{suffix}"
+    if suffix == ".zip":
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.write(plain, "walk.jsonl")
+            archive.writestr("__MACOSX/._walk.jsonl", b"\0")
+            archive.writestr("readme.md", b"a walk")
+    else:
+        path.write_bytes({".gz": gzip, ".bz2": bz2, ".xz": lzma}[suffix].compress(plain.read_bytes()))
+    assert list(open_source(path, report=pytest.fail)) == PACKETS * 500
+    whole = path.read_bytes()
+    if suffix != ".zip":
+        path.write_bytes(whole[: len(whole) * 3 // 4])
+        reports = []
+        found = list(read_packets(path, report=reports.append)) if suffix == ".gz" else []
+        assert suffix != ".gz" or (found == (PACKETS * 500)[: len(found)] and 100 < len(found) < 1500 and reports)
+    path.write_bytes(whole[:100] + b"\xff\x00\xff" + whole[103:])
+    with pytest.raises(RecordingError, match="cannot be unpacked|is not JSON|is not text|cut off|is missing"):
+        list(read_packets(path, report=lambda _: None))

@@ -31,7 +31,7 @@ LOOK_EVERY = 61
 
 STAYS = """
 Activities._restart: feet flights strides
-Activities.reset: feet* apart flights.reset() left.feet.restart() right.feet.restart()
+Activities.reset: feet* held* apart flights.reset() left.feet.restart() right.feet.restart()
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now*
 AnglePerMetre.reset: activity limitation_reported apart flights.reset()
@@ -59,7 +59,7 @@ FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares r
   strike_height top total tracked
 FootClocks._forget: feet* idle
 FootClocks.reset: feet* idle
-FootTracker.reset: corrector* cues* detector* gait* levelled lost_count* rest* rhythm sole* walk_scale*
+FootTracker.reset: corrector* cues* detector* gait* levelled limitations lost_count rest* rhythm sole* walk_scale*
   cues.reset() cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
 Gait.reset: anchor_position bearing* heading_settled number path phase stride* template* world stride.cut()
   template.reset()
@@ -85,7 +85,7 @@ PressureHeight.restart: blocks compared newest noise apart
 RateIntegral.restart: instants* t*
 Reassembly.drop: frame_id skipping
 Recognition.reset: load_count mean_load soles* apart
-Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing watches
+Recovery.reset: acc_clipping* clipped earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing watches
   acc_clipping.reset()
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
@@ -98,8 +98,9 @@ StanceFinder._restart: counted duration force peak t turn weight
 StanceRhythm.reset: usual_stance usual_swing
 StraightWays.reset: straightness.reset()
 Straightness.reset: direction
-StreamLink.handle_reconnection: last_t newest_arrival off_rate_interval off_rate_packets packet_run* periodic*
-StreamLink.restart_clock: off_rate_interval off_rate_packets packet_run* periodic*
+StreamLink.handle_reconnection: last_t last_value newest_arrival off_rate_interval off_rate_packets packet_run*
+  periodic*
+StreamLink.restart_clock: last_value off_rate_interval off_rate_packets packet_run* periodic*
 StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped creep first_pitch flat_pitch flaws
   heel_strike_pitch least_force load_count load_sum longest_rest most_force next_pitch peak_height peak_rate
   peak_speed pitch pitch_high pitch_low pitches rest start stride_rate t_heel_off t_heel_strike t_mid_stance t_pitch

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from ..link.profile import Profile
 from ..link.setup.config import DeviceConfig, identify, reports_site
-from ..types.attrs import define, field, frozen
+from ..types.attrs import define, evolve, field, frozen
 
 UNIQUENESS_TIME = 1.0
 """Time of listening without a second device that matches the config, after which the first is accepted, s."""
@@ -15,6 +15,8 @@ PRESENCE_TIME = 3.0
 """Time after its last advertisement during which a device counts as near enough to connect, s."""
 SAME_NAME_TIME = 30.0
 """Time after its last advertisement during which a second device that matches the config prevents a choice, s."""
+MOST_SEEN, MOST_NAMED = 100, 5
+"""Largest number of devices that are remembered, and that a sentence lists, chosen by hand."""
 CHOICE_INTERVAL = UNIQUENESS_TIME / 2
 """Longest time from one call of `choose` to the next, s."""
 
@@ -34,10 +36,26 @@ class Advertisement:
     t: float
     device: Any = None
 
+    def after(self, before: Advertisement | None) -> Advertisement:
+        """Return this advertisement with what it lacks of the one before it: a name and services come in turns."""
+        if before is None:
+            return self
+        return evolve(self, name=self.name or before.name, services=self.services or before.services)
+
     @property
     def profile(self) -> Profile | None:
         """Profile of the device; None for an unknown device."""
         return identify(self.name, self.services)
+
+
+def describe_seen(seen: Iterable[Advertisement]) -> str:
+    """Return words that list the devices that were seen, those with a name and the nearest first; "" for none."""
+    ordered = sorted(seen, key=lambda one: (not one.name, -one.signal, one.address))
+    if not ordered:
+        return ""
+    named = [f"{one.name or 'without a name'} ({one.address})" for one in ordered[:MOST_NAMED]]
+    more = f" and {len(ordered) - MOST_NAMED} more" if len(ordered) > MOST_NAMED else ""
+    return f"seen: {', '.join(named)}{more}"
 
 
 @define(eq=False)
@@ -52,11 +70,16 @@ class Candidates:
     is_excluded: Callable[[Advertisement], bool]
     report_at: float
     _found: dict[str, Advertisement] = field(factory=dict, init=False)
+    _seen: dict[str, Advertisement] = field(factory=dict, init=False)
+    """Newest advertisement of each device, MOST_SEEN of them."""
     _present_since: float | None = field(default=None, init=False)
     _reported: bool = field(default=False, init=False)
 
     def add(self, found: Advertisement) -> bool:
         """Add an advertisement; return whether it is of a device that may be the configured one."""
+        found = found.after(self._seen.get(found.address))
+        if found.address in self._seen or len(self._seen) < MOST_SEEN:
+            self._seen[found.address] = found
         if self.address:
             matches = found.address == self.address
         else:
@@ -89,9 +112,10 @@ class Candidates:
         if present and self._present_since is not None and now - self._present_since >= UNIQUENESS_TIME:
             return present[0], ""
         if not self._found and now >= self.report_at:
+            seen = describe_seen(self._seen.values())
             return None, self._once(
                 f"no {self.config.description} is in range: switch it on, bring it near, "
-                "and see that no other program or phone holds it"
+                f"and see that no other program or phone holds it{seen and '; ' + seen}"
             )
         return None, ""
 

@@ -13,7 +13,7 @@ from bleak_retry_connector import establish_connection
 
 from ..link.profile import Profile
 from ..link.setup.config import DeviceConfig, identify
-from ..link.setup.device_setup import DeviceSetup
+from ..link.setup.device_setup import DeviceSetup, find_profile
 from ..link.setup.roster import Member, Roster
 from ..types import Site
 from .candidates import PRESENCE_TIME, Advertisement, Candidates
@@ -139,18 +139,23 @@ class Connection:
 
     async def _use(self, found: Advertisement) -> None:
         """Connect and listen until the connection is lost. Raises FAILURES."""
-        profile = self.config.profile or identify(found.name, found.services, self.own)
         name = found.name or found.address
-        if profile is None:
-            self.member.wrong_since[found.address] = _now()
-            self.emitter.report_trouble(f"{name} is of no kind that is known here: say its profile")
-            return
         self.state = ConnectionState.CONNECTING
         disconnected = asyncio.Event()
         bleak_client = await self._connect(found, name, disconnected)
         try:
             self.state = ConnectionState.SETTING_UP
             characteristics = list_characteristics(bleak_client)
+            # what it has says more than what it advertises
+            profile = (
+                self.config.profile
+                or find_profile(found.name, characteristics, self.own)
+                or identify(found.name, found.services, self.own)
+            )
+            if profile is None:
+                self.member.wrong_since[found.address] = _now()
+                self.emitter.report_trouble(f"{name} is of no kind that is known here: say its profile")
+                return
             setup = DeviceSetup(
                 self.roster, self.member, profile, characteristics, found.address, found.name, self.signal
             )

@@ -113,7 +113,7 @@ async def scan(seconds: float = 4.0, *, backend: Backend = NATIVE) -> list[Adver
     devices: dict[str, Advertisement] = {}
 
     def on_advertisement(device: Advertisement) -> None:
-        devices[device.address] = device
+        devices[device.address] = device.after(devices.get(device.address))
 
     try:
         async with make_scanner(backend, on_advertisement):

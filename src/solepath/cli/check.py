@@ -69,7 +69,9 @@ def run(options: Namespace) -> int:
     bad_rows = source.bad_rows
     has_many = bad_rows is not None and bad_rows.count > LARGE_SHARE * (bad_rows.count + bad_rows.good)
     prefix = f"{printable(str(options.files[0]))}: " if is_one else ""
-    (must if has_many else may).extend(flaw.removeprefix(prefix) for flaw in flaws)
+    left_out = () if source.samples is None else source.samples.left_out
+    for flaw in flaws:
+        (must if has_many or flaw in left_out else may).append(flaw.removeprefix(prefix))
     strides = {foot: counts.strides for foot, counts in walk.feet.items() if counts.strides}
     walked = ", ".join(f"{foot} foot {counted(count, 'stride')}" for foot, count in strides.items()) or "no stride"
     print(f"{name}: {walk.covered_time.total:.1f} s, {walked}")

@@ -1,4 +1,4 @@
-"""`solepath convert IN OUT`: converts a btsnoop log to a recording, and recordings to MCAP, OpenSim or Motion-BIDS."""
+"""`solepath convert IN OUT`: makes a recording of a Bluetooth log, and MCAP, OpenSim or Motion-BIDS of recordings."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def run(options: Namespace) -> int:
     if not is_dataset and not is_storage:
         return _to_packets(options)
     if options.sites or options.handles:
-        raise Failure("--site and --handle are for btsnoop logs: convert the log to a recording (.jsonl) first")
+        raise Failure("--site and --handle are for Bluetooth logs: convert the log to a recording (.jsonl) first")
     if options.validate:
         package = ("bids", "bids_validator_deno") if is_dataset else ("opensim", "opensim")
         require("--validate needs", *package)
@@ -87,7 +87,7 @@ def run(options: Namespace) -> int:
 def _to_packets(options: Namespace) -> int:
     """Write a recording of packets, of a log, or MCAP, of either."""
     from ..recording import Source, open_source
-    from ..recording.btsnoop import is_btsnoop
+    from ..recording.btsnoop import is_log
     from ..recording.btsnoop.records import reject_pipe
 
     path, out, drivers = options.files[0], options.out, drivers_of(options)
@@ -97,13 +97,13 @@ def _to_packets(options: Namespace) -> int:
     output = OutputFile(out, RECORDING_KIND)
     check_outputs(options, [output])
     source: Source | BtsnoopLog
-    if is_btsnoop(path):
+    if is_log(path):
         source = _open_log(options, drivers)
     elif options.sites or options.handles:
-        raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
+        raise Failure("--site and --handle are for Bluetooth logs; a recording knows its sites and channels")
     elif out.suffix.lower() == RECORDING:
         reject_pipe(path)
-        raise Failure(f"{path}: is no btsnoop log; {TARGETS}")
+        raise Failure(f"{path}: is no Bluetooth log; {TARGETS}")
     else:
         source = open_source(path, report=note)
         if source.samples is not None:
@@ -262,10 +262,11 @@ def validate_storage(path: Path, *, positions: bool) -> int:
 
 add_to = command(
     "convert",
-    "import a phone's btsnoop log; export to MCAP, OpenSim or Motion-BIDS",
-    "Convert a btsnoop log (an Android phone's HCI snoop log, btmon) to a recording of packets, or "
-    "either to MCAP, which opens in Foxglove; or any recording to a storage file of OpenSim or, with --subject, "
-    "into a Motion-BIDS dataset. The name of OUT chooses the format: .jsonl, .mcap or .sto.",
+    "import a phone's Bluetooth log; export to MCAP, OpenSim or Motion-BIDS",
+    "Convert a log of Bluetooth (an Android phone's HCI snoop log or bug report, Apple's PacketLogger, btmon, .pcap, "
+    ".pcapng) to a recording of packets, or either to MCAP, which opens in Foxglove; or any recording to a storage "
+    "file of OpenSim or, with --subject, into a Motion-BIDS dataset. The name of OUT chooses the format: .jsonl, "
+    ".mcap or .sto.",
     "solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     table_options("IN"),
     option(

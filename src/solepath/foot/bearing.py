@@ -27,6 +27,8 @@ GRAVITY_RATES = (6.0, 10.0)
 """Peak rates, rad/s, up to which the force at rest counts and from which on it does not: a runner pushes off in it."""
 SHORT_LENGTH = 0.4
 """Length below which a stride is a shuffle or no stride, m."""
+LEAST_LIFT = 0.01
+"""Smallest height of a swing whose ratio to the length counts, m."""
 FASTEST_SWING = 6.0
 """Speed of a foot that only runners exceed, m/s; chosen by hand. What is faster is an integral that runs away."""
 SWING_TIMES = (0.2, 1.2)
@@ -46,14 +48,12 @@ wearers in view (0.04 and 0.06 have 1.3 points less, 0.06 and 0.1 as many), and 
 LEAST_LENGTH, LEAST_FORCE_RANGE, LEAST_SWING = 0.03, 0.3, 0.02
 """Smallest length, m, range of the specific force, m/s^2, and swing, s, whose logarithm counts."""
 
-OFFSET = 3.1
+OFFSET = 2.1
 """Evidence of a stride whose features are all 0, a logarithm of a likelihood ratio.
 
-The weights and the offset are a logistic regression over strides of recordings and of made motions, with features that
-were computed from the samples; the offset is 1.25 above the fitted one, because the sum over strides decides.
-`solepath-lab train bearing` fits the features that strides report, and prints 2.3 and (-5.6, -3.1, 1.6, -0.83, -3.2,
--0.94, -1.6, -8.0, -1.2, -2.6), with which the same motions give no strides, and bicycles 0.3 a minute for 0.1."""
-WEIGHTS = (-8.8, -4.1, 1.2, -1.1, -3.0, -0.6, -1.1, -9.4, -1.0, -2.5)
+The weights and the offset are a logistic regression over strides of recordings and of made motions, which
+`solepath-lab train bearing` prints. The offset is 1.25 above the fitted one, because the sum over strides decides."""
+WEIGHTS = (-5.5, -3.1, 1.6, -0.72, -3.0, -0.7, -1.0, -1.7, -8.5, -1.2, -2.6)
 """Weight of each of `features`."""
 
 MOST_FOR, MOST_AGAINST = 3.0, -3.0
@@ -68,6 +68,9 @@ A lone step, or one of somebody who crawls, is no bout but moves the foot. Of 35
 (hugadb_daily)."""
 KNOWN, SUREST = 2.0, 5.0
 """Evidence from which on a foot is known to carry its walker, and its largest value."""
+LEAST_PROGRESS = 0.15
+"""Length of a stride below which it goes nowhere and speaks for no walk, m, as steps on the spot do; chosen by hand, below
+the strides of patients who shuffle."""
 MOST_MISSING = 0.1
 """Largest share of missing samples of a stride that can be evidence against a foot that carries, if none is a flaw."""
 MOST_WAITING = 4
@@ -84,8 +87,8 @@ def features(stride: StrideTaken, previous: StrideTaken | None) -> tuple[float, 
     `previous` is the stride before it in the same bout, if any. The features are: how much shorter the longest rest is
     than that of a walker or runner; how far the force in it is from gravity; the logarithm of the range of the specific
     force; how far the greatest speed differs from that of a swing of this length and time; shortness; the rise beyond
-    the error of a floor or a tread; the time of the swing beyond usual ones; the speed beyond that of a walk; and the
-    change of length and of swing since the stride before."""
+    the error of a floor or a tread; how much higher than far the foot goes, as on the spot; the time of the swing beyond
+    usual ones; the speed beyond that of a walk; and the change of length and of swing since the stride before."""
     measured, length = stride.features, max(stride.length, LEAST_LENGTH)
     swing, time = _swing(stride), max(0.1, min(stride.t_end - stride.t_start, LONGEST_TIME))
     off_gravity = NO_REST if measured.rest_force is None else min(4.0, abs(measured.rest_force - GRAVITY))
@@ -107,6 +110,7 @@ def features(stride: StrideTaken, previous: StrideTaken | None) -> tuple[float, 
         min(abs(log(max(ratio, 0.05))), 2.0),
         min(max(0.0, log(SHORT_LENGTH / length)), 1.5),
         log(1.0 + min(off_floor, 10.0)),
+        min(max(0.0, log(max(measured.clearance + rise, LEAST_LIFT) / length)), 1.5),
         0.0 if swing is None else 5.0 * max(0.0, short - swing) + min(max(0.0, swing - long), 2.0),
         min(max(0.0, log(max(measured.peak_speed, 0.1) / FASTEST_SWING)), 2.0),
         *change,
@@ -151,11 +155,14 @@ class Bearing:
         """Add a stride; return the strides that are known now, and those that were none."""
         previous = self.previous
         if previous is not None and stride.t_end - previous.t_end > LONGEST_WAIT + TIME_EPSILON:
-            previous, self.evidence = None, min(self.evidence, 0.0)
+            # whoever has walked walks again sooner than they get on a bicycle, but the first stride does not decide
+            previous, self.evidence = None, min(self.evidence, KNOWN - MOST_OF_FIRST)
         least, most = (-MOST_OF_FIRST, MOST_OF_FIRST) if previous is None else (MOST_AGAINST, MOST_FOR)
         one = max(least, min(most, evidence_of(stride, previous)))
         if stride.missing > MOST_MISSING or Flaw.GAP in stride.flaws:
             one = max(0.0, one)  # what a gap hides speaks against nobody
+        if stride.length < LEAST_PROGRESS:
+            one = min(0.0, one)
         self.evidence = max(-KNOWN, min(SUREST, self.evidence + one))
         self.previous = stride
         waiting = [*self.waiting, stride]

@@ -91,6 +91,8 @@ class StrideBuilder:
     """Time up to which samples have each flaw, s."""
     flaws: tuple[Flaw, ...] = ()
     """Flaws of the samples of the stride."""
+    clips: bool = False
+    """Flag: the range of a sensor is known to be too small for the motion."""
     newest_gaps: tuple[Vec3, ...] = ()
     """Of the newest gaps, the last sample before it, the first one after it, and the usual interval, s."""
     older_gaps: GapSums = GapSums()
@@ -208,7 +210,7 @@ class StrideBuilder:
 
     def cut(self) -> None:
         """Discard the stride, because times restart: its start and its end would be times of two clocks."""
-        self.t_start = self.t_contact = None
+        self.t_start, self.t_contact, self.clips = None, None, False
         self.flawed_until, self.newest_gaps, self.older_gaps = {}, (), GapSums()
 
     def add_motion(
@@ -332,6 +334,8 @@ class StrideBuilder:
             flaws = (*flaws, Flaw.TWO_STRIDES)
         if length > FASTEST_RUN * (t - self.t_start):
             flaws = (*flaws, Flaw.IMPOSSIBLE)
+        if self.clips and corrector.clipped and Flaw.RANGE not in flaws:
+            flaws = (*flaws, Flaw.RANGE)
         covariance = world.rotate_covariance(corrector.covariance()[:6])
         gaps = self.older_gaps
         for gap in self.newest_gaps:

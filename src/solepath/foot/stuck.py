@@ -17,6 +17,8 @@ STUCK_TIME, STUCK_SAMPLES = 0.5, 5
 """Time, s, and number of repeats after which a sensor is stuck."""
 HELD_TIME = 0.15
 """Time, s, after which repeated values of both sensors are no measurement, although they may come to life again."""
+OFF_TIME = 5.0
+"""Time, s, of zeros from the start on after which the sensor is off; many send some until their first measurement."""
 MOVING = 0.5
 """Angular rate of a foot that does not rest, rad/s; in steps of 0.1 rad/s, those of 8 bits, it hardly repeats."""
 TURN, FORCE_CHANGE = 1.5, 3.0
@@ -62,6 +64,8 @@ class Stuck:
     """Number of samples at rest with another value than the one before; `MOST_STILL` at most."""
     still_repeats: int = 0
     """Number of samples at rest with both values of the sample before."""
+    awake: bool = False
+    """Flag: a value was other than 0."""
     held: bool = False
     """Flag: the values are no measurement."""
     named: bool = False
@@ -71,6 +75,11 @@ class Stuck:
         """Add a sample; return a sentence on what is stuck, once."""
         dt, self.t = t - self.t, t
         same_acc, same_gyro = self.acc.add(t, acc), self.gyro.add(t, gyro)
+        if not self.awake:
+            self.awake = acc != ZERO or gyro != ZERO
+            self.held = not self.awake
+            if self.held:
+                return self._judge_zeros(t)
         if not same_gyro:
             self.first_acc = acc
             if not same_acc:  # nearly always
@@ -84,6 +93,12 @@ class Stuck:
         self.acc.motion += rate * dt
         self.gyro.motion = max(self.gyro.motion, dist(acc, self.first_acc))
         return self._judge(t, rate > MOVING)
+
+    def _judge_zeros(self, t: float) -> str | None:
+        if self.named or t - self.acc.since < OFF_TIME:
+            return None
+        self.named = True
+        return f"every value has been 0 for {OFF_TIME:g} s: the sensor is off, or gravity was removed; restart it"
 
     def _judge(self, t: float, moves: bool) -> str | None:
         """Return a sentence on what is stuck, once; the newest angular rate is that of a foot that moves or not."""

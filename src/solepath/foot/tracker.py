@@ -134,9 +134,12 @@ class FootTracker:
             rest.bias, rest.grain if rest.count else 0.0, pressed, after,
         )  # fmt: skip
 
-    def mark_defect(self) -> None:
-        """Mark all strides as flawed from now until `reset`, because a defect of the data was found."""
-        self.gait.stride.mark_flawed(Flaw.DEFECT, MAX_TIME)
+    def mark_defect(self, defect: Defect) -> None:
+        """Mark strides as flawed from now until `reset`: all, or those whose peaks are cut off if that is the defect."""
+        if defect is Defect.CLIPPED:
+            self.gait.stride.clips = True
+        else:
+            self.gait.stride.mark_flawed(Flaw.DEFECT, MAX_TIME)
 
     def shift(self, yaw: float, by: Vec3) -> None:
         """Turn the foot by `yaw` rad and move it by `by` m, world frame, from now on.
@@ -216,7 +219,10 @@ class FootTracker:
                 self.load = load  # cells and inertial sensor send separately: the next inertial sample uses this load
                 return events
         dt = 0.0 if t_last is None else t - t_last
-        if t_last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
+        is_gap = t_last is not None and self.rhythm.update(dt)
+        if t_last is not None and (is_gap or dt > LONGEST_BRIDGE):
+            if is_gap:
+                self._report_gap(t_last, t, known_at, events)
             dt = self._cross_gap(t_last, t, known_at, sample, events)
         if load is None and self.settings.needs_pressure and (sole is None or not sole.had_cells):
             self.moved_at = t if has_inertial else self.moved_at
@@ -279,7 +285,7 @@ class FootTracker:
 
     def _stuck_sensor(self, what: str, t: float, known_at: float) -> DefectFound:
         """Return the event of a stuck sensor, whose samples are not used."""
-        self.mark_defect()
+        self.mark_defect(Defect.REPEATED)
         site = SITE_OF_FOOT[self.foot]
         return DefectFound(t=t, known_at=known_at, site=site, defect=Defect.REPEATED, what=what)
 
@@ -306,12 +312,11 @@ class FootTracker:
             events.append(SampleGap(t=start, known_at=known_at, site=site, duration=t - start, count=count))
 
     def _cross_gap(self, t_last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
-        """Report a gap between two samples; return the time to integrate over, s.
+        """Return the time to integrate over between two samples that are far apart, s.
 
         If there is a stride template (gap.py), the gap is filled and the phases that it hid are appended to `events`;
         else it is crossed by a straight line."""
         duration = t - t_last
-        self._report_gap(t_last, t, known_at, events)
         corrector, gait = self.corrector, self.gait
         template = gait.template
         gait.stride.add_gap(

@@ -16,6 +16,9 @@ REMEMBERED_PACKETS = 64
 """Number of the newest packets for which it is remembered whether they were accepted."""
 MIN_GAP = 1.5
 """Smallest time from one sample to the next that is a gap, intervals; one tick is added, as ticks are whole."""
+MAX_LEAD_AFTER_LOSS = 0.1
+"""Largest time by which a packet that follows lost ones may be ahead of the fit, s: above the error of a new fit, whose
+first packet a radio delayed by some connection events."""
 MAX_OVERTAKING_TIME = 2.0
 """Longest time by which a packet may be overtaken, s, by the device's ticks and by the delay of its arrival.
 
@@ -120,7 +123,9 @@ class PacketRun:
             if ticks <= 0 or packets <= 0:
                 self._reject_repeated(clock, position, arrival, same_run)
             last = self.ticks + ticks + packet_ticks - position.interval
-            other_clock = clock.rate != rate or clock.contradicts(last, arrival, held_back)
+            # samples that were lost took their time: a counter that gets ahead of it was reset or set
+            is_ahead = packets > 1 and clock.fit_time(last) - arrival > MAX_LEAD_AFTER_LOSS
+            other_clock = is_ahead or clock.rate != rate or clock.contradicts(last, arrival, held_back)
             if ticks <= 0 or packets <= 0 or new_fit or other_clock:
                 restarted = not 1 <= position.sequence_difference <= REMEMBERED_PACKETS
                 clock = self._start_clock(position.ticks, rate, last_t + self.interval / clock.rate)

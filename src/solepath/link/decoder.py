@@ -32,6 +32,7 @@ from ..types import Packet, Sample, Site
 from ..types.attrs import NOT_SAVED, define, evolve, field, fields
 from ..types.records import MAX_TIME
 from ..wire.error import WireError
+from .counters import MIN_GAP
 from .kinds import BUILT_IN_KINDS, DeviceKinds, DeviceLink, Output, is_address
 
 SET_BACK_PACKETS = 20
@@ -107,10 +108,11 @@ class Decoder:
             return []
         kind = kinds.loaded.get(self.link.name) or kinds.get(self.link.name)
         newest = self.newest_stream_arrival
-        if kind is None or newest is None or now - newest <= kind.profile.stale_after:
+        limit = 0.0 if kind is None else max(kind.profile.stale_after, MIN_GAP * self.link.interval)
+        if kind is None or newest is None or now - newest <= limit:
             return []
         self.stale = True
-        return [*self.link.flush(now), self._silence(newest, now, kind.profile.stale_after)]
+        return [*self.link.flush(now), self._silence(newest, now, limit)]
 
     def _silence(self, newest: float, now: float, limit: float) -> StreamStale:
         return StreamStale(t=newest + limit, known_at=now, site=self.site, silent_for=now - newest)
@@ -159,7 +161,7 @@ class Decoder:
         self.newest_arrival, self.backward_packets, self.used = t, 0, True
         if link is None or kind is None or packet.channel not in kind.profile.streams:
             return self.advance(t, kinds) + out
-        newest, limit = self.newest_stream_arrival, kind.profile.stale_after
+        newest, limit = self.newest_stream_arrival, max(kind.profile.stale_after, MIN_GAP * link.interval)
         self.newest_stream_arrival = t
         is_long = newest is not None and t - newest > limit
         self.absent = self.absent or is_long or self.stale

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
-from ..events import Limitation, LinkEvent
+from ..events import DefectFound, Limitation, LinkEvent
 from ..types import Sample, Site
 from ..types.attrs import field, frozen
 from ..types.registry import TABLE, load
@@ -18,7 +18,7 @@ if TYPE_CHECKING:  # imported at run time only with a device that needs them
     from .driver import Driver
     from .profile import Profile
 
-Output = list[Sample | LinkEvent]
+Output = list[Sample | LinkEvent | DefectFound]
 """Samples and link events in the order in which they are returned."""
 
 MAX_PRESSURE_WAIT = 1.0
@@ -53,6 +53,11 @@ class DeviceLink(Protocol):
     @property
     def unsettled_until(self) -> float | None:
         """Time up to which sample times are not comparable with another device's, s; None when all are comparable."""
+
+    @property
+    def interval(self) -> float:
+        """Time from one packet to the next, s, of a device without counters; 0 for others, which tell it themselves."""
+        return 0.0
 
     def flush(self, known_at: float) -> Output:
         """Return the samples that still wait for other data, as known at `known_at`, s."""

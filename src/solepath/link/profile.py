@@ -9,11 +9,25 @@ that a decoder knows the ranges and periods that are set."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import Enum
 from functools import cached_property
 from math import inf
 
-from ..types.attrs import frozen
+from ..types.attrs import field, frozen
+
+BASE_UUID = "-0000-1000-8000-00805f9b34fb"
+"""End of every UUID that Bluetooth itself assigns (Bluetooth Core, vol 3 part B, 2.5.1)."""
+
+
+def whole_uuid(uuid: str) -> str:
+    """Return a UUID with all its digits in lower case; a short one is one of Bluetooth's own."""
+    digits = uuid.lower()
+    return f"{digits:0>8}{BASE_UUID}" if len(digits) in (4, 8) else digits
+
+
+def _whole_uuids(uuids: Iterable[str]) -> tuple[str, ...]:
+    return tuple([whole_uuid(uuid) for uuid in uuids])
 
 
 class Access(Enum):
@@ -26,11 +40,11 @@ class Access(Enum):
 
 @frozen
 class Channel:
-    """One characteristic and the channel name of its packets; UUIDs are complete and in lower case."""
+    """One characteristic and the channel name of its packets; UUIDs may be short, and in any case."""
 
     name: str
-    service: str
-    characteristic: str
+    service: str = field(converter=whole_uuid)
+    characteristic: str = field(converter=whole_uuid)
     access: Access
 
 
@@ -56,7 +70,7 @@ class Profile:
     """Prefix of the names of its channels."""
     names: tuple[str, ...]
     """Complete names that it may advertise."""
-    services: tuple[str, ...]
+    services: tuple[str, ...] = field(converter=_whole_uuids)
     """UUIDs of the services that it advertises."""
     channels: tuple[Channel, ...]
     """Channels of the device."""
@@ -120,10 +134,6 @@ def ti_sensor(device: str, name: str, service: int, period: int = 3) -> tuple[Ch
 def standard_uuid(short: int) -> str:
     """Return the complete UUID of a 16-bit id that the Bluetooth SIG has assigned."""
     return f"{short:08x}{BASE_UUID}"
-
-
-BASE_UUID = "-0000-1000-8000-00805f9b34fb"
-"""End of every UUID that Bluetooth itself assigns (Bluetooth Core, vol 3 part B, 2.5.1)."""
 
 
 FIRMWARE = Channel("device/firmware", standard_uuid(0x180A), standard_uuid(0x2A26), Access.READ)

@@ -10,6 +10,8 @@ Times come from the best source that the device has, by the rules of protocol/cl
 
 from __future__ import annotations
 
+from binascii import crc32
+
 from ..events import BatteryLevel, KeysChanged, LayoutKnown, Rejection
 from ..types import Sample, Site, Vec3
 from ..types.attrs import define, field
@@ -64,6 +66,8 @@ class StreamLink(DeviceLink):
     periodic: PeriodicClock | None = None
     newest_arrival: float | None = None
     """Arrival of the newest packet with samples, s."""
+    last_value: int = -1
+    """Checksum of that packet; -1 before the first."""
     last_t: float | None = None
     """Time of the newest sample, s; sample times strictly increase."""
     mag: Vec3 | None = None
@@ -79,11 +83,15 @@ class StreamLink(DeviceLink):
         clock = self.packet_run.clock if self.periodic is None else self.periodic.clock
         return None if clock is None else clock.unsettled_until
 
+    @property
+    def interval(self) -> float:
+        return 0.0 if self.periodic is None else self.periodic.period
+
     def feed(self, channel: str, data: bytes, arrival: float, driver: Driver) -> Output:
         """Return the samples and events of one value that arrived at `arrival`, s."""
         reading = driver.read(channel, data, self.known)
         self._check(driver, channel, reading)
-        out = self._make_samples(driver, channel, reading, arrival) if reading.samples else []
+        out = self._make_samples(driver, data, reading, arrival) if reading.samples else []
         self._update_settings(driver, reading)
         return self._make_events(reading, arrival) + out + self._take_slow_values(reading, arrival)
 
@@ -159,13 +167,16 @@ class StreamLink(DeviceLink):
         t = self._make_increasing(arrival)
         return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
 
-    def _make_samples(self, driver: Driver, channel: str, reading: Reading, arrival: float) -> Output:
-        axis = driver.axis
+    def _make_samples(self, driver: Driver, data: bytes, reading: Reading, arrival: float) -> Output:
+        axis, run = driver.axis, self.packet_run
         rate = self.rate if reading.rate is None else reading.rate
+        checksum = crc32(data)
+        if checksum == self.last_value and run.after_reconnection and axis is not TimeAxis.ARRIVAL:
+            raise WireError(Rejection.DUPLICATE, "the newest packet again, after a new connection")
         if axis is TimeAxis.ARRIVAL:
             self._set_rate(rate)
             longest_loss = 0.0 if self.may_be_silent else driver.profile.stale_after
-            sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss)
+            sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss, data)
         elif axis is TimeAxis.TICKS:
             position = self._locate_by_ticks(driver, reading, rate)
             sample_times = self.packet_run.accept(position, driver.tick_rate, arrival)
@@ -178,7 +189,10 @@ class StreamLink(DeviceLink):
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
+        self.last_value = checksum
         out: Output = [*sample_times.make_events(self.site, arrival)]
+        if self.periodic is not None:
+            out += self.periodic.report_rate(len(reading.samples), self.site, arrival)
         if not self.limitation_reported:
             unused = UNUSED_TICKS if reading.ticks is not None and not driver.tick_rate else ""
             out += self.report_limitation("; ".join(filter(None, (driver.limitation, unused))), arrival)
@@ -263,10 +277,12 @@ class StreamLink(DeviceLink):
             self.rate, self.off_rate_packets = driver.tick_rate / distance, 0
             self.packet_run.packet_ticks = float(position.ticks_after)
 
-    def _time_by_arrival(self, count: int, rate: float, arrival: float, longest_loss: float) -> SampleTimes:
+    def _time_by_arrival(
+        self, count: int, rate: float, arrival: float, longest_loss: float, data: bytes
+    ) -> SampleTimes:
         if self.periodic is None:
             self.periodic = PeriodicClock(count / rate)
-        sample_times = self.periodic.add_packet(arrival, longest_loss)
+        sample_times = self.periodic.add_packet(arrival, longest_loss, data)
         (last,), interval = sample_times.times, self.periodic.period / count
         sample_times.times = [last - (count - 1 - j) * interval for j in range(count)]
         sample_times.lost_count *= count

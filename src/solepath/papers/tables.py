@@ -26,12 +26,6 @@ class TableRow:
         """Return whether the cell of this column is not empty."""
         return bool(self.cells.get(column, ""))
 
-    def word(self, column: str) -> str:
-        """Return the text of this column. Raise CalibrationError when it is empty."""
-        if not self.has(column):
-            raise CalibrationError(f"{self.where}: nothing in column {column}")
-        return self.cells[column]
-
     def number(self, column: str, low: float = -inf, high: float = inf, unit: str = "") -> float:
         """Return the number of this column. Raise CalibrationError if it is not a number from `low` to `high`."""
         text = self.cells.get(column, "")

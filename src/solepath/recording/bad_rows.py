@@ -45,10 +45,12 @@ class Line(Generic[AnyStr]):
 
 
 def read_lines(file: IO[AnyStr], line_feed: AnyStr) -> Iterator[Line[AnyStr]]:
-    """Yield each line of a file, which ends early after MAX_SKIPPED of a line that is too long."""
+    """Yield each line of a file that is not blank; it ends early after MAX_SKIPPED of a line that is too long."""
     number = size = skipped = 0
     while skipped < MAX_SKIPPED and (data := file.readline(LONGEST_LINE + 1)):
         number, size, skipped, part = number + 1, size + len(data), 0, data
+        if len(data) <= LONGEST_LINE and not data.strip():
+            continue
         while len(data) > LONGEST_LINE and part and not part.endswith(line_feed) and skipped < MAX_SKIPPED:
             part = file.readline(LONGEST_LINE)
             skipped += len(part)

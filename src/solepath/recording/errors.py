@@ -7,7 +7,22 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import BinaryIO
 
-SAMPLE_SUFFIXES = (".npz", ".csv", ".tsv", ".txt", ".xlsx", ".xlsm", ".xls", ".ods", ".parquet")
+_SAVE = "save its table as .csv or .xlsx"
+_UNPACK = "unpack it, and give what is in it; the log of an iPhone (logs/Bluetooth) is for `solepath convert`"
+UNREAD_SAMPLES = {
+    ".xls": _SAVE,
+    ".xlsb": _SAVE,
+    ".ods": _SAVE,
+    ".h5": _SAVE,
+    ".hdf5": _SAVE,
+    ".feather": _SAVE,
+    ".tar": _UNPACK,
+    ".tgz": _UNPACK,
+    ".mat": "in MATLAB, writematrix([t, acc, gyro], 'walk.csv') with columns of your own; then give walk.csv"
+    " with --columns t=1,acc=2,3,4,gyro=5,6,7",
+}
+"""What to do with files of samples that are not read, by their suffixes."""
+SAMPLE_SUFFIXES = (".npz", ".csv", ".tsv", ".txt", ".xlsx", ".xlsm", ".parquet", *UNREAD_SAMPLES)
 """Suffixes of files that hold samples."""
 MAX_NAMED_FILES = 3
 """Largest number of files that the error for a folder names; chosen by hand."""

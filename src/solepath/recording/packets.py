@@ -18,7 +18,8 @@ from attrs import frozen
 
 from ..types import Packet, Site
 from .bad_rows import LONGEST_LINE, BadRows, Line, read_lines
-from .errors import RecordingError, Report, open_file, printable, warn
+from .errors import RecordingError, Report, printable, warn
+from .unpacking import open_unpacked
 
 FORMAT = "solepath-packets"
 """Value of the key "format" in the header."""
@@ -30,8 +31,8 @@ SAMPLES_HINT = "samples have names that end in .npz, .csv, .tsv, .txt, .xlsx or 
 def read_header(path: Path | str) -> dict[str, Any]:
     """Return the header of a recording, which is its first line; RecordingError when that line is no header."""
     path = Path(path)
-    with open_file(path) as file:
-        return _parse_header(path, read_lines(file, b"\n"))
+    with open_unpacked(path) as file:
+        return _parse_header(path, file)[0]
 
 
 def read_start_time(header: Mapping[str, Any]) -> tuple[datetime, float | None] | None:
@@ -75,10 +76,9 @@ def open_packets(
 ) -> OpenRecording:
     """Open a recording and read its header; the arguments and errors are those of `read_packets`."""
     path = Path(path)
-    file = open_file(path)
+    file = open_unpacked(path)
     try:
-        lines = read_lines(file, b"\n")
-        header = _parse_header(path, lines)
+        header, lines = _parse_header(path, file)
     except BaseException:
         file.close()
         raise
@@ -86,21 +86,29 @@ def open_packets(
     return OpenRecording(header, _parse_packets(path, file, lines, bad_lines, progress), bad_lines)
 
 
-def _parse_header(path: Path, lines: Iterator[Line[bytes]]) -> dict[str, Any]:
+def _parse_header(path: Path, file: BinaryIO) -> tuple[dict[str, Any], Iterator[Line[bytes]]]:
+    """Return the header of a recording, and an iterator over the lines below it."""
+    start, lines = file.peek(), read_lines(file, b"\n")  # type: ignore[attr-defined]
     for line in lines:
-        if not line.data.strip():
-            continue
         try:
             fields = _parse_object(line)
             fault = header_fault(fields)
         except _NoObjectError as flaw:
-            is_log = line.data.startswith(b"btsnoop\0")
-            hint = "a btsnoop log has to be a file, for `solepath convert`" if is_log else SAMPLES_HINT
-            fault = f"{flaw}; {hint}"
+            fault = _explain_start(start) or f"{flaw}; {SAMPLES_HINT}"
         if fault is not None:
             raise RecordingError(path, fault, f"line {line.number}")
-        return fields
+        return fields, lines
     raise RecordingError(path, "is empty")
+
+
+def _explain_start(start: bytes) -> str:
+    """Return what a file is that starts with these bytes; "" for none that is known."""
+    from .btsnoop.captures import is_capture  # packets do not need it
+
+    if is_capture(start):
+        return "is a Bluetooth capture: `solepath convert` makes a recording of it (of a file, not of a pipe)"
+    is_wide = start[:2] in (b"\xff\xfe", b"\xfe\xff") or start[:2].count(0) == 1
+    return "is text in UTF-16; a recording is in UTF-8: save it so" if is_wide else ""
 
 
 def _parse_packets(
@@ -110,8 +118,6 @@ def _parse_packets(
         for line in lines:
             if progress is not None:
                 progress(line.end)
-            if not line.data.strip():
-                continue
             where = f"line {line.number}"
             try:
                 packet = _parse_packet(_parse_object(line))
@@ -140,7 +146,7 @@ def _parse_object(line: Line[bytes]) -> dict[str, Any]:
     if line.is_too_long:
         raise _NoObjectError(f"is longer than {LONGEST_LINE} bytes")
     try:
-        value = json.loads(line.data.decode("utf-8"), parse_constant=_reject_constant)
+        value = json.loads(line.data.decode("utf-8-sig"), parse_constant=_reject_constant)
     except UnicodeDecodeError:
         raise _NoObjectError("is not text") from None
     except (ValueError, RecursionError):

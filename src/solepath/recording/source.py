@@ -17,6 +17,7 @@ from .clock_offset import shift_clock
 from .decoded import decode_own
 from .errors import SAMPLE_SUFFIXES, RecordingError, Report, printable, warn
 from .packets import OpenRecording, open_packets, read_header
+from .unpacking import content_name, size_of
 
 if TYPE_CHECKING:
     from ..link.kinds import DeviceKinds
@@ -139,7 +140,7 @@ def open_source(
         from .bids.reader import load_motion
 
         samples = load_motion(path, only, report=report)
-    elif mapping is not None or len(paths) > 1 or path.suffix.lower() in SAMPLE_SUFFIXES:
+    elif mapping is not None or len(paths) > 1 or Path(content_name(path)).suffix.lower() in SAMPLE_SUFFIXES:
         from .samples import load_samples  # packets do not need it
 
         samples = load_samples(paths, foot, mapping=mapping, report=report)
@@ -149,7 +150,7 @@ def open_source(
             source.header = {"began": samples.start_time.isoformat(), "began_t": 0.0}
         return source
     if path.is_file():
-        source.header, source.total = read_header(path), path.stat().st_size
+        source.header, source.total = read_header(path), size_of(path)
     else:
         source._pipe = open_packets(path, report=report)
         source.header, source.bad_rows = source._pipe.header, source._pipe.bad_lines

@@ -17,14 +17,23 @@ _Record = TypeVar("_Record")
 
 
 class ItemError(TypeError):
-    """Error of one of several items of `Session.feed`: it is neither packet nor sample, or has values of wrong types.
+    """Error of one of the items of `Session.feed`, with the events before it.
 
-    `number` is its place among them, from 0, and `events` are those of the items before it, which were used. The items
-    after it were not."""
+    The item is neither packet nor sample, or has values of wrong types; the iterator failed; or a reader or part of the
+    app raised. The error itself is `reason`, and `number` is the place of its item among those that were given, from 0.
+    `events` are those of the items before it, which were used, and what the feet found in it before the app's part
+    raised. The items after it were not used."""
 
-    def __init__(self, number: int, reason: TypeError, events: list[Event]) -> None:
+    def __init__(self, number: int, reason: Exception, events: list[Event]) -> None:
         super().__init__(f"item {number}: {reason}")
-        self.number, self.events = number, events
+        self.number, self.reason, self.events = number, reason, events
+
+
+def keep_events(events: list[Event], error: Exception, number: int = 0) -> ItemError:
+    """Return the error of an item with the events before it; those that it has come after them."""
+    if isinstance(error, ItemError):
+        return ItemError(number, error.reason, events + error.events)
+    return ItemError(number, error, events)
 
 
 def check_calibration(calibration: Calibration) -> Calibration:

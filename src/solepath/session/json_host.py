@@ -14,7 +14,7 @@ from typing import Any
 from ..events import Event
 from ..link.catalogue import BY_NAME, PROFILES
 from ..link.kinds import is_address
-from ..link.profile import BASE_UUID, Profile
+from ..link.profile import Profile
 from ..link.setup.device_setup import GattCharacteristic
 from ..types import Packet, Site
 from ..types.records import MAX_TIME
@@ -136,8 +136,8 @@ class JsonHost:
         for one in message["characteristics"]:
             match one:
                 case [str(service), str(uuid), bool(can_notify)]:
-                    key = _whole(service), _whole(uuid)
-                    found.setdefault(key, GattCharacteristic(*key, can_notify))
+                    one = GattCharacteristic(service, uuid, can_notify)
+                    found.setdefault((one.service, one.uuid), one)
                 case _:
                     raise ValueError("a characteristic is [service, UUID, can notify]")
         device, name = message["device"], message.get("name", "")
@@ -189,12 +189,6 @@ def filters(own: Iterable[Profile] = ()) -> Message:
         services |= dict.fromkeys([channel.service for channel in profile.channels])
     rows = [dict(zip(("name", "prefix", "service"), one, strict=True)) for one in conditions]
     return {"type": "filters", "filters": rows, "services": [*services]}
-
-
-def _whole(uuid: str) -> str:
-    """Return a UUID with all its digits in lower case; a short one is one of Bluetooth's own."""
-    digits = uuid.lower()
-    return f"{digits:0>8}{BASE_UUID}" if len(digits) in (4, 8) else digits
 
 
 def _reject_constant(text: str) -> None:

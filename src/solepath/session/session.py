@@ -18,7 +18,7 @@ from ..link.kinds import DeviceKinds, is_address, make_kinds
 from ..recipes import DEFAULT, Recipe, shared_copy
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support, Vec2
 from ..types.plain import flag, text
-from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
+from .arguments import check_calibration, check_now, check_start, index_floorplan, keep_events
 from .state import SessionSettings, SessionState
 
 if TYPE_CHECKING:
@@ -40,8 +40,8 @@ class Session:
 
     `feed`, `advance` and `finish` return events in the order in which they became known. `feed` accepts any bytes: they
     give events, never an exception, unless the app's own reader or part raises one. It raises TypeError for an item
-    that is neither packet nor sample, or has values of wrong types (numbers may be those of numpy; for one of several,
-    ItemError, with the events before it), and ValueError after `finish`.
+    that is neither packet nor sample, or has values of wrong types (numbers may be those of numpy), and ValueError
+    after `finish`. When there are events before an error, or several items, it raises ItemError, which has them.
 
     Latency: zero velocity and live position are known with the sample; heel-strike and toe-off with the next one
     (before a first push-off, swing after 0.15 s); foot-flat and the stride that it ends after 40 ms; heel-off after 40
@@ -82,24 +82,33 @@ class Session:
         state = self._state
         if state.finished:
             raise ValueError("this session is finished")
-        if isinstance(data, Sample):
-            return state.feed_sample(data)
-        if isinstance(data, Packet):
-            return state.feed_packet(data, self._kinds)
+        if isinstance(data, (Packet, Sample)):
+            return self._feed_item(data)
         if not isinstance(data, Iterable) or isinstance(data, str | bytes):
             raise TypeError(f"feed takes packets or samples, not {type(data).__name__}")
         events: list[Event] = []
-        for number, item in enumerate(data):
-            try:
-                if not isinstance(item, (Packet, Sample)):
-                    raise TypeError(f"feed takes packets or samples, not {type(item).__name__}")
-                events += self.feed(item)
-            except TypeError as error:
-                raise ItemError(number, error, events) from error
+        number = 0
+        try:
+            for item in data:
+                events += self._feed_item(item)
+                number += 1
+        except Exception as error:
+            failure = keep_events(events, error, number)
+            raise failure from failure.reason
         return events
 
+    def _feed_item(self, item: Packet | Sample) -> list[Event]:
+        if isinstance(item, Packet):
+            return self._state.feed_packet(item, self._kinds)
+        if isinstance(item, Sample):
+            return self._state.feed_sample(item)
+        raise TypeError(f"feed takes packets or samples, not {type(item).__name__}")
+
     def advance(self, now: float) -> list[Event]:
-        """Let time pass until `now`, s, packets' clock, and return the events; raise ValueError for NaN or infinity."""
+        """Let time pass until `now`, s, packets' clock, and return the events; raise ValueError for NaN or infinity.
+
+        A leap that packets contradict, as that of another clock, is taken back, with a Limitation; further ones, and
+        leaps of more than an hour, count only once two seconds have passed since then without a packet."""
         return [] if self._state.finished else self._state.advance(check_now(now), self._kinds)
 
     def restart_clock(self, now: float) -> list[Event]:

@@ -45,6 +45,7 @@ from ..types.attrs import MADE_AGAIN, NOT_SAVED, evolve, field, frozen, state, s
 from ..types.plain import has_floats, number, text, with_floats
 from ..types.records import MAX_TIME
 from ..types.vector import normalise
+from .arguments import keep_events
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -54,6 +55,17 @@ if TYPE_CHECKING:
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
 
+JUMP, WRONG_JUMP, JUMP_TIME = 3600.0, 10.0, 2.0
+"""Smallest step of `advance` that is no passing time unless JUMP_TIME goes on without packets, s; and the smallest by
+which a packet that arrives before `now` shows that the step was of another clock, s, after which it is a leap too.
+
+A program that lets time pass feeds what has arrived within a second; an hour is longer than any sensor is away from a
+program that goes on. Chosen by hand."""
+OTHER_CLOCK = (
+    "advance was called with times of another clock than that of the packets, {:.4g} s ahead: give it the clock of "
+    "Packet.t"
+)
+"""Limitation of an app that does so."""
 VERSION = 3
 """Version of the state, increased by 1 with every release that changes state or settings; no other can be restored."""
 SHORTEST_QUAT = 1e-12
@@ -82,6 +94,12 @@ class SessionState:
     settings: SessionSettings = field()
     now: float | None = None
     """Newest known time, s, packets' clock; None before the first."""
+    advanced: float | None = None
+    """Value of `now` that `advance` has set, s; None after a packet."""
+    jump: float | None = None
+    """First time of a jump of `advance` that is not used yet, s; None without one."""
+    jumps_are_wrong: bool = False
+    """Flag: packets have contradicted `advance`, which was reported."""
     decoders: dict[Site, Decoder] = state(factory=dict)
     finished: bool = False
     parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
@@ -150,6 +168,14 @@ class SessionState:
             for other_site, other in self.decoders.items():
                 if other_site is not site and other.newest_arrival is not None and other.newest_arrival > packet.t:
                     self.use_items(other_site, other.restart_clock(packet.t), events)
+        reached = self.jump or self.advanced
+        if reached is not None and reached - packet.t > WRONG_JUMP:
+            self.now = packet.t
+            if not self.jumps_are_wrong:
+                self.jumps_are_wrong = True
+                what = OTHER_CLOCK.format(reached - packet.t)
+                events += self.report(site, Limitation(t=packet.t, known_at=packet.t, site=None, what=what))
+        self.advanced = self.jump = None
         if self.now is None or packet.t > self.now:
             self.now = packet.t
         if decoder.link is not None:
@@ -183,8 +209,13 @@ class SessionState:
 
     def advance(self, now: float, kinds: DeviceKinds) -> list[Event]:
         """Let time pass until `now`, s, packets' clock."""
+        if self.now is not None and now - self.now > (WRONG_JUMP if self.jumps_are_wrong else JUMP):
+            self.jump = now if self.jump is None or now < self.jump else self.jump
+            if now - self.jump < JUMP_TIME:
+                return []
+        self.jump = None
         if self.now is None or now > self.now:
-            self.now = now
+            self.now = self.advanced = now
         events: list[Event] = []
         for decoder in self.decoders.values():
             self.use_items(decoder.site, decoder.advance(now, kinds), events)
@@ -269,7 +300,13 @@ class SessionState:
     def use_items(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
         """Pass the samples and events of a link to the feet and the parts, and add the events that follow."""
         for item in items:
-            events += self._use_sample(item) if isinstance(item, Sample) else self.report(site, item)
+            try:
+                events += self._use_sample(item) if isinstance(item, Sample) else self.report(site, item)
+            except Exception as error:
+                if not events:
+                    raise
+                failure = keep_events(events, error)
+                raise failure from failure.reason
 
     def _use_sample(self, sample: Sample) -> list[Event]:
         """Add a sample of any site and return the events."""
@@ -344,19 +381,24 @@ class SessionState:
     ) -> WearerMoved | None:
         """Pass `view` and `events` to the parts from number `first` on, in order, and add what they emit.
 
-        Returns the wearer's new position, if a part or the app needs it."""
+        Returns the wearer's new position, if a part or the app needs it. When a part raises, ItemError has `events`."""
         moved = None
-        for part in self.parts[first:]:
-            received: Sequence[Event] = tuple(events)
-            if part.needs_position and moved is None and any([isinstance(event, MOVEMENTS) for event in received]):
-                moved = self._make_moved(known_at)
-            if moved is not None and part.needs_position:
-                received = (*received, moved)
-            has_sample = view is not None and part.needs_samples and not (first and part.idle)
-            if (received or has_sample) and (output := part.feed(received, view)):
-                self._apply(output, events)
-            if finishing:
-                self._apply(part.finish(known_at), events)
+        try:
+            for part in self.parts[first:]:
+                received: Sequence[Event] = tuple(events)
+                if part.needs_position and moved is None and any([isinstance(event, MOVEMENTS) for event in received]):
+                    moved = self._make_moved(known_at)
+                if moved is not None and part.needs_position:
+                    received = (*received, moved)
+                has_sample = view is not None and part.needs_samples and not (first and part.idle)
+                if (received or has_sample) and (output := part.feed(received, view)):
+                    self._apply(output, events)
+                if finishing:
+                    self._apply(part.finish(known_at), events)
+        except Exception as error:
+            if not events:
+                raise
+            raise keep_events(events, error) from error
         self._find_awake()
         if moved is None and self.settings.poses and any([isinstance(event, StrideTaken) for event in events]):
             moved = self._make_moved(known_at)
@@ -373,7 +415,7 @@ class SessionState:
                 events[:] = [item.by if event is item.event else event for event in events]
             else:
                 if isinstance(item, DefectFound) and item.spoils and item.site.foot in self.feet:
-                    self.feet[item.site.foot].mark_defect()
+                    self.feet[item.site.foot].mark_defect(item.defect)
                 events.append(item)
 
     def _make_moved(self, known_at: float) -> WearerMoved | None:

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+import re
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from math import atan2, degrees, remainder, tau
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TextIO
 
 from attrs import define, field
 
@@ -59,8 +60,26 @@ PLACE_COLUMNS = (
     "t_s", "level", "room", "door", "x_m", "y_m", "z_m", "spread_m", "walking_direction_deg", "frame_heading_deg",
     "candidates", "weight",
 )  # fmt: skip
+FORMULA = re.compile(r"\s*[=+\-@]")
+"""Start of a text that programs for tables run as a formula."""
 MIN_DIRECTED_STRIDE = 0.3
 """Shortest stride that shows in which direction the wearer walks, m; chosen by hand."""
+
+
+def table_writer(file: TextIO) -> Callable[[Iterable[object]], object]:
+    """Return what writes a row of a .csv, with an apostrophe before a name that programs would run as a formula."""
+    write = csv.writer(file, lineterminator="\n").writerow
+    return lambda row: write([_plain(cell) if isinstance(cell, str) else cell for cell in row])
+
+
+def _plain(text: str) -> str:
+    text = printable(text, len(text))
+    if FORMULA.match(text):
+        with suppress(ValueError):
+            float(text)  # a number is no formula, also below 0
+            return text
+        return f"'{text}"
+    return text
 
 
 def _stride_row(event: StrideTaken) -> list[object]:
@@ -126,8 +145,8 @@ class TrackFiles:
     _stack: ExitStack = field(factory=ExitStack, init=False)
     _events: TextIO = field(init=False)
     _track: TextIO = field(init=False)
-    _tables: dict[str, Any] = field(factory=dict, init=False)
-    """Writers of the tables by the names of their files."""
+    _tables: dict[str, Callable[[Iterable[object]], object]] = field(factory=dict, init=False)
+    """What writes a row of each table, by the names of their files."""
     _stride: StrideTaken | None = field(default=None, init=False)
     """Newest final stride."""
 
@@ -137,8 +156,8 @@ class TrackFiles:
         self._track.write(",".join(TRACK_COLUMNS) + "\n")
         places = [(PLACES_FILE, PLACE_COLUMNS)] if self.places else []
         for name, columns in [(STRIDES_FILE, STRIDE_COLUMNS), (GAIT_CYCLES_FILE, CYCLE_COLUMNS), *places]:
-            self._tables[name] = csv.writer(self._open(name), lineterminator="\n")
-            self._tables[name].writerow(columns)
+            self._tables[name] = table_writer(self._open(name))
+            self._tables[name](columns)
 
     def _open(self, name: str) -> TextIO:
         path = (self.path_to_write or Path)(self.directory / name)
@@ -158,11 +177,11 @@ class TrackFiles:
         self._events.write(json.dumps(event.to_dict(), allow_nan=False) + "\n")
         if isinstance(event, StrideTaken) and event.final:
             self._stride = event
-            self._tables[STRIDES_FILE].writerow(_stride_row(event))
+            self._tables[STRIDES_FILE](_stride_row(event))
         elif isinstance(event, GaitCycleMeasured):
-            self._tables[GAIT_CYCLES_FILE].writerow(_cycle_row(event))
+            self._tables[GAIT_CYCLES_FILE](_cycle_row(event))
         elif isinstance(event, Placed) and self.places:
-            self._tables[PLACES_FILE].writerow(_place_row(event, self._stride))
+            self._tables[PLACES_FILE](_place_row(event, self._stride))
 
     def close(self) -> None:
         """Close all files; an OSError names the directory."""

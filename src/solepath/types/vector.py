@@ -60,6 +60,16 @@ def cross(a: Vec3, b: Vec3) -> Vec3:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
+def across(v: Vec3, axis: Vec3) -> Vec3:
+    """Return the part of `v` across `axis`, which has the length 1."""
+    return add(v, axis, -dot(v, axis))
+
+
+def add_quat(p: Quat, q: Quat, k: float = 1.0) -> Quat:
+    """Return p + k q, which is not normalised."""
+    return (p[0] + k * q[0], p[1] + k * q[1], p[2] + k * q[2], p[3] + k * q[3])
+
+
 def multiply(p: Quat, q: Quat) -> Quat:
     """Return the Hamilton product p q: a rotation by q, then by p."""
     pw, px, py, pz = p

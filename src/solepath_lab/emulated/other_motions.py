@@ -15,7 +15,9 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from functools import partial
 from heapq import merge
+from itertools import islice
 from operator import attrgetter
+from typing import Protocol, TypeVar
 
 import numpy as np
 from attrs import frozen
@@ -135,42 +137,66 @@ OPTIONS = (
     only("row"),
     PROCESSES,
 )
-COLUMNS = ("strides /min", "m /min", "unknown %", "standing %", "walking %", "running %", "stairs %", "lifts %")
+COLUMNS = (
+    "strides /min",
+    "m /min",
+    "unknown %",
+    "standing %",
+    "walking %",
+    "running %",
+    "stairs %",
+    "lifts %",
+    "steady /min",
+    "findings",
+)
 """Titles of the columns after the first one."""
 SHARES = ("share_unknown", "share_standing", "share_walking", "share_running", "share_stairs", "share_lifts")
 
 
-def cells(motion: OtherMotion, outcome: NotWalking, findings: Counter[str]) -> list[str]:
-    """Return the cells of a row."""
-    figures = outcome.figures
+def cells(motion: OtherMotion, outcomes: Sequence[Outcome]) -> list[str]:
+    """Return the cells of the row of a motion, of all wearers together."""
+    total = sum([outcome for outcome, _ in outcomes], NotWalking())
+    findings = sum([found for _, found in outcomes], Counter[str]())
+    figures = total.figures
     return [
         motion.name,
         number(figures["strides_a_minute"]),
         number(figures["metres_a_minute"]),
         *[percent(figures[name]) for name in SHARES],
-        number(60.0 * outcome.steady / outcome.duration, 1),
+        number(60.0 * total.steady / total.duration, 1),
         ", ".join([f"{name} {count}" for name, count in findings.most_common()]) or "-",
     ]
 
 
+class Named(Protocol):
+    """A motion or a gait."""
+
+    @property
+    def name(self) -> str:
+        """Name in the table."""
+
+
+Kind = TypeVar("Kind", bound=Named)
+KindOutcome = TypeVar("KindOutcome")
+
+
+def print_table(
+    options: Namespace,
+    kinds: Sequence[Kind],
+    score: Callable[[tuple[Kind, int, float]], KindOutcome],
+    cells: Callable[[Kind, Sequence[KindOutcome]], list[str]],
+    columns: Sequence[str],
+) -> int:
+    """Score each kind that the options name with each seed, and print a row of each; return the exit status."""
+    kinds = [one for one in kinds if not options.only or one.name in options.only]
+    numbers = range(options.seed, options.seed + options.wearers)
+    jobs = [(kind, seed, options.rate) for kind in kinds for seed in numbers]
+    outcomes = iter(run_jobs(score, jobs, processes=options.processes))
+    rows = [cells(kind, list(islice(outcomes, options.wearers))) for kind in kinds]
+    print("\n".join(markdown.table([f"{options.wearers} wearers each, {options.rate:g} Hz", *columns], rows)))
+    return 0
+
+
 def run(options: Namespace) -> int:
     """Print the table; return the exit status."""
-    motions = [one for one in MOTIONS if not options.only or one.name in options.only]
-    numbers = range(options.seed, options.seed + options.wearers)
-    jobs = [(motion, seed, options.rate) for motion in motions for seed in numbers]
-    outcomes = iter(run_jobs(score, jobs, processes=options.processes))
-    rows = []
-    for motion in motions:
-        total, findings = NotWalking(), Counter[str]()
-        for _ in numbers:
-            found, raised = next(outcomes)
-            total, findings = total + found, findings + raised
-        rows.append(cells(motion, total, findings))
-    print(
-        "\n".join(
-            markdown.table(
-                [f"{options.wearers} wearers each, {options.rate:g} Hz", *COLUMNS, "steady /min", "findings"], rows
-            )
-        )
-    )
-    return 0
+    return print_table(options, MOTIONS, score, cells, COLUMNS)

@@ -19,7 +19,7 @@ does not let it sway."""
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import pi
 from operator import add
 
@@ -43,10 +43,9 @@ from solepath.validate.matching import Matching, match, pairs
 from solepath.walk.walk import Walk
 
 from ..measures.not_walking import NotWalking
-from ..processes import run_jobs
-from ..tables import markdown
+from . import other_motions
 from .courses import Course, Key, Pose
-from .other_motions import Posed, in_order
+from .other_motions import Posed, in_order, print_table
 from .unsteady import Wandering
 from .wearers import random_wearer
 
@@ -209,12 +208,14 @@ def score(job: tuple[Gait, int, float]) -> Found:
     return total + Found(walking=NotWalking.of(walk, start, end).times[Activity.WALKING], time=end - start)
 
 
+OPTIONS = other_motions.OPTIONS
 COLUMNS = ("strides found", "invented", "called walking %", "with flaws %", "heel-strike F1", "toe-off F1", "findings")
 """Titles of the columns after the first one."""
 
 
-def cells(gait: Gait, total: Found) -> list[str]:
-    """Return the cells of a row."""
+def cells(gait: Gait, outcomes: Sequence[Found]) -> list[str]:
+    """Return the cells of the row of a gait, of all wearers together."""
+    total = sum(outcomes, Found())
     reported = total.found + total.invented
     return [
         gait.name,
@@ -230,16 +231,4 @@ def cells(gait: Gait, total: Found) -> list[str]:
 
 def run(options: Namespace) -> int:
     """Print the table; return the exit status."""
-    gaits = [one for one in GAITS if not options.only or one.name in options.only]
-    numbers = range(options.seed, options.seed + options.wearers)
-    jobs = [(gait, seed, options.rate) for gait in gaits for seed in numbers]
-    outcomes = iter(run_jobs(score, jobs, processes=options.processes))
-    rows = []
-    for gait in gaits:
-        total = Found()
-        for _ in numbers:
-            total += next(outcomes)
-        rows.append(cells(gait, total))
-    title = f"{options.wearers} wearers each, {options.rate:g} Hz"
-    print("\n".join(markdown.table([title, *COLUMNS], rows)))
-    return 0
+    return print_table(options, GAITS, score, cells, COLUMNS)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from itertools import islice
 from typing import TypeVar
 
 from attrs import define, field
@@ -49,3 +50,13 @@ class Runner:
             known[k] = result
             self.report(f"{self.title}{count} of {len(jobs)}: {describe(result)}")
         return [known[k] for k in range(len(jobs))]
+
+    def run_blocks(
+        self,
+        work: Callable[[Job], JobResult],
+        blocks: Mapping[str, Sequence[Job]],
+        describe: Callable[[JobResult], str],
+    ) -> dict[str, list[JobResult]]:
+        """Return the results of the jobs of each block, all of which run as one list."""
+        results = iter(self.run(work, [job for jobs in blocks.values() for job in jobs], describe))
+        return {title: list(islice(results, len(jobs))) for title, jobs in blocks.items()}

@@ -1,15 +1,29 @@
-"""The results of an experiment: a table with a row of five statistics for each figure, panels to draw, and notes."""
+"""The results of an experiment: named values of each walk, from which its rows and claims follow, and panels to draw.
+
+`published.toml` has what each paper prints, `claims.toml` the comparisons that the documents make.
+
+Chen et al. 2019: D. Chen and others, "Smart Insole-Based Indoor Localization System for Internet of Things
+Applications", IEEE Internet of Things Journal. Bebek et al. 2010: O. Bebek and others, "Personal Navigation via
+High-Resolution Gait-Corrected Inertial Measurement Units", IEEE Transactions on Instrumentation and Measurement. Gong
+et al. 2023: "Improving Accuracy of Real-Time Positioning and Path Tracking by Using an Error Compensation Algorithm
+against Walking Modes", Sensors. Liu et al. 2015: C. Liu and others, "Track Your Foot Step: Anchor-free Indoor
+Localization based on Sensing Users' Foot Steps", IEEE MASS. Li et al. 2016: F. Li and others, "3D Tracking via Shoe
+Sensing", Sensors 16, 1809."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import tomllib
+from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
-from math import inf, sqrt
+from math import floor, inf, isnan, log10, sqrt
+from pathlib import Path
 from typing import Any
 
 import attrs
 import numpy as np
 from attrs import field, frozen
+
+from solepath.types import Floats
 
 
 class DrawStyle(Enum):
@@ -21,10 +35,10 @@ class DrawStyle(Enum):
     DOTS = "dots"
 
 
-Points = tuple[tuple[float, ...], ...]
+Points = tuple[Floats, ...]
 
 
-def to_points(points: Iterable[tuple[float, ...]]) -> Points:
+def to_points(points: Iterable[Floats]) -> Points:
     """Return points as a track has them."""
     return tuple(points)
 
@@ -38,7 +52,7 @@ class PictureTrack:
     style: DrawStyle = DrawStyle.LINE
 
 
-def to_numbers(values: Iterable[float]) -> tuple[float, ...]:
+def to_numbers(values: Iterable[float]) -> Floats:
     """Return numbers of any kind as a claim has them."""
     return tuple([float(value) for value in values])
 
@@ -78,11 +92,19 @@ class Bars:
 
     title: str
     names: tuple[str, ...]
-    series: tuple[tuple[str, tuple[float, ...]], ...]
+    series: tuple[tuple[str, Floats], ...]
     label: str
 
 
 Panel = Plot | BoxPlots | Bars
+
+
+def _read(name: str) -> dict[str, Any]:
+    return tomllib.loads(Path(__file__).with_name(name).read_text(encoding="utf-8"))
+
+
+PUBLISHED, CLAIMS = _read("published.toml"), _read("claims.toml")
+"""What each paper prints, and what the documents compare, by the name of its experiment."""
 
 
 @frozen
@@ -114,15 +136,23 @@ def statistics(values: Sequence[float]) -> Statistics:
     return Statistics(float(np.mean(values)), std, q1, median, q3)
 
 
+SIGNIFICANT, MOST_DIGITS = 4, 4
+"""Number of digits of a row's mean, and largest number of digits after the point."""
+
+
 @frozen
 class FigureRow:
-    """One figure of an experiment: our `values`, one for each walk, and the statistics that the `paper` prints."""
+    """One figure of an experiment: our `values`, of all walks, and the statistics that the `paper` prints."""
 
     name: str
-    values: tuple[float, ...]
-    paper: Statistics
-    digits: int = 2
-    """Number of digits after the point, as the paper prints it."""
+    values: Floats = field(converter=to_numbers)
+    paper: Statistics = Statistics()
+
+    @property
+    def digits(self) -> int:
+        """Number of digits after the point."""
+        mean = abs(statistics(self.values).mean or 0.0)
+        return min(max(SIGNIFICANT - 1 - floor(log10(mean)), 0), MOST_DIGITS) if mean > 0.0 else 1
 
 
 STUDENT = (1.589534, 2.555850, 2.822499, 2.372271, 1.959964)
@@ -138,7 +168,7 @@ class Claim:
 
     sentence: str
     """What is claimed, without a full stop: "KUPT errs less than ZUPT"."""
-    margins: tuple[float, ...] = field(converter=to_numbers)
+    margins: Floats = field(converter=to_numbers)
     unit: str = "m"
 
     @property
@@ -165,17 +195,13 @@ class Claim:
         )
 
 
-def claim(sentence: str, more: Iterable[float], less: Iterable[float], unit: str = "m") -> Claim:
-    """Return the claim that the figures `less` of each walk are smaller than those of the same walk in `more`."""
-    return Claim(sentence, np.subtract(tuple(more), tuple(less)), unit)
-
-
 def _student(freedom: int) -> float:
     """Return the 97.5 % point of Student's t, by its expansion in 1 / freedom (Abramowitz and Stegun 26.7.5)."""
     return float(np.polyval(STUDENT, 1.0 / freedom))
 
 
-Values = dict[str, tuple[float, ...]]
+Values = dict[str, Floats]
+"""Values by name. A name with a bracket is that of no row: claims or panels are made from such values."""
 
 
 @frozen
@@ -183,38 +209,88 @@ class WalkResults:
     """The results of one walk, or of what else is one job of an experiment."""
 
     values: Values = field(repr=False)
-    """Values by name: of a row, or of what rows and notes are computed from."""
     panels: tuple[Plot, ...] = ()
     """Panels of the walks that are drawn."""
 
 
-def pooled(walks: Iterable[WalkResults], *names: str) -> list[float]:
+Blocks = Mapping[str, Sequence[WalkResults]]
+"""Results of walks by what is said before the names of their values."""
+
+
+def gathered(blocks: Blocks) -> tuple[Values, ...]:
+    """Return the values of the first walk, or wearer, of all blocks, those of the second, and so on.
+
+    The title of the block stands before each name."""
+    found = [Values() for _ in range(max(map(len, blocks.values())))]
+    for title, walks in blocks.items():
+        for values, one in zip(found, walks, strict=False):
+            values |= {f"{title}{name}": of for name, of in one.values.items()}
+    return tuple(found)
+
+
+def pooled(walks: Iterable[Values], *names: str) -> list[float]:
     """Return the values of these names of all walks, in one list; a walk may lack them."""
-    return [value for name in names for one in walks for value in one.values.get(name, ())]
+    return [value for name in names for one in walks for value in one.get(name, ())]
 
 
-def row_of(paper: Table, name: str, values: Iterable[float], digits: int = 2) -> FigureRow:
-    """Return the row of our `values` and of the entry with the same name in the paper's table, if there is one."""
-    return FigureRow(name, tuple(values), paper.get(name, Statistics()), digits)
+def mean(values: Sequence[float]) -> float:
+    """Return the mean; 0 of nothing."""
+    return float(np.mean(values)) if values else 0.0
 
 
 @frozen
 class Reproduction:
     """An experiment of a paper, repeated by emulated wearers.
 
-    `unit` is the unit of the rows. `notes` are sentences: other findings, and what the paper leaves open."""
+    `unit` is the unit of the rows."""
 
     name: str
-    paper_title: str
     emulation: str
     """Description of the emulated walks: a sentence without its full stop."""
     unit: str
-    rows: tuple[FigureRow, ...]
+    results: tuple[Values, ...]
+    """Values of each walk or wearer, which are independent of each other."""
     panels: tuple[Panel, ...] = ()
     """Panels of the paper's main figure."""
-    notes: tuple[str, ...] = ()
-    claims: tuple[Claim, ...] = ()
-    """Comparisons that the documents make."""
+
+    @property
+    def published(self) -> dict[str, Any]:
+        """What the paper prints, with its title, and `notes`: sentences about the table."""
+        found: dict[str, Any] = PUBLISHED[self.name]
+        return found
+
+    @property
+    def rows(self) -> tuple[FigureRow, ...]:
+        """One row for each name."""
+        names = dict.fromkeys([name for one in self.results for name in one if "(" not in name])
+        return tuple(
+            [FigureRow(name, pooled(self.results, name), self.paper.get(name, Statistics())) for name in names]
+        )
+
+    @property
+    def claims(self) -> tuple[Claim, ...]:
+        """The comparisons that the documents make, as far as there are walks for them."""
+        claims = [
+            Claim(f"{title}{of['claim']}", self._margins(title, of["more"], of["less"]), of.get("unit", "m"))
+            for of in CLAIMS[self.name]
+            for title in of.get("of", [""])
+        ]
+        return tuple([one for one in claims if one.margins])
+
+    def _margins(self, title: str, more: Sequence[str] | float, less: Sequence[str] | float) -> list[float]:
+        """Return by how much the mean size of the figures `more` exceeds that of `less` in each walk that has both.
+
+        A number stands for itself."""
+        margins = []
+        for values in self.results:
+            sides = [
+                [side] if isinstance(side, float) else pooled([values], *[title + name for name in side])
+                for side in (more, less)
+            ]
+            if all(sides):
+                larger, smaller = (float(np.mean(np.abs(side))) for side in sides)
+                margins.append(larger - smaller)
+        return margins
 
     @property
     def table(self) -> Table:
@@ -224,7 +300,10 @@ class Reproduction:
     @property
     def paper(self) -> Table:
         """Statistics that the paper prints, by row."""
-        return {row.name: row.paper for row in self.rows}
+        return {
+            name: Statistics(*[None if isnan(value) else value for value in values])
+            for name, values in self.published["rows"].items()
+        }
 
 
 def as_json(reproduction: Reproduction) -> dict[str, Any]:
@@ -232,14 +311,11 @@ def as_json(reproduction: Reproduction) -> dict[str, Any]:
 
     "paper" has the form of "table". Null stands for a statistic of too few walks, or one that is not in the paper.
     "claims" is {sentence: verdict}."""
+    rows = reproduction.rows
     return {
         "name": reproduction.name,
         "emulated": True,
-        "table": _table_as_json(reproduction.table),
-        "paper": _table_as_json(reproduction.paper),
+        "table": {row.name: attrs.asdict(statistics(row.values)) for row in rows},
+        "paper": {row.name: attrs.asdict(row.paper) for row in rows},
         "claims": {one.sentence: one.verdict for one in reproduction.claims},
     }
-
-
-def _table_as_json(table: Table) -> dict[str, Any]:
-    return {row: attrs.asdict(of) for row, of in table.items()}

@@ -12,12 +12,12 @@ def comparison_with_paper(reproduction: Reproduction) -> str:
     first, *others = STATISTICS
     header = [reproduction.unit, f"ours: {first}", *others, f"paper: {first}", *others]
     rows = [[row.name, *_cells(statistics(row.values), row), *_cells(row.paper, row)] for row in reproduction.rows]
+    published, found = reproduction.published, reproduction.claims
     title = (
-        f"{reproduction.name}: ours is emulated ({reproduction.emulation}), "
-        f"theirs was walked ({reproduction.paper_title})."
+        f"{reproduction.name}: ours is emulated ({reproduction.emulation}), theirs was walked ({published['title']})."
     )
-    claims = [] if not reproduction.claims else ["", "Claims:", *[str(one) for one in reproduction.claims]]
-    notes = [] if not reproduction.notes else ["", *reproduction.notes]
+    claims = ["", "Claims:", *[str(one) for one in found]] if found else []
+    notes = ["", *published["notes"]]
     return "\n".join([title, "", table(header, rows), *claims, *notes])
 
 

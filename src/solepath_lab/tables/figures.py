@@ -54,7 +54,7 @@ def draw(reproduction: Reproduction, path: Path, extension: str) -> None:
         elif isinstance(panel, Plot) and panel.x_label == "x, m":
             ax.set_aspect("equal", adjustable="datalim")
         ax.set_title(panel.title, fontsize=10)
-    figure.suptitle(f"{reproduction.name}, emulated ({reproduction.paper_title})", fontsize=11)
+    figure.suptitle(f"{reproduction.name}, emulated ({reproduction.published['title']})", fontsize=11)
     metadata = {METADATA_KEYS[extension]: "solepath"} if extension in METADATA_KEYS else None
     figure.savefig(path, dpi=120, format=extension, metadata=metadata)
 

@@ -8,7 +8,7 @@ import pytest
 from attrs import evolve
 from one_foot import clipped, run, scaled, signed, vectors
 
-from solepath import Defect, Foot, Sample, Site
+from solepath import Defect, Flaw, Foot, Sample, Site
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -76,6 +76,17 @@ def test_a_range_that_a_slow_walk_hardly_reaches_spoils_a_fast_one() -> None:
     assert len(spoiling) == 1
     later = [stride for stride in strides if stride.t_start > spoiling[0].t]
     assert len(later) >= 3 and all(stride.degraded for stride in later)
+
+
+def test_strides_whose_peaks_are_within_a_small_range_are_right() -> None:
+    route = Route().stand(1.5).walk(40.0, 1.9).walk(15.0, 0.7).stop(1.0)
+    walk = Walker(route, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
+    found, strides = run([vectors(gyro=clipped(5.8))(sample) for sample in walk])
+    (spoiling,) = [event for event in found if event.defect is Defect.CLIPPED and event.spoils]
+    fast = [stride.flaws for stride in strides if stride.t_start > spoiling.t and stride.length > 1.5]
+    slow = [stride.flaws for stride in strides if stride.t_start > spoiling.t and stride.length < 1.2]
+    assert len(fast) >= 3 and set(fast) == {(Flaw.RANGE,)}
+    assert len(slow) >= 5 and set(slow) == {()}
 
 
 def test_a_runner_in_g_is_in_g_and_not_in_another_range() -> None:

@@ -22,9 +22,11 @@ def blocks(text: str, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
 
 
-def run_page(page: str) -> tuple[list[str], dict[str, Any]]:
-    """Run the Python programs of a page one after the other; return what each printed, and their names."""
-    names: dict[str, Any] = {"__name__": "page"}
+def run_page(page: str, name: str = "page") -> tuple[list[str], dict[str, Any]]:
+    """Run the Python programs of a page one after the other; return what each printed, and their names.
+
+    `name` is what they have as `__name__`."""
+    names: dict[str, Any] = {"__name__": name}
     printed = []
     for program in blocks(PAGES[page], "python"):
         with redirect_stdout(io.StringIO()) as out:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from commands import run
 
 from solepath.types import Foot
+from solepath_lab.command import main as lab
 from solepath_lab.emulated.slow_walkers import GAITS, Found, Gait, patient
 
 SLOW, SHUFFLING, LIMPING, STICK = GAITS
@@ -42,3 +44,10 @@ def test_scores_of_several_walks_add_up() -> None:
     total = Found(3, 2, 1, findings=("axes",)) + Found(true=4, found=4, walking=9.0, time=10.0)
     assert (total.true, total.found, total.invented, total.findings) == (7, 6, 1, ("axes",))
     assert total.walking / total.time == 0.9
+
+
+def test_the_command_prints_a_row_of_each_gait_that_is_asked_for() -> None:
+    options = ("--wearers", 1, "--only", "shuffling", "--rate", 50, "--processes", 1)
+    done = run("emulated", "slow-walkers", *options, program=lab)
+    title, _, row = done.stdout.splitlines()
+    assert title.startswith("| 1 wearers each, 50 Hz | strides found |") and row.startswith("| shuffling | ")

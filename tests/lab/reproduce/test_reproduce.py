@@ -4,17 +4,19 @@ import json
 import re
 from pathlib import Path
 
+import attrs
 import pytest
 from commands import run, run_failing
 
+from solepath.papers.walking_modes.compensation import TABLE_1
 from solepath_lab.command import main as lab
 from solepath_lab.emulated.laps import straight
-from solepath_lab.reproduce import kupt_dfpc, pressure_contour, shoe_sensing
+from solepath_lab.reproduce import kupt_dfpc, shoe_sensing
 from solepath_lab.reproduce.command import NAMES
 from solepath_lab.reproduce.contour.walks import LOOPS
 from solepath_lab.reproduce.kupt import walks as kupt_walks
 from solepath_lab.reproduce.shoe import walks as shoe_walks
-from solepath_lab.reproduce.tables import Statistics, statistics
+from solepath_lab.reproduce.tables import CLAIMS, PUBLISHED, Reproduction, Statistics, statistics
 
 FIVE = ["mean", "std", "q1", "median", "q3"]
 
@@ -27,13 +29,35 @@ def test_the_five_statistics_of_five_walks_are_those_of_a_pencil():
 
 
 def test_the_papers_own_figures_are_those_that_they_print():
-    assert kupt_dfpc.PAPER_ROWS["ZUPT-L"] == Statistics(20.97, 1.84, 19.74, 21.17, 22.56)
-    assert kupt_dfpc.PAPER_ROWS["KUPT+DFPC"] == Statistics(20.08, 0.51, 19.74, 20.06, 20.46)
-    assert (len(LOOPS), round(sum(loop.distance for loop in LOOPS) / 6)) == (6, 1215)
-    printed = {
-        name: (round(of.mean, 2), round(of.std, 2)) for name, of in pressure_contour.PAPER_ROWS.items() if of.std
-    }
-    assert printed["Gyroscope m"] == (4.87, 2.75) and printed["Pressure m"] == (4.30, 3.15)
+    paper = Reproduction("kupt-dfpc", "", "m", ()).paper
+    assert paper["ZUPT-L"] == Statistics(20.97, 1.84, 19.74, 21.17, 22.56)
+    assert paper["KUPT+DFPC"] == Statistics(20.08, 0.51, 19.74, 20.06, 20.46)
+    assert (len(LOOPS), round(sum(LOOPS) / 6)) == (6, 1215)
+    contours = PUBLISHED["pressure-contour"]
+    for row, column in (("Gyroscope", 1), ("Pressure", 2)):
+        for unit, of_loops in (
+            ("m", [loop[column] for loop in contours["loops"]]),
+            ("%", [100.0 * loop[column] / loop[0] for loop in contours["loops"]]),
+        ):
+            assert contours["rows"][f"{row} {unit}"] == pytest.approx(attrs.astuple(statistics(of_loops)), abs=1e-4)
+    assert [round(value, 2) for value in contours["rows"]["Gyroscope m"][:2]] == [4.87, 2.75]
+    assert [round(value, 2) for value in contours["rows"]["Pressure m"][:2]] == [4.30, 3.15]
+    for foot, modes in TABLE_1.items():
+        for mode, (ahead, left) in modes.items():
+            for axis, value in (("x", -left), ("y", ahead)):
+                row = PUBLISHED["walking-modes"]["rows"][f"table 1 {foot.value} {mode.value} {axis}"]
+                assert row == [pytest.approx(value)]
+
+
+PAGES = Path(__file__).parents[3] / "docs" / "papers"
+
+
+@pytest.mark.parametrize("name", ["kupt-dfpc", "pressure-contour", "shoe-sensing"])
+def test_a_page_compares_what_the_command_compares(name):
+    table = (PAGES / f"{name}.md").read_text(encoding="utf-8").partition("| claim | margin")[2].partition("\n\n")[0]
+    shown = [line.split("|")[1].strip() for line in table.splitlines()[2:]]
+    claims = [f"{title}{claim['claim']}" for claim in CLAIMS[name] for title in claim.get("of", [""])]
+    assert sorted(shown) == sorted(claims)
 
 
 @pytest.mark.long
@@ -45,7 +69,6 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure_and_are_not_walked_agai
     monkeypatch.setattr(kupt_dfpc, "SETTINGS", ())
     monkeypatch.setattr(shoe_sensing, "SETUPS", shoe_sensing.SETUPS[:1])
     monkeypatch.setattr(shoe_walks, "LAPS", 1)
-    monkeypatch.setattr(shoe_walks, "MANY_ROUNDS", 3)
     monkeypatch.chdir(tmp_path)
     options = ("reproduce", name, "--walks", 1, "--seed", 3, "--processes", 1, "--resume", "walks.jsonl")
     # the figure is named after the experiment when nothing is said

@@ -8,7 +8,7 @@ from solepath_lab.command import main as lab
 from solepath_lab.reproduce.done_jobs import DoneJobs, DoneJobsError
 from solepath_lab.reproduce.runner import Runner
 from solepath_lab.reproduce.seeds import reproduce_seeds
-from solepath_lab.reproduce.tables import Claim, FigureRow, Reproduction, Statistics, as_json, claim
+from solepath_lab.reproduce.tables import Claim, Reproduction, Statistics, WalkResults, as_json, gathered
 from solepath_lab.tables.comparison import comparison_with_paper
 
 
@@ -76,23 +76,32 @@ def test_a_file_of_something_else_stays_as_it_is(tmp_path, content, words):
     assert line.startswith(f"solepath: {file}: ") and words in line and line.count("\n") == 1
 
 
-def of_seed(walks, seed, runner):
+def of_seed(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     runner.report(f"{runner.title}walked")
-    rows = (FigureRow("ZUPT-L", (10.0 * seed, 10.0 * seed + walks), Statistics(3.0)),)
-    claims = (claim("KUPT errs less", (1.0 * seed,), (0.9,)),)
-    return Reproduction("kupt-dfpc", "a paper", "2 walks", "m", rows, notes=(f"{seed} m.", "For all."), claims=claims)
+    blocks = {
+        "": [WalkResults({"ZUPT-L": (10.0 * seed + 2.0 * k,), "(off) ZUPT-L": (-1.0 - seed,)}) for k in (0, 1)],
+        "short: ": [WalkResults({"KUPT-L": (20.0,)})],
+    }
+    for one in blocks[""]:
+        one.values["(off) KUPT-L"] = (0.5, -0.7)
+    return Reproduction("kupt-dfpc", f"{walks} walks", "m", gathered(blocks))
 
 
 def test_several_seeds_are_one_table_and_one_list_of_claims():
     lines: list[str] = []
     pooled = reproduce_seeds(of_seed, 2, (1, 2), Runner(report=lines.append))
     assert lines == ["seed 1, walked", "seed 2, walked"]
-    assert pooled.rows[0].values == (10.0, 12.0, 20.0, 22.0)
-    assert pooled.claims[0].margins == pytest.approx((0.1, 1.1))
-    assert pooled.notes == ("Seed 1: 1 m.", "Seed 2: 2 m.", "For all.")
+    # a row for each name without a bracket, behind the title of its block; the paper's figures stand beside it
+    rows = {row.name: row for row in pooled.rows}
+    assert list(rows) == ["ZUPT-L", "short: KUPT-L"] and rows["ZUPT-L"].values == (10.0, 12.0, 20.0, 22.0)
+    assert rows["ZUPT-L"].paper.mean == 20.97 and rows["short: KUPT-L"].paper == Statistics()
+    # 2 - 0.6 for both walks of seed 1, 3 - 0.6 for those of seed 2; claims without walks are left out
+    (claim,) = pooled.claims
+    assert claim.margins == pytest.approx((1.4, 1.4, 2.4, 2.4))
+    assert as_json(pooled)["claims"] == {"KUPT errs less than ZUPT": "holds"}
     text = comparison_with_paper(pooled)
     assert text.startswith("kupt-dfpc: ours is emulated (2 walks; seed 1, 2)")
-    assert "\nKUPT errs less: by 0.6 m (95 % interval " in text
+    assert "\nKUPT errs less than ZUPT: by 1.9 m (95 % interval " in text
 
 
 @pytest.mark.parametrize(
@@ -110,7 +119,6 @@ def test_a_claim_holds_if_the_interval_of_its_mean_margin_is_above_zero(margins,
     low, high = of_walks.interval
     assert half_width is None or 0.5 * (high - low) == pytest.approx(half_width, rel=2e-3)
     assert of_walks.verdict == verdict and str(of_walks).endswith(f"n = {len(margins)}), so it {verdict}.")
-    assert as_json(Reproduction("kupt-dfpc", "", "", "m", (), claims=(of_walks,)))["claims"] == {"nearer": verdict}
 
 
 def test_walks_that_go_on_need_the_seed_with_which_they_began(tmp_path):

@@ -24,6 +24,7 @@ from solepath.papers.walking_modes.compensation import TABLE_1
 from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import WALKING_MODES, WALKING_MODES_PRINTED
 from solepath.papers.walking_modes.settings import ModesSettings
+from solepath.papers.walking_modes.touchdown import PressureTouchdown
 from solepath.recipes import DEFAULT
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, WalkingMode
@@ -34,7 +35,7 @@ from solepath_lab.emulated.limb_samples import limb_samples
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(99, foot)) for foot in Foot})
 BEND_ROUTE = Route().stand(2.0).walk(4.0, MARK_SPEED).turn(pi / 2, 2.0).walk(3.0).stop(1.0)
-METHOD_III = WALKING_MODES.replace_part(TrackPart, Modes())
+METHOD_III = WALKING_MODES.replace_part(TrackPart, Modes(PressureTouchdown()))
 KNOWN_HEADING = ModesSettings(heading=0.0)
 
 
@@ -52,7 +53,8 @@ def suit_samples(route: Route = BEND_ROUTE, north: float = 0.0, seed: int = 101)
 @cache
 def run_walk(heading: float | None = None, north: float = 0.0) -> list[Event]:
     session = Session(
-        METHOD_III.replace_part(TrackPart, Modes(settings=ModesSettings(heading=heading))), calibration=KNOWN
+        METHOD_III.replace_part(TrackPart, Modes(PressureTouchdown(), ModesSettings(heading=heading))),
+        calibration=KNOWN,
     )
     return [*session.feed(suit_samples(north=north)), *session.finish()]
 
@@ -94,7 +96,7 @@ def test_the_legs_at_a_touchdown_reach_down_and_as_far_apart_as_the_feet() -> No
 
 @pytest.mark.soak
 def test_the_position_is_midway_between_the_feet_and_has_a_covariance() -> None:
-    (dx, dy), (xx, xy, _, yy, _, _) = end_error(Modes(settings=KNOWN_HEADING), suit_samples())
+    (dx, dy), (xx, xy, _, yy, _, _) = end_error(Modes(PressureTouchdown(), KNOWN_HEADING), suit_samples())
     assert hypot(dx, dy) < 0.15
     assert (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / (xx * yy - xy * xy) < 9.2  # 99 % of a normal pair
 
@@ -125,7 +127,7 @@ def share_of_contacts(mode: WalkingMode, wearer: Wearer) -> float:
 
 def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
     straight = {foot: {WalkingMode.STRAIGHT: (0.02, 0.0)} for foot in Foot}
-    compensated = Modes(settings=evolve(KNOWN_HEADING, compensation=straight))
+    compensated = Modes(PressureTouchdown(), evolve(KNOWN_HEADING, compensation=straight))
     session = Session(METHOD_III.replace_part(TrackPart, compensated), calibration=KNOWN)
     downs = of(TouchedDown, session.feed(suit_samples()))
     ahead = [down for down in downs if down.mode is WalkingMode.STRAIGHT and down.t < 6.0]
@@ -136,12 +138,12 @@ def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
 
 def test_a_wearers_own_compensation_takes_the_place_of_table_1_mode_by_mode() -> None:
     own = Calibration(modes={Foot.LEFT: {WalkingMode.STRAIGHT: (0.5, 0.25)}})
-    table = Modes(settings=ModesSettings(TABLE_1)).calibrated(own).settings.compensation
+    table = Modes(PressureTouchdown(), ModesSettings(TABLE_1)).calibrated(own).settings.compensation
     assert table is not None
     assert table[Foot.LEFT][WalkingMode.STRAIGHT] == (0.5, 0.25)
     assert table[Foot.LEFT][WalkingMode.LEFT_WIDE] == TABLE_1[Foot.LEFT][WalkingMode.LEFT_WIDE]
     assert table[Foot.RIGHT] == TABLE_1[Foot.RIGHT]
-    assert Modes().calibrated(own).settings.compensation is None
+    assert Modes(PressureTouchdown()).calibrated(own).settings.compensation is None
     printed = next(part for part in WALKING_MODES_PRINTED.parts if isinstance(part, Modes))
     assert printed.calibrated(own).settings.compensation == TABLE_1
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import sys
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import pytest
 
 from solepath.recording import RecordingError, TableMapping, open_source, read_samples
-from solepath.recording.samples import sheet
+from solepath.recording.samples import books
 from solepath.types import Sample, Site
 from solepath.types.extras import install_hint
 
@@ -139,33 +141,51 @@ def test_a_point_among_decimal_commas_is_no_number_because_it_may_be_a_thousand(
     assert any("time is out of order: 1.01 s" in report for report in reports) and len(samples) == 4
 
 
-LIBRARIES = [name for name in ("pandas", "polars") if importlib.util.find_spec(name) is not None]
+LIBRARIES = [name for name in ("pyarrow", "polars") if importlib.util.find_spec(name) is not None]
 
 
 def only(monkeypatch: pytest.MonkeyPatch, *installed: str) -> None:
     """Let the reader find none but these libraries."""
-    monkeypatch.setattr(sheet, "find_spec", lambda name: importlib.util.find_spec(name) if name in installed else None)
+    monkeypatch.setattr(books, "find_spec", lambda name: importlib.util.find_spec(name) if name in installed else None)
+    for name in {"pyarrow", "polars"} - {*installed}:
+        monkeypatch.setitem(sys.modules, name, None)
 
 
 @pytest.mark.parametrize("library", LIBRARIES)
-@pytest.mark.parametrize("suffix", [".xlsx", ".parquet"])
-def test_excel_and_parquet_are_read_with_either_library(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, library: str, suffix: str
-) -> None:
+def test_parquet_is_read_with_either_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, library: str) -> None:
     pandas = pytest.importorskip("pandas")
-    pytest.importorskip(
-        {"pandas": {".xlsx": "openpyxl"}, "polars": {".xlsx": "fastexcel"}}[library].get(suffix, "pyarrow")
-    )
-    frame = pandas.DataFrame(NUMBERS, columns=NAMES)
-    path = tmp_path / f"walk{suffix}"
-    if suffix == ".parquet":
-        frame.to_parquet(path)
-    else:
-        with pandas.ExcelWriter(path) as book:
-            pandas.DataFrame([["Labor 7"]]).to_excel(book, header=False, index=False)
-            frame.to_excel(book, startrow=2, index=False)
+    path = tmp_path / "walk.parquet"
+    pandas.DataFrame(NUMBERS, columns=NAMES).to_parquet(path)
     only(monkeypatch, library)
     assert_expected(list(read_samples(path, mapping=MAPPING)))
+
+
+def test_excel_needs_no_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("openpyxl")
+    path = tmp_path / "walk.xlsx"
+    with pandas.ExcelWriter(path) as book:
+        pandas.DataFrame([["Labor 7"]]).to_excel(book, header=False, index=False)
+        pandas.DataFrame(NUMBERS, columns=NAMES).to_excel(book, startrow=2, index=False)
+    only(monkeypatch)
+    assert_expected(list(read_samples(path, mapping=MAPPING)))
+
+
+def test_dates_and_times_of_a_workbook_are_times(tmp_path: Path) -> None:
+    """Cells have numbers of days; only their style says that these are times."""
+    openpyxl = pytest.importorskip("openpyxl")
+    for offset, style in ((datetime(2026, 3, 1, 9, 30), "yyyy-mm-dd hh:mm:ss.000"), (datetime(2026, 3, 1), "General")):
+        book = openpyxl.Workbook()
+        book.active.append(NAMES[:4])
+        for k in range(6):
+            moment = offset + timedelta(milliseconds=10 * k)
+            book.active.append([moment if style != "General" else moment.time(), 0.5, -0.25, 9.75])
+            if style != "General":
+                book.active.cell(k + 2, 1).number_format = style
+        book.save(tmp_path / "walk.xlsx")
+        mapping = TableMapping({"t": "Zeit", "acc": NAMES[1:4]})
+        times = [sample.t for sample in read_samples(tmp_path / "walk.xlsx", mapping=mapping)]
+        assert times == pytest.approx([0.01 * k for k in range(6)], abs=2e-5)
 
 
 @pytest.mark.parametrize("name", ["walk.xlsx", "walk.parquet"])
@@ -173,9 +193,13 @@ def test_a_damaged_workbook_and_a_missing_library_get_one_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
     (tmp_path / name).write_bytes(b"PK\x03\x04 and no more")
-    if LIBRARIES:
-        with pytest.raises(RecordingError, match=r"is no whole (workbook|Parquet file) \(|which lacks"):
-            read_samples(tmp_path / name)
-    only(monkeypatch)
-    with pytest.raises(RecordingError, match="needs pandas or polars; repair: " + re.escape(install_hint("tables"))):
+    with pytest.raises(
+        RecordingError, match="is no whole Parquet file|cannot be unpacked: it is damaged|needs pyarrow"
+    ):
         read_samples(tmp_path / name)
+    only(monkeypatch)
+    if name == "walk.parquet":
+        with pytest.raises(
+            RecordingError, match="needs pyarrow or polars; repair: " + re.escape(install_hint("tables"))
+        ):
+            read_samples(tmp_path / name)

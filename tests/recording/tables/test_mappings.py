@@ -153,7 +153,7 @@ def test_a_mapping_takes_what_it_leaves_out_from_another() -> None:
     base = TableMapping.parse("t=T,acc=a,b,c,gyro=d,e,f", "g,deg/s", wrap=100.0)
     own = TableMapping.parse("gyro_left=-d,e,f", "rad/s", rate=50.0)
     both = own.completed(base)
-    assert both.columns == {**base.columns, "gyro_left": ("-d", "e", "f")}
+    assert both.columns == {"acc": ("a", "b", "c"), "gyro": ("d", "e", "f"), "gyro_left": ("-d", "e", "f")}
     assert both.units == {"acc": "g", "gyro": "rad/s"} and (both.wrap, both.rate) == (100.0, 50.0)
     bare = TableMapping.parse("acc=x,y,z").completed(TableMapping.parse("acc_left=a,b,c,acc_right=d,e,f"))
     assert bare.columns == {"acc": ("x", "y", "z")}

@@ -14,10 +14,11 @@ ride becomes final after 12 s."""
 from __future__ import annotations
 
 from collections import deque
-from math import floor
+from math import floor, inf
 from typing import TYPE_CHECKING
 
-from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
+from ...events import ActivityChanged, Defect, DefectFound, Event, LiftRidden, StrideFeatures, StrideTaken
+from ...events.happening import BaseEvent
 from ...foot.view import FootView
 from ...types import Activity, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import evolve, field, frozen, state, stateful
@@ -79,6 +80,8 @@ class Activities(ActivityPart):
     stride_cue: tuple[int, ActivityCue, float] | None = None
     """Number of the block of the newest stride with a cue, its cue, and the probability of that; None before any."""
     flights: Flights = state(factory=Flights)
+    held: list[ActivityChanged | LiftRidden] = state(factory=list)
+    """Last activities before a reset of all feet, and that nothing is known from then on, until something is fed."""
     strides: deque[StrideTaken] = state(factory=deque)
     """Strides whose activity is not known yet, without their features."""
 
@@ -100,17 +103,26 @@ class Activities(ActivityPart):
         """Discard the waiting strides, the flight under way, and the blocks of a foot with a new clock or device."""
         if site.foot is None:
             return
+        known = [side.index for side in self.feet.values() if side.index is not None]
         self.feet[site.foot].restart()
         if self.pressure_height is not None:
             self.pressure_height.restart(site.foot)
         self.flights.reset()
         self.strides.clear()
-        if all([side.index is None for side in self.feet.values()]):
+        if known and all([side.index is None for side in self.feet.values()]):
+            t = self._time(max(known) + 1)
+            last = self.report.add(self.hypotheses, (), 1e6 + t, t, True)
+            self.held = [one for one in last if one.t < t and isinstance(one, ActivityChanged | LiftRidden)]
+            if self.held or self.activity is not Activity.UNKNOWN:
+                self.held.append(self.report.end(t))
             self._restart()
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its air pressure and events; return activities, flights and rides."""
         outputs: list[PartOutput] = []
+        if self.held:
+            times = [event.known_at for event in events if isinstance(event, BaseEvent)]
+            outputs += self._take_held(min(times, default=-inf) if view is None else view.known_at)
         if view is not None and (self.origin is not None or view.sample.acc is not None):
             sample, t, side = view.sample, view.t, self.feet[view.foot]
             acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
@@ -139,6 +151,12 @@ class Activities(ActivityPart):
                 air.leave_out(event.site.foot)
         return outputs
 
+    def _take_held(self, now: float) -> list[PartOutput]:
+        """Return what was the last before a reset, unless times start again earlier."""
+        held, self.held = self.held, []
+        is_past = held[-1].t < now + BLOCK_DURATION
+        return [evolve(one, t=min(one.t, now), known_at=now) for one in held if is_past]
+
     def _make_pressure_height(self) -> PressureHeight:
         from .pressure_height import PressureHeight  # few sensors have a barometer
 
@@ -147,6 +165,8 @@ class Activities(ActivityPart):
 
     def finish(self, now: float) -> Outputs:
         """Return the final activities, including the last second, because no more samples come."""
+        if self.held:
+            return self._take_held(now)
         for side in self.feet.values():
             side.close()
         last = max([side.index for side in self.feet.values() if side.index is not None], default=-1)

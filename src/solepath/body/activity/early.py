@@ -79,6 +79,10 @@ class ActivityReport:
         self._trim()
         return events + self._report_newest(newest, known_at, ending)
 
+    def end(self, t: float) -> ActivityChanged:
+        """Return the event that nothing is known from `t`, s, on."""
+        return self._event(ActivitySegment(t, Activity.UNKNOWN), t, True, None, 1.0)
+
     def _newest(self, agreed: Sequence[Early]) -> list[Early]:
         """Return the activities after the newest final one, which stays what it is."""
         newest: list[Early] = []

@@ -8,7 +8,6 @@ stride for longer than the pause of one bout, is not known."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from math import fsum, inf
 
 from ...events import FootFlat, GaitEvent, HeelOff, HeelStrike, StrideTaken, ToeOff
@@ -27,8 +26,8 @@ GAITS = (Activity.WALKING, Activity.RUNNING, Activity.STAIRS_UP, Activity.STAIRS
 BOUT_PAUSE = 3.0
 """Longest pause within one bout of walking, s (Kluge et al., "Consensus based framework for digital mobility
 monitoring", PLoS ONE 16, 2021)."""
-LONGEST_TURN = 6.0
-"""Longest time between two strides with a turn on the spot, s: a pause before it and one after it."""
+LONGEST_TURN = 8.0
+"""Longest time between two strides with a turn on the spot, s: a pause before it, one after it, and a step of 2 s."""
 LEAST_LIFT = 0.3
 """Shortest time for which a foot is lifted that moves, s; a foot at rest seems to leave the ground for less."""
 EDGE = 1.5
@@ -66,8 +65,8 @@ class Strides:
     """Time of the newest event of each kind of each foot, s."""
     cycles: list[tuple[float, bool]] = field(factory=list)
     """Time of the end of each stance, s, and whether it was longer than the swing before it: nobody ran."""
-    moved: list[float] = field(factory=list)
-    """Times at which a foot that was lifted came down again, with a stride or without, s."""
+    moved: list[tuple[float, float]] = field(factory=list)
+    """Times at which a foot was lifted and came down again, with a stride or without, s."""
     forces: list[tuple[float, bool]] = field(factory=list)
     """Times of half seconds at rest, s, and whether the force on the feet leans in them."""
     tracked: bool = False
@@ -89,12 +88,13 @@ class Strides:
             return
         times = self.newest.setdefault(event.foot, {})
         if isinstance(event, FootFlat):
-            if event.t - times.get(HeelOff.__name__, event.t) > LEAST_LIFT + TIME_EPSILON:
-                self.moved.append(event.t)
+            lifted = times.get(HeelOff.__name__, event.t)
+            if event.t - lifted > LEAST_LIFT + TIME_EPSILON:
+                self.moved.append((lifted, event.t))
         elif isinstance(event, ToeOff):
-            lifted, contact = times.get(ToeOff.__name__), times.get(HeelStrike.__name__)
-            if lifted is not None and contact is not None and lifted < contact:
-                swing, stance = contact - lifted, event.t - contact
+            swung, contact = times.get(ToeOff.__name__), times.get(HeelStrike.__name__)
+            if swung is not None and contact is not None and swung < contact:
+                swing, stance = contact - swung, event.t - contact
                 if max(stance, swing) < MAX_PHASE_TIME - TIME_EPSILON:
                     self.cycles.append((event.t, stance > swing + TIME_EPSILON))
         times[type(event).__name__] = event.t
@@ -103,7 +103,7 @@ class Strides:
         """Drop what ended before `until`, s."""
         self.spans = [span for span in self.spans if span.end >= until]
         self.cycles = [cycle for cycle in self.cycles if cycle[0] >= until]
-        self.moved = [t for t in self.moved if t >= until]
+        self.moved = [times for times in self.moved if times[1] >= until]
         self.forces = [force for force in self.forces if force[0] >= until]
 
     def leans(self, start: float, end: float) -> bool:
@@ -124,8 +124,9 @@ class Strides:
         for span in self.spans:
             if bouts:
                 start, end = bouts[-1]
-                moved = [t for t in self.moved if end < t < span.start]
-                pauses = [after - before for before, after in pairwise([end, *moved, span.start])]
+                moved = sorted([times for times in self.moved if end < times[1] < span.start])
+                lifts, falls = [*[times[0] for times in moved], span.start], [end, *[times[1] for times in moved]]
+                pauses = [lift - fall for fall, lift in zip(falls, lifts, strict=True)]
                 if max(pauses) <= BOUT_PAUSE + TIME_EPSILON and span.start - end <= LONGEST_TURN + TIME_EPSILON:
                     bouts[-1] = (start, max(end, span.end))
                     continue

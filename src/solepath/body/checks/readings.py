@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import log2
+from math import dist, fsum, log2
 from operator import and_, eq, sub
 from typing import NamedTuple
 
@@ -327,8 +327,9 @@ SHAKEN_ACC, IDLE_GYRO = 10.0, 0.25
 """Range of an axis in a block, m/s^2, of a foot that walks, and angular rate, rad/s, that it always exceeds.
 
 A foot at rest stays below the latter."""
-IDLE_BLOCKS = 6
-"""Number of blocks of a foot that walks without any angular rate before it is reported."""
+IDLE_BLOCKS, IDLE_CHANGE = 6, 3.0
+"""Number of blocks of a foot that walks without any angular rate before it is reported, and least change of the mean
+specific force from one such block to the next, m/s^2: gravity turns in a foot that walks, not in one that a road shakes."""
 
 
 @define
@@ -350,7 +351,9 @@ class GravityCheck:
     fast_blocks: int = 0
     """Number of blocks with an angular rate that no foot has."""
     idle_blocks: int = 0
-    """Number of blocks of a shaken foot without any angular rate."""
+    """Number of blocks of a shaken foot without any angular rate, in which gravity turns."""
+    idle_force: Vec3 | None = None
+    """Mean specific force of the newest block without an angular rate, m/s^2; None after one with."""
 
     def add_stance(self, acc: Vec3, motion: float) -> Finding | None:
         """Add the mean specific force of a stance, m/s^2, and its motion, rad/s; return the defect that stances show.
@@ -393,13 +396,15 @@ class GravityCheck:
             return None
         if gyro_peak > IDLE_GYRO:
             self.still_since = self.wrong_since = None
-            self.idle_blocks = 0
+            self.idle_blocks, self.idle_force = 0, None
             if gyro_peak > MOVING_GYRO:
                 self.moving_blocks += 1
                 self.range_sum += acc_range
             return None
         if acc_range > SHAKEN_ACC:
-            self.idle_blocks += 1
+            x, y, z = [fsum(axis) / len(accs) for axis in zip(*accs, strict=True)]
+            before, self.idle_force = self.idle_force, (x, y, z)
+            self.idle_blocks += before is not None and dist(before, (x, y, z)) > IDLE_CHANGE
             if self.idle_blocks >= IDLE_BLOCKS:
                 return Finding(
                     Defect.GYRO_UNIT,

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from math import fsum, pi
 
-from ...events import FootFlat, StrideTaken, TurnMade
+from ...events import FootFlat, HeelOff, StrideTaken, TurnMade
 from ...foot.view import AfterEvents, FootView
 from ...types import OTHER, Foot, PerFoot, Quat, Site, Turn, per_foot
 from ...types.attrs import define, field, frozen, state, stateful
@@ -93,8 +93,10 @@ class TurningStrideFilter:
 # degree." By theorem 1 of the paper, the directions in which the feet point do not matter if they are constant. The
 # detector works on the strides of any recipe.
 #
-# A wearer who turns on the spot hardly swings the feet. When a foot has turned between two foot-flats and no toe-off
-# was detected, it has pivoted. A pivot is not a stride, but part of a turn.
+# A wearer who turns on the spot hardly swings the feet, and such steps may be no strides. When a foot has turned
+# between two foot-flats without a stride, it has pivoted. A pivot is not a stride, but part of a turn. The first
+# strides of a bout become known later than their foot-flats, with which they have been taken for pivots. They count
+# once.
 
 MIN_PAUSE = 2.0
 """Least pause that ends a turn, s: a time without strides and pivots.
@@ -104,6 +106,8 @@ MAX_PAUSE = 4.0
 """Longest pause that a turn needs to end, s."""
 PAUSE_DECAY = 0.8
 """Factor by which each turning stride shortens a pause longer than `MIN_PAUSE`."""
+KEPT_PIVOTS = 4
+"""Number of pivots of a foot that may turn out to be strides: those that come late are the first few of a bout."""
 STRAIGHT_STRIDES = 3
 """Number of straight strides that end a turn, counted over both feet when both have samples.
 
@@ -141,6 +145,8 @@ class FootTurn:
     """Sum of the foot's turns, rad."""
     straight_strides: int = 0
     """Number of straight strides since the foot's last turning stride."""
+    pivots: list[float] = field(factory=list)
+    """Ends of the newest `KEPT_PIVOTS` pivots, s."""
 
 
 @stateful
@@ -164,7 +170,10 @@ class TurnDetector:
         """Add a stride of either foot, in order of `known_at`, and return the turn that it ends."""
         foot, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
         angle = foot.stride_filter.turn(event.heading_change)
-        foot.stride_end = event.t_end
+        if event.t_end in foot.pivots:
+            return None
+        # the first strides of a bout are known late
+        foot.stride_end = event.t_end if foot.stride_end is None else max(event.t_end, foot.stride_end)
         if angle != 0.0:
             return self._add_turn(foot, other, event.t_start, event.t_end, angle)
         foot.straight_strides += 1
@@ -186,6 +195,7 @@ class TurnDetector:
         if abs(angle) <= STRAIGHT_TOLERANCE:
             return None
         this.stride_end = t_end
+        this.pivots = [*this.pivots[1 - KEPT_PIVOTS :], t_end]
         return self._add_turn(this, other, t_start, t_end, angle)
 
     def _add_turn(
@@ -219,7 +229,7 @@ class TurnDetector:
     def reset(self, foot: Foot) -> None:
         """Reset a foot whose clock restarts or that wears another device, and discard the turn under way."""
         self.t_start = self.previous_end = None
-        self.feet[foot].stride_end = None
+        self.feet[foot].stride_end, self.feet[foot].pivots = None, []
 
     def _end_turn(self, start: float) -> TurnProcess:
         """Return the turn under way, which began at `start`, s."""
@@ -305,6 +315,9 @@ class Turns(Part):
                 ended = self.detector.add_stride(event)
             elif isinstance(event, FootFlat) and view.levelled and view.after is not None:
                 ended = self._add_foot_flat(events, view.after, event)
+            elif isinstance(event, HeelOff) and view.levelled and view.after is not None:
+                # before its first step the foot stands without a foot-flat
+                self.last_flat.setdefault(event.foot, FlatFoot(event.t, view.after.flat_attitude))
             if ended is not None:
                 outputs += turn_made(ended, view.known_at)
         if not outputs and self.detector.t_start is not None:

@@ -126,6 +126,7 @@ def choose_devices(found: list[Advertisement], kind: str | None, own: Sequence[D
     that is found, on the right foot as in `track`. `kind` is the name of the profile; None for any. `own` are the
     drivers of devices of one's own."""
     from ...ble import DeviceConfig
+    from ...ble.candidates import describe_seen
     from ...link.devices.insole import PROFILE as INSOLE
     from ...link.setup.config import advertises, identify
 
@@ -141,7 +142,9 @@ def choose_devices(found: list[Advertisement], kind: str | None, own: Sequence[D
         return [DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]
     if not known:
         what = "device that is known here" if named is None else named.name
-        raise Failure(f"no {what} is in range: switch it on, or say which device it is with --left and --right")
+        seen = describe_seen(found)
+        advice = "switch it on, or say which device it is with --left and --right"
+        raise Failure(f"no {what} is in range: {advice}{seen and '; ' + seen}")
     if len(known) == 1:
         ((one, profile),) = known
         note(f"{one.name}: taken for the right foot's (--left {one.address} says otherwise)")

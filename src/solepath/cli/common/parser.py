@@ -27,6 +27,8 @@ OPTION_GROUPS = {
         "track --units",
         "check --units",
         "convert --units",
+        "--scale",
+        "--rows",
         "--rate",
         "--format",
         "--mapping",

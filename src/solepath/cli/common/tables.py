@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ...link.driver import Driver
     from ...recording.errors import Report
 
-MAPPING_OPTIONS = ("columns", "units", "mapping", "format", "rate")
+MAPPING_OPTIONS = ("columns", "units", "scale", "rows", "mapping", "format", "rate")
 """Options from which a mapping is made."""
 
 
@@ -48,7 +48,18 @@ def table_options(metavar: str = "FILE") -> Option:
             help="names of columns, as in t=Time,acc=AX,AY,-AZ,gyro=GX,GY,-GZ; - turns a sign",
         ),
         option("--units", metavar="UNITS", help="units that are not SI, as in g,deg/s,ms"),
-        option("--rate", metavar="HZ", type=parse_positive, help="samples a second, without a column of times"),
+        option(
+            "--scale",
+            metavar="SCALES",
+            help="counts per g and per degree/s of raw values, as in acc=2048,gyro=16.4 (also t: per s)",
+        ),
+        option(
+            "--rows",
+            metavar="COLUMN=VALUE",
+            action="append",
+            help="the rows that count, as in device=3 where a file has several; may be given again",
+        ),
+        option("--rate", metavar="HZ", type=parse_positive, help="samples a second, in place of a column of times"),
         option(
             "--format", metavar="NAME", choices=FORMATS, help="name of a known format that has lost its first lines"
         ),
@@ -88,7 +99,7 @@ def feet_of(options: Namespace) -> Foot | tuple[Foot, ...] | None:
 
 
 def mapping_of(options: Namespace) -> TableMapping | None:
-    """Return the mapping of --columns, --units, --format, --rate and --mapping; None without any of them.
+    """Return the mapping of --columns, --units, --scale, --rows, --format, --rate and --mapping; None without any.
 
     What options say goes before what the file says. Failure or RecordingError is raised for a malformed one."""
     if all(getattr(options, name) is None for name in MAPPING_OPTIONS):
@@ -97,7 +108,8 @@ def mapping_of(options: Namespace) -> TableMapping | None:
         raise Failure(f"{options.mapping}: is a folder, not a file")
     saved = TableMapping() if options.mapping is None else read_mapping(options.mapping)
     try:
-        given = TableMapping.parse(options.columns or "", options.units or "", rate=options.rate)
+        columns, units, scale = [getattr(options, name) or "" for name in ("columns", "units", "scale")]
+        given = TableMapping.parse(columns, units, scale, options.rows or (), rate=options.rate)
         return saved.replaced(given, format=options.format or saved.format)
     except ValueError as error:
         raise Failure("; ".join(str(error).splitlines())) from None

@@ -378,6 +378,8 @@ class Recovery:
     """Rate before the last one, sensor frame, rad/s."""
     earlier_dt: float = 0.0
     """Time between the last two samples, s."""
+    clipped: bool = False
+    """Peaks of this stride were cut off at the end of a range."""
     watches: bool = False
     """The next sample is watched wherever it lies, because a sensor was near the end of its range in this one."""
 
@@ -399,6 +401,8 @@ class Recovery:
         acc_clipping, acc_peaks = self.acc_clipping, NO_PEAKS
         if acc_clipping.clipping or x * x + y * y + z * z > acc_clipping.near_end_square:
             acc_peaks = acc_clipping.update(dt, acc, self.last_acc, self.earlier_acc, self.earlier_dt, saturated)
+        if gyro_peaks or acc_peaks:
+            self.clipped = True
         self.watches = gyro_clipping.clipping or acc_clipping.clipping or bool(self.swing.rows)
         return gyro_peaks, acc_peaks
 
@@ -410,6 +414,7 @@ class Recovery:
 
     def end_stride(self) -> None:
         """Let the largest readings decay at the end of a stride."""
+        self.clipped = False
         self.gyro_clipping.end_stride()
         self.acc_clipping.end_stride()
 

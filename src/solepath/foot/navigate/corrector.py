@@ -84,6 +84,11 @@ class Corrector(Protocol):
         It is in the navigation frame, and 0 for a corrector that does not measure it."""
         return ZERO
 
+    @property
+    def clipped(self) -> bool:
+        """Whether peaks since the last anchor are cut off at the end of a range; True if it does not look for them."""
+        return True
+
     def scaled(self, scale: float) -> None:
         """Receive the factor by which the specific force is multiplied from now on, so that a foot at rest shows 1 g.
 

@@ -388,6 +388,10 @@ class ErrorStateFilter(Strapdown):
         if variance > least:
             self.uncertainty = constrain_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 
+    @property
+    def clipped(self) -> bool:
+        return self.recovery is not None and self.recovery.clipped
+
     def anchor(self) -> Floats:
         if self.recovery is not None:
             self.recovery.end_stride()

@@ -17,7 +17,7 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD
-from ..counters import SampleTimes
+from ..counters import MIN_GAP, SampleTimes
 from ..driver import scaled
 from ..kinds import MAX_PRESSURE_WAIT, DeviceKind, DeviceLink, Output
 from ..periodic import PeriodicClock
@@ -168,6 +168,10 @@ class Cc2541Link(DeviceLink):
         return not (self.acc_on or self.gyro_on)
 
     @property
+    def interval(self) -> float:
+        return max(self.acc_clock.period, self.gyro_clock.period)
+
+    @property
     def unsettled_until(self) -> float | None:
         """Newest time that is not comparable with times of other devices (clock.py), s."""
         acc_time = self.acc_clock.clock.unsettled_until
@@ -178,10 +182,10 @@ class Cc2541Link(DeviceLink):
         match channel:
             case "cc2541/accelerometer":
                 acc = scaled(value.acc, GRAVITY / counts_per_g(self.firmware, self.code))
-                return self._add(self.acc_clock, Assembler.add_acc, acc, arrival)
+                return self._add(self.acc_clock, Assembler.add_acc, acc, arrival, data)
             case "cc2541/gyroscope":
                 gyro = scaled(value.gyro, GYRO_SCALE)
-                return self._add(self.gyro_clock, Assembler.add_gyro, gyro, arrival)
+                return self._add(self.gyro_clock, Assembler.add_gyro, gyro, arrival, data)
             case "cc2541/magnetometer":
                 self.assembler.mag = scaled(value.mag, MAG_SCALE)
             case "cc2541/barometer":
@@ -214,21 +218,21 @@ class Cc2541Link(DeviceLink):
 
     def handle_reconnection(self) -> None:
         """Restart both streams with the next packet."""
-        self.newest_arrival = None
+        self.newest_arrival = self.acc_clock.newest_arrival = self.gyro_clock.newest_arrival = None
 
     def flush(self, known_at: float) -> Output:
         return self._end_absence(self.assembler.flush(known_at), known_at)
 
-    def _add(self, clock: PeriodicClock, add: Add, value: Vec3, arrival: float) -> Output:
+    def _add(self, clock: PeriodicClock, add: Add, value: Vec3, arrival: float, data: bytes) -> Output:
         """Return the samples and events of a value; an absence is one of both streams; both then restart."""
+        limit, newest = max(PROFILE.stale_after, MIN_GAP * self.interval), self.newest_arrival
+        sample_times = clock.add_packet(arrival, PROFILE.stale_after, data)
         out: Output = []
-        if self.newest_arrival is None or arrival - self.newest_arrival > PROFILE.stale_after:
+        if newest is None or arrival - newest > limit:
             out += self.flush(arrival)
             self.absent_since = self.assembler.newest_t or self.absent_since
             self.assembler = self.assembler.after_absence()
-            self.acc_clock.newest_arrival = self.gyro_clock.newest_arrival = None
         self.newest_arrival = arrival
-        sample_times = clock.add_packet(arrival, PROFILE.stale_after)
         (t,) = sample_times.times
         if not sample_times.lost_count or self.absent_since is not None:
             sample_times.gap_start = None
@@ -236,6 +240,7 @@ class Cc2541Link(DeviceLink):
         fitted = clock.clock.fit_time(clock.slot)
         if clock is self.acc_clock:
             self.ahead = t - fitted
+            out += clock.report_rate(1, self.site, arrival)
         elif self.assembler.newest_acc_t is not None:  # two late starts are caught up with from different times
             t = fitted + self.ahead
         return out + self._end_absence(add(self.assembler, t, value, clock.period, arrival), arrival)

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import combinations
+from string import hexdigits
 
 from ...types import SITE_OF_FOOT, Site
 from ...types.attrs import frozen
 from ..catalogue import PROFILES
-from ..profile import Profile
+from ..profile import Profile, whole_uuid
 
 
 @frozen
 class DeviceConfig:
     """The config of one device to connect to.
 
-    `site` is where it is worn; None for an insole, which reports its own site. `which` is its address, or its name when
-    no other device nearby has that name; "" accepts any device of its profile. `profile` is needed when the
+    `site` is where it is worn; None for an insole, which reports its own site. `which` is its address, in any spelling
+    (dashes, upper or lower case, the identifier of macOS and iOS), or its name when no other device nearby has that
+    name; "" accepts any device of its profile. `profile` is needed when the
     advertisement does not show it (20 Hz firmware of a CC2541, a device of your own) and when `which` is "". Raises
     ValueError when `which` and `profile` are both missing, or when a device that cannot report its site has none."""
 
@@ -47,8 +49,20 @@ class DeviceConfig:
         return bool(self.which) and (self.which == name or self.is_address(address))
 
     def is_address(self, address: str) -> bool:
-        """Return whether `which` is this address, in upper or lower case."""
-        return self.which.upper() == address.upper()
+        """Return whether `which` is this address, in any spelling."""
+        return plain_address(self.which) == plain_address(address)
+
+
+def plain_address(text: str) -> str:
+    """Return the digits of an address or an identifier in one spelling; any other text in upper case."""
+    digits = text.strip().translate(SEPARATORS).upper()
+    return digits if len(digits) in ADDRESS_LENGTHS and set(digits) <= set(hexdigits) else text.upper()
+
+
+SEPARATORS = str.maketrans("", "", "-:._ {}")
+"""Characters that systems write between and around the digits of an address, and that are left out."""
+ADDRESS_LENGTHS = (12, 32)
+"""Numbers of digits of a Bluetooth address, and of the identifier of macOS and iOS."""
 
 
 INFO_CHANNEL = "insole/info"
@@ -80,7 +94,7 @@ def check_configs(configs: Sequence[DeviceConfig]) -> None:
 
 def advertises(profile: Profile, name: str, services: Sequence[str]) -> bool:
     """Return whether a device of this profile advertises this name or one of these service UUIDs."""
-    return profile.matches_name(name) or not set(profile.services).isdisjoint(services)
+    return profile.matches_name(name) or not set(profile.services).isdisjoint([whole_uuid(one) for one in services])
 
 
 def identify(name: str, services: Sequence[str], own: Iterable[Profile] = ()) -> Profile | None:

@@ -29,7 +29,7 @@ from ...wire.insole_info import parse_info
 from ...wire.receiver import MAX_NAME_SIZE, ConnectionFrame, build_connected
 from ..catalogue import PROFILES
 from ..decoder import Decoder
-from ..profile import Access, Channel, Profile
+from ..profile import Access, Channel, Profile, whole_uuid
 from .config import INFO_CHANNEL, reports_site
 from .roster import Member, Roster, WrongDevice
 
@@ -81,10 +81,10 @@ class RecentTroubles:
 
 @frozen
 class GattCharacteristic:
-    """One characteristic of a connected device; UUIDs are complete and in lower case."""
+    """One characteristic of a connected device; UUIDs may be short, and in any case."""
 
-    service: str
-    uuid: str
+    service: str = field(converter=whole_uuid)
+    uuid: str = field(converter=whole_uuid)
     can_notify: bool
     """True if it notifies or indicates; some battery levels can only be read."""
 

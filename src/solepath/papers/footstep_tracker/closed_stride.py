@@ -22,8 +22,10 @@ Numbers without a source were chosen by hand."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import groupby
 from math import cos, inf, sin
 
+from ...types import Floats
 from ...types.attrs import frozen
 from ...types.vector import GRAVITY
 from .critical_times import CriticalTimes, Row
@@ -40,7 +42,7 @@ class RestToRest:
     """The rows of a stride from uplift to rest, and their pitch theta, rad."""
 
     rows: tuple[Row, ...]
-    tilts: tuple[float, ...]
+    tilts: Floats
 
     def length(self, toe_out: float = 0.0) -> float:
         """Return S of (5), m, from uplift, with zero velocity at rest. `toe_out` is phi of (1), rad."""
@@ -110,19 +112,18 @@ def vertical_turn(rows: Sequence[Row], times: CriticalTimes, stride: RestToRest,
 
 def _with_rates(stride: Sequence[Row], rates: Sequence[float]) -> RestToRest:
     """Return the stride with these rates about x, rad/s."""
-    rows = [(t, ax, ay, az, rate, gy, gz) for (t, ax, ay, az, _, gy, gz), rate in zip(stride, rates, strict=True)]
+    rows = [(*row[:4], rate, *row[5:]) for row, rate in zip(stride, rates, strict=True)]
     return RestToRest(tuple(rows), tuple(pitches(rows)))
 
 
 def _clipped_spans(rates: Sequence[float], end: float) -> Iterator[tuple[int, int]]:
     """Yield the numbers [first, after) of each span of rates beyond `end`, rad/s."""
-    first = None
-    for i, rate in enumerate([*rates, -inf]):
-        if rate > end and first is None:
-            first = i
-        elif rate <= end and first is not None:
-            yield first, i
-            first = None
+    first = 0
+    for beyond, span_of in groupby([rate > end for rate in rates]):
+        after = first + len(list(span_of))
+        if beyond:
+            yield first, after
+        first = after
 
 
 def _clipped_shape(stride: Sequence[Row], sign: float, end: float) -> list[float]:

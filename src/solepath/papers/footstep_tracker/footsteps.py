@@ -13,16 +13,16 @@ paper leaves these points open:
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from math import cos, fsum, hypot, pi, sin
+from collections.abc import Mapping
+from math import fsum, hypot, pi
 from typing import ClassVar
 
-from ...body.part import PartInput, PartOutput, Position, TrackPart
+from ...body.part import Inputs, Outputs, Position, TrackPart
 from ...events import StrideTaken
 from ...foot.view import FootPose, FootView
-from ...types import OTHER, Foot, Vec3
+from ...types import OTHER, Foot, PerFoot, Vec2, Vec3, per_foot
 from ...types.attrs import define, state, stateful
-from ...types.vector import ZERO
+from ...types.vector import ZERO, sub, turned
 
 PRINTED_FOOT = Foot.RIGHT
 """Foot whose displacement is the wearer's while the feet agree."""
@@ -31,9 +31,6 @@ LARGEST_DISTANCE = 1.0
 ABSENT_STRIDES = 3
 """Number of strides of the other foot after which a foot without a stride is absent; chosen by hand."""
 
-Horizontal = tuple[float, float]
-"""Horizontal vector, m."""
-
 
 @define
 class FootPath:
@@ -41,7 +38,7 @@ class FootPath:
 
     strides_alone: int = ABSENT_STRIDES
     """Number of strides of the other foot since the newest one of this foot; `ABSENT_STRIDES` before any sample."""
-    displacement: Horizontal = (0.0, 0.0)
+    displacement: Vec2 = (0.0, 0.0)
     """Displacement since the last restart, m."""
     heading: float = 0.0
     """Sum of the turns of the foot's strides and of those of the other while it is absent, rad, left positive."""
@@ -64,15 +61,15 @@ class Footsteps(TrackPart):
 
     needs_samples: ClassVar[bool] = True
 
-    paths: dict[Foot, FootPath] = state(factory=lambda: {foot: FootPath() for foot in Foot})
-    restart_position: Horizontal = (0.0, 0.0)
+    paths: PerFoot[FootPath] = state(factory=lambda: per_foot(FootPath))
+    restart_position: Vec2 = (0.0, 0.0)
     """Position of the wearer at the last restart, m."""
     idle: bool = False
     """Flag: samples of both feet have come, after which `feed` needs strides only (`TrackPart`)."""
     restarts: int = 0
     """Number of restarts."""
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         if not self.idle and view is not None and view.sample.acc is not None and view.sample.gyro is not None:
             if self.paths[view.foot].is_absent:
                 self.paths[view.foot].strides_alone = 0
@@ -88,7 +85,7 @@ class Footsteps(TrackPart):
         turn = taken.heading_change
         heading = 0.5 * (this.heading + other.heading)
         # the chord lies halfway through the turn: half of `turn` by the own heading, a quarter by the mean of both feet
-        x, y = _rotate((taken.displacement[0], taken.displacement[1]), heading - this.own_heading - 0.25 * turn)
+        x, y, _ = turned(taken.displacement, heading - this.own_heading - 0.25 * turn)
         this.own_heading += turn
         this.heading += turn
         if abs(this.heading - other.heading) > pi:  # the feet may have counted a full circle differently
@@ -113,12 +110,6 @@ class Footsteps(TrackPart):
         foot = next((foot for foot in here if not self.paths[foot].is_absent), here[0])
         path, pose = self.paths[foot], feet[foot]
         (x, y), (dx, dy) = self.restart_position, path.displacement
-        (px, py, _), (tx, ty, _) = pose.position, path.track_position
         heading = 0.5 * fsum([one.heading for one in self.paths.values()])
-        mx, my = _rotate((px - tx, py - ty), heading - path.own_heading)
+        mx, my, _ = turned(sub(pose.position, path.track_position), heading - path.own_heading)
         return Position(pose.t, (x + dx + mx, y + dy + my, 0.0), pose.covariance)
-
-
-def _rotate(v: Horizontal, yaw: float) -> Horizontal:
-    c, s = cos(yaw), sin(yaw)
-    return (c * v[0] - s * v[1], s * v[0] + c * v[1])

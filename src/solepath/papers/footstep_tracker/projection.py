@@ -22,7 +22,7 @@ from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
 from ...foot.navigate.strapdown import Strapdown
 from ...foot.stance.stance import Stance
-from ...types import Foot, Phase, Quat, Vec3
+from ...types import Floats, Foot, Phase, Quat, Vec3
 from ...types.attrs import evolve, field, frozen, state, stateful
 from ...types.vector import (
     GRAVITY,
@@ -127,8 +127,7 @@ class Projection(Strapdown):
         before = self.position
         self.integrate(dt, acc, gyro)
         if saturated:
-            x, y, z = gyro
-            rate = max(abs(x), abs(y), abs(z))
+            rate = max(map(abs, gyro))
             self.largest_saturated = max(self.largest_saturated, rate)
             if (
                 self.least_saturated < RANGE_END_SHARE * self.largest_saturated
@@ -140,9 +139,7 @@ class Projection(Strapdown):
             self.velocity, self.position = ZERO, before
             return
         if self.settings.as_printed:
-            vx, vy, _ = self.velocity
-            x, y, _ = self.position
-            self.velocity, self.position = (vx, vy, 0.0), (x, y, 0.0)
+            self.velocity, self.position = (*self.velocity[:2], 0.0), (*self.position[:2], 0.0)
 
     def correct(self, t: float, stance: Stance) -> bool:
         if stance.hint is not Phase.STATIONARY:
@@ -227,12 +224,12 @@ class Projection(Strapdown):
         self.force = self.rate = None
         self.moving_time += dt
 
-    def anchor(self) -> tuple[float, ...]:
+    def anchor(self) -> Floats:
         covariance = self.covariance()
         self.length, self.stride_count = 0.0, 0
         return covariance
 
-    def covariance(self) -> tuple[float, ...]:
+    def covariance(self) -> Floats:
         variance = (STRIDE_ERROR * (self.length + hypot(*sub(self.position, self.rest_position)[:2]))) ** 2
         yaw = TURN_ERROR * TURN_ERROR * min(self.stride_count, MOST_TURN_ERRORS)
         rises = 0.0 if self.settings.as_printed else (RISE_ERROR / TURN_ERROR) ** 2 * yaw

@@ -9,7 +9,7 @@ from math import hypot
 
 from ...types import Vec3
 from ...types.attrs import frozen, stateful
-from ...types.vector import GRAVITY, ZERO, add, cross, dot, sub
+from ...types.vector import GRAVITY, ZERO, across, add, cross, dot, sub
 from .critical_times import CriticalTimes, Row
 
 MOST_MISFITS = 3
@@ -76,7 +76,7 @@ class FootAxes:
         """Return the axes (right, forward) at rest, when `up` points upwards, sensor frame; None while unknown."""
         if self.right is None:
             return None
-        right = _unit(_horizontal(self.right, up))
+        right = _unit(across(self.right, up))
         return None if right is None else (right, cross(up, right))
 
 
@@ -106,7 +106,7 @@ def _rise(rows: Sequence[Row], up: Vec3) -> Vec3 | None:
     path: list[tuple[float, Vec3]] = []
     for before, row in zip(rows, rows[1:], strict=False):
         rotation = add(rotation, row[4:7], row[0] - before[0])
-        level = _horizontal(rotation, up)
+        level = across(rotation, up)
         angle = hypot(*level)
         path.append((angle, sub(ZERO, level)))  # the heel rises about the axis to the left
         if angle > largest:
@@ -114,11 +114,6 @@ def _rise(rows: Sequence[Row], up: Vec3) -> Vec3 | None:
         elif largest > LEAST_RISE and angle < RISE_END_SHARE * largest:
             return _unit(next(axis for reached, axis in path if reached >= AXIS_ANGLE_SHARE * largest))
     return None
-
-
-def _horizontal(v: Vec3, up: Vec3) -> Vec3:
-    """Return the part of `v` at right angles to the unit vector `up`."""
-    return add(v, up, -dot(v, up))
 
 
 def _unit(v: Vec3) -> Vec3 | None:

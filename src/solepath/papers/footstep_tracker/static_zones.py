@@ -96,7 +96,7 @@ class StaticRun:
     def add(self, t: float, acc: Vec3, within: float) -> None:
         """Add one row with specific force `acc`; it starts another run unless all axes are near the mean, m/s^2."""
         off = sub(acc, self.mean)
-        if self.since is None or max([abs(one) for one in off]) > within:
+        if self.since is None or max(map(abs, off)) > within:
             self.since, self.count, self.mean = t, 1, acc
             return
         self.count = min(self.count + 1, MOST_AVERAGED)
@@ -193,8 +193,8 @@ class StaticZones(Detector):
         if self.count == 0:
             self.row_t_start, self.sums = t, (0.0, *acc, *gyro)
         else:
-            (s, ax, ay, az, gx, gy, gz), (x, y, z), (u, v, w) = self.sums, acc, gyro
-            self.sums = (s + t - self.row_t_start, ax + x, ay + y, az + z, gx + u, gy + v, gz + w)
+            sums = self.sums
+            self.sums = (sums[0] + t - self.row_t_start, *add(sums[1:4], acc), *add(sums[4:], gyro))
         self.count += 1
         if t - self.row_t_start + gap < ROW_SPACING:
             return False
@@ -207,12 +207,12 @@ class StaticZones(Detector):
 
     def _add_to_run(self) -> None:
         """Add the mean of the last rows to the run."""
-        t, _, _, _, gx, gy, gz = self.rows[-1]
+        t = self.rows[-1][0]
         newest = [row for row in self.rows[-MEAN_ROWS:] if t - row[0] < MEAN_TIME - ROW_SPACING]
         k = 1.0 / len(newest)
         x, y, z = (k * fsum([row[axis] for row in newest]) for axis in (1, 2, 3))
         self.run.add(t, (x, y, z), (2.0 - self.share) * self.settings.within + 0.5 * self.resolution)
-        if max(abs(gx), abs(gy), abs(gz)) > self.settings.low_rate:
+        if max(map(abs, self.rows[-1][4:])) > self.settings.low_rate:
             self.low_rate_since = None
         elif self.low_rate_since is None:
             self.low_rate_since = t

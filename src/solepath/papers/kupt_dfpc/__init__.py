@@ -3,6 +3,7 @@
 "Smart insole-based indoor localization system for Internet of Things applications", IEEE Internet of Things Journal 6.
 The paper's sections, in their order:
 
+    III.A    hardware: 96 cells, 30 Hz (figs. 1, 2)           emulate/sensors/insole_device.py
     III.B    pressure noise (1)                               noise.py
     III.C.1  stationary epoch, two areas (fig. 3)             known_velocity.py
     III.C.2  centre of pressure (2) (3)                       foot/pressure/insole.py

@@ -30,16 +30,16 @@ Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from math import fsum, isfinite, sqrt
 from typing import ClassVar
 
-from ...body.part import PartInput, PartOutput, Position, TrackPart
+from ...body.part import Inputs, Outputs, Position, TrackPart
 from ...events import StrideFused, StrideTaken
 from ...foot.pressure.insole import centre
 from ...foot.view import FootPose, FootView
-from ...types import OTHER, Foot, Site, Vec3
-from ...types.attrs import define, field
+from ...types import OTHER, Floats, Foot, PerFoot, Site, Vec3, per_foot
+from ...types.attrs import define, field, state, stateful
 from ...types.vector import ZERO, add, sub
 
 KEPT_STRIDES = 3
@@ -71,7 +71,7 @@ class FusedStride:
     """Calibrated length D of (12), m."""
     error_index: float | None
     """Error index (10), m/s; None for an abnormal stride."""
-    cop_path: tuple[float, ...]
+    cop_path: Floats
     """Centre of pressure along the foot at POINTS instants, m; empty when it is not known."""
     paired: bool = False
     """Flag: the stride has been counted in (13)."""
@@ -93,7 +93,7 @@ class CalibratedPath:
     """Number of strides of the other foot since this foot's last stride."""
 
 
-@define
+@stateful
 class DoubleFoot(TrackPart):
     """Fuses the strides of both feet, and reports one `StrideFused` for each stride.
 
@@ -107,22 +107,18 @@ class DoubleFoot(TrackPart):
     needs_samples: ClassVar[bool] = True
     idle = True
 
-    paths: dict[Foot, CalibratedPath] = field(init=False)
-    error_balance: float = field(default=0.0, init=False)
+    paths: PerFoot[CalibratedPath] = state(factory=lambda: per_foot(CalibratedPath))
+    error_balance: float = 0.0
     """Sum of (13), m^2/s: positive when the left foot errs more."""
-    chosen: Foot | None = field(default=None, init=False)
+    chosen: Foot | None = None
     """Chosen foot by (13); None before the first stride."""
 
-    def __attrs_post_init__(self) -> None:
-        self.paths = {foot: CalibratedPath() for foot in Foot}
-
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
-        strides = [event for event in events if isinstance(event, StrideTaken)] if events else []
-        if view is None or view.after is None or not strides:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
+        if view is None or view.after is None:
             return ()
         layout = view.after.layout
         middle = None if layout is None else centre(layout)
-        return [self.add_stride(stride, middle) for stride in strides]
+        return [self.add_stride(event, middle) for event in events if isinstance(event, StrideTaken)]
 
     def reset(self, site: Site) -> None:
         """Discard the foot's strides so far, because their times are on another clock."""
@@ -212,7 +208,7 @@ class DoubleFoot(TrackPart):
         return Position(newest, add(path.end, sub(pose.position, path.foot_position)), pose.covariance)
 
 
-def resample_cop(taken: StrideTaken, foot_centre: float) -> tuple[float, ...]:
+def resample_cop(taken: StrideTaken, foot_centre: float) -> Floats:
     """Return the centre of pressure along the foot (copY of (9)), m, at POINTS instants evenly spaced in time.
 
     Strides have unequal numbers of samples, but (9) needs equal numbers. So each stride is resampled from foot-flat to
@@ -237,7 +233,7 @@ def resample_cop(taken: StrideTaken, foot_centre: float) -> tuple[float, ...]:
     return tuple(path)
 
 
-def correlation(one: tuple[float, ...], other: tuple[float, ...]) -> float | None:
+def correlation(one: Floats, other: Floats) -> float | None:
     """Return the similarity r (9) of two paths with equal numbers of points, 0 to 1.
 
     It is None if one path is constant or empty."""

@@ -28,7 +28,7 @@ from math import asin, cos, hypot, sin, sqrt
 from ...calibration import ShoeGeometry
 from ...types import Floats, Quat, Vec2, Vec3
 from ...types.attrs import evolve, stateful
-from ...types.vector import ZERO, add, dot, rotate, sub
+from ...types.vector import ZERO, across, add, dot, rotate, sub
 
 DEFAULT_LENGTH = 0.285
 """Length of the shoe whose geometry is the default, m."""
@@ -59,7 +59,7 @@ def shoe_for(insole_length: float) -> ShoeGeometry:
     return evolve(shoe, heel_radius=k * shoe.heel_radius, forefoot_radius=radius, pivot_to_toe=to_toe)
 
 
-def heel_position(shoe: ShoeGeometry, toe_up: float) -> tuple[float, float]:
+def heel_position(shoe: ShoeGeometry, toe_up: float) -> Vec2:
     """Return the sensor's position (P_h ahead of the heel's end, P_z above ground), m, at a toe-up pitch, rad (4)."""
     s, c = sin(toe_up), cos(toe_up)
     return shoe.heel_radius * c - shoe.height * s, shoe.heel_radius * s + shoe.height * c
@@ -72,7 +72,7 @@ def _curve(coefficients: Floats, pitch: float) -> float:
     return value
 
 
-def forefoot_position(shoe: ShoeGeometry, heel_up: float) -> tuple[float, float]:
+def forefoot_position(shoe: ShoeGeometry, heel_up: float) -> Vec2:
     """Return the sensor's position (P_h + L_p2t behind the toe, P_z above ground), m, at a heel-up pitch, rad (6).
 
     L_r and L_p2t are fitted curves from flat to the steepest measured posture; outside they are constant."""
@@ -148,15 +148,16 @@ class Sagittal:
 
     def heel_position(self, shoe: ShoeGeometry) -> Vec3:
         """Return the sensor's position relative to the heel's end, navigation frame, m (4)."""
-        ahead, above = heel_position(shoe, self.pitch)
-        x, y = self.forward
-        return (ahead * x, ahead * y, above)
+        return self._along(*heel_position(shoe, self.pitch))
 
     def forefoot_position(self, shoe: ShoeGeometry) -> Vec3:
         """Return the sensor's position relative to the toe, navigation frame, m: (6) with the sign of (7)."""
         behind, above = forefoot_position(shoe, -self.pitch)
+        return self._along(-behind, above)
+
+    def _along(self, ahead: float, above: float) -> Vec3:
         x, y = self.forward
-        return (-behind * x, -behind * y, above)
+        return (ahead * x, ahead * y, above)
 
 
 def mean_velocity(last_position: Vec3, position: Vec3, dt: float) -> Vec3:
@@ -179,8 +180,3 @@ def length(v: Vec3) -> float:
 def of_length_1(v: Vec3) -> Vec3:
     """Return the unit vector in the direction of `v`, which is not zero."""
     return add(ZERO, v, 1.0 / length(v))
-
-
-def across(v: Vec3, axis: Vec3) -> Vec3:
-    """Return the part of `v` across `axis`, which has the length 1."""
-    return add(v, axis, -dot(v, axis))

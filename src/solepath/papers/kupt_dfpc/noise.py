@@ -12,7 +12,7 @@ import numpy as np
 
 from ...calibration import Calibration, CalibrationError, InsoleCalibration
 from ...foot.pressure.insole import in_newtons
-from ...types import Foot, Sample
+from ...types import Floats, Foot, Sample
 
 SWING_SHARE = 0.15
 """Share of the samples that are taken for swing, because they have the least total pressure."""
@@ -31,7 +31,7 @@ def pressure_noise(
     when the share is outside 0 to 1."""
     if not 0.0 < share <= 1.0:
         raise ValueError(f"share is {share}")
-    rows: dict[Foot, list[tuple[float, ...]]] = {}
+    rows: dict[Foot, list[Floats]] = {}
     for sample in samples:
         foot = sample.site.foot
         if foot is None or not sample.pressure:
@@ -47,7 +47,7 @@ def pressure_noise(
     return Calibration(insoles={foot: _insole_noise(foot, rows[foot], share) for foot in Foot if foot in rows})
 
 
-def _insole_noise(foot: Foot, rows: list[tuple[float, ...]], share: float) -> InsoleCalibration:
+def _insole_noise(foot: Foot, rows: list[Floats], share: float) -> InsoleCalibration:
     pressure = np.array(rows, dtype=np.float64)
     count = round(share * len(pressure))
     if count < FEWEST_SAMPLES:

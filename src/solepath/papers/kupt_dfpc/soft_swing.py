@@ -17,7 +17,7 @@ from typing import ClassVar
 
 from ...types import Vec3
 from ...types.attrs import evolve, state, stateful
-from ...types.vector import GRAVITY, add, sub
+from ...types.vector import GRAVITY, add, dot, sub
 from .kinematics import up_direction
 from .swing_drift import MotionMoment, SwingDedrift
 
@@ -166,8 +166,8 @@ class SoftSwing(SwingDedrift):
         unscaled = add(add(acc, acc, excess), self.upright, -excess * GRAVITY)
         SwingDedrift.predict(self, dt, unscaled, gyro, saturated)
         if last is not None and self.force is not None:
-            x, y, z = sub(self.force, last)
-            self.drift += (x * x + y * y + z * z) * dt * dt
+            change = sub(self.force, last)
+            self.drift += dot(change, change) * dt * dt
 
     def _start_motion(self) -> None:
         SwingDedrift._start_motion(self)

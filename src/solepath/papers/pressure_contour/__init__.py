@@ -3,6 +3,7 @@
 "Personal navigation via high-resolution gait-corrected inertial measurement units", IEEE Trans. Instrum. Meas. 59. The
 paper's sections, in their order:
 
+    II, III  zero-velocity updates with an IMU (fig. 2)       foot/navigate/dedrift.py
     IV       contours and their velocity (1) (2), figs. 3, 4  contour.py
              zero velocity (3)                                contour_stance.py
     V.A      acceleration and position (4) to (6), fig. 8     bias_zupt.py, foot/navigate/strapdown.py

@@ -13,7 +13,7 @@ from ...foot.navigate.corrector import LONGEST_BRIDGE
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
-from ...types import Foot, Quat, Vec3
+from ...types import Foot, Quat, Vec2, Vec3
 from ...types.attrs import evolve, field, frozen, state, stateful
 from ...types.vector import GRAVITY, ZERO, add, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
 from .acc_bias import AccelerometerBias
@@ -26,7 +26,7 @@ STANDING_DELAY = 1.0
 class BiasZuptSettings(DedriftSettings):
     """Settings of `BiasZupt`."""
 
-    drift: tuple[float, float] | None = None
+    drift: Vec2 | None = None
     """Calibrated drift of the position (x, y), m/s; None without a calibration. Its frame is the device's own world
     frame if the device reports attitudes, otherwise the navigation frame."""
     remove_swing_drift: bool = True

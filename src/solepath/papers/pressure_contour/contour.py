@@ -33,7 +33,7 @@ from itertools import combinations, pairwise
 from math import cos, fsum, hypot, inf, pi, sin
 from operator import mul
 
-from ...types import Cell, Layout
+from ...types import Cell, Floats, Layout, Vec2
 from ...types.attrs import field, frozen, state, stateful
 from ...types.vector import TIME_EPSILON
 
@@ -74,10 +74,10 @@ WeightedCells = tuple[int, int, int, float, float, float]
 class ContourSettings:
     """Settings of `Contours`."""
 
-    shares: tuple[float, ...] = (1.4, 1.2, 1.0, 0.8, 0.6, 0.4)
+    shares: Floats = (1.4, 1.2, 1.0, 0.8, 0.6, 0.4)
     """Levels as shares of the present mean pressure of the heel's cells. 1.4 is well below the peak pressure. 0.4 lies
     at the edge of the loaded area, where a heel that leans has its only contours."""
-    pascals: tuple[float, ...] | None = None
+    pascals: Floats | None = None
     """Fixed levels, Pa, used instead of `shares`; they need cells of known scale. None for shares."""
 
 
@@ -96,9 +96,9 @@ class Contours:
     """The centre, followed by the points of each ray from the inside out."""
     rays: list[tuple[int, float]] = state(factory=list)
     """Number of points on each ray, and their distance, m."""
-    levels: tuple[float, ...] = ()
+    levels: Floats = ()
     """Levels in falling order, in Pa or as shares, as in `settings`."""
-    history: deque[tuple[float, tuple[float, ...]]] = state(factory=deque)
+    history: deque[tuple[float, Floats]] = state(factory=deque)
     """Samples of the last `COMPARISON_TIME`, each with its time, s, and the radii, m, of all levels ray by ray."""
 
     def set_layout(self, layout: Layout) -> str | None:
@@ -133,7 +133,7 @@ class Contours:
         velocity = self.velocity(t, cells)
         return NO_CONTOUR if velocity is None else min(hypot(*velocity), NO_CONTOUR)
 
-    def velocity(self, t: float, cells: list[float]) -> tuple[float, float] | None:
+    def velocity(self, t: float, cells: list[float]) -> Vec2 | None:
         """Return the velocity (forward, left) of the contours' centre, foot frame, m/s; None without contours.
 
         It is the mean over the levels that have contours now and had them `COMPARISON_TIME` ago. `cells` are the loads
@@ -157,7 +157,7 @@ class Contours:
         k = 1.0 / (elapsed * len(found))
         return fsum([x for x, _ in found]) * k, fsum([y for _, y in found]) * k
 
-    def _radii(self, cells: list[float]) -> tuple[float, ...]:
+    def _radii(self, cells: list[float]) -> Floats:
         """Return the radii r(theta), m, ray by ray, each for all levels."""
         pressures = [a * cells[i] + b * cells[j] + c * cells[k] for i, j, k, a, b, c in self.points]
         mean = 1.0 if self.settings.pascals else fsum(map(mul, self.per_area, cells))
@@ -170,7 +170,7 @@ class Contours:
             next_point += points
         return tuple(radii)
 
-    def _set_rays(self, used: list[Cell], centre: tuple[float, float]) -> None:
+    def _set_rays(self, used: list[Cell], centre: Vec2) -> None:
         """Set the points on the rays from the centre (x, y), foot frame, m."""
         x, y = centre
         step = max((hypot(cell.x - x, cell.y - y) for cell in used if cell.x < 2.0 * x), default=0.0) / POINTS_PER_RAY
@@ -193,7 +193,7 @@ _RAYS = [(cos(pi * k / RAY_PAIRS), sin(pi * k / RAY_PAIRS)) for k in range(RAY_P
 """Direction of the first ray of each pair."""
 
 
-def _displacement(radii: tuple[float, ...], earlier_radii: tuple[float, ...]) -> tuple[float, float] | None:
+def _displacement(radii: Floats, earlier_radii: Floats) -> Vec2 | None:
     """Return the displacement of one level's contour, m: the vector u that fits u . r_hat to the radii best (2).
 
     It is that by the pairs of opposite rays of which both have a radius, by least squares; None if they are too few, or

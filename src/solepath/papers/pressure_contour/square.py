@@ -26,7 +26,7 @@ from ...calibration import Calibration, CalibrationError
 from ...events import StrideTaken
 from ...recipes import Recipe
 from ...session import Session
-from ...types import Foot, Packet, Sample, Vec3
+from ...types import Foot, Packet, Sample, Vec2, Vec3
 from ...types.attrs import evolve, frozen
 from ...types.vector import from_yaw, rotate
 from .bias_zupt import BiasZupt
@@ -51,7 +51,7 @@ class SquareDrift:
     """The drift of one foot by the laps."""
 
     foot: Foot
-    slope: tuple[float, float]
+    slope: Vec2
     """Mean of the marks' slopes (x, y), m/s, in the frame of `Calibration.drift`."""
     scatter: float
     """Standard error of `slope` on each axis, m/s, from the differences between the laps."""
@@ -63,7 +63,7 @@ class SquareDrift:
     """Number of visits of all these marks."""
 
     @property
-    def kept(self) -> tuple[float, float]:
+    def kept(self) -> Vec2:
         """Slope for a calibration (x, y), m/s: `slope` if `agreed`, otherwise zero. The paper uses every slope."""
         return self.slope if self.agreed else (0.0, 0.0)
 

@@ -8,7 +8,8 @@
     3.3      velocity and distance, v(T), V(T), S(T)          printed.py
     3.4.1    walking states by theta'                         steepness.py, walking_state.py
     3.4.2    height, S_z(T)                                   printed.py
-    4        experiments                                      solepath_lab/reproduce/shoe_sensing.py
+    4.1      sensor node, MPU-6050 (fig. 18)                  emulate/sensors/parts.py
+    4.2      experiments                                      solepath_lab/reproduce/shoe_sensing.py
 
 gated_tilt.py has our additions, recipe.py both recipes; docs/papers/shoe-sensing.md has every equation with its check.
 """

@@ -14,7 +14,7 @@ from __future__ import annotations
 from math import sqrt
 
 from ...types import Quat, Vec3
-from ...types.vector import ZERO, add, cross, dot, from_rotation_vector, multiply, normalise, sub
+from ...types.vector import ZERO, add, add_quat, cross, dot, from_rotation_vector, multiply, normalise, sub
 
 INITIAL_TIME = 4.0
 """Time to the first attitude, s: it "will converge in about 4 s (i.e., 400 points)" (fig. 7)."""
@@ -65,14 +65,8 @@ def turn(q: Quat, rate_before: Vec3, rate_after: Vec3, dt: float) -> Quat:
         return normalise(multiply(q, from_rotation_vector(add(ZERO, middle, dt))))
     slopes: list[Quat] = []
     for rate, step in ((rate_before, 0.0), (middle, 0.5), (middle, 0.5), (rate_after, 1.0)):
-        at = _added(q, slopes[-1], step) if slopes else q
-        slopes.append(multiply(at, (0.0, 0.5 * dt * rate[0], 0.5 * dt * rate[1], 0.5 * dt * rate[2])))
+        at = add_quat(q, slopes[-1], step) if slopes else q
+        slopes.append(multiply(at, (0.0, *add(ZERO, rate, 0.5 * dt))))
     for slope, weight in zip(slopes, (1.0, 2.0, 2.0, 1.0), strict=True):
-        q = _added(q, slope, weight / 6.0)
+        q = add_quat(q, slope, weight / 6.0)
     return normalise(q)
-
-
-def _added(q: Quat, change: Quat, share: float) -> Quat:
-    w, x, y, z = q
-    a, b, c, d = change
-    return (w + share * a, x + share * b, y + share * c, z + share * d)

@@ -15,8 +15,6 @@ from ...types.vector import GRAVITY, IDENTITY, TIME_EPSILON, ZERO, dot
 
 PAPER_RATE = 100.0
 """Sampling rate of the paper, Hz."""
-LARGEST_SQUARE = 1e4
-"""Limit of one sample's squared x, g^2, so that the energy of any sample is finite."""
 LONGEST_SAMPLE = 0.1
 """Limit of the time that one sample counts for, s."""
 
@@ -67,7 +65,7 @@ class ShortTimeEnergy(Detector):
         settings, entries = self.settings, self.entries
         x = sqrt(dot(acc, acc)) / GRAVITY - 1.0
         duration = min(dt, LONGEST_SAMPLE)
-        entries.append((duration, min(x * x, LARGEST_SQUARE) * duration * PAPER_RATE))
+        entries.append((duration, x * x * duration * PAPER_RATE))
         time = energy = still_time = 0.0
         count = 0
         for one_duration, one_energy in reversed(entries):

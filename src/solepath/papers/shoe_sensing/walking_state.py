@@ -5,11 +5,10 @@ thresholds are in steepness.py. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import ClassVar
 
 from ...body.activity.flights import Flights, is_stair_rise
-from ...body.part import ActivityPart, PartInput, PartOutput
+from ...body.part import ActivityPart, Inputs, Outputs
 from ...events import ActivityChanged, Event, Limitation, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Phase, Site
@@ -70,10 +69,10 @@ class AnglePerMetre(ActivityPart):
             self.feet.pop(site.foot, None)
             self.reported_t = None
 
-    def finish(self, now: float) -> Sequence[PartOutput]:
+    def finish(self, now: float) -> Outputs:
         return self.flights.finish(now)
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         if view is None or view.moved_at != view.t or not view.levelled:
             return ()  # no sample, one without acc or gyro, or a foot not yet tracked
         t, known_at = view.t, view.known_at

@@ -15,7 +15,7 @@ from __future__ import annotations
 from cmath import rect
 from collections.abc import Iterable
 from itertools import pairwise
-from math import atan2, fsum
+from math import atan2, fsum, inf
 from operator import attrgetter
 from pathlib import Path
 
@@ -26,12 +26,13 @@ from ...foot.stance.cycle import Cycle
 from ...recipes import Recipe, usual_parts
 from ...recording.decoded import DecodedRecording
 from ...session import Session
-from ...types import Foot, WalkingMode
+from ...types import Foot, Vec2, WalkingMode
 from ...types.attrs import evolve, frozen
 from ...types.vector import wrap_angle
 from ..tables import read_rows
 from .modes import Modes
 from .settings import ModesSettings
+from .touchdown import PressureTouchdown
 
 MARK_TOLERANCE = 0.3
 """Longest time between a touchdown and the time in its mark, s; chosen by hand."""
@@ -99,7 +100,7 @@ def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None
     for foot, layout in walk.layouts.items():
         insole = known.insole(foot)
         insoles[foot] = insole if insole.layout is not None else evolve(insole, layout=layout)
-    parts = usual_parts(Modes(settings=ModesSettings(heading=heading)))
+    parts = usual_parts(Modes(PressureTouchdown(), ModesSettings(heading=heading)))
     recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), parts=parts)
     session = Session(recipe, calibration=evolve(known, insoles=insoles))
     events = [*session.feed(walk.samples), *session.finish()]
@@ -141,7 +142,7 @@ def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown], turn: float
     return errors
 
 
-def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
+def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, Vec2]]:
     """Return the mean errors (forward, left), m, by foot and mode."""
     errors_of: dict[Foot, dict[WalkingMode, list[StepError]]] = {}
     for error in errors:
@@ -181,10 +182,10 @@ def fit_modes(
 def _touchdown_index(mark: ModeMark, downs: list[TouchedDown]) -> int:
     foot_indices = [k for k, down in enumerate(downs) if down.foot is mark.foot]
     if mark.t is not None:
-        candidates = [(abs(downs[k].t - mark.t), k) for k in foot_indices if abs(downs[k].t - mark.t) <= MARK_TOLERANCE]
-        if not candidates:
+        away, nearest = min([(abs(downs[k].t - mark.t), k) for k in foot_indices], default=(inf, 0))
+        if away > MARK_TOLERANCE:
             raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot did not come down at {mark.t:g} s")
-        return min(candidates)[1]
+        return nearest
     if mark.step is None or mark.step > len(foot_indices):
         raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot came down {len(foot_indices)} times only")
     return foot_indices[mark.step - 1]

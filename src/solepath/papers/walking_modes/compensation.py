@@ -10,9 +10,9 @@ After Gong et al. 2023 (Sensors 23, 5417), equation (8) and table 1. The paper l
 
 from __future__ import annotations
 
-from ...types import Foot, Vec3, WalkingMode
+from ...types import Foot, Vec2, Vec3, WalkingMode
 
-Compensation = dict[Foot, dict[WalkingMode, tuple[float, float]]]
+Compensation = dict[Foot, dict[WalkingMode, Vec2]]
 """Compensation (forward, left), m, by the foot that comes down and the mode."""
 
 _CM = 0.01
@@ -40,12 +40,12 @@ TABLE_1: Compensation = {
 It holds for the paper's wearers and sensors; `solepath calibrate modes` measures the compensation of another wearer."""
 
 
-def compensation_of(table: Compensation, foot: Foot, mode: WalkingMode) -> tuple[float, float]:
+def compensation_of(table: Compensation, foot: Foot, mode: WalkingMode) -> Vec2:
     """Return the compensation (forward, left) of `foot` in `mode`, m; zero if the table has no such row."""
     return table.get(foot, {}).get(mode, (0.0, 0.0))
 
 
-def epsilon_p(table: Compensation, foot: Foot, mode: WalkingMode, direction: tuple[float, float]) -> Vec3:
+def epsilon_p(table: Compensation, foot: Foot, mode: WalkingMode, direction: Vec2) -> Vec3:
     """Return epsilon_P of (8), world frame, m; `direction` is the unit vector of walking, world frame."""
     (c, s), (forward, left) = direction, compensation_of(table, foot, mode)
     return (forward * c - left * s, forward * s + left * c, 0.0)

@@ -22,9 +22,9 @@ Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from ...types import Foot, Layout, WalkingMode
+from ...types import Foot, Layout, Vec2, WalkingMode
 
-REGION_POINTS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
+REGION_POINTS: dict[str, tuple[Vec2, Vec2]] = {
     "F1": ((0.66, 0.30), (0.71, -0.30)),
     "F2": ((0.40, -0.30), (0.40, 0.30)),
     "L1": ((0.66, 1.00), (0.71, 1.00)),

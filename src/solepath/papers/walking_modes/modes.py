@@ -23,19 +23,19 @@ The paper leaves these points open:
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from copy import deepcopy
 from math import fsum, hypot
 from typing import ClassVar
 
-from ...body.part import LimbSampled, PartInput, PartOutput, Position, TrackPart
+from ...body.part import Inputs, LimbSampled, Outputs, Position, TrackPart
 from ...calibration import Calibration
 from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ...foot.rejection import rejected
 from ...foot.view import FootPose, FootView, PressedCells
 from ...foot.world import Covariance3
 from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site, Vec3
-from ...types.attrs import define, evolve, field
+from ...types.attrs import evolve, field, state, stateful
 from ...types.vector import TIME_EPSILON, ZERO, sub
 from .compensation import epsilon_p, merge_own
 from .limbs.limbs import LIMB_SITES, Legs
@@ -44,7 +44,7 @@ from .places import FootPlaces
 from .recognition import Recognition
 from .settings import ModesSettings
 from .signs import MOST_STRIDES_WITHOUT_SIGN, Signs
-from .touchdown import AnyTouchdown, Height, PressureTouchdown, ReferenceFoot, displace
+from .touchdown import AnyTouchdown, Height, ReferenceFoot, displace
 
 LEAST_MOVED_DISTANCE = 0.03
 """Least distance between two touchdowns of a foot, m. The flags of standing feet flicker, which is no touchdown."""
@@ -58,29 +58,29 @@ SCALE_SIGMA, HEADING_SIGMA = 0.02, 0.03
 """Scale error of all touchdowns, as a share of the distance from the start, and error of the first heading, rad."""
 
 
-@define
+@stateful
 class Modes(TrackPart):
     """Tracks the wearer by touchdowns."""
 
     needs_samples: ClassVar[bool] = True
     sites: ClassVar[tuple[Site, ...]] = LIMB_SITES
 
-    touchdown: AnyTouchdown = field(factory=PressureTouchdown)
+    touchdown: AnyTouchdown = field()
     """Method that detects touchdowns."""
-    settings: ModesSettings = ModesSettings()
+    settings: ModesSettings = field(default=ModesSettings())
     places: FootPlaces = field(init=False)
     signs: Signs = field(init=False)
     recognition: Recognition = field(init=False)
-    reference: ReferenceFoot = field(factory=ReferenceFoot, init=False)
-    pending: tuple[Foot, float] | None = field(default=None, init=False)
+    reference: ReferenceFoot = state(factory=ReferenceFoot)
+    pending: tuple[Foot, float] | None = None
     """Foot and time, s, of a touchdown at which the chain is not known yet; None without one."""
-    heights_t: float | None = field(default=None, init=False)
+    heights_t: float | None = None
     """Instant of the heights from the chain, s."""
-    newest_t: dict[Foot, float] = field(factory=dict, init=False)
+    newest_t: dict[Foot, float] = state(factory=dict)
     """Time of the newest touchdown of each foot, s; one that an older sample of the other foot shows is not earlier."""
-    touchdowns: int = field(default=0, init=False)
+    touchdowns: int = 0
     """Number of touchdowns so far."""
-    limitations: list[str] = field(factory=list, init=False)
+    limitations: list[str] = state(factory=list)
     """What was reported as a limitation: each kind once for a site."""
 
     def __attrs_post_init__(self) -> None:
@@ -107,7 +107,7 @@ class Modes(TrackPart):
             self.recognition.reset(site.foot)
             self.newest_t.clear()
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot or a limb; update the reference foot, touchdowns and walking mode."""
         if view is None:
             return [
@@ -121,7 +121,7 @@ class Modes(TrackPart):
         outputs = [] if view.pressed is None else self._add_pressure(view, view.pressed)
         return outputs + self._update_reference(foot, t, view.known_at)
 
-    def _add_limb(self, sample: Sample) -> Sequence[PartOutput]:
+    def _add_limb(self, sample: Sample) -> Outputs:
         """Add a sample of pelvis, thigh or shank."""
         chain = self.places.chain
         wrong = chain.add_limb(sample)

@@ -14,7 +14,7 @@ from math import atan2, hypot
 
 from ...body.fuse.position import MeanOfFeet
 from ...foot.view import FootView
-from ...types import OTHER, Foot, Vec3
+from ...types import OTHER, Foot, Vec2, Vec3
 from ...types.attrs import define, field, state, stateful
 from ...types.vector import ZERO, add, sub, turned, wrap_angle
 from .limbs.limbs import LowerLimbs
@@ -40,11 +40,11 @@ class FootPlace:
     """Place of the last touchdown, world frame, m: below the ankle (by the chain) or the sensor (by the track)."""
     offset: Vec3 = ZERO
     """Vector from the foot's own track to its place at the last touchdown, world frame, m."""
-    reach: tuple[float, float] = (0.0, 0.0)
+    reach: Vec2 = (0.0, 0.0)
     """Vector from below the ankle to the end of the foot at the last touchdown, world frame, m."""
     track: Vec3 = ZERO
     """Position by the foot's own inertial track, world frame, m; moved beside the other foot's after a silence."""
-    direction: tuple[float, float] = (1.0, 0.0)
+    direction: Vec2 = (1.0, 0.0)
     """Unit vector of the direction of walking at the last touchdown, world frame."""
 
     @property
@@ -100,7 +100,7 @@ class FootPlaces:
         if view.levelled:
             self.sides[view.foot].track = tracks[view.foot].newest
 
-    def _side_offset(self, foot: Foot, other: FootPlace) -> tuple[float, float]:
+    def _side_offset(self, foot: Foot, other: FootPlace) -> Vec2:
         """Return the vector from `other` to `foot`, world frame, m, when both stand abreast, facing its direction."""
         c, s = other.direction
         k = self.settings.feet_distance if foot is Foot.LEFT else -self.settings.feet_distance
@@ -134,7 +134,7 @@ class FootPlaces:
             y += reference.reach[1] - reach[1]
         return (x, y, self.sides[foot].track[2]), chained
 
-    def walking_direction(self, t: float) -> tuple[float, float]:
+    def walking_direction(self, t: float) -> Vec2:
         """Return the unit vector of the mean direction of both feet at `t` s, world frame."""
         (lx, ly), (rx, ry) = self.chain.forward(Foot.LEFT, t), self.chain.forward(Foot.RIGHT, t)
         x, y = lx + rx, ly + ry
@@ -172,6 +172,6 @@ class FootPlaces:
             (dx, dy, _), (rx, ry, _) = (turned((*of, 0.0), -turn) for of in (side.direction, side.reach))
             side.direction, side.reach = (dx, dy), (rx, ry)
 
-    def _reach(self, foot: Foot, t: float) -> tuple[float, float]:
+    def _reach(self, foot: Foot, t: float) -> Vec2:
         x, y = self.chain.forward(foot, t)
         return self.settings.limbs.foot * x, self.settings.limbs.foot * y

@@ -19,7 +19,7 @@ WALKING_MODES = Recipe(
     "walking-modes",
     Cycle(),
     _OWN_HEIGHTS,
-    parts=usual_parts(Modes(settings=ModesSettings(TABLE_1))),
+    parts=usual_parts(Modes(PressureTouchdown(), ModesSettings(TABLE_1))),
     needs_pressure=True,
 )
 """Method IV of Gong et al. 2023, and ours in two places: touchdowns by maximum pressure, compensated by walking mode.
@@ -28,7 +28,9 @@ The mode follows from how the feet turn (recognition.py), and the compensation i
 (`solepath calibrate modes`). Without it, it is the paper's table 1, which holds for the paper's wearers."""
 
 WALKING_MODES_PRINTED = evolve(
-    WALKING_MODES.replace_part(Modes, Modes(settings=ModesSettings(TABLE_1, as_printed=True)), "walking-modes-printed"),
+    WALKING_MODES.replace_part(
+        Modes, Modes(PressureTouchdown(), ModesSettings(TABLE_1, as_printed=True)), "walking-modes-printed"
+    ),
     every_stride=True,
 )
 """Method IV as printed: the mode by the loaded regions of table 2, the compensation (8) by table 1, for any wearer."""

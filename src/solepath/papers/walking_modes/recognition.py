@@ -25,7 +25,7 @@ from math import fsum
 
 from ...events import StrideTaken
 from ...foot.view import FootView
-from ...types import OTHER, Foot, Layout, Phase, Quat, WalkingMode
+from ...types import OTHER, Floats, Foot, Layout, PerFoot, Phase, Quat, WalkingMode, per_foot
 from ...types.attrs import field, state, stateful
 from ...types.vector import heading_turned
 from .mode import LEAST_STEP_LENGTH, STANDING_WEIGHT, decide, regions
@@ -110,7 +110,7 @@ class SoleContact:
         self.t_start, self.total, self.too_long = t, 0.0, False
         self.sums = dict.fromkeys(self.region_cells, 0.0)
 
-    def add(self, cells: tuple[float, ...], total: float) -> None:
+    def add(self, cells: Floats, total: float) -> None:
         """Add one sample of the foot on the ground."""
         if self.layout is None or len(cells) != len(self.layout.cells):
             return
@@ -137,7 +137,7 @@ class Recognition:
     """Recognises the walking mode from all samples of the cells and all touchdowns."""
 
     settings: ModesSettings = field(default=ModesSettings())
-    soles: dict[Foot, SoleContact] = state(factory=lambda: {foot: SoleContact() for foot in Foot})
+    soles: PerFoot[SoleContact] = state(factory=lambda: per_foot(SoleContact))
     """Contact by foot."""
     contact_detector: PressureTouchdown = state(factory=PressureTouchdown)
     """Detector of the start and the end of a contact."""
@@ -160,7 +160,7 @@ class Recognition:
             sole.newest = view.attitude
 
     def add_pressure(
-        self, foot: Foot, state: FootState, cells: tuple[float, ...], layout: Layout | None, t: float, both_feet: bool
+        self, foot: Foot, state: FootState, cells: Floats, layout: Layout | None, t: float, both_feet: bool
     ) -> WalkingMode | None:
         """Add a sample of the cells of `foot` at `t` s; return the foot's mode if it has changed, otherwise None.
 

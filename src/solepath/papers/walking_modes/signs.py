@@ -12,7 +12,7 @@ from math import hypot
 from ...events import Event, FootFlat, Limitation, StrideTaken
 from ...foot.pressure.insole import HIGHEST_DECAY
 from ...foot.view import FootView, PressedCells
-from ...types import SITE_OF_FOOT, Foot, Phase
+from ...types import SITE_OF_FOOT, Foot, PerFoot, Phase, per_foot
 from ...types.attrs import field, state, stateful
 from ...types.vector import GRAVITY, rotate
 from .touchdown import AnyTouchdown, Flags, FootState, Height, NetAcceleration, PressureTouchdown
@@ -67,7 +67,7 @@ class Signs:
 
     method: AnyTouchdown = field()
     """Method that turns the states of both feet into touchdown flags."""
-    feet: dict[Foot, FootSign] = state(factory=lambda: {foot: FootSign() for foot in Foot})
+    feet: PerFoot[FootSign] = state(factory=lambda: per_foot(FootSign))
     """Sign by foot."""
 
     def add_view(self, view: FootView, events: Sequence[object], height: float) -> None:

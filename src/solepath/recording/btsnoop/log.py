@@ -17,12 +17,15 @@ from ...link.driver import Driver
 from ...types import Packet, Site
 from ...wire.receiver import ConnectionFrame, build_connected
 from ..errors import RecordingError, Report, printable, warn
+from ..unpacking import size_of
 from .devices import Handles, LoggedDevice, explain_unused, known_devices
 from .records import reject_pipe
-from .values import ValueListener
+from .values import CUT_SHORT, ValueListener
 
 MAX_NAMED = 4
 """Largest number of unknown attributes of a device that are named."""
+WHOLE_PACKETS = "capture whole packets: the snoop log of an Android phone Enabled, not Filtered; `tcpdump -s 0`"
+"""What to do when a capture has only the start of its packets."""
 
 
 @define
@@ -36,7 +39,7 @@ class BtsnoopLog:
     started_at: int
     """Time of the first record, us since 1970, at which the packets' `t` is 0."""
     total: int
-    """Size of the log, bytes."""
+    """Size of the log, bytes; 0 of one that is compressed."""
     done: int = 0
     """Number of bytes that were iterated."""
 
@@ -73,12 +76,12 @@ def open_btsnoop(
     profiles: Iterable[Driver] = (),
     report: Report = warn,
 ) -> BtsnoopLog:
-    """Return the usable content of a btsnoop log.
+    """Return the usable content of a capture: btsnoop, PacketLogger, pcap or pcapng, or an Android bug report with one.
 
     `sites`: site of each device, by address; an insole reports its foot itself. `handles`: channels of attributes whose
     discovery is not in the log, because the host knew them before. `profiles`: an app's own devices, as for Session.
-    `report` receives one sentence about each thing that is left out. RecordingError for a file that is no btsnoop log,
-    that has no packets of a device whose site is known, or that does not have what `sites` and `handles` name.
+    `report` receives one sentence about each thing that is left out. RecordingError for a file that is no capture, that
+    has no packets of a device whose site is known, or that does not have what `sites` and `handles` name.
     ValueError for a channel name that no device has."""
     path, known = Path(path), known_devices(profiles)
     reject_pipe(path)
@@ -102,13 +105,17 @@ def open_btsnoop(
         device.site = site_by_address.get(device.address.upper())
         for hint in device.identify(known, handles):
             unused.pop(hint, None)
-    omissions = list(_describe_omissions(list(devices.values())))
+    cut_short = listener.flaws.pop(CUT_SHORT, 0)
+    omissions = [f"{CUT_SHORT}: {cut_short}"] if cut_short else []
+    omissions += _describe_omissions(list(devices.values()))
     omissions += [f"{what}: {count}" for what, count in listener.flaws.items()]
     usable = any(device.site is not None and device.count for device in devices.values())
     if damage is not None and not usable:
         raise damage
     for hint, channel in unused.items():
         raise RecordingError(path, explain_unused(hint, channel, devices.values()))
+    if not usable and cut_short:
+        raise RecordingError(path, f"holds nothing that can be used; {omissions[0]}", repair=WHOLE_PACKETS)
     if not usable:
         raise RecordingError(path, "; ".join(["holds no packets of a device whose place is known", *omissions[:5]]))
     for address in site_by_address:
@@ -117,7 +124,7 @@ def open_btsnoop(
             raise RecordingError(path, f"holds no device {address} that could be used; there is {there}")
     for sentence in omissions:
         report(f"{printable(str(path))}: {sentence}")
-    return BtsnoopLog(path, devices, started_at or 0, path.stat().st_size)
+    return BtsnoopLog(path, devices, started_at or 0, size_of(path))
 
 
 def _describe_omissions(devices: Sequence[LoggedDevice]) -> Iterator[str]:
@@ -136,7 +143,8 @@ def _describe_omissions(devices: Sequence[LoggedDevice]) -> Iterator[str]:
             yield f"{values} of {device.address} left out: no discovery says what is {which}"
         if device.site is None and device.count:
             values = _count_text(device.count, "value")
-            yield f"{values} of {device.address}, {device.noun}, left out: nobody says where it was worn"
+            how = f"--site {device.address}=left_foot"
+            yield f"{values} of {device.address}, {device.noun}, left out: nobody says where it was worn: {how}"
         others += any(one.uuid for one in valued.values()) and not any(one.channels for one in valued.values())
     if others:
         yield f"{_count_text(others, 'other device')} left out"

@@ -1,40 +1,47 @@
-"""Reading of captures of HCI packets as records, each with the time at which it was logged.
-
-A btsnoop file is a header, then records: the format is that of RFC 1761 with other datalinks, as Symbian, BlueZ and
-Android write it. Its numbers are big-endian, while those in the packets are little-endian. Another kind of capture is
-another function that yields HciRecord; nothing else here knows of files."""
+"""Records of HCI packets, each with the time at which it was logged, of every kind of capture (captures.py)."""
 
 from __future__ import annotations
 
 import struct
 from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from enum import Enum
+from functools import partial
 from pathlib import Path
+from typing import BinaryIO
 
-from attrs import frozen
+from attrs import define, frozen
 
 from ..errors import RecordingError, Report, open_file, printable
+from ..unpacking import names_in, open_member, open_unpacked
+from .captures import (
+    LONGEST_MAGIC,
+    MONITOR,
+    NAMED_LINKS,
+    PHDR,
+    READ_LINKS,
+    Captured,
+    DamageError,
+    UnreadError,
+    is_capture,
+    read_capture,
+)
 
-MAGIC = b"btsnoop\0"
-VERSION = 1
-TIME_OF_1970 = 0x00DCDDB30F2F8000
-"""Time of the start of 1970, us; btsnoop counts from the start of the year 0."""
-MAX_RECORD_SIZE = 0x1_0000 + 64
-"""Largest size of the packet in a record, bytes: 65,535 bytes of ACL data, with room for the headers before them."""
-FILE_HEADER = struct.Struct(">8sII")
-"""Magic, version, datalink."""
-RECORD_HEADER = struct.Struct(">IIIIq")
-"""Size of the packet and of the part that the file holds, flags, records lost so far, time since the year 0, us."""
-
-
-class Datalink(Enum):
-    """Format of the records, which says where a record has the kind of its packet."""
-
-    H4 = 1002
-    """The packet's first byte gives its kind, as Android, bumble and hcidump write it."""
-    MONITOR = 2001
-    """The record's flags give the adapter and an opcode, as BlueZ's btmon writes it."""
+LOG_NAMES = ("btsnoo", ".pklg", ".pcap", ".cfa")
+"""Parts of the names of logs in a phone's bug report."""
+REPORT_NAMES = ("fs/", "bugreport", "dumpstate", "dumpsys")
+"""Starts of the names of files in an Android bug report."""
+SWITCH_ON = (
+    "in the developer options of the phone, set the Bluetooth HCI snoop log to Enabled (not Filtered), switch "
+    "Bluetooth off and on, walk, and take the bug report then"
+)
+"""What brings a Bluetooth log into a bug report."""
+RECORD_HCI = (
+    "capture HCI on the phone or computer that receives: its btsnoop log, PacketLogger of Apple, btmon, or Wireshark "
+    "on bluetooth0"
+)
+"""What to do when a capture is not of HCI."""
 
 
 class RecordKind(Enum):
@@ -60,14 +67,13 @@ class HciRecord:
     adapter: int
     """Number of the host's Bluetooth adapter."""
     kind: RecordKind
-    sent: bool
-    """True if the host sent the packet to its controller."""
+    sent: bool | None
+    """True if the host sent the packet to its controller; None if the capture does not say it."""
     data: bytes
     whole: bool
     """False if the logger kept only the start of the packet."""
 
 
-_RECEIVED_FLAG = 1
 _MONITOR_OPCODES = {
     2: (RecordKind.COMMAND, True),
     3: (RecordKind.EVENT, False),
@@ -77,12 +83,30 @@ _MONITOR_OPCODES = {
 """Kind of the packet, and True if the host sent it, by btmon's opcode."""
 
 
-def is_btsnoop(path: Path) -> bool:
-    """Return whether the file starts as a btsnoop log does, which no pipe can be; RecordingError when unreadable."""
+def is_log(path: Path) -> bool:
+    """Return whether the file is a capture, or has one in it, which no pipe can be; RecordingError when unreadable."""
     if is_pipe(path):
         return False  # bytes that are read from a pipe here could not be read again
-    with open_file(path) as file:
-        return file.read(len(MAGIC)) == MAGIC
+    return bool(_logs_in(path))
+
+
+def _logs_in(path: Path) -> list[Callable[[], BinaryIO]]:
+    """Return what opens each log of a file: the file itself, or logs in a bug report."""
+    if path.suffix.lower() != ".zip":
+        openers: list[Callable[[], BinaryIO]] = [partial(open_unpacked, path)]
+    else:
+        names = names_in(path)
+        found = [name for name in names if any(part in Path(name).name.lower() for part in LOG_NAMES)]
+        openers = [partial(open_member, path, name) for name in found]
+    logs = [one for one in openers if is_capture(_start(one))]
+    if not logs and path.suffix.lower() == ".zip" and any(name.lower().startswith(REPORT_NAMES) for name in names):
+        raise RecordingError(path, "is a bug report without a Bluetooth log", repair=SWITCH_ON)
+    return logs
+
+
+def _start(opener: Callable[[], BinaryIO]) -> bytes:
+    with opener() as file:
+        return file.read(LONGEST_MAGIC)
 
 
 def reject_pipe(path: Path) -> None:
@@ -99,44 +123,78 @@ def is_pipe(path: Path) -> bool:
 def read_records(
     path: Path, *, report: Report, flaws: Counter[str], progress: Callable[[int], None] | None = None
 ) -> Iterator[HciRecord]:
-    """Yield the records of a log in order.
+    """Yield the records of a log in order; those of several logs of a bug report, which follow each other, as one.
 
-    `report` receives a sentence about an incomplete last record. `flaws` counts records that the logger dropped. A file
-    that is no btsnoop log raises RecordingError; a damaged record raises it after all records before were yielded."""
-    with open_file(path) as file:
-        datalink = _parse_datalink(path, file.read(FILE_HEADER.size))
-        number = drops_before = 0
-        while start := file.read(RECORD_HEADER.size):
-            number += 1
-            is_cut = len(start) < RECORD_HEADER.size
-            size, included, flags, drops, t = RECORD_HEADER.unpack(start) if not is_cut else (0, 0, 0, 0, 0)
-            if included > min(MAX_RECORD_SIZE, size):
-                raise RecordingError(path, f"is damaged: it claims {included} of {size} bytes", f"record {number}")
-            data = file.read(included)
-            if is_cut or len(data) < included:
-                report(f"{printable(str(path))}: record {number}: cut off in the middle; everything before it is used")
-                return
-            if progress is not None:
-                progress(file.tell())
-            if drops > drops_before:
-                flaws["records that the logger says it dropped"] += drops - drops_before
-            drops_before = drops
-            yield _unwrap(datalink, t - TIME_OF_1970, flags, data, included == size)
+    `report` receives a sentence about an incomplete last record. `flaws` counts records that the logger dropped, and
+    those that are no HCI. A file that is no capture raises RecordingError; a damaged record raises it after all records
+    before were yielded."""
+    logs = [_Log(path, one, report, flaws, progress) for one in _logs_in(path)]
+    if not logs:
+        raise RecordingError(
+            path, "does not begin as a Bluetooth capture" if _start(partial(open_file, path)) else "is empty"
+        )
+    newest: int | None = None
+    for log in sorted(logs, key=_Log.first_time) if len(logs) > 1 else logs:
+        end = newest
+        for record in log.read():
+            if end is None or record.t > end:  # a log that was filtered repeats another one
+                newest = record.t
+                yield record
 
 
-def _parse_datalink(path: Path, start: bytes) -> Datalink:
-    magic, version, datalink = FILE_HEADER.unpack(start.ljust(FILE_HEADER.size)[: FILE_HEADER.size])
-    if len(start) < FILE_HEADER.size or magic != MAGIC:
-        raise RecordingError(path, "does not begin as a btsnoop log" if start else "is empty")
-    found = next((one for one in Datalink if one.value == datalink and version == VERSION), None)
-    if found is None:
-        readable = ", ".join(f"{one.value} ({one.name})" for one in Datalink)
-        what = f"is btsnoop of datalink {datalink}, version {version}"
-        raise RecordingError(path, f"{what}; this release reads {readable}, version {VERSION}")
-    return found
+@define
+class _Log:
+    """One log of a file; the arguments are those of `read_records`."""
+
+    path: Path
+    opener: Callable[[], BinaryIO]
+    report: Report
+    flaws: Counter[str]
+    progress: Callable[[int], None] | None
+    number: int = 0
+    """Number of records that were read."""
+
+    def first_time(self) -> int:
+        """Return the time of the first record, us since 1970; 0 without one."""
+        with self.opener() as file, suppress(DamageError, UnreadError, EOFError, struct.error, IndexError):
+            return next((one.t for one in read_capture(file)), 0)
+        return 0
+
+    def read(self) -> Iterator[HciRecord]:
+        """Yield the records of the log that are HCI."""
+        links, drops = Counter[int](), 0
+        with self.opener() as file:
+            try:
+                for self.number, one in enumerate(read_capture(file), 1):
+                    if one.drops > drops:
+                        self.flaws["records that the logger says it dropped"] += one.drops - drops
+                    drops = one.drops
+                    if self.progress is not None:
+                        self.progress(file.tell())
+                    links[one.link] += 1
+                    if one.link in READ_LINKS:
+                        yield _unwrap(one)
+            except (DamageError, struct.error, IndexError) as error:  # struct's are of blocks that are too short
+                raise RecordingError(self.path, f"is damaged: {error}", f"record {self.number + 1}") from None
+            except UnreadError as error:
+                raise RecordingError(self.path, str(error)) from None
+            except EOFError:
+                where = f"record {self.number + 1}: cut off in the middle; everything before it is used"
+                self.report(f"{printable(str(self.path))}: {where}")
+        others = {link: count for link, count in links.items() if link not in READ_LINKS}
+        if others and not links.keys() & READ_LINKS:
+            which = ", ".join(f"{link}{NAMED_LINKS.get(link, '')}" for link in others)
+            raise RecordingError(self.path, f"is a capture of link type {which}, not of HCI", repair=RECORD_HCI)
+        for link, count in others.items():
+            self.flaws[f"records of link type {link}{NAMED_LINKS.get(link, '')}, which are not HCI"] += count
 
 
-def _unwrap(datalink: Datalink, t: int, flags: int, data: bytes, whole: bool) -> HciRecord:
-    if datalink is Datalink.MONITOR:
-        return HciRecord(t, flags >> 16, *_MONITOR_OPCODES.get(flags & 0xFFFF, (RecordKind.OTHER, False)), data, whole)
-    return HciRecord(t, 0, RecordKind(data[0] if data else 0), not flags & _RECEIVED_FLAG, data[1:], whole)
+def _unwrap(one: Captured) -> HciRecord:
+    data, whole = one.data, len(one.data) >= one.size
+    if one.link == MONITOR:
+        adapter, opcode = int.from_bytes(data[:2], "big"), int.from_bytes(data[2:4], "big")
+        return HciRecord(one.t, adapter, *_MONITOR_OPCODES.get(opcode, (RecordKind.OTHER, False)), data[4:], whole)
+    sent = one.sent
+    if one.link == PHDR:
+        sent, data = data[3:4] != b"\1", data[4:]
+    return HciRecord(one.t, 0, RecordKind(data[0] if data else 0), sent, data[1:], whole)

@@ -51,6 +51,8 @@ FIRST_DYNAMIC_CHANNEL = 0x40
 """First of the L2CAP channels that are opened on request, for example for the enhanced attribute protocol (EATT)."""
 MOST_DEVICES = 500
 """Largest number of devices of a log that are examined, chosen by hand; they are those that the host connected to."""
+CUT_SHORT = "packets that the capture cut short (a snap length, or an Android log that is Filtered)"
+"""What is said of packets of which only the start was logged."""
 
 
 @define(eq=False)
@@ -108,7 +110,7 @@ class ValueListener:
             for record in read_records(self.path, report=self.report, flaws=self.flaws, progress=progress):
                 t = record.t
                 if record.kind is not RecordKind.OTHER and not record.whole:
-                    self.flaws["records that the logger cut short"] += 1
+                    self.flaws[CUT_SHORT] += 1
                     continue
                 try:
                     if record.kind is RecordKind.EVENT:
@@ -153,12 +155,15 @@ class ValueListener:
             yield LoggedItem(t, connection, None, connected=False)
 
     def _feed_acl(self, record: HciRecord) -> Iterator[LoggedItem]:
-        packet, sent = parse_whole(ACL, record.data), record.sent
+        packet = parse_whole(ACL, record.data)
         key = record.adapter, packet.flags & HANDLE_MASK
         if key not in self._connections:
             yield from self._start(record.t, key, "")
         connection = self._connections[key] = self._connections.pop(key)  # as the newest
-        if packet.flags >> 12 & 3 != CONTINUING_FRAGMENT:
+        sent, continues = record.sent, packet.flags >> 12 & 3 == CONTINUING_FRAGMENT
+        if sent is None:  # the capture does not say it: the host is the client, and pieces follow their beginning
+            sent = next(reversed(connection.pieces), False) if continues else is_from_client(packet.data[PDU_HEADER:])
+        if not continues:
             self._discard_pieces(connection, sent)
             connection.pieces[sent] = bytearray()
         pieces = connection.pieces.get(sent)

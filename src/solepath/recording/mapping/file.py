@@ -11,7 +11,7 @@ from .mapping import TableMapping
 
 MAX_SIZE = 1_000_000
 """Largest size of a file with a mapping, bytes."""
-TABLES = ("columns", "units", "feet")
+TABLES = ("columns", "units", "scale", "rows", "feet")
 """Keys of a mapping whose values are tables of their own."""
 KEYS = ("rate", "wrap", "separator", "decimal", "header", "format", *TABLES)
 """Keys of a mapping."""
@@ -27,7 +27,7 @@ def read_mapping(path: Path | str) -> TableMapping:
     if len(data) > MAX_SIZE:
         raise RecordingError(path, f"is larger than {MAX_SIZE // 1_000_000} MB, so it is no mapping")
     try:
-        values: dict[str, Any] = tomllib.loads(data.decode("utf-8"))
+        values: dict[str, Any] = tomllib.loads(data.decode("utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise RecordingError(path, f"is not TOML ({error})") from None
     problems = [
@@ -42,6 +42,7 @@ def read_mapping(path: Path | str) -> TableMapping:
         listed = names if isinstance(names, list) else [names]
         # columns of a table without names have numbers
         values["columns"][key] = [str(name) if type(name) is int else name for name in listed]
+    values["rows"] = {name: str(value) for name, value in values.get("rows", {}).items()}
     try:
         mapping = TableMapping(**{key: values[key] for key in KEYS if key in values}, origin=path.name)
     except ValueError as error:

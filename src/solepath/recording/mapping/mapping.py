@@ -22,6 +22,8 @@ COMPONENTS = {"t": 1, "acc": 3, "gyro": 3}
 """Number of components of a quantity; an insole may have any number of cells."""
 KEYS = tuple(quantity + suffix for suffix in ("", "_left", "_right") for quantity in QUANTITIES)
 """Keys of columns: a quantity, alone or with the foot whose it is."""
+SCALED = {"t": "s", "acc": "g", "gyro": "deg/s", "pressure": "N"}
+"""Unit of each quantity in which a scale counts: 2048 counts per g."""
 FORMATS = ("movella-dot", "mbientlab", "physilog", "moticon", "ngimu", "solepath")
 """Names of the known formats, which `solepath.recording.exports` defines."""
 SEPARATORS = (",", ";", "\t", "|", " ")
@@ -65,6 +67,10 @@ class TableMapping:
     """Unit of each quantity, such as {"t": "ms", "acc": "g", "gyro": "deg/s"}."""
     rate: float | None = None
     """Number of samples a second, Hz, of a table without times; None for one with times."""
+    scale: Mapping[str, float] = field(factory=dict)
+    """Number of counts per unit (SCALED) of each quantity, such as {"acc": 2048, "gyro": 16.4}; none for a unit."""
+    rows: Mapping[str, str] = field(factory=dict)
+    """Value that each of these columns has in the rows that count, such as {"device": "3"}; none for all rows."""
     wrap: float | None = None
     """Value at which a counter of time starts again from 0, s or the unit of the column; None if it never does."""
     separator: str | None = field(default=None, converter=_to_separator)
@@ -98,6 +104,11 @@ class TableMapping:
                 yield f"{quantity} is none of {', '.join(UNITS)}"
             elif not isinstance(unit, str) or unit_of(unit, quantity) is None:
                 yield f"{unit!r} is no unit of {quantity}: {', '.join(UNITS[quantity])}"
+        for quantity, scale in self.scale.items():
+            if quantity not in SCALED or not _is_positive(scale):
+                yield f"{quantity}={scale} is no scale: counts per {', '.join(SCALED.values())} of {', '.join(SCALED)}"
+            elif quantity in self.units:
+                yield f"{quantity} has a unit and a scale: give one of them"
         for key, (fits, what) in _RULES.items():
             value = getattr(self, key)
             if value not in (None, "") and not fits(value):
@@ -107,25 +118,34 @@ class TableMapping:
                 yield f"{foot} is not left or right, with a pattern of names of files"
 
     @classmethod
-    def parse(cls, columns: str = "", units: str = "", **more: Any) -> TableMapping:
-        """Return the mapping of `t=Time,acc=AX,AY,AZ` and `g,deg/s,ms`, the texts of --columns and --units.
+    def parse(
+        cls, columns: str = "", units: str = "", scale: str = "", rows: Iterable[str] = (), **more: Any
+    ) -> TableMapping:
+        """Return the mapping of `t=Time,acc=AX,AY,AZ`, `g,deg/s,ms`, `acc=2048,gyro=16.4` and `device=3`.
 
-        A name that contains a comma is in double quotes. ValueError says what is wrong."""
-        return cls(_parse_columns(columns), _parse_units(units), **more)
+        These are the texts of --columns, --units, --scale and --rows. A name that contains a comma is in double quotes.
+        ValueError says what is wrong."""
+        chosen = dict(_parse_rows(rows))
+        return cls(_parse_columns(columns), _parse_units(units), scale=_parse_scale(scale), rows=chosen, **more)
 
     def replaced(self, other: TableMapping, **more: Any) -> TableMapping:
         """Return this mapping with everything that another one states in place of its own; `more`: other fields."""
         merged = other.completed(self)
-        return evolve(self, columns=merged.columns, units=merged.units, rate=merged.rate, **more)
+        changes = {key: getattr(merged, key) for key in ("columns", "units", "scale", "rows", "rate")}
+        return evolve(self, **changes, **more)
 
     def completed(self, base: TableMapping) -> TableMapping:
         """Return this mapping with everything that it leaves out taken from another one."""
         own = {key.split("_")[0] for key in self.columns if "_" not in key}
         kept = {key: names for key, names in base.columns.items() if "_" not in key or key.split("_")[0] not in own}
+        if self.rate is not None:  # given in place of times
+            kept = {key: names for key, names in kept.items() if not key.startswith("t")}
         return evolve(
             self,
             columns={**kept, **self.columns},
-            units={**base.units, **self.units},
+            units={**{q: unit for q, unit in base.units.items() if q not in self.scale}, **self.units},
+            scale={**{q: scale for q, scale in base.scale.items() if q not in self.units}, **self.scale},
+            rows={**base.rows, **self.rows},
             rate=base.rate if self.rate is None else self.rate,
             wrap=base.wrap if self.wrap is None else self.wrap,
         )
@@ -148,6 +168,33 @@ class TableMapping:
         if not self.origin:
             return f"--units {','.join({**self.units, **changes}.values())}"
         return self.write_setting(quantity, f'"{changes[quantity]}" below [units]')
+
+    @property
+    def untimed(self) -> TableMapping:
+        """This mapping without columns of times."""
+        return evolve(self, columns={key: names for key, names in self.columns.items() if not key.startswith("t")})
+
+    def write_rate(self, rate: str) -> str:
+        """Return what gives the rows a rate in place of times."""
+        if self.origin:
+            return f"{self.write_setting('rate', rate)}, and no t below [columns]"
+        return f"{self.untimed.write_columns('', {}) + ' ' if self.columns else ''}{self.write_setting('rate', rate)}"
+
+    def write_scale(self, changes: Mapping[str, str]) -> str:
+        """Return what gives these scales: the whole --scale, or lines in the file of this mapping."""
+        scales = {**{quantity: f"{scale:.6g}" for quantity, scale in self.scale.items()}, **changes}
+        return self._write_lines("scale", changes) if self.origin else f"--scale {_join(scales)}" if scales else ""
+
+    def write_rows(self, changes: Mapping[str, str]) -> str:
+        """Return what chooses these rows: all of --rows, or lines in the file of this mapping."""
+        chosen = [f"--rows {shlex.quote(_join({name: value}))}" for name, value in {**self.rows, **changes}.items()]
+        lines = {json.dumps(name): json.dumps(value) for name, value in changes.items()}
+        return self._write_lines("rows", lines) if self.origin else " ".join(chosen)
+
+    def _write_lines(self, table: str, changes: Mapping[str, str]) -> str:
+        return (
+            f"in {self.origin}: {', '.join([f'{name} = {value}' for name, value in changes.items()])} below [{table}]"
+        )
 
     def write_setting(self, key: str, value: str) -> str:
         """Return what sets another value: an option of this name, or a line in the file of this mapping."""
@@ -174,6 +221,10 @@ def match_name(names: Sequence[str], given: str) -> list[NamedColumn]:
         if found:
             return [NamedColumn(k, names[k], sign) for k in found]
     return []
+
+
+def _join(values: Mapping[str, str]) -> str:
+    return ",".join([f"{name}={value}" for name, value in values.items()])
 
 
 def join_names(names: Iterable[str]) -> str:
@@ -214,3 +265,24 @@ def _parse_units(text: str) -> dict[str, str]:
             raise ValueError(f"{units[found[0]]} and {found[1]} are units of the same quantity")
         units[found[0]] = found[1]
     return units
+
+
+def _parse_scale(text: str) -> dict[str, float]:
+    scales: dict[str, float] = {}
+    for word in filter(str.strip, text.split(",")):
+        quantity, _, number = map(str.strip, word.partition("="))
+        try:
+            if quantity not in SCALED or quantity in scales:
+                raise ValueError
+            scales[quantity] = float(number)
+        except ValueError:
+            raise ValueError(f"{word!r} is no scale: write acc=2048,gyro=16.4, counts per g and per deg/s") from None
+    return scales
+
+
+def _parse_rows(texts: Iterable[str]) -> Iterator[tuple[str, str]]:
+    for text in texts:
+        name, equals, value = map(str.strip, text.rpartition("="))
+        if not equals or not name:
+            raise ValueError(f"{text!r} chooses no rows: write COLUMN=VALUE, as in device=3")
+        yield name, value

@@ -11,6 +11,8 @@ WORDS: dict[str, Any] = tomllib.loads(files("solepath.recording.mapping").joinpa
 """Units, and words in names."""
 UNITS: dict[str, dict[str, float]] = WORDS["units"]
 """Factors to SI units of the units of each quantity."""
+SI = {quantity: next(iter(factors)) for quantity, factors in UNITS.items()}
+"""SI unit of each quantity."""
 GRAVITY = UNITS["acc"]["g"]
 """Standard gravity, m/s^2: the value of 1 g."""
 DATETIME = "datetime"

@@ -11,8 +11,8 @@ from attrs import define, field
 from ...types import Foot
 from ..errors import RecordingError, printable
 from ..exports import EXPORTS, OWN, Export
-from ..mapping.mapping import COMPONENTS, MEASURED, QUANTITIES, NamedColumn, TableMapping, match_name
-from ..mapping.units import DATETIME, UNITS, unit_of, unit_of_name
+from ..mapping.mapping import COMPONENTS, MEASURED, QUANTITIES, SCALED, NamedColumn, TableMapping, match_name
+from ..mapping.units import DATETIME, SI, unit_of, unit_of_name
 from ..mapping.words import foot_of_text
 from .sheet import SheetLayout, is_datetime
 from .table import FootTable
@@ -34,6 +34,10 @@ class TableColumns:
     """Faults by key of the mapping; the key "" for a fault of the whole table."""
     changes: dict[str, list[str]] = field(factory=dict)
     """Names of columns that would repair them, by key; "NAME" for one that is not known."""
+    chosen: dict[int, str] = field(factory=dict)
+    """Value of the rows that count in each of these columns, by its index."""
+    scales: dict[str, str] = field(factory=dict)
+    """Counts per unit of raw values, as far as they can be guessed."""
     elsewhere: set[str] = field(factory=set)
     """Keys none of whose columns are here, and which another file may hold."""
 
@@ -82,6 +86,12 @@ def find_columns(header: SheetLayout, given: TableMapping, foot: Foot | None, *,
                 found.faults[""] = [str(error)]
                 return found
     found.mapping = given.completed(base)
+    for name, value in given.rows.items():
+        matches = match_name(header.names, name)
+        if not matches:
+            found.faults[""] = [f"has no column {printable(name, 40)} to choose rows by ({header.list_names()})"]
+            return found
+        found.chosen[matches[0].index] = value
     columns, is_of_one_foot = found.mapping.columns, found.mapping.is_of_one_foot
     for one in [foot or tagged] if is_of_one_foot else Foot:
         suffix = "" if is_of_one_foot or one is None else f"_{one.value}"
@@ -172,8 +182,10 @@ def _find_unit(header: SheetLayout, quantity: str, column: NamedColumn, given: T
     """Return the unit of a quantity: as it is given, as the header says, as the known format has it, or SI."""
     if quantity == "t" and any(is_datetime(text, header.decimal) for text in header.example[column.index :][:1]):
         return DATETIME
+    if quantity in given.scale:
+        return SCALED[quantity]
     if quantity in given.units:
         return unit_of(given.units[quantity], quantity) or given.units[quantity]
     below = "".join(header.units[column.index :][:1])
     stated = unit_of_name(column.name, quantity) or unit_of(below, quantity)
-    return stated or base.units.get(quantity, next(iter(UNITS[quantity])))
+    return stated or base.units.get(quantity, SI[quantity])

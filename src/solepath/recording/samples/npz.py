@@ -13,16 +13,15 @@ from attrs import evolve
 from numpy.lib.format import read_array
 from numpy.typing import NDArray
 
-from ..errors import RecordingError, describe_error, open_file, printable
+from ..errors import RecordingError, describe_error, printable
 from ..mapping.mapping import COMPONENTS, KEYS, TableMapping
+from ..unpacking import open_unpacked
 from .columns import TableColumns
 from .sheet import SheetLayout
-from .table import MAX_VALUES
+from .table import FLOAT_SIZE, MAX_VALUES
 
 MAX_PIPED = 256_000_000
 """Largest size of an archive that comes through a pipe, bytes; which is kept whole, as its list is at its end."""
-FLOAT_SIZE = 8
-"""Size of a number in memory, bytes."""
 
 
 def open_npz(path: Path, mapping: TableMapping) -> tuple[SheetLayout, TableMapping, dict[int, list[float]]]:
@@ -30,7 +29,7 @@ def open_npz(path: Path, mapping: TableMapping) -> tuple[SheetLayout, TableMappi
 
     A key holds all components of a quantity, which become columns such as acc_x, or one of them. RecordingError as for
     `read_arrays`, and for an array that is used and does not hold columns of numbers."""
-    given = {name.lstrip("-") for names in mapping.columns.values() for name in names}
+    given = {name.lstrip("-") for names in (*mapping.columns.values(), mapping.rows) for name in names}
     parts: dict[str, list[str]] = {}
     names: list[str] = []
     columns: dict[int, list[float]] = {}
@@ -81,7 +80,7 @@ def read_arrays(path: Path, is_used: Callable[[str], bool]) -> dict[str, NDArray
 
 def _read_members(path: Path, is_used: Callable[[str], bool]) -> dict[str, NDArray[Any] | None]:
     """Return all keys of an archive in order; the values of those that are not used are None."""
-    with open_file(path) as file:
+    with open_unpacked(path) as file:
         stream: BinaryIO = file
         if not file.seekable():
             stream = BytesIO(file.read(MAX_PIPED + 1))

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from itertools import accumulate, pairwise
 from math import isnan, nan
+
+from attrs import evolve
 
 from ..bad_rows import BadRows
 from ..errors import RecordingError, printable
 from ..exports import OWN
-from ..mapping.units import DATETIME, UNITS
+from ..mapping.units import DATETIME
 from .columns import TableColumns
 from .sheet import Row, cut, is_blank, read_datetime, read_number
 from .table import MAX_VALUES, FootTable, floats
 
+MOST_VALUES = 10
+"""Largest number of values of a column that an error names; chosen by hand."""
 SECONDS_OF_DAY = 86400.0
 """Length of a day, s: times without a date start again from 0 after it."""
 
@@ -30,7 +35,7 @@ def read_rows(rows: Iterator[Row], found: TableColumns, bad_rows: BadRows) -> li
     values = {index: floats() for index in columns}
     lines, counts = array("q"), floats()
     width = max((k + 1 for k, name in enumerate(header.names) if name), default=0)
-    for count, row in enumerate(rows):
+    for count, row in enumerate(_chosen(rows, found)):
         numbers = []
         try:
             cells = cut(row.content, header.separator)
@@ -64,6 +69,45 @@ def read_rows(rows: Iterator[Row], found: TableColumns, bad_rows: BadRows) -> li
     return fill_tables(found, values, counts, lines) if lines else []
 
 
+def choose_values(found: TableColumns, columns: Mapping[int, Sequence[float]]) -> dict[int, list[float]]:
+    """Return the values of columns, of the same length, in the rows that the mapping chooses."""
+    rows = (Row(row, list(cells)) for row, cells in enumerate(zip(*columns.values(), strict=False)))
+    order = {index: k for k, index in enumerate(columns)}
+    chosen = {order[index]: value for index, value in found.chosen.items()}
+    kept = [row.content for row in _chosen(rows, evolve(found, chosen=chosen))]
+    return {index: list(values) for index, values in zip(columns, zip(*kept, strict=True), strict=True)}
+
+
+def _chosen(rows: Iterator[Row], found: TableColumns) -> Iterator[Row]:
+    """Yield the rows that the mapping chooses; RecordingError when there is none, with the values that there are."""
+    seen, count = dict[str, None](), 0
+    for row in rows:
+        if found.chosen:
+            with suppress(ValueError):
+                cells = cut(row.content, found.header.separator)
+                values = [str(cells[index]).strip() if index < len(cells) else "" for index in found.chosen]
+                if len(seen) < MOST_VALUES:
+                    seen[", ".join(values)] = None
+                if not all(map(is_same, values, found.chosen.values())):
+                    continue
+        count += 1
+        yield row
+    if found.chosen and not count:
+        choice = ", ".join([f"{name} = {value}" for name, value in found.mapping.rows.items()])
+        what = f"has no row with {printable(choice, 80)}; there are {printable('; '.join(seen), 120)}"
+        raise RecordingError(found.header.path, what)
+
+
+def is_same(text: str, value: str) -> bool:
+    """Return whether two texts are the same, or the same number."""
+    if text == value:
+        return True
+    try:
+        return float(text) == float(value)
+    except ValueError:
+        return False
+
+
 def fill_tables(
     found: TableColumns, values: Mapping[int, Sequence[float]], counts: Sequence[float], lines: Sequence[int] | None
 ) -> list[FootTable]:
@@ -75,7 +119,7 @@ def fill_tables(
     for table in found.feet:
         table.lines = lines
         table.columns = {
-            quantity: [_scaled(values[one.index], one.sign * UNITS[quantity][table.units[quantity]]) for one in columns]
+            quantity: [_scaled(values[one.index], one.sign * table.factor(quantity)) for one in columns]
             for quantity, columns in table.sources.items()
         }
         if "t" in table.sources:
@@ -86,7 +130,7 @@ def fill_tables(
             if wrap is not None:
                 turns = accumulate([b - a < -0.5 * wrap for a, b in pairwise(t)], initial=0)
                 t = [number + wrap * turn for number, turn in zip(t, turns, strict=False)]
-            table.t = _scaled(t, UNITS["t"][unit])
+            table.t = _scaled(t, table.factor("t"))
             table.is_own = found.export is OWN and has_own_time and unit == "s"
             del table.columns["t"]
         else:

@@ -16,13 +16,15 @@ from attrs import evolve, frozen
 
 from ...types import Foot, Sample
 from ..bad_rows import BadRows
-from ..errors import RecordingError, Report, printable, warn
+from ..errors import RecordingError, Report, UnusableValues, printable, warn
 from ..mapping.mapping import MEASURED, TableMapping
 from ..mapping.words import foot_of_text
+from ..unpacking import content_name
 from .columns import TableColumns, find_columns
 from .guess import UnknownTable, guess_mapping, merge_guesses
 from .join import join_files
-from .numbers import fill_tables, read_rows
+from .mixed import find_mixture, repair_mixture
+from .numbers import choose_values, fill_tables, read_rows
 from .plausible import list_unit_problems
 from .sheet import open_sheet
 from .table import FootTable, floats, remove_bad_rows
@@ -45,6 +47,8 @@ class SampleRecording:
     bad_rows: BadRows
     start_time: datetime | None = None
     """Moment of time 0, UTC, if the files have times since 1970 that are counted from the first one."""
+    left_out: tuple[str, ...] = ()
+    """Sentences on the sensors that are broken and were left out."""
 
     def __len__(self) -> int:
         return sum(map(len, self.tables))
@@ -124,14 +128,18 @@ def load_files(files: Sequence[SampleFile], only: Foot | None, report: Report) -
     if not tables and not problems and only is not None:
         problems.append(RecordingError(paths[0], f"holds nothing of the {only.value} foot"))
     example = _name_feet(paths, unnamed, problems)
-    problems += list_unit_problems(tables)
+    wrong, left_out = list_unit_problems(tables)
+    problems += wrong
+    for sentence in left_out:
+        report(sentence)
+    tables = [table for table in tables if table.columns]
     start_time = _count_from_start(tables)
     joined = [] if problems else join_files(tables, problems)
     if problems:
         raise RecordingError.of(merge_guesses(problems, example))
     if not any(map(len, joined)):
         raise RecordingError(paths[0], "holds no samples")
-    return SampleRecording(paths[0], tuple(joined), total, start_time)
+    return SampleRecording(paths[0], tuple(joined), total, start_time, tuple(left_out))
 
 
 def _feet_of_files(paths: Sequence[Path], patterns: Mapping[str, str]) -> Iterator[Foot | None]:
@@ -139,7 +147,7 @@ def _feet_of_files(paths: Sequence[Path], patterns: Mapping[str, str]) -> Iterat
     use_folders = len({path.parent for path in paths}) > 1
     for path in paths:
         matching = [Foot(foot) for foot, pattern in patterns.items() if fnmatchcase(path.name, pattern)]
-        foot = matching[0] if len(matching) == 1 else foot_of_text(path.stem)
+        foot = matching[0] if len(matching) == 1 else foot_of_text(Path(content_name(path)).stem)
         yield foot_of_text(path.parent.name) if foot is None and use_folders else foot
 
 
@@ -148,7 +156,7 @@ def _read_file(file: SampleFile, bad_rows: BadRows, headers: list[TableColumns],
 
     There are none for a sheet whose columns have faults."""
     path, mapping = file.path, file.mapping
-    if path.suffix.lower() == ".npz":
+    if Path(content_name(path)).suffix.lower() == ".npz":
         from .npz import check_lengths, open_npz  # imports numpy, which text does not need
 
         layout, mapping, columns = open_npz(path, mapping)
@@ -162,11 +170,12 @@ def _read_file(file: SampleFile, bad_rows: BadRows, headers: list[TableColumns],
             layout = evolve(layout, names=file.names, units=file.units)
         found = find_columns(layout, mapping, file.foot, is_alone=is_alone)
         if not found.feet and not found.faults:
-            raise guess_mapping(layout, rows, file.foot)
+            raise guess_mapping(layout, rows, mapping, file.foot)
         headers.append(found)
         if found.is_empty or found.list_problems(found.elsewhere):
             return []
         if columns:
+            columns = choose_values(found, columns) if found.chosen else columns
             tables = fill_tables(found, columns, check_lengths(found, columns), None)
         else:
             tables = read_rows(rows, found, bad_rows)
@@ -174,6 +183,14 @@ def _read_file(file: SampleFile, bad_rows: BadRows, headers: list[TableColumns],
         inertial = [zip(*columns, strict=True) for q, columns in table.columns.items() if q != "pressure"]
         table.select([any(not any(map(isnan, vector)) for vector in row) for row in zip(*inertial, strict=True)])
         table.t = floats([t + file.delay for t in table.t])
+    if not file.names:
+        for table in tables:
+            if (mixture := find_mixture(table)) is not None:
+                repair = ""
+                if not columns and path.is_file():  # a pipe cannot be read again
+                    with open_sheet(path, mapping) as (_, again):
+                        repair = repair_mixture(found, list(again), mixture)
+                raise UnusableValues(path, mixture.what, table.names["t"], repair)
     for flaw in [] if found.export is None else found.export.list_flaws(layout):
         bad_rows.report(f"{printable(str(path))}: {flaw}")
     if not any(map(len, tables)):

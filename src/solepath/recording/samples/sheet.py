@@ -1,7 +1,7 @@
 """Rows of cells of a text file, a workbook (Excel) or a Parquet file, with the layout that was found in its start.
 
-A text file is read as a stream, so that it may come through a pipe. Workbooks and Parquet files need pandas or polars
-(extra `tables`)."""
+A text file is read as a stream, so that it may come through a pipe. Parquet files need pyarrow or polars (extra
+`tables`)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from codecs import getincrementaldecoder
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from datetime import UTC, datetime, time
-from importlib.util import find_spec
 from io import TextIOWrapper
 from itertools import chain, islice
 from math import nan
@@ -20,17 +19,15 @@ from typing import Any, TextIO
 
 from attrs import frozen
 
-from ...types.extras import install_hint
 from ..bad_rows import LONGEST_LINE, read_lines
-from ..errors import RecordingError, describe_error, open_file, printable
+from ..errors import UNREAD_SAMPLES, RecordingError, printable
 from ..mapping.mapping import SEPARATORS, TableMapping
 from ..mapping.units import find_unit
+from ..unpacking import content_name, open_unpacked
 
 MAX_LENGTH = 4_000_000_000
 """Largest number of characters of a file: 40 for each of MAX_VALUES. A device without end is read up to it."""
-MAX_BOOK = 256_000_000
-"""Largest size of a workbook or Parquet file, bytes; which is unpacked as a whole."""
-BOOKS = (".xlsx", ".xlsm", ".xls", ".ods", ".parquet")
+BOOKS = (".xlsx", ".xlsm", ".parquet")
 """Suffixes of workbooks and Parquet files."""
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 """First bytes of a file in UTF-16, which Excel calls Unicode text."""
@@ -159,10 +156,16 @@ def open_sheet(path: Path, mapping: TableMapping) -> Iterator[tuple[SheetLayout,
     """Open a table; the value is its layout, and an iterator over its rows below the header that are not blank.
 
     RecordingError for a file that is empty, too large or no table."""
-    if path.suffix.lower() in BOOKS:
-        yield _find_start(path, _read_book(path), mapping)
+    suffix = Path(content_name(path)).suffix.lower()
+    if suffix in UNREAD_SAMPLES:
+        raise RecordingError(path, f"is of a kind that is not read ({suffix})", repair=UNREAD_SAMPLES[suffix])
+    if suffix in BOOKS:
+        from .books import read_book
+
+        rows = (Row(number, cells) for number, cells in read_book(path) if not all(map(is_blank, cells)))
+        yield _find_start(path, rows, mapping)
         return
-    file = open_file(path)
+    file = open_unpacked(path)
     encoding = _encoding_of(file.peek(2))  # type: ignore[attr-defined]
     # bytes that are no text become part of a column's name or of a number, where they are reported
     with TextIOWrapper(file, encoding=encoding, errors="replace") as text:
@@ -173,6 +176,8 @@ def _encoding_of(start: bytes) -> str:
     """Return the encoding of a text file by its first bytes: those of UTF-16, else UTF-8, else that of Windows."""
     if start[:2] in UTF_16:
         return "utf-16"
+    if start[:2].count(0) == 1:  # UTF-16 without its mark
+        return "utf-16-le" if start[0] else "utf-16-be"
     try:
         getincrementaldecoder("utf-8")().decode(start)  # a character may be cut off at the end
     except UnicodeDecodeError:
@@ -184,8 +189,7 @@ def _read_text(path: Path, text: TextIO) -> Iterator[Row]:
     for line in read_lines(text, "\n"):
         if line.end > MAX_LENGTH:
             raise RecordingError(path, f"is longer than {MAX_LENGTH:,} characters")
-        if line.data.strip():
-            yield Row(line.number, line.data, line.is_cut)
+        yield Row(line.number, line.data, line.is_cut)
 
 
 def _find_start(path: Path, rows: Iterator[Row], mapping: TableMapping) -> tuple[SheetLayout, Iterator[Row]]:
@@ -279,34 +283,3 @@ def _is_line_of_units(cells: Sequence[str]) -> bool:
     texts = list(filter(None, cells))
     known = [find_unit(text) is not None or re.fullmatch(r"[\[(].*[\])]|-", text) is not None for text in texts]
     return len(texts) > 1 and all(known) and not any(map(is_number, texts))
-
-
-def _read_book(path: Path) -> Iterator[Row]:
-    """Yield the rows of the first sheet of a workbook, or names and rows of a Parquet file."""
-    with open_file(path) as file:
-        if len(file.read(MAX_BOOK + 1)) > MAX_BOOK:
-            raise RecordingError(path, f"is larger than {MAX_BOOK // 1_000_000} MB")
-    library = next((name for name in ("pandas", "polars") if find_spec(name) is not None), None)
-    if library is None:
-        raise RecordingError(path, "needs pandas or polars", repair=install_hint("tables"))
-    kind = "Parquet file" if path.suffix.lower() == ".parquet" else "workbook"
-    try:
-        rows = _load_rows(path, library, kind == "Parquet file")
-    except ImportError as error:
-        what = f"cannot be read by {library}, which lacks {error.name or 'a library'}"
-        raise RecordingError(path, what, repair=install_hint("tables")) from error
-    except Exception as error:  # the libraries raise errors of many kinds for a damaged file
-        raise RecordingError(path, f"is no whole {kind} ({describe_error(error)})") from error
-    yield from [Row(number, cells) for number, cells in enumerate(rows, 1) if not all(map(is_blank, cells))]
-
-
-def _load_rows(path: Path, library: str, is_parquet: bool) -> list[Cells]:
-    if library == "polars":
-        import polars
-
-        table = polars.read_parquet(path) if is_parquet else polars.read_excel(path, has_header=False)
-        return [*([table.columns] if is_parquet else []), *map(list, table.rows())]
-    import pandas
-
-    frame = pandas.read_parquet(path) if is_parquet else pandas.read_excel(path, header=None, dtype=object)
-    return [*([list(map(str, frame.columns))] if is_parquet else []), *frame.astype(object).values.tolist()]

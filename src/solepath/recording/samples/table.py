@@ -17,9 +17,14 @@ from attrs import define, field
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ..errors import RecordingError
 from ..mapping.mapping import MEASURED, NamedColumn, TableMapping
+from ..mapping.units import SI, UNITS
 
 MAX_VALUES = 100_000_000
 """Largest count of numbers in a file of samples, which take 0.8 GB: three hours of two feet with 16 cells at 200 Hz."""
+FLOAT_SIZE = 8
+"""Size of a number in memory, bytes."""
+LONGEST_BURST = 32
+"""Number of samples over which the time between two of them is averaged; a packet has at most some 20."""
 
 
 def floats(values: Iterable[float] = ()) -> array[float]:
@@ -70,6 +75,16 @@ class FootTable:
         """Usual time between two samples, s; 0 with fewer than two."""
         return median([b - a for a, b in pairwise(self.t)]) if len(self) > 1 else 0.0
 
+    @property
+    def pace(self) -> float:
+        """Usual time between two samples, s, also of those that come in bursts; 0 with fewer than two."""
+        span = min(LONGEST_BURST, len(self) - 1)
+        return median([b - a for a, b in zip(self.t, self.t[span:], strict=False)]) / span if len(self) > 1 else 0.0
+
+    def factor(self, quantity: str) -> float:
+        """Return the value in SI units of 1 in the file."""
+        return UNITS[quantity][self.units.get(quantity, SI[quantity])] / self.mapping.scale.get(quantity, 1.0)
+
     def lengths(self, quantity: str) -> list[float]:
         """Return the length of each vector of a quantity; none for a quantity that is not there."""
         return [hypot(*vector) for vector in zip(*self.columns.get(quantity, ()), strict=True)]
@@ -109,7 +124,7 @@ def remove_bad_rows(table: FootTable) -> list[tuple[int, str, str]]:
                     what = f"is {value}, not a finite number{when}"
                     faults.setdefault(row, (table.locate_value(row, quantity), what))
     rows = [row for row in range(len(table)) if row not in faults]
-    kept = _rows_in_order(table.t, rows)
+    kept = rows_in_order(table.t, rows)
     for row in sorted({*rows} - {*kept}):
         before = bisect_left(kept, row)
         places = [f"after {table.t[kept[before - 1]]:.10g} s"] if before else []
@@ -123,7 +138,7 @@ def remove_bad_rows(table: FootTable) -> list[tuple[int, str, str]]:
     return found
 
 
-def _rows_in_order(t: Sequence[float], rows: list[int]) -> list[int]:
+def rows_in_order(t: Sequence[float], rows: list[int]) -> list[int]:
     """Return the rows of a longest sequence in which the times never decrease.
 
     `ends` holds, for each length, the least time at which such a sequence ends (patience sorting)."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from ..output import table_writer
 from .bouts import WalkingBout
 from .clinic import ClinicalResults
 from .mobility import implausible
@@ -37,9 +37,10 @@ def write_outcomes(results: ClinicalResults, path: Path) -> None:
 
 def _write(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> None:
     with path.open("w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(columns)
-        table.writerows([[f"{cell:.6f}" if isinstance(cell, float) else cell for cell in row] for row in rows])
+        write = table_writer(file)
+        write(columns)
+        for row in rows:
+            write([f"{cell:.6f}" if isinstance(cell, float) else cell for cell in row])
 
 
 def _bout_cells(bout: WalkingBout) -> list[Cell]:

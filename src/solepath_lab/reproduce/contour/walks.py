@@ -30,24 +30,15 @@ from solepath.types import SITE_OF_FOOT, Foot, Layout, Sample
 from solepath.validate.alignment import Floats
 
 from ...emulated.laps import field_walk, square
-from ..published import PUBLISHED
-from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults
+from ..tables import PUBLISHED, DrawStyle, PictureTrack, Plot, Values, WalkResults
 from ..walks import align_track, final_strides, find_halt, join_routes, matched, thin_out
 from .figures import bias_curves, stance_curves
 from .variants import FOOT, MAIN, PACE, PRESSURE_ROW, VARIANTS, WITHOUT_BIAS_ROW, Setup
 
-
-@frozen
-class Loop:
-    """A half-hour walk of table I: its length and its loop-closing errors, m."""
-
-    distance: float
-    gyroscope: float
-    pressure: float
-
-
-LOOPS = tuple([Loop(*loop) for loop in PUBLISHED["pressure-contour"]["loops"]])
-"""Experiments 1 to 6 of table I."""
+LOOPS: list[float] = [distance for distance, _, _ in PUBLISHED["pressure-contour"]["loops"]]
+"""Lengths of experiments 1 to 6 of table I, m."""
+NUMBER = "(number)"
+"""Name of the index in LOOPS."""
 HALF_HOUR = 1800.0
 """Duration of the paper's walks, s."""
 XY = tuple[float, float]
@@ -121,12 +112,12 @@ class ContourJob:
     @property
     def square(self) -> bool:
         """True for laps of the square, False for a random walk."""
-        return LOOPS[self.number].distance < PACE * HALF_HOUR
+        return LOOPS[self.number] < PACE * HALF_HOUR
 
 
 def route_of(job: ContourJob) -> tuple[Route, Route]:
     """Return the route of the calibration laps with a halt of half a minute, and the whole route."""
-    distance = LOOPS[job.number].distance * job.duration / HALF_HOUR
+    distance = LOOPS[job.number] * job.duration / HALF_HOUR
     pace = job.setup.speed
     if pace != PACE:
         distance = pace * job.duration
@@ -147,7 +138,7 @@ def route_of(job: ContourJob) -> tuple[Route, Route]:
 def walk(job: ContourJob) -> WalkResults:
     """Emulate one walk, calibrate each recipe on the laps and run it on the rest.
 
-    Values are "number", the index in LOOPS, "distance", m, and of each recipe "ROW m", the loop-closing error, "ROW
+    Values are NUMBER and of each recipe "ROW m" and "ROW %", the loop-closing error and its share of the way, "ROW
     mm/s", the velocity of the heel while it was taken to be at rest, "ROW stances %" and "ROW strides %", the shares
     that were found, and "ROW length m", the mean error of a stride's length. Panels are the tracks of MAIN and of the
     printed recipe without its filter or without calibration, and figs. 7 and 9."""
@@ -162,15 +153,17 @@ def walk(job: ContourJob) -> WalkResults:
     known = Calibration(insoles={FOOT: InsoleCalibration(layout=insole)})
     true_strides = [one for one in walked.truth.strides(FOOT) if one.t_start > t_halt]
     shown: dict[str, ContourRun] = {}
-    values: Values = {"number": (float(job.number),), "distance": (whole.length - laps.length,)}
+    values: Values = {NUMBER: (float(job.number),)}
     panels = stance_curves(walked, insole, FOOT, t_halt)
     for name in job.variants:
         drift = _drift(VARIANTS[name], before, known, is_printed="printed" in name)
         run = run_foot(VARIANTS[name], FOOT, after, merged(known, Calibration(drift={FOOT: drift})))
         velocities = stance_velocities(run, walked.truth, FOOT, t_halt)
         found, pairs = velocities[~np.isnan(velocities)], matched(run.strides, true_strides)
+        end = float(np.linalg.norm(_track(run)[-1]))
         values |= {
-            f"{name} m": (float(np.linalg.norm(_track(run)[-1])),),
+            f"{name} m": (end,),
+            f"{name} %": (100.0 * end / (whole.length - laps.length),),
             f"{name} mm/s": (1e3 * float(found.mean()) if len(found) else 0.0,),
             f"{name} stances %": (100.0 * len(found) / len(velocities),),
             f"{name} strides %": (100.0 * len(pairs) / len(true_strides),),

@@ -60,7 +60,11 @@ def score_corridor(job: WearerJob) -> WalkResults:
         "two feet": [_end(FOOTSTEP_TRACKER, walk.packets)],
     }
     values |= {f"corridor's end, {name} %": tuple([abs(share(end)) for end in of]) for name, of in ends.items()}
-    values |= _stride_errors(walk, strides) | {"toe-out, printed deg": _printed_toe_out(job)}
+    angles = _printed_toe_out(job)
+    values |= _stride_errors(walk, strides) | {
+        "toe-out, printed deg": angles,
+        "feet with a printed toe-out %": (100.0 * len(angles) / len(Foot),),
+    }
     return WalkResults(values, (_curves(walk, strides, job.stature),))
 
 

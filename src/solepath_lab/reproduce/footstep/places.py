@@ -34,7 +34,7 @@ VARIANTS = {"ours": FOOTSTEP_TRACKER, "dropped at walls": DROPS_AT_WALLS, "print
 def score_places(job: WearerJob) -> WalkResults:
     """Return the places of one wearer: mean errors from the second turn on, m, and whether the true one was kept, %.
 
-    "by stride, VARIANT" are errors after each placed stride of the case study, m, and "by turn, VARIANT" mean errors
+    "(by stride) VARIANT" are errors after each placed stride of the case study, m, and "(by turn) VARIANT" mean errors
     between each of its turns and the next one."""
     values = Values()
 
@@ -51,7 +51,7 @@ def score_places(job: WearerJob) -> WalkResults:
     runs = {name: _run(recipe, walk.packets, way) for name, recipe in VARIANTS.items()}
     drawn, *_ = (add(f"case study, {name}", way, walk, events) for name, events in runs.items())
     for name, events in {"one foot": one_foot, "two feet": runs["ours"]}.items():
-        values[f"by stride, {name}"], values[f"by turn, {name}"] = _errors(way, walk, events)
+        values[f"(by stride) {name}"], values[f"(by turn) {name}"] = _errors(way, walk, events)
     values["place m"] = values["place, case study, ours m"]
     values["steps until decided"] = () if drawn.decided is None else (float(drawn.decided),)
 

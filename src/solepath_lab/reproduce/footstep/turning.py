@@ -12,7 +12,7 @@ from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.recipes import Recipe
 from solepath.types import Packet, Turn
 
-from ..tables import Values, WalkResults
+from ..tables import Values, WalkResults, mean, pooled
 from ..walks import final_strides, run_session
 from .wearers import PRINTED_TURN, WearerJob
 
@@ -50,8 +50,8 @@ def score_turns(job: WearerJob) -> WalkResults:
             angle = angles_of_class[k % len(angles_of_class)] + float(rng.normal(0.0, TURN_SPREAD))
             found = _turns(FOOTSTEP_TRACKER, _packets(job, angle, rng, 700 + k))
             n_right += [one.turn for one in found if one.turn is not None] == [turn]
-        values[turn.value] = (100.0 * n_right / TURNS_PER_CLASS,)
-    values["turn classes %"] = (fsum([values[turn.value][0] for turn in Turn]) / len(Turn),)
+        values[f"turn {turn.value} %"] = (100.0 * n_right / TURNS_PER_CLASS,)
+    values["turn classes %"] = (mean(pooled([values], *[f"turn {turn.value} %" for turn in Turn])),)
     return WalkResults(values)
 
 

@@ -45,8 +45,8 @@ emulate/sensors/air.py has the sources of the sizes; when the steps come, and ho
 class FootstepSetting:
     """The shoe, the sensors, the radio and the air of a walk."""
 
-    name: str
-    """Name in the table."""
+    title: str
+    """Words before its rows in the table."""
     contact: GroundContact = WORN
     """Contact of the sole with the ground."""
     device: Device = CC2541(rate=RATE, mounting=IN_SOLE)
@@ -59,16 +59,16 @@ class FootstepSetting:
     """Flag: activities are scored with this setting too; other settings change only the corridor."""
 
 
-STANDARD = FootstepSetting("worn sole, CC2541", activities=True)
+STANDARD = FootstepSetting("", activities=True)
 SETTINGS = (
-    FootstepSetting("rigid sole", RIGID),
-    FootstepSetting("slip 2 cm", SLIPPING),
-    FootstepSetting("flex", evolve(WORN, pivot_shift=-0.02, pivot_variation=0.006, radius_ratio=0.6)),
-    FootstepSetting("on the instep", device=CC2541(rate=RATE, mounting=ON_INSTEP)),
-    FootstepSetting("CC2650", device=CC2650(rate=RATE, mounting=IN_SOLE), activities=True),
-    FootstepSetting("MPU-6050", device=CC2650(rate=RATE, mounting=IN_SOLE, chip=MPU6050), activities=True),
-    FootstepSetting("3 % lost", radio=Radio(loss=0.03), activities=True),
-    FootstepSetting("weather", air=WEATHER, activities=True),
+    FootstepSetting("rigid sole: ", RIGID),
+    FootstepSetting("slip 2 cm: ", SLIPPING),
+    FootstepSetting("flex: ", evolve(WORN, pivot_shift=-0.02, pivot_variation=0.006, radius_ratio=0.6)),
+    FootstepSetting("on the instep: ", device=CC2541(rate=RATE, mounting=ON_INSTEP)),
+    FootstepSetting("CC2650: ", device=CC2650(rate=RATE, mounting=IN_SOLE), activities=True),
+    FootstepSetting("MPU-6050: ", device=CC2650(rate=RATE, mounting=IN_SOLE, chip=MPU6050), activities=True),
+    FootstepSetting("3 % lost: ", radio=Radio(loss=0.03), activities=True),
+    FootstepSetting("weather: ", air=WEATHER, activities=True),
 )
 """Settings of the sensitivity rows; each differs from STANDARD in one thing."""
 
@@ -102,7 +102,7 @@ class WearerJob:
     @property
     def is_standard(self) -> bool:
         """Flag: the setting is STANDARD."""
-        return self.setting.name == STANDARD.name
+        return not self.setting.title
 
     @property
     def wearer(self) -> Wearer:

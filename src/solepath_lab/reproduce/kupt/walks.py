@@ -92,11 +92,12 @@ class UnbiasedSwing(SoftSwing):
 
 NOT_ROLLING = KnownVelocity(KnownVelocitySettings(rolling_sigma=inf))
 """Detector whose velocities of a rolling shoe nobody uses."""
+SAME = "ZUPT, same additions"
 VARIANTS = {
     "KUPT as printed, our load": evolve(KUPT, corrector=SwingDedrift()),
     "KUPT, no bias": evolve(KUPT, corrector=UnbiasedSwing()),
     "KUPT, linear in swing": evolve(KUPT, corrector=LinearSwing()),
-    "ZUPT, same additions": evolve(KUPT, detector=NOT_ROLLING),
+    SAME: evolve(KUPT, detector=NOT_ROLLING),
 }
 """Ours without one addition, and our additions without any velocity of a rolling shoe."""
 

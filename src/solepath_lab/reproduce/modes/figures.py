@@ -12,7 +12,7 @@ from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.types import Foot
 
 from ...emulated.laps import ACROSS, ALONG, straight
-from ..tables import BoxPlots, DrawStyle, Panel, PictureTrack, Plot, WalkResults
+from ..tables import BoxPlots, DrawStyle, Panel, PictureTrack, Plot, Values
 from ..walks import thin_out
 from .walks import USUAL, corner_row, deviations
 
@@ -22,7 +22,7 @@ ROD_COUNT, ROD_DISTANCE = 9, 0.35
 """Number of pictures of the rods over one stride, and distance between two in the panel, m."""
 
 
-def panels(results: Sequence[WalkResults], methods: tuple[str, ...], seed: int) -> tuple[Panel, ...]:
+def panels(results: Sequence[Values], methods: tuple[str, ...], seed: int) -> tuple[Panel, ...]:
     """Return the panels of an experiment."""
     closed_path = tuple(CORNER_POSITIONS[point] for point in "ABCDA")
     tracks, deviation_tracks = [PictureTrack("rectangle", closed_path, DrawStyle.TRUTH)], []

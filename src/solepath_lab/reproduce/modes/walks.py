@@ -7,6 +7,8 @@ by the law of the literature and by chance, not by that of the rules of table 2.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from math import hypot
+from operator import attrgetter
 
 import numpy as np
 from attrs import astuple, evolve, frozen
@@ -31,7 +33,7 @@ from ...emulated.laps import LapCorner, corners, marked, rectangle
 from ...emulated.laps import marks as marks_of
 from ...emulated.limb_samples import limb_samples
 from ...emulated.wearers import SUBJECTS
-from ..tables import Values, WalkResults, pooled
+from ..tables import Values, WalkResults, mean, pooled
 from ..walks import run_session
 
 RATE = 50.0
@@ -123,8 +125,16 @@ class MarkedWalks:
     conditions: Conditions = USUAL
 
 
-def learn(job: MarkedWalks) -> Calibration:
-    """Return a wearer's calibration from walks over marks in every mode."""
+@frozen
+class LearntModes:
+    """A wearer's calibration, and its compensation as table 1 has it: x to the right, y ahead, m."""
+
+    calibration: Calibration
+    results: WalkResults
+
+
+def learn(job: MarkedWalks) -> LearntModes:
+    """Return what walks over marks in every mode tell of a wearer."""
     wearer, measured = job.conditions.wearer(job.subject), job.conditions.calibration(job.subject)
     errors: list[StepError] = []
     for round_seed in range(job.seed, job.seed + job.repeats):
@@ -137,7 +147,14 @@ def learn(job: MarkedWalks) -> Calibration:
             ]
             recording = DecodedRecording(tuple(job.conditions.samples(walker, measured, round_seed)), {})
             errors += step_errors(marks, touchdowns(recording, measured, heading=0.0), turn=0.0)
-    return merged(measured, Calibration(modes=mean_errors(errors)))
+    means = mean_errors(errors)
+    table: Values = {
+        f"{foot.value} {mode.value} {axis}": (value,)
+        for foot, row in means.items()
+        for mode, (forward, left) in row.items()
+        for axis, value in (("x", -left), ("y", forward))
+    }
+    return LearntModes(merged(measured, Calibration(modes=means)), WalkResults(table))
 
 
 @frozen
@@ -153,17 +170,23 @@ class ModesJob:
 
 
 def walk(job: ModesJob) -> WalkResults:
-    """Emulate one rectangle and return the deviations at its corners by method, m, as `corner_row` names them."""
+    """Emulate one rectangle and return the deviations at its corners by method, m, as `corner_row` names them.
+
+    "POINT METHOD m" is the length of one, `corners_row` the mean of the lengths."""
     conditions = job.conditions
     walker = Walker(rectangle(), conditions.wearer(job.subject), job.seed)
     samples = conditions.samples(walker, conditions.calibration(job.subject), job.seed)
-    corner_passes = corners(walker)
     values = Values()
     for method, (recipe, calibration) in job.methods.items():
         touchdown_events = _touchdowns(recipe, samples, calibration)
-        for corner in corner_passes:
-            deviation = _deviation(walker, corner, touchdown_events)
-            values |= {corner_row(corner.name, method, axis): (off,) for axis, off in zip("xy", deviation, strict=True)}
+        passes = sorted(corners(walker), key=attrgetter("name"))
+        off = {corner.name: _deviation(walker, corner, touchdown_events) for corner in passes}
+        lengths = {point: hypot(*of) for point, of in off.items()}
+        values |= {
+            corner_row(point, method, axis): (of[k],) for point, of in off.items() for k, axis in enumerate("xy")
+        }
+        values |= {corner_row(point, method, "m"): (length,) for point, length in lengths.items()}
+        values[corners_row(method)] = (mean(list(lengths.values())),)
     return WalkResults(values)
 
 
@@ -172,7 +195,12 @@ def corner_row(point: str, method: str, axis: str) -> str:
     return f"{point} {method} {axis}"
 
 
-def deviations(walks: Iterable[WalkResults], point: str, method: str) -> Floats:
+def corners_row(method: str) -> str:
+    """Return the name of the row of the mean length of the deviations at all corners."""
+    return f"corners, {method} m"
+
+
+def deviations(walks: Iterable[Values], point: str, method: str) -> Floats:
     """Return the deviations (n, 2), m, of a method at a corner."""
     return np.array([pooled(walks, corner_row(point, method, axis)) for axis in "xy"]).T
 
@@ -220,7 +248,7 @@ def recognise(job: BendsJob) -> WalkResults:
     """Return the share of touchdowns, in percent, with the right mode in each of the five walks, by rule."""
     conditions = job.conditions
     calibration = conditions.calibration(job.subject)
-    shares: Values = dict.fromkeys(RULES, ())
+    shares: Values = {f"modes {rule} %": () for rule in RULES}
     for k, mode in enumerate(MODES):
         walker = Walker(marked(mode, job.steps), conditions.wearer(job.subject), 10 * job.seed + k)
         samples = conditions.samples(walker, calibration, job.seed)
@@ -231,5 +259,5 @@ def recognise(job: BendsJob) -> WalkResults:
                 any(down.mode is mode and abs(down.t - mark.t) < MAX_TIME_DIFFERENCE for down in found[mark.foot])
                 for mark in true
             )
-            shares[rule] += (100.0 * right / len(true),)
+            shares[f"modes {rule} %"] += (100.0 * right / len(true),)
     return WalkResults(shares)

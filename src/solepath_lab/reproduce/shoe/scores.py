@@ -14,24 +14,27 @@ from solepath.emulate.wearers.truth import TrueStride, Truth
 from solepath.events import StrideTaken
 from solepath.papers.shoe_sensing.steepness import angle_per_metre, steepness
 from solepath.types import Foot
-from solepath.validate.alignment import ALIGNMENT_LENGTH, Floats
+from solepath.validate.alignment import ALIGNMENT_LENGTH
 
-from ..tables import Values
+from ..tables import PUBLISHED, Values, mean
 from ..walks import MATCHING_TIME, matched
 
 TWO_RISERS = 0.25
 """Height change that only a stride over two risers of 0.16 m exceeds, m."""
 LEAST_LEVEL_LENGTH = 0.3
 """Length above which a stride on the level is no part of a turn on the spot, m."""
+DIVISOR: float = PUBLISHED["shoe-sensing"]["table-2-divisor"]
+"""Number by which table 2 divides."""
 DIRECTIONS = {"upstairs": 1, "downstairs": -1}
 """Steepness (papers/shoe_sensing/steepness.py) by state; 0 for the others."""
 
 Scores = Values
 """Figures of one session by name: one value for each stride, leg or walk.
 
-"STATE steps": F1 of the strides of a state, %; "STATE right": 1 for each stride found whose state is right; "STATE
-angles": angle per metre (papers/shoe_sensing/steepness.py), degrees/m, positive upwards; "STATE lengths", "STATE
-heights": errors, m; "STATE true lengths", "STATE true heights", m."""
+"STATE, steps %": F1 of the strides of a state; "STATE, state %": share of the strides found whose state is right;
+"STATE, angle deg/m": angle per metre (papers/shoe_sensing/steepness.py), positive upwards; "STATE, length m" and
+"STATE, height m": sizes of errors; "STATE, table 2 %": mean error over the mean length (upstairs: height), over the
+number by which table 2 divides."""
 
 
 def states_of(truth: Truth, foot: Foot) -> list[str | None]:
@@ -67,25 +70,27 @@ def score_strides(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> S
         invented = sum([any(one.t_start < stride.t < one.t_end for one in expected) for stride in extra])
         reported = len(counted) + 0.5 * (len(expected) - len(counted) + invented)
         ours = [(stride.length, stride.height_change) for stride, _ in counted]
-        lengths, heights = [one.length for _, one in counted], [one.displacement[2] for _, one in counted]
-        values = {
-            "steps": [100.0 * len(counted) / max(1.0, reported)],
-            "right": [float(steepness(*one) == DIRECTIONS.get(state, 0)) for one in ours],
-            "angles": [degrees(angle_per_metre(*one)) for one in ours],
-            "lengths": [one[0] - length for one, length in zip(ours, lengths, strict=True)],
-            "true lengths": lengths,
-            "heights": [one[1] - height for one, height in zip(ours, heights, strict=True)],
-            "true heights": heights,
+        true_pairs = [(one.length, one.displacement[2]) for _, one in counted]
+        off = np.abs(np.subtract(ours, true_pairs)).reshape(-1, 2)
+        column = 1 if state == "upstairs" else 0
+        sizes = np.abs(np.reshape(true_pairs, (-1, 2)))[:, column]
+        right = [100.0 * (steepness(*one) == DIRECTIONS.get(state, 0)) for one in ours]
+        result |= {
+            f"{state}, steps %": (100.0 * len(counted) / max(1.0, reported),),
+            f"{state}, state %": (mean(right),),
+            f"{state}, angle deg/m": tuple([degrees(angle_per_metre(*one)) for one in ours]),
+            f"{state}, length m": tuple(off[:, 0].tolist()),
+            f"{state}, height m": tuple(off[:, 1].tolist()),
+            f"{state}, table 2 %": (100.0 * float(off[:, column].mean() / sizes.mean()) / DIVISOR,) if ours else (),
         }
-        result |= {f"{state} {name}": tuple(of) for name, of in values.items()}
     return result
 
 
 def score_legs(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> Scores:
     """Return the figures of all legs: strides on the level between turns on the spot.
 
-    "legs" and "true legs": distances from their starts to their ends, m; "courses": direction error of each matched
-    stride, degrees, after alignment over its leg's first two metres."""
+    "leg m" and "leg off m": distance from its start to its end, and the size of its error; "course deg": size of the
+    direction error of each matched stride, after alignment over its leg's first two metres."""
     legs: list[list[TrueStride]] = [[]]
     for one, state in zip(truth.strides(foot), states_of(truth, foot), strict=True):
         if state is not None:
@@ -100,8 +105,11 @@ def score_legs(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> Scor
             ours, true = (np.sum([one.displacement for one in part], axis=0) for part in (inside, leg))
             found.append([float(hypot(*way[:2])) for way in (ours, true)])
             courses += _courses(matched(inside, leg))
-    lengths, true_lengths = zip(*found, strict=True) if found else ((), ())
-    return {"legs": lengths, "true legs": true_lengths, "courses": tuple(courses)}
+    return {
+        "leg m": tuple([length for length, _ in found]),
+        "leg off m": tuple([abs(length - true) for length, true in found]),
+        "course deg": tuple([abs(course) for course in courses]),
+    }
 
 
 def _angle(displacement: Sequence[float]) -> float:
@@ -122,8 +130,3 @@ def _courses(matches: Sequence[tuple[StrideTaken, TrueStride]]) -> list[float]:
     ours, true_way = (np.sum([one[k].displacement for one in matches[:count]], axis=0) for k in (0, 1))
     aligned = _angle(ours) - _angle(true_way)
     return [degrees(_wrapped(error - aligned)) for error in errors]
-
-
-def relative_error(errors: Sequence[float] | Floats, true: Sequence[float] | Floats) -> float:
-    """Return the mean magnitude of the error over the mean true value, as the paper computes it."""
-    return float(np.mean(np.abs(errors)) / np.mean(np.abs(true)))

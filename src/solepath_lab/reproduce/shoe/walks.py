@@ -21,11 +21,25 @@ from solepath.events import Event, StrideTaken
 from solepath.types import Sample
 from solepath.validate.alignment import Floats, path_length
 
-from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults
+from ..tables import DrawStyle, PictureTrack, Plot, Values, WalkResults, pooled
 from ..walks import align_track, final_strides, run_session
 from .figures import extraction_curves, posture_curves, window_curves
 from .scores import Scores, score_legs, score_strides
-from .variants import BY_ANGLE, DEFAULT_ROW, FOOT, MAIN, OURS, PRINTED, RECIPES, SHORT, TABLE, ShoeSetup
+from .variants import (
+    BEFORE,
+    BY_ANGLE,
+    DEFAULT_ROW,
+    FOOT,
+    MAIN,
+    OURS,
+    PRINTED,
+    RECIPES,
+    SHORT,
+    STAIRS,
+    STATES,
+    TABLE,
+    ShoeSetup,
+)
 
 WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
 """Walking and jogging speed, m/s: assumed, so that strides are about as long as the paper's 1.20 m and 1.60 m."""
@@ -110,11 +124,14 @@ ROUTES: dict[str, Callable[[], Route]] = {
     "jogging": partial(line_route, jogs=True),
     "stairs": stairs_route,
     "short": short_route,
+    "setup": short_route,
     "rectangle": rectangle_route,
     "ramps": ramps_route,
     "five minutes": tour_route,
 }
 """Functions that return the route of each walk."""
+SHORT_WALKS = ("short", "setup")
+"""Walks in all states, with the setup of the table and with any."""
 TITLES = {
     "walking": "there and back (fig. 25a)", "rectangle": "rectangle (fig. 25b)", "stairs": "stairs (fig. 28)",
     "five minutes": "five minutes (fig. 35)",
@@ -123,6 +140,7 @@ TITLES = {
 WALK_RECIPES: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("walking", "jogging", "stairs"), tuple(MAIN)),
     "short": tuple(SHORT),
+    "setup": (OURS, PRINTED),
     "rectangle": (OURS, PRINTED),
     "ramps": (OURS, PRINTED, BY_ANGLE, DEFAULT_ROW),
     "five minutes": (OURS, PRINTED, DEFAULT_ROW),
@@ -145,20 +163,18 @@ class ShoeJob:
 def walk(job: ShoeJob) -> WalkResults:
     """Emulate one walk and run its recipes on it.
 
-    Values are "path", the horizontal length of the true path of the foot, m, and "RECIPE: NAME" with the names of
-    `Scores`. Panels of a walk that is drawn are figs. 3, 7 and 20, or its tracks in space."""
+    Values are "RECIPE, NAME" with the names of `Scores`. Panels of a walk that is drawn are figs. 3, 7 and 20, or its
+    tracks in space."""
     samples, truth = sample_walk(ROUTES[job.walk](), job.seed, job.setup)
-    names = WALK_RECIPES[job.walk] if job.setup == TABLE else (OURS, PRINTED)
-    sessions = {name: run_session(RECIPES[name], samples) for name in names}
+    sessions = {name: run_session(RECIPES[name], samples) for name in WALK_RECIPES[job.walk]}
     panels: tuple[Plot, ...] = ()
     if job.drawn and job.walk == "short":
         panels = (window_curves(samples, truth), posture_curves(samples), *extraction_curves(samples, truth))
     elif job.drawn:
         panels = (Plot(TITLES.get(job.walk, ""), _tracks(sessions, truth)),)
-    true_path = truth.pose(FOOT, np.arange(0.0, truth.duration, 0.1)).position
-    values: Values = {"path": (path_length(true_path[:, :2]),)}
+    values = Values()
     for recipe, events in sessions.items():
-        values |= {f"{recipe}: {name}": of for name, of in _score(job, events, truth).items()}
+        values |= {f"{recipe}, {name}": of for name, of in _score(job.walk, recipe, events, truth).items()}
     return WalkResults(values, panels)
 
 
@@ -169,31 +185,53 @@ def sample_walk(route: Route, seed: int, setup: ShoeSetup = TABLE) -> tuple[list
     return samples, walker.truth({FOOT: setup.mounting})
 
 
-def _score(job: ShoeJob, events: Sequence[Event], truth: Truth) -> Scores:
-    """Return the figures of strides and legs, of each ramp and kerb, and of the track (`_score_track`)."""
+def _score(walk: str, recipe: str, events: Sequence[Event], truth: Truth) -> Scores:
+    """Return what is shown of a walk.
+
+    That are figures of strides and of legs, of ramps and kerbs, or of the whole track; of the short walk the figures of
+    all states in one."""
     strides = final_strides(events, FOOT)
-    scores = score_strides(strides, truth, FOOT) | _score_track(strides, truth)
-    if job.walk in ("walking", "jogging", "rectangle"):
-        scores |= score_legs(strides, truth, FOOT)
-    return scores | ({"rises": _rises(strides, truth)} if job.walk == "ramps" else {})
+    if walk == "ramps":
+        return _rises(strides, truth)
+    if walk == "five minutes":
+        return _score_track(strides, truth)
+    legs = Scores() if walk in ("stairs", *SHORT_WALKS) else score_legs(strides, truth, FOOT)
+    if walk == "rectangle":
+        return legs | {"end m": _score_track(strides, truth)["end m"]}
+    scores = score_strides(strides, truth, FOOT)
+    if walk in SHORT_WALKS:
+        lengths, heights = (
+            pooled([scores], *[f"{state}, {name} m" for state in of])
+            for name, of in (("length", STATES), ("height", STAIRS))
+        )
+        found = {name: of for name, of in scores.items() if name.endswith("steps %")}
+        height = _score_track(strides, truth)["end height m"]
+        return found | {"length m": tuple(lengths), "stair height m": tuple(heights), "end height m": height}
+    if recipe in BEFORE.values():
+        return {name: of for name, of in scores.items() if name.endswith(("height m", "angle deg/m"))}
+    return scores | legs
 
 
 def _score_track(strides: Sequence[StrideTaken], truth: Truth) -> Scores:
     """Return the figures of the whole track.
 
-    "end": horizontal distance from the true end, m; "end height": error of its height, m; "end heading": median error
-    of the direction of the last strides, degrees, positive to the left."""
+    "end m" and "end %": horizontal distance from the true end, and its share of the way; "end height m": error of its
+    height; "end heading deg": median error of the direction of the last strides."""
+    path = path_length(truth.pose(FOOT, np.arange(0.0, truth.duration, 0.1)).position[:, :2])
     if len(strides) < 2:
         x, y, z = truth.pose(FOOT, truth.duration).position[0]
-        return {"end": (float(hypot(x, y)),), "end height": (float(-z),), "end heading": (0.0,)}
-    ours, true = _positions(strides, truth)
-    directions = [np.arctan2(d[:, 1], d[:, 0]) for d in (np.diff(ours, axis=0), np.diff(true, axis=0))]
-    turned = directions[0] - directions[1]
-    heading = np.degrees(np.arctan2(np.sin(turned), np.cos(turned)))
+        off, height, heading = hypot(x, y), z, np.zeros(1)
+    else:
+        ours, true = _positions(strides, truth)
+        off, height = hypot(*(ours[-1, :2] - true[-1, :2])), ours[-1, 2] - true[-1, 2]
+        directions = [np.arctan2(d[:, 1], d[:, 0]) for d in (np.diff(ours, axis=0), np.diff(true, axis=0))]
+        turned = directions[0] - directions[1]
+        heading = np.degrees(np.arctan2(np.sin(turned), np.cos(turned)))
     return {
-        "end": (float(hypot(*(ours[-1, :2] - true[-1, :2]))),),
-        "end height": (float(ours[-1, 2] - true[-1, 2]),),
-        "end heading": (float(np.median(heading[-LAST_STRIDES:])),),
+        "end m": (float(off),),
+        "end %": (100.0 * float(off) / path,),
+        "end height m": (abs(float(height)),),
+        "end heading deg": (abs(float(np.median(heading[-LAST_STRIDES:]))),),
     }
 
 
@@ -208,20 +246,21 @@ def _positions(strides: Sequence[StrideTaken], truth: Truth) -> tuple[Floats, Fl
     return ours, true
 
 
-def _rises(strides: Sequence[StrideTaken], truth: Truth) -> tuple[float, ...]:
-    """Return the error of the height between the levels before and after each ramp and kerb, m."""
-    rise = [slope * RAMP * sign for slope in SLOPES for sign in (1.0, -1.0)] + [KERB, -KERB]
-    ramp_lengths = [RAMP] * 2 * len(SLOPES) + [0.3] * 2
-    true_strides, x, result = truth.strides(FOOT), 20.0, []
+def _rises(strides: Sequence[StrideTaken], truth: Truth) -> Scores:
+    """Return the size of the error of the height between the levels before and after each ramp and kerb, m."""
+    ramps = [(f"slope {100.0 * slope:g} %", slope * RAMP, RAMP) for slope in SLOPES]
+    true_strides, x, found = truth.strides(FOOT), 20.0, Scores()
     places = np.cumsum([0.0, *(stride.displacement[0] for stride in true_strides)])
     times = [0.0, *(stride.t_end for stride in true_strides)]
-    for true_rise, length in zip(rise, ramp_lengths, strict=True):
-        # the middle of the level metres before and after; a foot that stands astride an edge is in neither
-        before, after = (float(np.interp(place, places, times)) for place in (x - 2.0, x + length + 2.5))
-        z = [next((one.position[2] for one in reversed(strides) if one.t_end <= t), 0.0) for t in (before, after)]
-        result.append(z[1] - z[0] - true_rise)
-        x += length + 5.0
-    return tuple(result)
+    for name, rise, length in (*ramps, (f"kerb {KERB:g} m", KERB, 0.3)):
+        for true_rise in (rise, -rise):
+            # the middle of the level metres before and after; a foot that stands astride an edge is in neither
+            before, after = (float(np.interp(place, places, times)) for place in (x - 2.0, x + length + 2.5))
+            z = [next((one.position[2] for one in reversed(strides) if one.t_end <= t), 0.0) for t in (before, after)]
+            row = f"{name}, height m"
+            found[row] = (*found.get(row, ()), abs(z[1] - z[0] - true_rise))
+            x += length + 5.0
+    return found
 
 
 def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> list[PictureTrack]:

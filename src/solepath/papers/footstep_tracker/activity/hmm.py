@@ -6,25 +6,24 @@ there."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import exp, fsum, isfinite
+from math import exp, fsum
+
+from ....types import Floats
 
 LEAST_LIKELIHOOD = 1e-12
 """Least likelihood of a state relative to the likeliest one. With a smaller one it could not become likely again."""
 
-Matrix = tuple[tuple[float, ...], ...]
+Matrix = tuple[Floats, ...]
 """Rows of a matrix."""
 
 
-def scaled_likelihoods(log_likelihoods: Sequence[float]) -> tuple[float, ...]:
-    """Return likelihoods relative to the largest, each in [LEAST_LIKELIHOOD, 1]; 1 for a value that is not finite."""
-    finite = [value if isfinite(value) else None for value in log_likelihoods]
-    highest = max([value for value in finite if value is not None], default=0.0)
-    return tuple(
-        [1.0 if value is None else max(LEAST_LIKELIHOOD, exp(max(-700.0, value - highest))) for value in finite]
-    )
+def scaled_likelihoods(log_likelihoods: Sequence[float]) -> Floats:
+    """Return likelihoods relative to the largest, each in [LEAST_LIKELIHOOD, 1]; the logarithms are finite."""
+    highest = max(log_likelihoods)
+    return tuple([max(LEAST_LIKELIHOOD, exp(max(-700.0, value - highest))) for value in log_likelihoods])
 
 
-def forward(belief: Sequence[float], transitions: Matrix, likelihoods: Sequence[float]) -> tuple[float, ...]:
+def forward(belief: Sequence[float], transitions: Matrix, likelihoods: Sequence[float]) -> Floats:
     """Return the probabilities of the states after one more observation, from the old ones and the likelihoods.
 
     `likelihoods` are those of `scaled_likelihoods`. The result sums to 1."""
@@ -35,7 +34,7 @@ def forward(belief: Sequence[float], transitions: Matrix, likelihoods: Sequence[
     return bayes_update(prior, likelihoods)
 
 
-def bayes_update(prior: Sequence[float], likelihoods: Sequence[float]) -> tuple[float, ...]:
+def bayes_update(prior: Sequence[float], likelihoods: Sequence[float]) -> Floats:
     """Return the posterior by Bayes' rule; no state becomes impossible."""
     joint = [max(p * f, LEAST_LIKELIHOOD) for p, f in zip(prior, likelihoods, strict=True)]
     scale = 1.0 / fsum(joint)

@@ -34,14 +34,13 @@ Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import fsum
 from typing import ClassVar
 
-from ....body.part import ActivityPart, PartInput, PartOutput
+from ....body.part import ActivityPart, Inputs, Outputs
 from ....events import ActivityChanged, Event, LiftRidden, Limitation
 from ....foot.view import FootView
-from ....types import Activity, Foot, Site
+from ....types import Activity, Floats, Foot, Site
 from ....types.attrs import define, field, frozen, state, stateful
 from .hmm import bayes_update, forward, scaled_likelihoods
 from .window_model import WindowModel, shipped
@@ -108,7 +107,7 @@ class TwoSecondWindows(ActivityPart):
     """Force of standing by foot."""
     newest_decided: int | None = None
     """Number of the newest window that was classified."""
-    belief: tuple[float, ...] | None = None
+    belief: Floats | None = None
     """Probabilities of the states of the hidden Markov model; None while the wearer stands."""
     ride: ElevatorPulses | None = None
     """Pulses of the present elevator ride; None without one."""
@@ -131,7 +130,7 @@ class TwoSecondWindows(ActivityPart):
             self.activity = Activity.UNKNOWN
             self.feet, self.standing = {}, {}
 
-    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+    def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         if view is None or view.sample.acc is None:
             return ()
         acc, t = view.sample.acc, view.t

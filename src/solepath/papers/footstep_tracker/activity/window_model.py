@@ -11,6 +11,7 @@ from math import log
 from pkgutil import get_data
 
 from ....saving.codec import load
+from ....types import Floats
 from ....types.attrs import frozen
 from .hmm import Matrix
 from .windows import FootWindow
@@ -23,7 +24,7 @@ LARGEST_SKEWNESS = 4.0
 """Limit of the absolute skewness, so that a single bump of the foot does not decide about a window."""
 
 
-def window_features(window: FootWindow) -> tuple[float, ...]:
+def window_features(window: FootWindow) -> Floats:
     """Return the window's features in the order of `FEATURES`; logarithms are of values in m^2/s^4 and rad^2/s^2."""
     features = (
         log(window.variance + LEAST_VARIANCE),
@@ -39,11 +40,11 @@ class Gaussian:
     """One component of a mixture of Gaussians."""
 
     weight: float
-    mean: tuple[float, ...]
-    factor: tuple[tuple[float, ...], ...]
+    mean: Floats
+    factor: tuple[Floats, ...]
     """Lower Cholesky factor of the covariance, row by row."""
 
-    def log_density(self, x: tuple[float, ...]) -> float:
+    def log_density(self, x: Floats) -> float:
         """Return the logarithm of weight times density at `x`, without a constant that all Gaussians have in common.
 
         If `x` lacks the last features, the result is the marginal density of the others, for which the first rows of

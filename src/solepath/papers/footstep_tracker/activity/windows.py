@@ -17,9 +17,9 @@ from __future__ import annotations
 from collections import deque
 from math import fsum, radians, sqrt
 
-from ....types import Vec3
+from ....types import Floats, Vec3
 from ....types.attrs import define, field, frozen
-from ....types.vector import GRAVITY, TIME_EPSILON
+from ....types.vector import GRAVITY, TIME_EPSILON, dot
 
 HOP = 0.5
 """Time from the start of a window to that of the next, s."""
@@ -70,7 +70,7 @@ class WindowBlock:
     """Number of samples."""
     turns: int = 0
     """Number of samples with an angular rate."""
-    sums: tuple[float, ...] = (0.0,) * 8
+    sums: Floats = (0.0,) * 8
     """Sums of the specific force along the sensor's x, y and z, m/s^2; of a_z minus standard gravity, without which
     powers would lose digits, m/s^2, of its square and of its cube; of the squared specific force, all axes, m^2/s^4;
     and of the squared angular rate, rad^2/s^2."""
@@ -101,15 +101,13 @@ class FootWindows:
         if is_next_block:
             self._start_block(index)
         block = self.blocks[-1]
-        x, y, z = acc
-        ux, uy, uz = self.axis
-        along = ux * x + uy * y + uz * z - GRAVITY
+        along = dot(self.axis, acc) - GRAVITY
         square, turning = along * along, 0.0
         if gyro is not None:
-            turning = min(gyro[0] * gyro[0] + gyro[1] * gyro[1] + gyro[2] * gyro[2], HIGHEST_RATE_SQUARE)
+            turning = min(dot(gyro, gyro), HIGHEST_RATE_SQUARE)
             block.turns += 1
         block.count += 1
-        values = (x, y, z, along, square, square * along, x * x + y * y + z * z, turning)
+        values = (*acc, along, square, square * along, dot(acc, acc), turning)
         block.sums = tuple([total + value for total, value in zip(block.sums, values, strict=True)])
         return is_next_block
 

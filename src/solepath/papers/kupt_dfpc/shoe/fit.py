@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from ....calibration import Calibration, CalibrationError, ShoeGeometry
 from ....saving.files import write_whole
+from ....types import Floats
 from ....types.attrs import frozen
 from ...tables import read_rows
 
@@ -122,7 +123,7 @@ def write_measurements(
     write_whole(path, "".join([",".join(line) + "\n" for line in lines]))
 
 
-def _fit(pitch: Column, length: Column, degree: int) -> tuple[tuple[float, ...], Column]:
+def _fit(pitch: Column, length: Column, degree: int) -> tuple[Floats, Column]:
     """Return the coefficients of length (m) over pitch (rad), constant first, and each measurement's residual, m."""
     coefficients = np.polynomial.polynomial.polyfit(pitch, length, degree)
     residual = length - np.polynomial.polynomial.polyval(pitch, coefficients)

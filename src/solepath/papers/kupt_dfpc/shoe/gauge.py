@@ -12,8 +12,8 @@ from math import atan2, fsum, hypot, sqrt
 
 from ....types import Vec3
 from ....types.attrs import frozen, state, stateful
-from ....types.vector import GRAVITY, cross, dot, sub
-from ..kinematics import across, length, of_length_1
+from ....types.vector import GRAVITY, across, cross, dot, sub
+from ..kinematics import length, of_length_1
 
 STILL_TIME = 1.0
 """Time for which a shoe must be still before its pitch is taken, s; the pitch is the mean over this time."""

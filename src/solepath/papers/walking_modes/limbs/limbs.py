@@ -18,7 +18,7 @@ from typing import NamedTuple
 from ....calibration import Limbs
 from ....events import Rejection
 from ....foot.rejection import RejectionReason, rejection_reason
-from ....types import OTHER, Foot, Quat, Sample, Site, Vec3
+from ....types import OTHER, Foot, Quat, Sample, Site, Vec2, Vec3
 from ....types.attrs import field, state, stateful
 from ....types.vector import IDENTITY, ZERO, add, conjugate, from_yaw, multiply, normalise, rotate, unit
 from ..settings import ModesSettings
@@ -224,7 +224,7 @@ class LowerLimbs:
             height -= length * (1.0 - 2.0 * (x * x + y * y))  # times the cosine of the angle from the vertical
         return height
 
-    def forward(self, foot: Foot, t: float) -> tuple[float, float]:
+    def forward(self, foot: Foot, t: float) -> Vec2:
         """Return the horizontal unit vector in the direction of a foot, world frame; (1, 0) if it points up or down."""
         x, y, _ = rotate(self._attitude(LEG_SITES[foot][2], t), (1.0, 0.0, 0.0))
         length = hypot(x, y)

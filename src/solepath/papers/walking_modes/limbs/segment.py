@@ -6,7 +6,7 @@ from math import cos
 
 from ....types import Quat
 from ....types.attrs import stateful
-from ....types.vector import IDENTITY, conjugate, multiply, normalise
+from ....types.vector import IDENTITY, add_quat, conjugate, multiply, normalise
 
 LARGEST_SWAY = 0.04
 """Largest rotation of a still segment, rad: twice the 0.81 degrees accuracy of the paper's sensor, and some sway."""
@@ -50,7 +50,7 @@ class LimbSegment:
         if self.still_since is None or abs(dot) < cos(0.5 * LARGEST_SWAY) or t < self.still_since:
             self.anchor, self.attitude_sum, self.still_since = sensor, sensor, t
         else:
-            self.attitude_sum = _add(self.attitude_sum, sensor, 1.0 if dot >= 0.0 else -1.0)
+            self.attitude_sum = add_quat(self.attitude_sum, sensor, 1.0 if dot >= 0.0 else -1.0)
         return False
 
     def still_time(self) -> float:
@@ -67,15 +67,10 @@ class LimbSegment:
         if self.t is not None and self.earlier_t is not None and self.earlier_t < self.t and t < self.t:
             k = max(0.0, (t - self.earlier_t) / (self.t - self.earlier_t))
             opposite = _dot(self.earlier_attitude, self.sensor) < 0.0
-            earlier = _add((0.0, 0.0, 0.0, 0.0), self.earlier_attitude, k - 1.0 if opposite else 1.0 - k)
-            attitude = normalise(_add(earlier, self.sensor, k))
+            earlier = add_quat((0.0, 0.0, 0.0, 0.0), self.earlier_attitude, k - 1.0 if opposite else 1.0 - k)
+            attitude = normalise(add_quat(earlier, self.sensor, k))
         return multiply(attitude, conjugate(self.standing))
 
 
 def _dot(p: Quat, q: Quat) -> float:
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]
-
-
-def _add(p: Quat, q: Quat, k: float) -> Quat:
-    """Return p + k q."""
-    return (p[0] + k * q[0], p[1] + k * q[1], p[2] + k * q[2], p[3] + k * q[3])

@@ -1,0 +1,160 @@
+"""One device that misbehaves, or falls silent: what it did is no loss, no stride and no activity."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+from attrs import evolve, field, frozen
+from construct import Int32ul, Struct
+from soak import soaked
+from uncounted import ACC, GYRO, SITE, board
+from walks import of
+
+from solepath import Activity, ActivityChanged, DefectFound, Event, Foot, Packet, SampleGap, Session, StrideTaken
+from solepath.emulate import Route, Walker
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.link.driver import Driver, Measured, Reading
+from solepath.wire.fields import Fields
+from solepath.wire.receiver import ConnectionFrame, build_connected
+
+RATE = 100.0
+
+
+def counting(sequence: int, tick_rate: float = 0.0, tick_modulus: int = 0) -> Driver:
+    """Return a board with these counters; 0 for none."""
+
+    def motion(sent: object, known: object) -> Reading:
+        acc, gyro = tuple([v * ACC for v in sent.acc]), tuple([v * GYRO for v in sent.gyro])  # type: ignore[attr-defined]
+        number, ticks = (sent.number if sequence else None), (sent.ticks if tick_rate else None)  # type: ignore[attr-defined]
+        return Reading((Measured(acc, gyro),), sequence=number, ticks=ticks)
+
+    layout = Struct("number" / Int32ul, "ticks" / Int32ul, "acc" / Fields("<3h"), "gyro" / Fields("<3h"))
+    counters = {"sequence": sequence, "tick_rate": tick_rate, "tick_modulus": tick_modulus}
+    return evolve(board(RATE), formats={"board/motion": layout}, readers={"board/motion": motion}, **counters)
+
+
+DRIVERS = {
+    "no counter": counting(0),
+    "8 bits": counting(256),
+    "16 bits": counting(1 << 16),
+    "a clock of 16 bits": counting(0, 1000.0, 1 << 16),
+    "a fine clock": counting(0, 1e6, 1 << 32),
+    "8 bits and a clock of 65.5 s": counting(256, 1000.0, 1 << 16),
+}
+
+
+@cache
+def counts(distance: float) -> tuple[tuple[float, list[int], list[int]], ...]:
+    found = []
+    for one in Walker(Route().stand(2.0).walk(distance).stop(2.0)).samples(Foot.LEFT, RATE, LSM6DSOX):
+        found.append((one.t, [round(v / ACC) for v in one.acc or ()], [round(v / GYRO) for v in one.gyro or ()]))
+    return tuple(found)
+
+
+@frozen
+class Course:
+    """What a device does on a walk."""
+
+    silent: tuple[float, float] = (0.0, 0.0)
+    """Time in which it sends nothing, s."""
+    restarts: bool = False
+    """True if it starts to count again after the silence."""
+    reconnects: bool = False
+    repeats: bool = False
+    """True if it sends its last packet again after the silence."""
+    reset_at: float = 1e9
+    """Time at which its counters start again without a silence, s."""
+    zeros: int = 0
+    """Number of samples from the start that are all zero."""
+    distance: float = field(default=40.0)
+
+
+def walk(driver: Driver, course: Course) -> tuple[Session, list[Event]]:
+    session, events, since, last, was_silent = Session(profiles=[driver]), list[Event](), (0, 0.0), b"", False
+    for k, (t, acc, gyro) in enumerate(counts(course.distance)):
+        now = 100.0 + t + 0.005
+        if course.silent[0] <= t < course.silent[1]:
+            if not was_silent and course.reconnects:
+                events += session.feed(Packet(now, SITE, "receiver/disconnected", b""))
+            was_silent = True
+            events += session.advance(now) if k % 25 == 0 else []
+            continue
+        if was_silent:
+            was_silent = False
+            since = (k, t) if course.restarts else since
+            if course.reconnects:
+                events += session.feed(Packet(now, SITE, "receiver/connected", build_connected(ConnectionFrame("", 0))))
+            if course.repeats:
+                events += session.feed(Packet(now, SITE, "board/motion", last))
+        if course.reset_at <= t < course.reset_at + 1.0 / RATE:
+            since = (k, t)
+        number, ticks = k - since[0], int((t - since[1]) * (driver.tick_rate or 1.0))
+        values = {"acc": [0] * 3 if k < course.zeros else acc, "gyro": [0] * 3 if k < course.zeros else gyro}
+        fields = {"number": number % (driver.sequence or 2**32), "ticks": ticks % (driver.tick_modulus or 2**32)}
+        last = driver.write("board/motion", {**fields, **values})
+        events += session.feed(Packet(now, SITE, "board/motion", last))
+    return session, events + session.finish()
+
+
+def lost(events: list[Event]) -> int:
+    return sum(gap.count for gap in of(SampleGap, events))
+
+
+@cache
+def plain(name: str) -> tuple[int, float]:
+    """Return the strides of the device that does nothing wrong, and how far it comes, m."""
+    session, events = walk(DRIVERS[name], Course())
+    assert session.position is not None
+    return len(of(StrideTaken, events)), session.position.position[0]
+
+
+@pytest.mark.parametrize("name", DRIVERS)
+@pytest.mark.parametrize("zeros", [20, *soaked(1, 150)])
+def test_zeros_until_the_first_measurement_are_no_strides_and_no_motion(name: str, zeros: int) -> None:
+    session, events = walk(DRIVERS[name], Course(zeros=zeros))
+    strides, distance = plain(name)
+    assert (lost(events), len(of(StrideTaken, events)), len(of(DefectFound, events))) == (0, strides, 0)
+    assert session.position is not None and session.position.position[0] == pytest.approx(distance, abs=0.05)
+
+
+def test_a_sensor_that_sends_nothing_but_zeros_is_named() -> None:
+    _, events = walk(DRIVERS["no counter"], Course(zeros=10**6))
+    assert "every value has been 0" in of(DefectFound, events)[0].what
+    assert not of(StrideTaken, events)
+
+
+@pytest.mark.parametrize("name", DRIVERS)
+@pytest.mark.parametrize("reset_at", [21.35, *soaked(20.0, 23.7)])
+def test_counters_that_start_again_are_no_loss(name: str, reset_at: float) -> None:
+    _, events = walk(DRIVERS[name], Course(reset_at=reset_at))
+    assert lost(events) == 0
+    assert len(of(StrideTaken, events)) <= plain(name)[0]
+
+
+@pytest.mark.parametrize("name", DRIVERS)
+@pytest.mark.parametrize("away", [3.0, *soaked(2.0, 7.3)])
+def test_the_last_packet_again_after_a_reconnection_is_no_sample_and_no_loss(name: str, away: float) -> None:
+    course = Course((20.0, 20.0 + away), reconnects=True, repeats=True)
+    _, events = walk(DRIVERS[name], course)
+    assert lost(events) == 0
+    (gap,) = of(SampleGap, events)
+    assert (gap.t, gap.duration) == pytest.approx((120.0, away), abs=0.05)
+    assert [event.reason.value for event in events if type(event).__name__ == "PacketRejected"] == ["duplicate"]
+
+
+@pytest.mark.parametrize("name", DRIVERS)
+@pytest.mark.parametrize("away", [62.0, *soaked(6.0, 81.7)])
+@pytest.mark.parametrize("restarts", [True, False])
+def test_a_silence_is_a_gap_and_nothing_is_known_of_it(name: str, away: float, restarts: bool) -> None:
+    _, events = walk(DRIVERS[name], Course((30.0, 30.0 + away), restarts, distance=150.0 if away > 10.0 else 60.0))
+    assert lost(events) == 0
+    (gap,) = of(SampleGap, events)
+    assert (gap.t, gap.duration) == pytest.approx((130.0, away), abs=0.1)
+    final = [one for one in of(ActivityChanged, events) if one.final]
+    before = [one.activity for one in final if one.t < 129.0]
+    within = [one.activity for one in final if 129.0 <= one.t < 130.0 + away - 1.0]
+    after = [one.activity for one in final if one.t >= 130.0 + away - 1.0]
+    assert before[-1] is Activity.WALKING and within == [Activity.UNKNOWN] and after[0] is Activity.WALKING
+    strides = of(StrideTaken, events)
+    assert not [one for one in strides if one.t_start < 130.0 - 0.1 and one.t_end > 130.0 + away + 0.1]

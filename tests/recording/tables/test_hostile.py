@@ -1,0 +1,69 @@
+"""Hostile tables: little memory and one line, whatever they claim to hold."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from commands import run
+from hostile import HOSTILE, ROWS, SHEET, workbook
+
+from solepath.recording import read_samples
+
+MEMORY = 200_000
+"""Largest size in memory of a command that reads such a file, kB."""
+TIME = 2
+"""Most time of the processor that it takes, s."""
+PROGRAM = """
+import resource, sys
+from solepath.cli import main
+resource.setrlimit(resource.RLIMIT_CPU, (int(sys.argv[1]), int(sys.argv[1])))
+status = main(["track", sys.argv[2]])
+print(status, *[line.split()[1] for line in open("/proc/self/status") if line.startswith("VmHWM")])
+"""
+
+
+def hostile(name: str, tmp_path: Path) -> Path:
+    if name.endswith("parquet"):
+        pytest.importorskip("pyarrow")
+    path = HOSTILE[name](tmp_path / name)
+    assert path.stat().st_size < 3_000_000
+    return path
+
+
+def bounded(path: Path, seconds: int) -> str:
+    command = [sys.executable, "-c", PROGRAM, str(seconds), str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr[-300:]
+    status, memory = map(int, done.stdout.split())
+    assert (status, done.stderr.count("\n")) == (2, 1), done.stderr[-300:]
+    assert memory < MEMORY
+    return done.stderr
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_file_takes_little_memory_and_gets_one_line(tmp_path: Path, name: str) -> None:
+    assert name in bounded(hostile(name, tmp_path), 60)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_file_takes_two_seconds_at_most(tmp_path: Path, name: str) -> None:
+    bounded(hostile(name, tmp_path), TIME)
+
+
+def test_a_dimension_that_is_claimed_and_a_cell_far_away_cost_nothing_of_a_good_table(tmp_path: Path) -> None:
+    far = '<row r="1048576"><c r="XFD1048576"><v>1</v></c></row>'
+    path = workbook(tmp_path / "walk.xlsx", sheet=[ROWS, far])
+    reports: list[str] = []
+    assert len(list(read_samples(path, report=reports.append))) == 200
+    assert len(reports) == 1 and "line 1048576: has 16384 columns instead of 4; this row is left out" in reports[0]
+
+
+def test_a_workbook_without_its_sheet_is_named(tmp_path: Path) -> None:
+    path = workbook(tmp_path / "walk.xlsx")
+    path.write_bytes(path.read_bytes().replace(SHEET.encode(), SHEET.replace("1", "2").encode()))
+    done = run("track", path)
+    assert done.returncode == 2 and "walk.xlsx: " in done.stderr and done.stderr.count("\n") == 1
