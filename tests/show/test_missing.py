@@ -14,7 +14,7 @@ from commands import run
 from recordings import recorded
 from shown import frame, walked
 
-from solepath import Packet, Sample, SampleGap, Session, Site, recipes
+from solepath import Foot, Packet, Sample, SampleGap, Session, Site, recipes
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
@@ -240,9 +240,20 @@ def test_an_absence_of_a_sensor_with_two_streams_counts_once_and_lacks_nothing(
     assert [one.text for one in findings(walk) if one.concern is Concern.LIMITATION] == []
 
 
+@pytest.mark.parametrize("held", [0.12, 0.25, 0.45, 0.7])
+def test_packets_that_are_held_back_at_the_start_cost_no_sample_its_angular_rate(held: float) -> None:
+    start = min(map(moment, two_streams()))
+    for first in (start + 0.01, start + 0.06):
+        late = [evolve(one, t=first + held if first <= one.t < first + held else one.t) for one in two_streams()]
+        walk = followed(late)
+        assert len(walk.strides[Foot.LEFT]) >= 30
+        assert walk.links[LEFT].absent_time(walk.now) == 0.0
+        assert [one.text for one in findings(walk) if one.concern is Concern.LIMITATION] == []
+
+
 @pytest.mark.parametrize("recipe", ["default", "kupt-dfpc"])
 def test_an_absence_of_two_streams_is_the_same_where_some_packets_are_lost(recipe: str) -> None:
-    for lost in (5, 10, 11):
+    for lost in (10, 11, 25):
         streams = [one for one in two_streams() if not 12.0 <= one.t < 12.0 + ABSENCE]
         link = followed([one for k, one in enumerate(streams) if k % lost != lost - 1], recipe).links[LEFT]
         assert link.ended_absences == pytest.approx(ABSENCE, abs=0.35)

@@ -221,7 +221,7 @@ class FootTracker:
         dt = 0.0 if t_last is None else t - t_last
         is_gap = t_last is not None and self.rhythm.update(dt)
         if t_last is not None and (is_gap or dt > LONGEST_BRIDGE):
-            if is_gap:
+            if is_gap or (self.counts_losses and len(self.rhythm.first) == 1):
                 self._report_gap(t_last, t, known_at, events)
             dt = self._cross_gap(t_last, t, known_at, sample, events)
         if load is None and self.settings.needs_pressure and (sole is None or not sole.had_cells):
