@@ -215,6 +215,7 @@ class Cc2541Link(DeviceLink):
         self.acc_clock = PeriodicClock(self.acc_clock.period)
         self.gyro_clock = PeriodicClock(self.gyro_clock.period)
         self.assembler, self.absent_since = Assembler(self.site), None
+        self.newest_arrival, self.ahead = None, 0.0
 
     def handle_reconnection(self) -> None:
         """Restart both streams with the next packet."""
