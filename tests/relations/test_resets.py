@@ -43,7 +43,7 @@ BothFeet.reset: common* compass* directions distance divergence errors measured_
   apart compass.reset() straight_ways.reset()
 Cc2541Link.handle_reconnection: acc_clock* ahead calibration firmware gyro_clock*
 Cc2541Link.restart_clock: assembler* calibration firmware
-CellHealth.reset: count lively_windows
+CellHealth.reset: count lively_windows suspected
 Clipping.reset: axes* largest near_end_square
 Compass.reset: distance disturbance first apart trust.reset()
 CompassTrust.reset: apart
@@ -73,7 +73,8 @@ InertialCues.restart: axis
 InsoleLink.handle_reconnection: acc_scale cells gyro_scale info_digest layout packet_run* pressure_scale reassembly*
   reassembly.drop()
 InsoleLink.restart_clock: acc_scale cells gyro_scale info_digest layout packet_run* pressure_scale reassembly
-InsoleLoads.reset: forefoot* forefoot_cells heel* heel_cells layout load_risen sum tare tare_total total* was_airborne
+InsoleLoads.reset: forefoot* forefoot_cells heel* heel_cells layout load_risen sum tare tare_total total* turned*
+  unloaded* was_airborne turned.restart() unloaded.restart()
 LoneFoot.restart: is_known stood_since
 Looseness.reset: apart
 LowerLimbs.reset: aligned facing newest* segments* times
@@ -110,6 +111,7 @@ StrideTemplate.reset: age bridged first_position infilled last_stride longest_st
 Touch.restart: in_front
 TurnDetector.reset: feet* pause t_end apart
 Turns.reset: detector* apart detector.reset()
+UnloadedLevel.restart: base base_t cells count flat flat_t level level_t sure_cells sure_ground top
 TwoSecondWindows.reset: limitation_reported moving_windows
 WalkScale.reset: drift_deviation force stance_deviation strides
 """

@@ -101,6 +101,8 @@ class CellFault(Enum):
     """The cell's value never changes."""
     SATURATED = "saturated"
     """The cell's value stays at the end of its range."""
+    INVERTED = "inverted"
+    """The cell's value falls under load."""
     MISSING = "missing"
     """The cell's value is not a number."""
 

@@ -88,6 +88,10 @@ CELLS = {
     CellFault.DEAD: ("shows no load", "show no load"),
     CellFault.STUCK: ("shows one value all the time", "show one value all the time"),
     CellFault.SATURATED: ("stays at the end of its range", "stay at the end of their range"),
+    CellFault.INVERTED: (
+        "falls under load, as if wired the other way round",
+        "fall under load, as if wired the other way round",
+    ),
     CellFault.MISSING: ("sends no number", "send no number"),
 }
 """Words for a fault of one cell, and of several."""

@@ -22,7 +22,15 @@ from ..train.hugadb import EIGHT_TIMES
 from .activity import STAIR_SPANS, score_labelled, score_stairs
 from .not_walking import MOTIONS, score_alarms, score_not_walking, score_slow_walk
 from .run import Meta, RunSettings
-from .timing import score_borders, score_force, score_insoles, score_swings, score_switches, score_treadmill
+from .timing import (
+    score_borders,
+    score_force,
+    score_insoles,
+    score_soles,
+    score_swings,
+    score_switches,
+    score_treadmill,
+)
 from .tracking import (
     EIGHT_STRIDES,
     score_counted,
@@ -115,6 +123,14 @@ DATASETS = (
     ),
     DataSet(
         "gaitpdb_vgrf", "eight force sensors below each foot and nothing else", score_force, has_pressure=True,
+    ),
+    DataSet(
+        "fsr_treadmill", "two cells with a voltage without load below each foot and nothing else", score_soles,
+        lists_recordings=False, has_pressure=True,
+    ),
+    DataSet(
+        "fsr_treadmill_learnt", "the same from the fifth contact on, when that voltage is known",
+        partial(score_soles, first=4), ("fsr_treadmill",), lists_recordings=False, has_pressure=True,
     ),
     DataSet(
         "hugadb", "activities, both feet, five folds by wearer", score_labelled, lists_recordings=False, folds=True,

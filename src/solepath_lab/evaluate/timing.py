@@ -213,3 +213,13 @@ def score_insoles(path: Path, meta: Meta, settings: RunSettings, pressed: bool =
         )
     times = {"stride_time": _stride_time_errors(result, heel_strikes)}
     return Scored(path.stem, events=_contact_matches(result, heel_strikes, toe_offs), strides=strides, errors=times)
+
+
+def score_soles(path: Path, meta: Meta, settings: RunSettings, first: int = 0) -> Scored:
+    """Score a sole of two cells of unknown places against contacts of the left foot, by speed of the belt.
+
+    The truth is another program's. The contacts before number `first` of the recording, from 0, are left out."""
+    truth, result = truth_of(path), run(path, settings, poses=False)
+    strikes, offs = (truth[f"gt_{name}_left"].tolist()[first:] for name in ("heel_strike", "toe_off"))
+    events = _contact_matches(result, {Foot.LEFT: strikes}, {Foot.LEFT: offs})
+    return Scored(path.stem, events=events, groups=("all", f"{meta['speed_kmh']} km/h"))

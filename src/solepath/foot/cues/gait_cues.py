@@ -27,6 +27,12 @@ AREA_LOADED = 0.06
 """Load above which an area, heel or forefoot, is loaded, as a share of the full load."""
 AREA_UNLOADED = 0.03
 """Load below which an area, heel or forefoot, is unloaded, as a share of the full load."""
+LEAST_SWING_SPEED, LARGEST_LANDING_SPEED = 1.0, 0.6
+"""Speed that a foot reaches in a swing, m/s, and the highest at which it lands, as a share of that swing's highest.
+
+On soles with cells it lands at 0.1 to 0.35 of it."""
+LONGEST_DENIAL = 0.25
+"""Time for which a foot may move as only one in the air does while its cells show load, s."""
 LONGEST_DATING_BACK = 0.3
 """Longest time by which a heel-off is dated back to the last load of the heel, s."""
 
@@ -94,6 +100,8 @@ class GaitCues(Cues):
     pressure: PressureCues = state(factory=PressureCues)
     touch: Touch | None = None
     """Detector of ground contact for an insole of few cells; None until there is one."""
+    contradicted: bool = False
+    """The cells showed load while the foot moved as only a foot in the air does, and have shown no swing since."""
     sagittal: float = 0.0
     """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s; 0 if unknown."""
 
@@ -119,15 +127,30 @@ class GaitCues(Cues):
         if load is None and seen is None:
             return ()
         if load is not None:
+            # a foot that has pushed off and moves fast is in the air: its cells have drifted, jumped or are stuck
+            fast_since = inertial.fast_since
+            if phase is PUSH_OFF and fast_since is not None and t - fast_since >= LONGEST_DENIAL:
+                self.contradicted = True
+                return (inertial.make_hidden_toe_off(fast_since),)
             pressure_cue = self.pressure.update(t, dt, load, phase)
             if len(load.cells) <= MOST_SINGLE_CELLS:
                 touch = self.touch or self._make_touch()
                 airborne = touch.update(t, load, still)
-                if not touch.trusted:
+                if phase is SWING and airborne:
+                    self.contradicted = False
+                if not touch.trusted or self.contradicted:
                     return () if seen is None else (seen,)
                 pressure_cue = None
                 if airborne is not (phase is Phase.SWING):
                     pressure_cue = TimedCue(Cue.CLEAR if airborne else Cue.CONTACT, t)
+            elif self.contradicted:
+                if phase is SWING and load.total < CLEAR_LOAD:
+                    self.contradicted = False
+                return () if seen is None else (seen,)
+            if pressure_cue is not None and pressure_cue.cue is Cue.CONTACT:
+                peak = inertial.impact.peak_speed
+                if peak > LEAST_SWING_SPEED and speed > LARGEST_LANDING_SPEED * peak:
+                    pressure_cue = None
             if pressure_cue is not None:
                 if pressure_cue.cue is Cue.CLEAR:
                     inertial.apply_toe_off(phase)

@@ -7,9 +7,9 @@ share of its own range. The foot is in the air when the rear cells are unloaded,
 they have pushed off. It is on the ground again when a rear cell is loaded, or when a front cell is loaded by more than
 the pressure of the shoe, which acts on it as the toes rise in swing.
 
-The values in the air are learnt from the lowest ones so far (pressure/insole.py). These are wrong before the first step
-and after standing for long, when half of the wearer's weight is the lowest load. So the cells are `trusted` only after
-a swing. Trust ends when the foot stands still while the cells show no load.
+The values in the air are the lowest of the last 8 to 10 s, or those of the last swing (pressure/insole.py). The former
+are wrong before the first step and after standing for long, when half of the wearer's weight is the lowest load. So the
+cells are `trusted` only after a swing. Trust ends when the foot stands still while the cells show no load.
 
 The numbers were chosen by hand and not swept."""
 
@@ -115,12 +115,12 @@ class Touch:
 
     def _is_airborne(self, t: float, load: Load) -> bool:
         if 0 < len(load.cells) <= MOST_SINGLE_CELLS:
-            self.airborne = self._is_airborne_by_cell(t, load.cells)
+            self.airborne = self._is_airborne_by_cell(t, load.cells, load.unloaded)
         else:
             self.airborne = load.total < (self.settings.ground_load if self.airborne else self.settings.air_load)
         return self.airborne
 
-    def _is_airborne_by_cell(self, t: float, values: Floats) -> bool:
+    def _is_airborne_by_cell(self, t: float, values: Floats, unloaded: Floats) -> bool:
         if len(self.cells) != len(values):
             self.cells = [Extremes() for _ in values]
             if len(self.in_front) != len(values):
@@ -132,15 +132,19 @@ class Touch:
         front = rear = 0.0
         any_known = False
         for k, (extremes, value) in enumerate(zip(self.cells, values, strict=True)):
-            cell_range = extremes.high - extremes.low
+            low, zero = extremes.low, 0.0
+            if k < len(unloaded):
+                zero = unloaded[k]
+                low = max(low, zero)
+            cell_range = extremes.high - low
             if (
                 cell_range <= 0.0
-                or cell_range < LEAST_CELL_RANGE * extremes.high
+                or extremes.high - extremes.low < LEAST_CELL_RANGE * (extremes.high - zero)
                 or cell_range < WEAK_CELL_RANGE * widest_range
             ):
                 continue
             any_known = True
-            share = (value - extremes.low) / cell_range
+            share = (value - low) / cell_range
             if self.in_front and self.in_front[k]:
                 front = max(front, share)
             else:

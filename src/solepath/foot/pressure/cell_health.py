@@ -47,7 +47,9 @@ LIVELY_WINDOWS = 3
 """Number of lively windows in a row after which a cell should load."""
 LIVELY_WINDOWS_ALONE = 8
 """Number of lively windows in a row after which a cell should load if its neighbours are unknown."""
-MOST_PRESSED_CELLS = 4
+INVERTED_POSITION = 0.7
+"""Position of the value of a cell in swing within its range above which the cell falls under load, 0 to 1."""
+MOST_PRESSED_CELLS = 8
 """Largest number of cells of an insole that has all its cells where the foot presses."""
 FULL_SCALE_SHARE = 0.99
 """Share of the full scale from which on a cell is saturated."""
@@ -134,8 +136,9 @@ class CellWindow:
 
     - DEAD: the range of the cell is below 1 % of the largest range, although the cell should load. It should load if
       cells on all its sides load (this needs a layout), if it was lively in several windows in a row, or if the insole
-      has at most four cells, because these are put where the foot presses.
+      has at most eight cells, because these are put where the foot presses.
     - STUCK: the cell shows one value, well above that of the other cells in the air.
+    - INVERTED: the cell shows its highest values in swing.
     - SATURATED: the cell is at the end of its measuring range, even while the foot is in the air (this needs a layout).
 
     A cell at the rim of the sole or under a high arch may never bear load. A cell there that was dead from the start
@@ -166,13 +169,21 @@ class CellWindow:
         """Flag: at least one cell varies enough to show a load."""
         return self.largest_range > LEAST_VARIATION * self.highest and self.largest_range > 0.0
 
+    @property
+    def has_noise(self) -> bool:
+        """Flag: a cell without load does not show one value only."""
+        return any([0.0 < self.ranges[i] <= SILENT_RANGE * self.largest_range for i in self.working])
+
     def find_lively(self) -> list[bool]:
         """Return for each cell whether it is lively."""
         return [r > LIVELY_RANGE * self.largest_range for r in self.ranges]
 
-    def find_faults(self, layout: Layout | None, lively_windows: list[int]) -> dict[CellFault, list[int]]:
+    def find_faults(
+        self, layout: Layout | None, lively_windows: list[int], in_air: Floats
+    ) -> dict[CellFault, list[int]]:
         """Return the faults of the working cells, each with the indices of its cells.
 
+        `in_air` is the value of each cell in swing, or empty while it is unknown.
         `lively_windows` is, for each cell, the number of earlier windows in a row in which it was lively."""
         lows, ranges, largest_range = self.lows, self.ranges, self.largest_range
         air_value = sorted([lows[i] for i in self.working])[len(self.working) // 2]
@@ -181,6 +192,8 @@ class CellWindow:
         for i in self.working:
             if full_scale_value is not None and 0.0 < FULL_SCALE_SHARE * full_scale_value <= lows[i]:
                 fault = CellFault.SATURATED
+            elif i < len(in_air) and self._is_inverted(i, in_air[i]):
+                fault = CellFault.INVERTED
             elif ranges[i] > SILENT_RANGE * largest_range:
                 continue
             elif lows[i] - air_value > RAISED_VALUE * largest_range:
@@ -194,8 +207,17 @@ class CellWindow:
             faults.setdefault(fault, []).append(i)
         return faults
 
+    def _is_inverted(self, i: int, in_air: float) -> bool:
+        """Return whether cell `i` is near the upper end of its range in the air, and lively."""
+        return (
+            self.ranges[i] > LIVELY_RANGE * self.largest_range
+            and in_air > self.lows[i] + INVERTED_POSITION * self.ranges[i]
+        )
+
     def _should_load(self, i: int, layout: Layout | None, lively_windows: int) -> bool:
         if layout is None:
+            if self.ranges[i] == 0.0 and self.has_noise:
+                return True
             return len(self.ranges) <= MOST_PRESSED_CELLS or lively_windows >= LIVELY_WINDOWS_ALONE
         is_enclosed, any_neighbours = enclosed(layout, i, self.find_lively())
         return is_enclosed or (lively_windows >= LIVELY_WINDOWS and any_neighbours)
@@ -259,11 +281,13 @@ class CellHealth:
         phase: Phase,
         gyro: Vec3 | None = None,
         layout: Layout | None = None,
+        in_air: Floats = (),
     ) -> list[Event]:
         """Return the events of one sample at `t`, s, with raw `cells`.
 
         `cells` is () for a sample of an inertial sensor that sends separately from the cells. `phase` is that of the
-        foot, `gyro` is in rad/s, and `layout` comes from the device or a calibration."""
+        foot, `gyro` is in rad/s, `layout` comes from the device or a calibration, and
+        `in_air` is the value of each cell in swing, as far as it is known."""
         events: list[Event] = []
         if layout is not None and self.count != len(layout.cells):
             self._set_count(len(layout.cells))
@@ -301,26 +325,22 @@ class CellHealth:
                 and self.window_start is not None
                 and t - self.window_start >= SHORTEST_WINDOW
             ):
-                self._judge(t, known_at, self.window_start, layout, events)
+                self._judge(t, known_at, self.window_start, layout, in_air, events)
                 self.window_start, self.swings, self.span = t, 0, CellSpan()
         return events
 
-    def usable(self, cells: Floats) -> Floats:
-        """Return `cells`, those of the last `update`, with 0 for failed cells and for values that are no numbers.
+    def usable(self, cells: Floats, unloaded: Floats = ()) -> Floats:
+        """Return `cells`, those of the last `update`, with the values without load for what is failed or no number.
 
-        The result is () when no cell can be used."""
+        `unloaded` holds the value of each cell without load, or nothing while it is unknown, which is then 0. The
+        result is () when no cell can be used."""
         if len(cells) != self.count:
             return ()
-        if not self.non_numeric:
-            if not self.excluded:
-                return cells
-            usable_cells = list(cells)
-        else:
-            usable_cells = [value if _is_number(value) else 0.0 for value in cells]
-            if len(self.non_numeric) == self.count:
-                return ()
-        for i in self.excluded:
-            usable_cells[i] = 0.0
+        if len(self.non_numeric) == self.count:
+            return ()
+        usable_cells = list(cells)
+        for i in [*self.excluded, *[i for i, _ in self.non_numeric]]:
+            usable_cells[i] = unloaded[i] if i < len(unloaded) else 0.0
         return tuple(usable_cells)
 
     def _accept_count(self, t: float, known_at: float, count: int, layout: Layout | None, events: list[Event]) -> bool:
@@ -360,7 +380,7 @@ class CellHealth:
             self._report(t, known_at, CellFault.MISSING, new_cells, events)
 
     def _judge(
-        self, t: float, known_at: float, window_start: float, layout: Layout | None, events: list[Event]
+        self, t: float, known_at: float, window_start: float, layout: Layout | None, in_air: Floats, events: list[Event]
     ) -> None:
         span = self.span
         if not span.lows:
@@ -372,11 +392,12 @@ class CellHealth:
         self.constant_windows = 0
         in_newtons = layout is not None and layout.scale is not None
         share = LOADED_SHARE if in_newtons else LOADED_SHARE_IN_COUNTS
-        if span.high > 0.0 and span.low > share * span.high:
+        zero = 0.0 if in_newtons else add_up([value for i, value in enumerate(in_air) if i not in self.excluded])
+        if span.high > 0.0 and span.low - zero > share * (span.high - zero):
             self._count_loaded(t, known_at, window_start, events)
         else:
             self.loaded_windows = 0
-        faults = window.find_faults(layout, self.lively_windows)
+        faults = window.find_faults(layout, self.lively_windows, in_air)
         for fault, cells in faults.items():
             new_cells = tuple([i for i in cells if i in self.suspected.get(fault, [])])
             if new_cells:
@@ -415,7 +436,7 @@ class CellHealth:
             if i not in suspected_cells:  # a suspected cell keeps its count, because the count is why it is suspected
                 self.lively_windows[i] = min(self.lively_windows[i] + 1, LIVELY_WINDOWS_ALONE) if lively else 0
         for fault, cells in self.failed.items():
-            if fault is not CellFault.MISSING:
+            if fault not in (CellFault.MISSING, CellFault.INVERTED):
                 self.failed[fault] = [i for i in cells if i in suspected_cells or self.lively_windows[i] < 2]
         self.excluded = self._all_failed()
 

@@ -7,6 +7,8 @@ alike.
 
 There is no `Load` before the sum has once fallen to a small share of its highest value and risen again. Until then a
 falling sum would always be the lowest so far, and a foot that is about to leave the ground would seem to be in the air.
+Cells that never show a small value, because of their voltage divider, have no load before two swings have shown their
+level without load (unloaded.py). From then on the load is measured from that level, wherever it is, and follows it.
 The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
@@ -21,10 +23,13 @@ from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Cell, Floats, Foot, Layout, Phase, Sample, Vec2
 from ...types.attrs import define, field, state, stateful
 from ...types.vector import TIME_EPSILON
+from ..cues.cues import MOST_SINGLE_CELLS
 from ..limitations import Limitations
 from ..settings import FootSettings, InsoleSettings
 from ..stance.stance import Load
 from .cell_health import CellHealth, add_up
+from .jumps import LEAST_STEP, Jumps
+from .unloaded import UnloadedLevel
 
 SPAN_DURATION = 2.0
 """Duration of one of the five spans over which the lowest and highest load are kept, s."""
@@ -38,6 +43,12 @@ HIGHEST_DECAY = 0.9999
 """Share of the highest recent cell value that remains after each sample: at 100 Hz, half of it after 69 s."""
 LEAST_AREA_RANGE = 0.05
 """Smallest range of the load of an area with working cells, as a share of the full load."""
+
+# what is said of the cells of one insole, with the name of its foot
+BURST = "now and then many cells of the {} insole show one and the same value for a moment; those samples are not used"
+STEP = "all cells of the {} insole have jumped by the same amount, as when a supply voltage changes; it is taken off"
+INVERTED = "the cells of the {} insole fall under load, as if wired the other way round; their values are turned"
+MOVED = "the cells of the {} insole show other values without load than before; these are learnt anew in each swing"
 
 
 @define
@@ -70,6 +81,11 @@ class Extremes:
             self.highs[-1] = value
             self.high = max(self.high, value)
 
+    def shift(self, by: float) -> None:
+        """Add `by` to all values."""
+        self.lows, self.highs = [low + by for low in self.lows], [high + by for high in self.highs]
+        self.low, self.high = self.low + by, self.high + by
+
 
 @stateful
 class InsoleLoads:
@@ -86,7 +102,7 @@ class InsoleLoads:
     cells: Floats = ()
     """Values of the cells of the current sample without noise, N or unit of the samples; () after their use."""
     sum: float = 0.0
-    """Sum of `cells`."""
+    """Sum of `cells` above the level without load, as far as it is known."""
     heel_cells: tuple[int, ...] = ()
     """Indices of the cells of the heel area."""
     forefoot_cells: tuple[int, ...] = ()
@@ -97,12 +113,22 @@ class InsoleLoads:
     """Extremes of the load of the heel area."""
     forefoot: Extremes = state(factory=Extremes)
     """Extremes of the load of the forefoot area."""
-    tare: list[float] = state(factory=list)
+    tare: Floats = ()
     """Value of each cell in the air, unit of the samples."""
     tare_total: float = 0.0
     """Sum of the cells at the sample that gave the tare, unit of the samples."""
     was_airborne: bool = False
     """The foot was in the air in the last sample."""
+    unloaded: UnloadedLevel = state(factory=UnloadedLevel)
+    """Level of the total load while the foot is in the air."""
+    turned: UnloadedLevel = state(factory=UnloadedLevel)
+    """The same of the load with its sign changed, until it is known which of the two is right."""
+    jumps: Jumps = state(factory=Jumps)
+    """Steps and bursts of all cells."""
+    inverted: bool = False
+    """The values of all cells fall under load, so that their signs are changed before `update`."""
+    trouble: str = ""
+    """What was wrong with the cells since this was last set to ""; one of BURST, STEP, INVERTED and MOVED."""
     load_risen: bool = False
     """The load has risen again after it had fallen, so that it is known."""
 
@@ -113,12 +139,15 @@ class InsoleLoads:
         heel_end, forefoot_start = settings.heel_end * layout.length, settings.forefoot_start * layout.length
         self.heel_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x < heel_end])
         if len(self.tare) != len(layout.cells):
-            self.tare = [0.0] * len(layout.cells)
+            self.tare = (0.0,) * len(layout.cells)
         self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_start])
 
     def reset(self) -> None:
         """End the current spans because times restart; the extremes stay."""
         self.total.span_end = self.heel.span_end = self.forefoot.span_end = None
+        self.unloaded.restart()
+        self.turned.restart()
+        self.jumps = Jumps(bursts=self.jumps.bursts)
 
     def update(self, t: float, cells: Floats, with_centre: bool = True) -> Load | None:
         """Return the load of one sample, as shares of the full load; None while that is unknown.
@@ -130,7 +159,20 @@ class InsoleLoads:
         if len(settings.noise) == len(cells):
             cells = above(settings.noise, cells)
         self.cells = cells
-        total = self.sum = add_up(cells)
+        total = add_up(cells)
+        last_range = self.total.high - self.total.low if self.load_risen else 0.0
+        jumps = self.jumps
+        if jumps.burst is not None or abs(total - jumps.total) > LEAST_STEP * last_range > 0.0:
+            if jumps.is_burst(t, total, cells, last_range):
+                if jumps.bursts > 1:
+                    self.trouble = BURST
+                return None
+            if step := jumps.find_step(t, total, cells):
+                self.trouble = STEP
+                self._shift(step, len(cells))
+        jumps.t, jumps.total = t, total
+        if len(cells) <= MOST_SINGLE_CELLS:
+            jumps.cells = cells
         heel_sum = forefoot_sum = 0.0
         sums = [(self.total, total)]
         has_areas = self.layout is not None and len(cells) == len(self.layout.cells)
@@ -143,19 +185,33 @@ class InsoleLoads:
         for extremes, value in sums:
             extremes.update(t, value)
         low, high = self.total.low, self.total.high
-        load_range = high - low
-        if load_range <= LEAST_LOAD_RANGE * high or load_range <= 0.0:
+        level = self.unloaded.update(t, total, cells, high - low)
+        # swings that lie on top, and none below, are those of cells that are wired the other way round
+        if self.unloaded.sure_ground is None and not self.inverted:
+            self.turned.update(t, -total, cells, high - low)
+            if self.turned.sure_ground is not None and not self.unloaded.grounds:
+                self.trouble = INVERTED
+                self._turn()
+                return None
+        if self.unloaded.moved:
+            self.trouble, self.unloaded.moved = MOVED, False
+        self.sum = total if level is None else total - level
+        full = high if level is None else high - level
+        if high - low <= LEAST_LOAD_RANGE * full or high <= low:
             self.load_risen = False
             return None
+        if level is not None:
+            low = level
+        load_range = high - low
         if not self.load_risen:
-            self.load_risen = total - low > LEAST_LOAD_RANGE * high
+            self.load_risen = total - low > LEAST_LOAD_RANGE * full
             if not self.load_risen:
                 return None
         share = (total - low) / load_range
         airborne = share < AIRBORNE_LOAD
         # in the first airborne samples the toe has hardly left the ground, so samples with a lower total are better
         if airborne and (not self.was_airborne or total < self.tare_total):
-            self.tare = list(cells)
+            self.tare = cells
             self.tare_total = total
         self.was_airborne = airborne
         # an area without variation is dead or absent, so it has no load
@@ -165,7 +221,24 @@ class InsoleLoads:
         if has_areas and self.forefoot.high - self.forefoot.low > LEAST_AREA_RANGE * load_range:
             forefoot = (forefoot_sum - self.forefoot.low) / load_range
         centre = self.centre_of_pressure(cells) if with_centre and not airborne else None
-        return Load(share, heel, forefoot, airborne, cells, centre)
+        unloaded = () if level is None else self.tare
+        return Load(share, heel, forefoot, airborne, cells, centre, unloaded)
+
+    def _turn(self) -> None:
+        """Discard what was learnt, because the signs of the values change from now on."""
+        self.inverted = True
+        self.total, self.heel, self.forefoot = Extremes(), Extremes(), Extremes()
+        self.tare, self.was_airborne, self.load_risen = (0.0,) * len(self.tare), False, False
+        self.unloaded, self.jumps = UnloadedLevel(), Jumps()
+
+    def _shift(self, step: float, count: int) -> None:
+        """Add `step` to everything that was learnt of the values of each of `count` cells."""
+        self.tare = tuple([value + step for value in self.tare])
+        self.tare_total += count * step
+        self.unloaded.shift(count * step)
+        self.total.shift(count * step)
+        self.heel.shift(len(self.heel_cells) * step)
+        self.forefoot.shift(len(self.forefoot_cells) * step)
 
     def above_tare(self, cells: Floats) -> Floats:
         """Return the cells minus their tare, at least 0, unit of `cells`; without a tare the cells as they are."""
@@ -365,10 +438,13 @@ class Sole:
         if pressure and not self.count_checked:
             self._check_count(len(pressure), t, known_at, limitations, events)
         known_layout = None if self.layout_estimated else self.insole.layout
-        events += self.health.update(t, known_at, pressure, phase, sample.gyro, known_layout)
+        if self.insole.inverted:
+            pressure = tuple([None if value is None else -value for value in pressure])
+        in_air = self.insole.unloaded.sure_cells
+        events += self.health.update(t, known_at, pressure, phase, sample.gyro, known_layout, in_air)
         health = self.health
         has_unusable_cells = health.excluded or health.non_numeric or len(pressure) != health.count
-        cells = health.usable(pressure) if has_unusable_cells else pressure
+        cells = health.usable(pressure, self.insole.tare) if has_unusable_cells else pressure
         if not cells:
             return None
         self.had_cells = True
@@ -377,6 +453,9 @@ class Sole:
             self.layout_estimated, self.highest = False, 0.0  # it was estimated for another insole
             self.guess, self.insole = LayoutGuess(self.foot), InsoleLoads(self.settings.insole)
         load = self.insole.update(t, cells, with_centre)
+        if self.insole.trouble:
+            limitations.report(self.insole.trouble.format(self.foot.value), t, known_at, events)
+            self.insole.trouble = ""
         if self.settings.needs_pressure and self.insole.layout is None and load is not None:
             guessed = self.guess.update(t, self.insole.above_tare(load.cells), load.total)
             if guessed is not None:

@@ -34,6 +34,8 @@ class Load:
     """Centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout.
 
     It is computed only for detectors and cues that say so (`uses_centre`), otherwise None."""
+    unloaded: Floats = ()
+    """Value of each of `cells` in the air, as learnt in the last swing; empty before any."""
 
 
 class Stance(NamedTuple):

@@ -1,0 +1,201 @@
+"""Soles whose cells show any value without load, drift, jump, or are dead or wired the other way round.
+
+The cells are those of a maker: counts of a 12-bit converter, with noise and a value without load."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from random import Random
+
+import pytest
+from attrs import evolve
+from walks import of
+
+from solepath import Foot, HeelStrike, Limitation, Sample, Session, StrideTaken, ToeOff
+from solepath.emulate import Route, Walker
+from solepath.emulate.sensors.insoles import layout
+from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads
+from solepath.recording.samples import load_samples
+from solepath.types import Floats
+from solepath.validate.matching import match
+
+FULL = 4095
+"""Full scale of a cell, counts."""
+WALKER = Walker(Route().stand(2.0).walk(60.0, 1.3).stop(2.0), seed=3)
+Change = Callable[[float, Floats], list[float]]
+"""Function of time and counts that returns the changed counts."""
+
+
+@cache
+def walk(cells: int, level: float) -> tuple[Sample, ...]:
+    """Return a minute of walking of the left foot, whose cells show `level` counts without load.
+
+    Two cells are the two halves of a sole of 16."""
+    shape, random = layout(max(cells, 16) if cells != 8 else 8, Foot.LEFT), Random(1)
+    samples = WALKER.samples(Foot.LEFT, 100.0, layout=shape)
+    loads = [sample.pressure or () for sample in samples]
+    if cells == 2:
+        rear = [cell.x < 0.5 * shape.length for cell in shape.cells]
+        loads = [
+            tuple([sum([v for v, at in zip(one, rear, strict=True) if at is side]) for side in (True, False)])
+            for one in loads
+        ]
+    gain = 0.85 * (FULL - level) / max(max(one) for one in loads)
+    counts = [tuple([clipped(level + gain * v + random.gauss(0.0, 2.0)) for v in one]) for one in loads]
+    return tuple(evolve(sample, pressure=one) for sample, one in zip(samples, counts, strict=True))
+
+
+def clipped(value: float) -> float:
+    return float(min(FULL, max(0, round(value))))
+
+
+def said(cells: int, level: float, inertial: bool, change: Change | None = None) -> list[Event]:
+    """Return the events of a walk whose counts are changed."""
+    session, events = Session(), list[Event]()
+    for sample in walk(cells, level):
+        counts = sample.pressure or ()
+        if change is not None:
+            sample = evolve(sample, pressure=tuple([clipped(value) for value in change(sample.t, counts)]))
+        events += session.feed(sample if inertial else evolve(sample, acc=None, gyro=None))
+    return [*events, *session.finish()]
+
+
+def missed(events: list[Event]) -> int:
+    """Return the number of heel-strikes and toe-offs that were missed or invented."""
+    truth, wrong = WALKER.truth().feet[Foot.LEFT], 0
+    for kind, true in ((HeelStrike, truth.heel_strikes), (ToeOff, truth.toe_offs)):
+        matching = match(true, [event.t for event in of(kind, events)])
+        wrong += matching.n_true + matching.n_found - 2 * len(matching.offsets)
+    return wrong
+
+
+def named(events: list[Event]) -> list[Event]:
+    """Return what is said of the cells."""
+    found = [event for event in of(Limitation, events) if "insole" in event.what]
+    return [*found, *of(CellsFailed | InsoleNeverUnloads, events)]
+
+
+SOLES = [
+    (2, 2500.0), (16, 100.0), *[pytest.param(*one, marks=pytest.mark.soak) for one in ((2, 100.0), (8, 1e3), (16, 2e3))]
+]  # fmt: skip
+each_sole = pytest.mark.parametrize(("cells", "level"), SOLES)
+with_and_without = pytest.mark.parametrize("inertial", [True, False], ids=["inertial", "cells alone"])
+
+
+@each_sole
+@with_and_without
+def test_contacts_are_found_whatever_cells_show_without_load(cells: int, level: float, inertial: bool) -> None:
+    events = said(cells, level, inertial)
+    assert named(events) == []
+    assert missed(events) <= (0 if inertial else 8)  # cells alone need the first two swings to learn their level
+
+
+def step(t: float, counts: Floats) -> list[float]:
+    return [value + 400.0 * (t > 30.3) for value in counts]
+
+
+def slow_step(t: float, counts: Floats) -> list[float]:
+    return [value + 400.0 * min(1.0, max(0.0, t - 30.0)) for value in counts]
+
+
+def fall(t: float, counts: Floats) -> list[float]:
+    return [value + 400.0 * (t < 30.9) for value in counts]
+
+
+def drift(t: float, counts: Floats) -> list[float]:
+    return [value + 12.0 * t for value in counts]
+
+
+def fast_drift(t: float, counts: Floats) -> list[float]:
+    return [value + 20.0 * max(0.0, t - 10.0) for value in counts]
+
+
+def drift_down(t: float, counts: Floats) -> list[float]:
+    return [value + 600.0 - 12.0 * t for value in counts]
+
+
+def bursts(t: float, counts: Floats) -> list[float]:
+    return [FULL if t > 10.0 and t % 5.3 < 0.05 else value for value in counts]
+
+
+def long_bursts(t: float, counts: Floats) -> list[float]:
+    return [FULL if t > 10.0 and t % 5.3 < 0.15 else value for value in counts]
+
+
+def bursts_of_nothing(t: float, counts: Floats) -> list[float]:
+    return [0.0 if t > 10.0 and t % 5.3 < 0.05 else value for value in counts]
+
+
+def dead(t: float, counts: Floats) -> list[float]:
+    return [0.0 if i in (1, len(counts) - 2) else value for i, value in enumerate(counts)]
+
+
+def wired_the_other_way(t: float, counts: Floats) -> list[float]:
+    return [FULL - value for value in counts]
+
+
+def two_the_other_way(t: float, counts: Floats) -> list[float]:
+    return [FULL - value if i in (1, len(counts) - 2) else value for i, value in enumerate(counts)]
+
+
+FAULTS = (
+    step, slow_step, fall, drift, fast_drift, drift_down, bursts, long_bursts, bursts_of_nothing, dead,
+    wired_the_other_way, two_the_other_way,
+)  # fmt: skip
+
+
+@each_sole
+@with_and_without
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.__name__)
+def test_a_fault_of_the_cells_costs_no_contact_or_is_named(
+    cells: int, level: float, inertial: bool, fault: Change
+) -> None:
+    if fault is dead and cells == 2 and not inertial:
+        pytest.skip("nothing is left of a sole whose two cells are dead, and a foot that rests looks the same")
+    if fault is two_the_other_way and cells == 8 and not inertial:
+        pytest.skip("the sum of all cells falls and rises twice in a stride, and nothing else shows the swing")
+    events = said(cells, level, inertial, fault)
+    assert missed(events) <= missed(said(cells, level, inertial)) or named(events)
+    assert missed(events) <= 45  # of about 170
+    if inertial:
+        assert len(of(StrideTaken, events)) == len(of(StrideTaken, said(cells, level, inertial)))
+
+
+@with_and_without
+def test_cells_that_are_dead_or_fall_under_load_are_named_by_their_numbers(inertial: bool) -> None:
+    for fault, kind in ((dead, CellFault.DEAD), (two_the_other_way, CellFault.INVERTED)):
+        (failed,) = of(CellsFailed, said(16, 100.0, inertial, fault))
+        assert (failed.fault, failed.cells) == (kind, (1, 14))
+
+
+def test_a_sole_that_is_wired_the_other_way_round_is_turned_within_five_strides() -> None:
+    events = said(2, 100.0, False, wired_the_other_way)
+    (turned,) = named(events)
+    assert isinstance(turned, Limitation) and "turned" in turned.what and turned.t < 8.0
+    later = [event for event in events if event.t > turned.t + 2.5]
+    truth = [t for t in WALKER.truth().feet[Foot.LEFT].heel_strikes if t > turned.t + 2.5]
+    assert match(truth, [event.t for event in of(HeelStrike, later)]).f1 == 1.0
+
+
+def test_a_wearer_who_stands_and_sways_on_cells_with_a_high_level_takes_no_step() -> None:
+    random, session, events, sway = Random(2), Session(), list[Event](), [0.0, 0.0]
+    for k in range(6000):
+        sway = [0.98 * one + random.gauss(0.0, 0.02) for one in sway]
+        counts = tuple([clipped(2500.0 + 400.0 * (1.0 + one)) for one in sway])
+        events += session.feed(Sample(0.01 * k, WALKER.samples(Foot.LEFT, 100.0)[0].site, pressure=counts))
+    assert of(HeelStrike | ToeOff, events) == [] and named(events) == []
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("name", ["fsr_treadmill", "moticon_opengo", "gaitpdb_vgrf", "smart_insole_35"])
+def test_nothing_is_said_of_the_cells_of_recorded_soles(data_dir: Path, name: str) -> None:
+    for path in sorted((data_dir / name).glob("*.npz")):
+        session = Session()
+        events = [event for sample in load_samples(path) for event in session.feed(sample)]
+        found = named(events)
+        if path.stem.startswith("N07"):  # the ball of the left sole shows 2.5 V all the time
+            assert [event.cells for event in of(CellsFailed, found)] == [(1,)] and len(found) == 1
+        else:
+            assert found == [], path.name
