@@ -63,7 +63,7 @@ def test_values_that_can_be_read_but_not_be_right_are_named_too(columns: dict[st
 def test_degraded_strides_are_counted_and_explained_by_the_gaps_in_them(
     columns: dict[str, np.ndarray], tmp_path: Path
 ) -> None:
-    for lost, words in ((1, None), (9, "degraded: a gap of more than 60 ms in")):
+    for lost, words in ((1, None), (9, "degraded: a gap of more than 60 ms and two samples in")):
         kept = (np.arange(len(columns["t"])) - 30) % 60 >= lost
         done = run("check", saved(tmp_path, {key: column[kept] for key, column in columns.items()}), "--foot", "left")
         found = re.search(r"left foot: (\d+) of (\d+) strides (degraded: .* in) (\d+)", done.stdout)

@@ -61,6 +61,27 @@ def test_a_radio_that_loses_three_percent_gives_the_lengths_of_a_whole_walk_with
     assert sum(sure) >= 0.95 * len(sure)
 
 
+@pytest.mark.parametrize("every", [1, 2, 4])
+def test_a_radio_that_loses_three_percent_leaves_nearly_all_strides_without_flaws_at_every_rate(every: int) -> None:
+    drawn = random.Random(20)
+    found = [one for _ in range(3) for one in strides(lambda k, _: k % every == 0 and drawn.random() >= 0.03)]
+    assert len(found) > 90 and sum(bool(one.flaws) for one in found) < 0.05 * len(found)
+
+
+@pytest.mark.parametrize("rate", [25, 50])
+@pytest.mark.parametrize("lost", [1, 2, 3])
+def test_up_to_two_lost_samples_are_no_flaw_at_a_low_rate_and_three_are(rate: int, lost: int) -> None:
+    every = round(1.0 / INTERVAL / rate)
+    whole = strides(lambda k, _: k % every == 0)
+    toe_off = whole[15].t_toe_off
+    assert toe_off is not None
+    first = round(toe_off / INTERVAL / every) + 2
+    damaged = strides(lambda k, _: k % every == 0 and not first <= k // every < first + lost)
+    (touched,) = [one for one in damaged if one.longest_gap]
+    assert touched.flaws == (() if lost < 3 else (Flaw.GAP,)) and touched.missing > 0.0
+    assert touched.length_sigma > whole[15].length_sigma
+
+
 def test_a_gap_of_a_swing_is_a_flaw_of_that_stride_and_makes_its_length_less_sure() -> None:
     whole = strides(lambda k, one: True)
     stride = whole[15]

@@ -41,7 +41,7 @@ BothFeet._restart: common compass directions distance divergence errors* ground 
   tracks* width straight_ways.reset()
 BothFeet.reset: common* compass* directions distance divergence errors measured_at path placements started tracks* width
   apart compass.reset() straight_ways.reset()
-Cc2541Link.handle_reconnection: acc_clock* calibration firmware gyro_clock*
+Cc2541Link.handle_reconnection: acc_clock* ahead calibration firmware gyro_clock*
 Cc2541Link.restart_clock: assembler* calibration firmware
 CellHealth.reset: count lively_windows suspected
 Clipping.reset: axes* largest near_end_square
@@ -59,7 +59,7 @@ FootBlocks.restart: bias climb fast flat_height force gyro_count hard rate_squar
   strike_height total tracked
 FootClocks._forget: feet* idle
 FootClocks.reset: feet* idle
-FootTracker.reset: corrector* cues* detector* gait* levelled limitations lost_count rest* rhythm sole* walk_scale*
+FootTracker.reset: corrector* counts_losses cues* detector* gait* levelled limitations rest* rhythm sole* walk_scale*
   cues.reset() cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
 Gait.reset: anchor_position bearing* heading_settled number path phase stride* template* world stride.cut()
   template.reset()

@@ -29,7 +29,7 @@ def test_a_summary_counts_the_events_of_each_foot():
     text = summary(walk, title="walk.npz", seconds=2.0)
     assert text.splitlines()[0] == "walk.npz: 4.0 s"
     assert (
-        "left foot: 1 of 1 stride degraded: a gap of more than 60 ms in 1" in text
+        "left foot: 1 of 1 stride degraded: a gap of more than 60 ms and two samples in 1" in text
         and "2 times as fast as walked" in text
     )
 

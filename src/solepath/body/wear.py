@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from math import fsum, hypot, sqrt
 from struct import Struct
 
-from ..events import FeetSwapped, FootResumed, FootSilent, StrideTaken, ToeOff
+from ..events import Defect, DefectFound, FeetSwapped, FootResumed, FootSilent, SampleRejected, StrideTaken, ToeOff
 from ..foot.view import FootView
 from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec2, Vec3, per_foot
 from ..types.attrs import ROW_SIZE, define, field, frozen, state, stateful
@@ -291,7 +291,7 @@ class FootSilence:
     """The time without samples of one foot."""
 
     t: float | None = None
-    """Time of the newest sample, s; None before any."""
+    """Time of the newest sample, s; None before any, and while those that come cannot be used, which is said then."""
     strides_since: int = 0
     """Number of strides that the other foot has taken since `t`."""
     silent: bool = False
@@ -332,6 +332,8 @@ class Wear(Part):
         for event in events:
             if isinstance(event, LayoutReported) and event.site.foot is not None:
                 self.sides.set_layout(event.site.foot, event.layout)
+            elif isinstance(event, SampleRejected) and event.site.foot is not None:
+                self.feet[event.site.foot].t = None
         if view is None:
             return ()
         t, this, other = view.t, self.feet[view.foot], self.feet[OTHER[view.foot]]
@@ -340,7 +342,8 @@ class Wear(Part):
             this.silent = False
             silence = 0.0 if this.t is None else max(0.0, t - this.t)
             outputs.append(FootResumed(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
-        this.t, this.strides_since = t, 0
+        is_stuck = any([isinstance(event, DefectFound) and event.defect is Defect.REPEATED for event in events])
+        this.t, this.strides_since = None if is_stuck else t, 0
         if view.after is not None and view.after.covariance is not None:  # a stride has ended
             other.strides_since += 1
         if other.strides_since and other.t is not None and not other.silent:

@@ -85,14 +85,23 @@ class StrideFeatures:
 
 
 LONGEST_HARMLESS_GAP = 0.06
-"""Longest gap that is no flaw, s: shorter ones cost a centimetre of a length (`solepath-lab damage losses`)."""
+"""Longest gap that is no flaw at any rate, s: shorter ones cost a centimetre of a length (`solepath-lab damage
+losses`)."""
+HARMLESS_INTERVALS = 3.5
+"""Longest gap that is no flaw at a low rate, in intervals: with up to two lost samples. At 25 Hz they add less to the
+errors of lengths than the rate itself (emulated walks and pyshoe_vicon)."""
+
+
+def is_harmless(gap: float, interval: float) -> bool:
+    """Return whether a gap of samples that come every `interval` s is no flaw; both in s."""
+    return gap <= max(LONGEST_HARMLESS_GAP, HARMLESS_INTERVALS * interval)
 
 
 class Flaw(Enum):
     """What makes a stride wrong."""
 
     GAP = "gap"
-    """Samples are missing for longer than `LONGEST_HARMLESS_GAP`, so that the motion had to be guessed."""
+    """Samples are missing for too long (`is_harmless`), so that the motion had to be guessed."""
     RANGE = "range"
     """Values are at the end of the sensor's range, so that peaks are cut off."""
     TWO_STRIDES = "two strides"

@@ -69,8 +69,8 @@ class SampleGap(BaseEvent):
 
     The device's counters give it, or the times of arrival if the device has no counters; for samples that were fed
     without packets, the usual interval between them, which is twice as long if every second one is always lost. It is 0
-    for an absence: the device was not connected, restarted, was silent for longer than its profile allows, or took no
-    samples."""
+    for an absence: the device was not connected, restarted, was silent for longer than its profile allows (rows: 20
+    intervals, but 1 to 2 s, which is the same), or took no samples."""
 
 
 @frozen(kw_only=True)

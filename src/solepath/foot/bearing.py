@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from math import log
 
-from ..events import StrideTaken
+from ..events import Flaw, StrideTaken
 from ..types.attrs import define, evolve, field
 from ..types.vector import GRAVITY, TIME_EPSILON
 
@@ -72,7 +72,7 @@ LEAST_PROGRESS = 0.15
 """Length of a stride below which it goes nowhere and speaks for no walk, m, as steps on the spot do; chosen by hand, below
 the strides of patients who shuffle."""
 MOST_MISSING = 0.1
-"""Largest share of missing samples of a stride that can be evidence against a foot that carries."""
+"""Largest share of missing samples of a stride that can be evidence against a foot that carries, if none is a flaw."""
 MOST_WAITING = 4
 """Number of strides that wait until it is known whether the foot carries, the newest included."""
 FARTHEST = 1e6
@@ -159,7 +159,7 @@ class Bearing:
             previous, self.evidence = None, min(self.evidence, KNOWN - MOST_OF_FIRST)
         least, most = (-MOST_OF_FIRST, MOST_OF_FIRST) if previous is None else (MOST_AGAINST, MOST_FOR)
         one = max(least, min(most, evidence_of(stride, previous)))
-        if stride.missing > MOST_MISSING:
+        if stride.missing > MOST_MISSING or Flaw.GAP in stride.flaws:
             one = max(0.0, one)  # what a gap hides speaks against nobody
         if stride.length < LEAST_PROGRESS:
             one = min(0.0, one)

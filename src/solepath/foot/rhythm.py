@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from ..types.attrs import define
 
 LEAST_RATIO, LARGEST_RATIO = 0.5, 2.0
@@ -26,10 +28,16 @@ LEAST_GAP_RATIO, LEAST_GAP_DIFFERENCE = 1.75, 0.002
 The ratio was chosen by hand. Times in whole milliseconds make two intervals differ by up to 2 ms."""
 GAPS_OF_NEW_RATE, LARGEST_GAP_DEVIATION = 10, 0.1
 """Number of equal gaps in a row that mean a new sampling rate, and largest relative difference between them."""
-LONGEST_LOSS = 2.0
-"""Longest gap in which samples were lost, s; in a longer one the sensor was absent. Built-in devices are stale then."""
+SHORTEST_ABSENCE, LONGEST_LOSS, ABSENT_INTERVALS = 1.0, 2.0, 20.0
+"""Longest gap in which samples were lost: so many intervals, within the first two limits, s; in a longer one the sensor
+was absent. `Profile.stale_after` of the built-in devices is the same at their rates."""
 FIRST_INTERVALS = 10
-"""Number of intervals after the start among which a much shorter one replaces the usual interval."""
+"""Number of intervals after the start from which the usual interval is learnt at once."""
+
+
+def longest_loss(interval: float) -> float:
+    """Return the longest gap in which samples that come every `interval` s were lost, s; a longer one is an absence."""
+    return min(LONGEST_LOSS, max(SHORTEST_ABSENCE, ABSENT_INTERVALS * interval))
 
 
 @define
@@ -39,8 +47,8 @@ class Rhythm:
     Many gaps of equal length in a row mean a new sampling rate. Times do not show a loss that is always the same:
     samples of which every second one is lost are samples at half the rate."""
 
-    intervals: int = 0
-    """Number of intervals so far, up to FIRST_INTERVALS + 1."""
+    first: tuple[float, ...] = ()
+    """First intervals, s, in the order of their length."""
     usual_interval: float | None = None
     """Usual interval between samples, s; None before any."""
     gaps_in_a_row: int = 0
@@ -51,11 +59,8 @@ class Rhythm:
     def update(self, dt: float) -> bool:
         """Add one interval, s; return whether it was a gap."""
         usual_interval = self.usual_interval
-        if usual_interval is None or self.intervals <= FIRST_INTERVALS:
-            self.intervals += 1
-            if usual_interval is None or (self.intervals <= FIRST_INTERVALS and dt * LEAST_GAP_RATIO < usual_interval):
-                self.usual_interval = dt
-                return False
+        if usual_interval is None or len(self.first) < FIRST_INTERVALS:
+            usual_interval = self._learn(dt)
         if dt <= LEAST_GAP_RATIO * usual_interval or dt - usual_interval <= LEAST_GAP_DIFFERENCE:
             self.usual_interval = follow(usual_interval, dt, USUAL_GAIN)
             self.gaps_in_a_row = 0
@@ -67,9 +72,20 @@ class Rhythm:
             self.usual_interval, self.gaps_in_a_row = dt, 0
         return True
 
+    def _learn(self, dt: float) -> float:
+        """Return the usual interval with one of the first: the shortest that another one is like, no odd one."""
+        self.first = first = tuple(sorted((*self.first, dt)))
+        alike = [one for one, longer in pairwise(first) if longer <= LEAST_GAP_RATIO * one]
+        return alike[0] if alike else first[-1]
+
+    @property
+    def longest_loss(self) -> float:
+        """Longest gap in which samples were lost, s."""
+        return longest_loss(0.0 if self.usual_interval is None or len(self.first) < 2 else self.usual_interval)
+
     def count_missing(self, gap: float) -> int:
         """Return how many samples at the usual interval a gap of so many s has room for; 0 in an absence."""
-        if self.usual_interval is None or gap > LONGEST_LOSS:
+        if self.usual_interval is None or gap > self.longest_loss:
             return 0
         return round(gap / self.usual_interval) - 1
 

@@ -6,7 +6,7 @@ from math import hypot, sqrt
 from typing import NamedTuple
 
 from ..events import Flaw, StrideFeatures, StrideTaken
-from ..events.foot import LONGEST_HARMLESS_GAP
+from ..events.foot import LONGEST_HARMLESS_GAP, is_harmless
 from ..types import Foot, Quat, Vec2, Vec3
 from ..types.attrs import define, field
 from ..types.vector import GRAVITY, IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
@@ -199,11 +199,13 @@ class StrideBuilder:
         self.flawed_until[flaw] = max(until, self.flawed_until.get(flaw, until))
 
     def add_gap(self, t_last: float, t: float, interval: float) -> None:
-        """Add a gap from the sample at `t_last` to that at `t`, s, of a sensor that measures every `interval` s."""
+        """Add a gap from the sample at `t_last` to that at `t`, s, of a sensor that measures every `interval` s.
+
+        In an absence, the interval is the gap: none of its samples is missing."""
         if len(self.newest_gaps) == MOST_GAPS and self.t_start is not None:
             self.older_gaps = self.older_gaps.with_gap(self.newest_gaps[0], self.t_start, t_last)
         self.newest_gaps = (*self.newest_gaps[1 - MOST_GAPS :], (t_last, t, interval))
-        if t - t_last > LONGEST_HARMLESS_GAP:
+        if interval >= t - t_last or not is_harmless(t - t_last, interval):
             self.mark_flawed(Flaw.GAP, t)
 
     def cut(self) -> None:

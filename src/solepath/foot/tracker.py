@@ -21,7 +21,7 @@ from .limitations import Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .phase import SWING
 from .rejection import rejected, rejection_reason
-from .rhythm import LONGEST_LOSS, Rhythm
+from .rhythm import Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load, Stance
 from .stuck import Stuck
@@ -53,10 +53,10 @@ class FootTracker:
     """Time of the newest sample whose view the parts of the body received, s; None before any."""
     load: Load | None = None
     """Newest load that came without acc or gyro and waits for the next inertial sample; None otherwise."""
-    lost_count: int | None = None
-    """Number of samples that the link has lost since the last gap; None where samples are fed without a link."""
-    lost_after: float | None = None
-    """Time of the sample before a gap that the link has found and that was not reported yet, s; None without one."""
+    counts_losses: bool = True
+    """Flag: samples are fed without a link, which counts losses itself."""
+    gap_end: float = -MAX_TIME
+    """Time of the end of the newest gap that was reported, s."""
     stuck: Stuck = state(factory=Stuck)
     rhythm: Rhythm = state(factory=Rhythm)
     levelling: Levelling = state(factory=Levelling)
@@ -168,7 +168,7 @@ class FootTracker:
             self.corrector.bridge(inf)
         self.t = self.moved_at = self.partial_at = self.viewed_at = self.limitations.lacking_since = self.load = None
         self.limitations.mismatch_since = None
-        self.lost_count, self.lost_after = None if self.lost_count is None else 0, None
+        self.gap_end = -MAX_TIME
         self.gait.reset()
         # Windows that hold old times would wait until the new times reach them. What was learnt stays.
         detector: Any = self.detector
@@ -212,6 +212,8 @@ class FootTracker:
             sole = sole or self.make_sole()
             load = self._add_cells(sole, sample, known_at, events)
         if not has_inertial:
+            if t_last is not None and t - t_last > self.rhythm.longest_loss:
+                self.limitations.lacking_since = None  # an absence shows nothing of what the sensor lacks
             self.partial_at = t
             if self.moved_at is not None and not self.limitations.is_lacking(t):
                 self.load = load  # cells and inertial sensor send separately: the next inertial sample uses this load
@@ -219,11 +221,9 @@ class FootTracker:
         dt = 0.0 if t_last is None else t - t_last
         is_gap = t_last is not None and self.rhythm.update(dt)
         if t_last is not None and (is_gap or dt > LONGEST_BRIDGE):
-            if is_gap:
+            if is_gap or (self.counts_losses and len(self.rhythm.first) == 1):
                 self._report_gap(t_last, t, known_at, events)
             dt = self._cross_gap(t_last, t, known_at, sample, events)
-        elif self.lost_after is not None and t > self.lost_after:  # what is missing was interpolated, or reset
-            self._report_gap(self.lost_after if t_last is None else t_last, t, known_at, events)
         if load is None and self.settings.needs_pressure and (sole is None or not sole.had_cells):
             self.moved_at = t if has_inertial else self.moved_at
             text = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
@@ -303,18 +303,13 @@ class FootTracker:
             gait.stride.add_cop(load.centre if is_known else sole.insole.centre_of_pressure(load.cells))
         return load
 
-    def add_loss(self, gap: SampleGap) -> None:
-        """Add a loss that the link has counted; it is reported with the first sample after it."""
-        self.lost_count, self.lost_after = (self.lost_count or 0) + gap.count, gap.t
-
     def _report_gap(self, t_last: float, t: float, known_at: float, events: list[Event]) -> None:
-        count = 0
-        if self.lost_count is None:
-            count = self.rhythm.count_missing(t - t_last)
-        elif self.lost_after is not None and t > self.lost_after:
-            count, self.lost_count, self.lost_after = self.lost_count, 0, None
-        site = SITE_OF_FOOT[self.foot]
-        events.append(SampleGap(t=t_last, known_at=known_at, site=site, duration=t - t_last, count=count))
+        """Report what no earlier event covers of a gap: a loss where no link counts them, or an absence."""
+        start = max(t_last, self.gap_end)
+        count, is_absence = self.rhythm.count_missing(t - start), t - start > self.rhythm.longest_loss
+        if is_absence or (count > 0 and self.counts_losses):
+            self.gap_end, site = t, SITE_OF_FOOT[self.foot]
+            events.append(SampleGap(t=start, known_at=known_at, site=site, duration=t - start, count=count))
 
     def _cross_gap(self, t_last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Return the time to integrate over between two samples that are far apart, s.
@@ -324,7 +319,9 @@ class FootTracker:
         duration = t - t_last
         corrector, gait = self.corrector, self.gait
         template = gait.template
-        gait.stride.add_gap(t_last, t, self.rhythm.usual_interval or 0.0 if duration <= LONGEST_LOSS else duration)
+        gait.stride.add_gap(
+            t_last, t, self.rhythm.usual_interval or 0.0 if duration <= self.rhythm.longest_loss else duration
+        )
         if duration > LONGEST_BRIDGE:
             self.rest.end_rest()
             self.levelling = Levelling()

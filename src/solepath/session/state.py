@@ -256,15 +256,12 @@ class SessionState:
         self._find_awake()
 
     def report(self, site: Site, event: Event) -> list[Event]:
-        """Use an event of a link; return it and the events that follow from it.
-
-        The tracker of a foot reports a loss, with the first sample after it."""
+        """Use an event of a link; return it and the events that follow from it."""
         if isinstance(event, ClockReset):
             self._reset_parts(site)
         foot = site.foot
         if isinstance(event, SampleGap) and foot in self.feet:
-            self.feet[foot].add_loss(event)
-            return []
+            self.feet[foot].gap_end = event.t + event.duration
         if foot is not None and isinstance(event, LayoutKnown):
             tracker = self._tracker(foot)
             tracker.set_layout(event.layout)
@@ -324,8 +321,7 @@ class SessionState:
         tracker = self._tracker(foot) if known_tracker is None else known_tracker
         events = tracker.feed(sample)
         if events and isinstance(events[0], SampleRejected):
-            if events[0].defect is not None:
-                self._run_parts(events, None, events[0].known_at)
+            self._run_parts(events, None, events[0].known_at)
             return events
         if tracker.t is None or (tracker.stuck.held and not events):  # the foot does not use such a sample
             return events
@@ -459,7 +455,7 @@ class SessionState:
                 part.calibrated(foot, calibration) if hasattr(part, "calibrated") else part for part in parts
             ]
             tracker = FootTracker(foot, detector, corrector, cues, settings)
-            tracker.lost_count = 0 if SITE_OF_FOOT[foot] in self.decoders else None
+            tracker.counts_losses = SITE_OF_FOOT[foot] not in self.decoders
         return tracker
 
     def _add_tracker(self, tracker: FootTracker) -> None:

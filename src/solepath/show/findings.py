@@ -119,7 +119,7 @@ SENTENCES: dict[type[Event], tuple[Concern, bool, str]] = {
 }  # fmt: skip
 """Concern of each event that says what is wrong, whether results are wrong until somebody acts, and the sentences."""
 FLAWS = {
-    Flaw.GAP: f"a gap of more than {1e3 * LONGEST_HARMLESS_GAP:.0f} ms",
+    Flaw.GAP: f"a gap of more than {1e3 * LONGEST_HARMLESS_GAP:.0f} ms and two samples",
     Flaw.RANGE: "values at the end of a range",
     Flaw.TWO_STRIDES: "two strides in one",
     Flaw.IMPOSSIBLE: "a speed or a height that cannot be",
@@ -225,7 +225,7 @@ def _beside(one: Finding, walk: Walk) -> Finding:
 
 def _of_link(link: LinkLedger, now: float) -> Iterator[tuple[str, str, bool]]:
     """Yield code and words of each figure of a link, "" for none, and whether somebody must act on it."""
-    yield "samples_missing", missing_words(link, now), False
+    yield "samples_missing" if link.missing else "sensor_absent", missing_words(link, now), False
     is_unknown = link.unknown.total() > LARGE_SHARE * link.packets
     names = ", ".join([printable(name, 80) for name, _ in link.unknown.most_common(MAX_NAMED)])
     unknown = (

@@ -28,6 +28,7 @@ from ..events import (
     StreamResumed,
     StreamStale,
 )
+from ..foot.rhythm import longest_loss
 from ..link.kinds import BUILT_IN_KINDS
 from ..types import Packet
 from ..wire.fragment import is_fragment
@@ -182,8 +183,6 @@ class LinkLedger:
     """True from the first sample of the present connection on."""
     _stale: bool = False
     """True after the session has reported that nothing comes any more."""
-    _absent_since: float | None = None
-    """Arrival of the newest sample before the present absence, s; None while samples come."""
     _t: float | None = None
     """Time of the newest sample by its own clock, s."""
     _covered: CoveredTime = field(factory=CoveredTime)
@@ -203,7 +202,7 @@ class LinkLedger:
         """Add a used sample of time `t` that came at `known_at`, both s; a repeated `t` does not count."""
         if t == self._t:
             return
-        self._t, self.last_sample_at, self.is_counted, self._absent_since = t, known_at, True, None
+        self._t, self.last_sample_at, self.is_counted = t, known_at, True
         self.samples += 1
         self._losses.add(known_at, samples=1)
         self._covered.add(t)
@@ -240,7 +239,6 @@ class LinkLedger:
             case StreamStale():
                 self.silences += 1
                 self._stale = True
-                self._absent_since = self.last_sample_at
             case StreamResumed():
                 self._stale = False
             case StreamRestarted():
@@ -251,7 +249,6 @@ class LinkLedger:
                 self.broken_at, self._has_samples, self._stale = None, False, False
             case Disconnected():
                 self.broken_at, self._has_samples = event.known_at, False
-                self._absent_since = self.last_sample_at
             case BatteryLevel(level=level):
                 self.battery = level
             case LinkTrouble(what=what) | DefectFound(what=what, needs_action=True):
@@ -283,7 +280,10 @@ class LinkLedger:
 
     def absent_time(self, now: float) -> float:
         """Return for how long, until `now`, s, the device was not connected, was silent or took no samples, s."""
-        return self.ended_absences + (0.0 if self._absent_since is None else max(0.0, now - self._absent_since))
+        silence = 0.0 if self.last_sample_at is None else now - self.last_sample_at
+        is_silent = not self.received and silence > longest_loss(1.0 / (self.rate or inf))  # no link reports it
+        is_absent = is_silent or self._stale or not self._has_samples
+        return self.ended_absences + (max(0.0, silence) if is_absent else 0.0)
 
     @property
     def missing_share(self) -> float:

@@ -177,15 +177,16 @@ class BothFeet(MeanOfFeet):
         outputs: list[PartOutput] = []
         for event in events:
             if isinstance(event, (StrideTaken, SampleGap)):
-                if view is None or view.after is None or self.tracks[view.foot].unplaced or self.tracks[view.foot].out:
+                foot = event.foot if isinstance(event, StrideTaken) else event.site.foot
+                if foot is None or self.tracks[foot].unplaced or self.tracks[foot].out:
                     continue
-                if isinstance(event, StrideTaken):
+                if isinstance(event, SampleGap):
+                    # unseen: the other foot had no samples either in the first half, or the first second, of the gap
+                    other_t = self.tracks[OTHER[foot]].t
+                    unseen = other_t is None or other_t < event.t + min(0.5 * event.duration, ABSENCE_TIME)
+                    self.common.add_gap(event.duration, unseen)
+                elif view is not None and view.after is not None:
                     outputs += self._add_stride(event, view.after)
-                    continue
-                # unseen: the other foot had no samples either in the first half, or the first second, of the gap
-                other_t = self.tracks[OTHER[view.foot]].t
-                unseen = other_t is None or other_t < event.t + min(0.5 * event.duration, ABSENCE_TIME)
-                self.common.add_gap(event.duration, unseen)
             elif isinstance(event, StartGiven):
                 start = event.start
                 if start.heading is not None and start.place is not None:

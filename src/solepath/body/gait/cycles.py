@@ -15,10 +15,10 @@ from ...events import (
     StrideTaken,
     ToeOff,
 )
-from ...events.foot import LONGEST_HARMLESS_GAP
+from ...events.foot import is_harmless
 from ...foot.bearing import LONGEST_WAIT
 from ...foot.view import FootView
-from ...types import OTHER, SITE_OF_FOOT, Foot, PerFoot, Site, per_foot
+from ...types import OTHER, Foot, PerFoot, Site, per_foot
 from ...types.attrs import define, field, state, stateful
 from ..part import ClockUnsettled, Inputs, Outputs, Part, PartOutput
 from .means import GaitMeans, GaitParameters
@@ -112,7 +112,7 @@ class Footfalls:
 
     def add_gap(self, gap: SampleGap) -> None:
         """Add a gap between samples; one that is no flaw of a stride is none of a cycle either."""
-        if gap.duration > LONGEST_HARMLESS_GAP:
+        if not is_harmless(gap.duration, gap.duration / (gap.count + 1) if gap.count else 0.0):
             self.degraded, self.gap = True, (gap.t, gap.t + gap.duration)
 
     def _is_uncertain(self, event: HeelStrike | FootFlat | ToeOff) -> bool:
@@ -287,6 +287,9 @@ class GaitCycles(Part):
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its events and return the cycles that are complete."""
+        for event in events:
+            if isinstance(event, SampleGap) and event.site.foot is not None:
+                self.feet[event.site.foot].add_gap(event)
         outputs = () if view is None else self._add_sample(view, events)
         for event in events:
             if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
@@ -320,8 +323,6 @@ class GaitCycles(Part):
                 this.add_toe_off(event)
             elif isinstance(event, StrideTaken):
                 this.add_stride(event)
-            elif isinstance(event, SampleGap) and event.site is SITE_OF_FOOT[view.foot]:
-                this.add_gap(event)
         if this.ended_cycle is not None and this.ended_cycle.foot_was_flat:
             this.close_cycle()
         return self._release(view.known_at)

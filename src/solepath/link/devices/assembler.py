@@ -19,6 +19,7 @@ from math import radians
 
 from ...types import Sample, Site, Vec3
 from ...types.attrs import define, field
+from ..clock import MIN_INCREMENT
 
 MAX_GAP_PERIODS = 2.5
 """Largest time that interpolation may span, and time after which a channel counts as silent, periods."""
@@ -38,8 +39,8 @@ Timed = tuple[float, Vec3]
 class Assembler:
     """Pairs accelerometer and gyroscope measurements, of which at most four wait.
 
-    Times `t` (s) increase from one call of `add_acc` to the next, and from one call of `add_gyro` to the next. `period`
-    is the time between two measurements of the added kind, s. `known_at` is the arrival of the packet, s."""
+    Times `t` (s) increase from one call of `add_acc` to the next; those of `add_gyro` are made to. `period` is the time
+    between two measurements of the added kind, s. `known_at` is the arrival of the packet, s."""
 
     site: Site
     waiting_acc: list[Timed] = field(factory=list)
@@ -69,6 +70,8 @@ class Assembler:
 
     def add_gyro(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
         """Add a gyroscope measurement, rad/s, and return the Samples that are complete."""
+        if self.gyro_newest is not None and t <= self.gyro_newest[0]:
+            t = self.gyro_newest[0] + MIN_INCREMENT
         self.gyro_before, self.gyro_newest, self.gyro_silent = self.gyro_newest, (t, value), False
         out = self._release_complete(period, known_at)
         if self.gyro_alone_since is None:
@@ -83,6 +86,15 @@ class Assembler:
         out = self.flush(t)
         self.air_pressure = pascal
         return out + self._make_sample(t, None, None, t)
+
+    @property
+    def newest_t(self) -> float | None:
+        """Time of the newest measurement, of the accelerometer if it has sent any, s; None before any."""
+        return self.newest_acc_t if self.newest_acc_t is not None or self.gyro_newest is None else self.gyro_newest[0]
+
+    def after_absence(self) -> Assembler:
+        """Return the assembler of what comes after an absence of both streams."""
+        return Assembler(self.site, mag=self.mag, air_pressure=self.air_pressure, last_t=self.last_t)
 
     def flush(self, known_at: float) -> list[Sample]:
         """Return the Samples that still wait, without gyroscope."""

@@ -17,6 +17,7 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD
+from ..counters import MIN_GAP, SampleTimes
 from ..driver import scaled
 from ..kinds import MAX_PRESSURE_WAIT, DeviceKind, DeviceLink, Output
 from ..periodic import PeriodicClock
@@ -130,7 +131,7 @@ class BarometerCalibration:
         return (sensitivity * pressure + offset) / 2**14
 
 
-Add = Callable[[float, Vec3, float, float], list[Sample]]
+Add = Callable[[Assembler, float, Vec3, float, float], list[Sample]]
 """`Assembler.add_acc` or `Assembler.add_gyro`."""
 
 
@@ -153,6 +154,12 @@ class Cc2541Link(DeviceLink):
     acc_on: bool = True
     gyro_on: bool = True
     calibration: BarometerCalibration | None = None
+    ahead: float = 0.0
+    """Time by which the newest accelerometer time is ahead of its fit, s: the gyroscope's times are as much ahead."""
+    newest_arrival: float | None = None
+    """Arrival of the newest packet of either stream, s; None before the first, and after a new connection."""
+    absent_since: float | None = None
+    """Time of the newest sample before an absence, s, until the first sample after it; None otherwise."""
     limitation_reported: bool = False
     """True if the Limitation about the barometer was reported."""
 
@@ -175,10 +182,10 @@ class Cc2541Link(DeviceLink):
         match channel:
             case "cc2541/accelerometer":
                 acc = scaled(value.acc, GRAVITY / counts_per_g(self.firmware, self.code))
-                return self._add(self.acc_clock, self.gyro_clock, self.assembler.add_acc, acc, arrival, data)
+                return self._add(self.acc_clock, Assembler.add_acc, acc, arrival, data)
             case "cc2541/gyroscope":
                 gyro = scaled(value.gyro, GYRO_SCALE)
-                return self._add(self.gyro_clock, self.acc_clock, self.assembler.add_gyro, gyro, arrival, data)
+                return self._add(self.gyro_clock, Assembler.add_gyro, gyro, arrival, data)
             case "cc2541/magnetometer":
                 self.assembler.mag = scaled(value.mag, MAG_SCALE)
             case "cc2541/barometer":
@@ -207,39 +214,54 @@ class Cc2541Link(DeviceLink):
         """Restart the clock fits and the times, because the receiver's clock restarted."""
         self.acc_clock = PeriodicClock(self.acc_clock.period)
         self.gyro_clock = PeriodicClock(self.gyro_clock.period)
-        self.assembler = Assembler(self.site)
+        self.assembler, self.absent_since = Assembler(self.site), None
+        self.newest_arrival, self.ahead = None, 0.0
 
     def handle_reconnection(self) -> None:
-        """Restart the slots with the next packets."""
-        self.acc_clock.newest_arrival = self.gyro_clock.newest_arrival = None
+        """Restart both streams with the next packet."""
+        self.newest_arrival = self.acc_clock.newest_arrival = self.gyro_clock.newest_arrival = None
 
     def flush(self, known_at: float) -> Output:
-        return [*self.assembler.flush(known_at)]
+        return self._end_absence(self.assembler.flush(known_at), known_at)
 
-    def _add(
-        self, clock: PeriodicClock, other: PeriodicClock, add: Add, value: Vec3, arrival: float, data: bytes
-    ) -> Output:
-        """Return the samples and events of a value; an absence is one of both streams."""
+    def _add(self, clock: PeriodicClock, add: Add, value: Vec3, arrival: float, data: bytes) -> Output:
+        """Return the samples and events of a value; an absence is one of both streams; both then restart."""
+        limit, newest = max(PROFILE.stale_after, MIN_GAP * self.interval), self.newest_arrival
         sample_times = clock.add_packet(arrival, PROFILE.stale_after, data)
-        (t,), newest = sample_times.times, other.newest_arrival
-        if not sample_times.lost_count and newest is not None and arrival - newest <= PROFILE.stale_after:
+        out: Output = []
+        if newest is None or arrival - newest > limit:
+            out += self.flush(arrival)
+            self.absent_since = self.assembler.newest_t or self.absent_since
+            self.assembler = self.assembler.after_absence()
+        self.newest_arrival = arrival
+        (t,) = sample_times.times
+        if not sample_times.lost_count or self.absent_since is not None:
             sample_times.gap_start = None
-        out: Output = [*sample_times.make_events(self.site, arrival)]
+        out += sample_times.make_events(self.site, arrival)
+        fitted = clock.clock.fit_time(clock.slot)
         if clock is self.acc_clock:
+            self.ahead = t - fitted
             out += clock.report_rate(1, self.site, arrival)
-        return out + [*add(t, value, clock.period, arrival)]
+        elif self.assembler.newest_acc_t is not None:  # two late starts are caught up with from different times
+            t = fitted + self.ahead
+        return out + self._end_absence(add(self.assembler, t, value, clock.period, arrival), arrival)
+
+    def _end_absence(self, samples: list[Sample], arrival: float) -> Output:
+        """Return the samples after the absence that the first measurement among them ends."""
+        times = [sample.t for sample in samples if sample.acc is not None or sample.gyro is not None]
+        if not times or self.absent_since is None:
+            return [*samples]
+        absence, self.absent_since = SampleTimes(times, 0, self.absent_since), None
+        return [*absence.make_events(self.site, arrival), *samples]
 
     def _read_barometer(self, temperature: int, raw: int, arrival: float) -> Output:
         if self.calibration is None:
             return self.report_limitation("no barometer calibration (AA43) from the CC2541: no air pressure", arrival)
         pressure = self.calibration.pascal(temperature, raw)
-        if any(
-            clock.newest_arrival is not None and arrival - clock.newest_arrival <= MAX_PRESSURE_WAIT
-            for clock in (self.acc_clock, self.gyro_clock)
-        ):
+        if self.newest_arrival is not None and arrival - self.newest_arrival <= MAX_PRESSURE_WAIT:
             self.assembler.air_pressure = pressure
             return []
-        return [*self.assembler.add_pressure_alone(arrival, pressure)]
+        return self._end_absence(self.assembler.add_pressure_alone(arrival, pressure), arrival)
 
 
 def _make_link(site: Site) -> Cc2541Link:
