@@ -87,6 +87,16 @@ class DefectFound(BaseEvent):
     """Standard deviation of `offset`, s; None without an offset."""
 
     @property
+    def spoilt_foot(self) -> Foot | None:
+        """Foot whose strides and gait parameters cannot be right; None for another site or a mere loss of accuracy."""
+        return self.site.foot if self.spoils else None
+
+    @property
+    def separates_feet(self) -> bool:
+        """True when the times of the feet cannot be compared: clocks are apart, or a foot's data cannot be right."""
+        return self.spoilt_foot is not None or self.defect is Defect.CLOCKS
+
+    @property
     def needs_action(self) -> bool:
         """True when results are wrong until somebody acts on `what`; False for a mere loss of accuracy."""
         return self.spoils or self.defect is Defect.CLOCKS

@@ -23,9 +23,9 @@ from ..events import (
 )
 from ..events.foot import LONGEST_HARMLESS_GAP
 from ..recording import printable
-from ..types import SITE_OF_FOOT, Foot, Site
+from ..types import SITE_OF_FOOT, Site
 from ..walk.links import LinkLedger
-from ..walk.walk import Walk, site_of
+from ..walk.walk import FootCounts, Walk, site_of
 from .tables.table import counted, times
 
 MAX_NAMED_CELLS = 8
@@ -66,6 +66,7 @@ CAUSES = {
     Rejection.WRONG_DEVICE: "another device sends for this site: check which is where (Session.bind lets it)",
 }
 """The likely causes, in words, of each reason for which a packet or a sample is rejected (docs/events.md)."""
+NOTHING_RIGHT = "the data of no foot can be right, so nothing of the walk is counted"
 ADVICE = "a device of your own needs its driver: --driver FILE.py (docs/device.md)"
 
 
@@ -175,12 +176,24 @@ def findings(walk: Walk) -> list[Finding]:
     found = reported(walk)
     for site, link in links_of(walk):
         found += [Finding(code, site, what, Concern.LINK, act) for code, what, act in _of_link(link, walk.now) if what]
-    for foot in [foot for foot in Foot if foot in walk.feet]:
-        counts = walk.feet[foot]
+    for foot in walk.known_feet:
+        counts = walk.feet.get(foot, FootCounts())
+        if foot not in walk.measured_feet:
+            found.append(Finding("foot_left_out", SITE_OF_FOOT[foot], _left_out(walk), Concern.STRIDES))
         flaws = [f"{words} in {counts.flaws[flaw]}" for flaw, words in FLAWS.items() if counts.flaws[flaw]]
         what = f"{counts.degraded} of {counted(counts.strides, 'stride')} degraded: {', '.join(flaws)}"
         found += [Finding("strides_degraded", SITE_OF_FOOT[foot], what, Concern.STRIDES)] if counts.degraded else []
     return sorted(found, key=lambda one: one.concern.value)
+
+
+def _left_out(walk: Walk) -> str:
+    """Return what it means for the figures of a walk that the data of a foot cannot be right."""
+    others = [foot for foot in walk.measured_feet]
+    return (
+        f"left out of strides, gait and distance, which are those of the {others[0]} foot alone"
+        if others
+        else NOTHING_RIGHT
+    )
 
 
 def reported(walk: Walk, *, now: bool = False) -> list[Finding]:

@@ -48,7 +48,7 @@ class PendingCycle:
     follows_cycle: bool
     """Flag: the cycle directly before was accepted too."""
     degraded: bool
-    """Flag: an event of the cycle is inferred, a gap in it is a flaw, or its stride has flaws."""
+    """Flag: an event of the cycle is inferred, a gap in it is a flaw, its stride has flaws, or its foot is spoilt."""
     foot_was_flat: bool = False
     """Flag: a foot-flat followed the cycle; if no stride ended there, the wearer stepped on the spot."""
     stride: StrideTaken | None = None
@@ -87,6 +87,8 @@ class Footfalls:
     """Times of the newest toe-offs, without inferred ones, s."""
     gap: tuple[float, float] | None = None
     """Start and end of the newest gap that is a flaw, s; None before any."""
+    spoilt: bool = False
+    """Flag: the foot's data cannot be right, so that its cycles are degraded and nothing is compared with them."""
 
     def add_contact(self, event: HeelStrike | FootFlat) -> None:
         """Add a contact of the foot."""
@@ -141,7 +143,8 @@ class Footfalls:
 #
 # GaitCycleMeasured defines the values. Only steady cycles enter the running means. A gait cycle is steady when
 #
-# - it is not degraded: its stride has no flaw, no gap in it would be one, and none of its events is inferred;
+# - it is not degraded: its stride has no flaw, no gap in it would be one, none of its events is inferred, and nothing
+#   was found that makes the data of its foot wrong;
 # - it follows another cycle without a pause. This leaves out the first three steps of a walk, after which gait is
 #   steady (Mann et al. 1979, J. Bone Joint Surg. Am. 61): the half stride from standing, and the first cycle;
 # - neither its time nor its length differs from that of the cycle before by a factor of `STEADY_FACTOR` or more,
@@ -287,14 +290,15 @@ class GaitCycles(Part):
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its events and return the cycles that are complete."""
-        outputs = () if view is None else self._add_sample(view, events)
         for event in events:
-            if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
-                self.clocks_apart = True
-                self.means.separate_feet()
+            if isinstance(event, DefectFound):
+                self.clocks_apart |= event.defect is Defect.CLOCKS
+                if event.spoilt_foot is not None:
+                    self.feet[event.spoilt_foot].spoilt = True
+                self.means.withhold(event)
             elif isinstance(event, ClockUnsettled) and event.site.foot is not None:
                 self.feet[event.site.foot].unsettled = event.until
-        return outputs
+        return () if view is None else self._add_sample(view, events)
 
     def _add_sample(self, view: FootView, events: Inputs) -> Outputs:
         if self.idle and view.after is None:
@@ -363,7 +367,8 @@ class GaitCycles(Part):
         this.count, this.waiting_cycles = this.count + 1, this.waiting_cycles[1:]
         comparable = not self.clocks_apart
         for falls in (this, other):
-            comparable &= falls.unsettled is None or falls.unsettled <= cycle.start
+            comparable &= not falls.spoilt and (falls.unsettled is None or falls.unsettled <= cycle.start)
+        cycle.degraded |= this.spoilt
         measured = measure_cycle(foot, cycle, self.means.newest[foot], this, other, comparable, known_at)
         self.means.add(measured)
         return measured

@@ -21,7 +21,7 @@ def summary(walk: Walk, *, title: str, seconds: float) -> str:
     duration = walk.covered_time.total
     lines = [f"{title}: {duration:.1f} s", *[f"DEFECT, {what}" for what in texts(walk, Concern.DATA)]]
     lines += ["", _foot_table(walk), ""] if walk.known_feet else [NO_DATA]
-    if (fused := walk.fused) is not None:
+    if (fused := walk.fused) is not None and walk.measured_feet == walk.known_feet:
         lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen} foot's path")
     if walk.modes:
         modes = ", ".join([f"{mode} {walk.modes[mode]}" for mode in WalkingMode if walk.modes[mode]])
@@ -43,8 +43,9 @@ def _foot_table(walk: Walk) -> str:
     names, rows = GAIT_EVENTS.values(), []
     for foot in walk.known_feet:
         counts, link = walk.feet.get(foot, FootCounts()), walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
-        row = [foot.value, str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
-        rows.append(row + [str(counts.events[name]) for name in names])
+        figures = [str(counts.strides), number(counts.distance), *[str(counts.events[name]) for name in names]]
+        figures = ["-"] * len(figures) if foot in walk.spoilt_feet else figures
+        rows.append([foot.value, str(link.samples), number(link.rate, 1), *figures])
     return table(["foot", "samples", "Hz", "strides", "distance m", *[f"{name}s" for name in names]], rows)
 
 
