@@ -85,6 +85,8 @@ class Concern(Enum):
     """What the session does without."""
 
 
+KINDS = {Concern.DATA: "DEFECT, ", Concern.LIMITATION: "limitation, "}
+"""Words before the lines of findings."""
 CELLS = {
     CellFault.DEAD: ("shows no load", "show no load"),
     CellFault.STUCK: ("shows one value all the time", "show one value all the time"),
@@ -147,6 +149,11 @@ class Finding:
         return self._with_site(self.what)
 
     @property
+    def line(self) -> str:
+        """The text as a line among others, with the kind of the finding."""
+        return f"{KINDS.get(self.concern, '')}{self.text}"
+
+    @property
     def brief(self) -> str:
         """First sentence with the site, without a full stop."""
         return self._with_site(self.what.partition(". ")[0])
@@ -173,7 +180,7 @@ def finding_of(event: Event, count: int = 1) -> Finding | None:
 
 def findings(walk: Walk) -> list[Finding]:
     """Return what is wrong with a walk, in the order of `Concern`."""
-    found = reported(walk)
+    found = [*reported(walk), *[Finding(one.code, None, one.what, Concern.LINK, one.act) for one in walk.remarks]]
     for site, link in links_of(walk):
         found += [Finding(code, site, what, Concern.LINK, act) for code, what, act in _of_link(link, walk.now) if what]
     for foot in walk.known_feet:

@@ -13,7 +13,7 @@ from collections import Counter, deque
 from collections.abc import Iterable, Sequence
 from math import inf
 
-from attrs import define, evolve, field
+from attrs import define, evolve, field, frozen
 
 from ..body.gait.means import GaitMeans, as_found
 from ..events import (
@@ -123,6 +123,17 @@ class Fault:
     """False once another device is connected there, its clock restarts, or the foot that was silent sends again."""
 
 
+@frozen
+class Remark:
+    """What reading a recording showed to be wrong with it, in words, before any session."""
+
+    code: str
+    """Name, such as "rows_damaged"."""
+    what: str
+    act: bool = False
+    """True if results are wrong until somebody acts."""
+
+
 @define
 class Walk:
     """The counts of a session from its start until now, and what it reported.
@@ -165,6 +176,8 @@ class Walk:
     elevator_rides: Counter[bool] = field(factory=Counter)
     """Number of elevator rides upwards (True) and downwards (False)."""
     turns: Counter[Turn] = field(factory=Counter)
+    remarks: list[Remark] = field(factory=list)
+    """What is wrong with the recording as it was read; whoever reads it sets them."""
     faults: dict[str, Fault] = field(factory=dict)
     """What is wrong: a fault for each defect of a site, and for each thing that another event says."""
     strides: dict[Foot, ThinnedList[StrideTaken]] = field(factory=_of_each_foot)

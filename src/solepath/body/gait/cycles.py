@@ -87,8 +87,6 @@ class Footfalls:
     """Times of the newest toe-offs, without inferred ones, s."""
     gap: tuple[float, float] | None = None
     """Start and end of the newest gap that is a flaw, s; None before any."""
-    spoilt: bool = False
-    """Flag: the foot's data cannot be right, so that its cycles are degraded and nothing is compared with them."""
 
     def add_contact(self, event: HeelStrike | FootFlat) -> None:
         """Add a contact of the foot."""
@@ -280,6 +278,8 @@ class GaitCycles(Part):
     means: GaitMeans = state(factory=GaitMeans)
     idle: bool = True
     """Flag: no cycle waits for samples of the other foot."""
+    spoilt: list[Foot] = state(factory=list)
+    """Feet whose data cannot be right, so that their cycles are degraded and nothing is compared with them."""
     clocks_apart: bool = False
     """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 
@@ -293,8 +293,8 @@ class GaitCycles(Part):
         for event in events:
             if isinstance(event, DefectFound):
                 self.clocks_apart |= event.defect is Defect.CLOCKS
-                if event.spoilt_foot is not None:
-                    self.feet[event.spoilt_foot].spoilt = True
+                if (foot := event.spoilt_foot) is not None and foot not in self.spoilt:
+                    self.spoilt.append(foot)
                 self.means.withhold(event)
             elif isinstance(event, ClockUnsettled) and event.site.foot is not None:
                 self.feet[event.site.foot].unsettled = event.until
@@ -341,7 +341,7 @@ class GaitCycles(Part):
     def reset(self, site: Site) -> None:
         """Discard the cycles and the times of a foot whose clock restarts or that wears another device."""
         if site.foot is not None:
-            self.clocks_apart = False
+            self.clocks_apart, self.spoilt = False, [foot for foot in self.spoilt if foot is not site.foot]
             self.means.reset(site.foot)
             falls = self.feet[site.foot]
             self.feet[site.foot] = Footfalls(count=falls.count, unsettled=falls.unsettled)
@@ -365,10 +365,10 @@ class GaitCycles(Part):
         """Measure the first of the waiting cycles and return its event."""
         this, other = self.feet[foot], self.feet[OTHER[foot]]
         this.count, this.waiting_cycles = this.count + 1, this.waiting_cycles[1:]
-        comparable = not self.clocks_apart
+        comparable = not self.clocks_apart and not self.spoilt
         for falls in (this, other):
-            comparable &= not falls.spoilt and (falls.unsettled is None or falls.unsettled <= cycle.start)
-        cycle.degraded |= this.spoilt
+            comparable &= falls.unsettled is None or falls.unsettled <= cycle.start
+        cycle.degraded |= foot in self.spoilt
         measured = measure_cycle(foot, cycle, self.means.newest[foot], this, other, comparable, known_at)
         self.means.add(measured)
         return measured

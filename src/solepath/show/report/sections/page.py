@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from xml.etree.ElementTree import Element
 
+from ....recording import printable
 from ...findings import Concern, texts
 from ...tables.svg import add
 from ..content import ReportContent
@@ -123,6 +124,11 @@ def _making(report: ReportContent) -> list[tuple[str, str]]:
         ("Recording", ", ".join(filter(None, [report.source, times]))),
         ("Start", report.when),
         ("Sensors", sensors(report.walk)),
-        ("Recipe", report.recipe),
+        ("Recipe", _hashed(report.recipe, report.made_by.get("recipe_sha256"))),
+        *[("Input", _hashed(one["name"], one["sha256"])) for one in report.made_by.get("inputs", ())],
         ("Made by", f"solepath {report.version}".rstrip()),
     ]
+
+
+def _hashed(name: str, sha256: str | None) -> str:
+    return printable(name) if sha256 is None else f"{printable(name)}, SHA-256 {sha256}"
