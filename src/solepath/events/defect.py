@@ -88,8 +88,10 @@ class DefectFound(BaseEvent):
 
     @property
     def spoilt_foot(self) -> Foot | None:
-        """Foot whose strides and gait parameters cannot be right; None for another site or a mere loss of accuracy."""
-        return self.site.foot if self.spoils else None
+        """Foot that nothing can be taken from; None for another site and a defect that costs less.
+
+        A peak that is cut off has its time: the strides of such a foot are degraded, and it goes on to count."""
+        return self.site.foot if self.spoils and self.defect is not Defect.CLIPPED else None
 
     @property
     def separates_feet(self) -> bool:

@@ -11,6 +11,7 @@ from attrs import evolve, frozen
 from ..events import (
     CellFault,
     CellsFailed,
+    Defect,
     DefectFound,
     Event,
     FeetSwapped,
@@ -23,7 +24,7 @@ from ..events import (
 )
 from ..events.foot import LONGEST_HARMLESS_GAP
 from ..recording import printable
-from ..types import SITE_OF_FOOT, Site
+from ..types import SITE_OF_FOOT, Foot, Site
 from ..walk.links import LinkLedger
 from ..walk.walk import FootCounts, Walk, site_of
 from .tables.table import counted, times
@@ -66,6 +67,11 @@ CAUSES = {
     Rejection.WRONG_DEVICE: "another device sends for this site: check which is where (Session.bind lets it)",
 }
 """The likely causes, in words, of each reason for which a packet or a sample is rejected (docs/events.md)."""
+NO_STEADY = (
+    "no gait cycle is steady, so that there are no means: steady ones are neither first nor last of a walk, nor in a "
+    "turn, on stairs or degraded"
+)
+NOT_COMPARED = "the times of the feet could not be compared: step time and double support are left out"
 NOTHING_RIGHT = "the data of no foot can be right, so nothing of the walk is counted"
 ADVICE = "a device of your own needs its driver: --driver FILE.py (docs/device.md)"
 
@@ -190,7 +196,18 @@ def findings(walk: Walk) -> list[Finding]:
         flaws = [f"{words} in {counts.flaws[flaw]}" for flaw, words in FLAWS.items() if counts.flaws[flaw]]
         what = f"{counts.degraded} of {counted(counts.strides, 'stride')} degraded: {', '.join(flaws)}"
         found += [Finding("strides_degraded", SITE_OF_FOOT[foot], what, Concern.STRIDES)] if counts.degraded else []
+    found += [Finding(code, None, what, Concern.STRIDES) for code, what in _withheld(walk)]
     return sorted(found, key=lambda one: one.concern.value)
+
+
+def _withheld(walk: Walk) -> Iterator[tuple[str, str]]:
+    """Yield code and words of what is known of no gait cycle, though there are some."""
+    means = [one for one in (walk.gait.of(False), walk.gait.of(True)) if one is not None]
+    if not means and any([cycles.count for cycles in walk.cycles.values()]):
+        yield "no_steady_cycle", NO_STEADY
+    has_both = any([len(one.feet) == len(Foot) for one in means]) and not [one for one in means if one.both.step_time]
+    if has_both and Defect.CLOCKS not in [one.defect for one in walk.found_defects]:
+        yield "feet_not_compared", NOT_COMPARED
 
 
 def _left_out(walk: Walk) -> str:
@@ -207,7 +224,13 @@ def reported(walk: Walk, *, now: bool = False) -> list[Finding]:
     """Return what events of a walk say is wrong: all of it, or what holds `now`."""
     faults = [fault for fault in walk.faults.values() if fault.holds or not now]
     sentences = [finding_of(fault.event, fault.count) for fault in faults]
-    return [_beside(one, walk) for one in sentences if one is not None]
+    return [_beside(one, walk) for one in sentences if one is not None and not _is_explained(one, walk)]
+
+
+def _is_explained(one: Finding, walk: Walk) -> bool:
+    """Return whether the height of strides, with which air pressure is compared, is the one that is wrong."""
+    others = [other for other in walk.found_defects if other.site is one.site and other.spoils]
+    return one.code == Defect.AIR_PRESSURE.name.lower() and len(others) > 0
 
 
 def texts(walk: Walk, *concerns: Concern) -> list[str]:

@@ -149,7 +149,7 @@ class Activities(ActivityPart):
         if foot is not None and found.defect is Defect.AIR_PRESSURE:
             air = self.pressure_height or self._make_pressure_height()
             air.leave_out(foot)
-        if foot is not None and found.spoils and foot not in self.spoilt:
+        if foot is not None and foot is found.spoilt_foot and foot not in self.spoilt:
             self.spoilt.append(foot)
             if self._is_left_out(foot):
                 self.feet[foot].restart()

@@ -13,11 +13,6 @@ from ..markup import notes, table, terms
 from ..running import running_means
 
 HEADER = ("parameter", "left", "right", "both", "CV %", "asymmetry")
-NO_STEADY = (
-    "No stride was steady, so that there are no means: steady strides are neither first nor last of a walk, nor in a "
-    "turn, on stairs or degraded."
-)
-
 DEFINITIONS = {
     "stride_time": "from a contact of a foot to its next one (Hollman et al. 2011)",
     "step_time": "from the other foot's contact to this one's",

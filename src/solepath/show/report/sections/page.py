@@ -17,7 +17,7 @@ from ..markup import paragraph, section, sentences, skeleton, table, whole_sente
 from ..words import LINK_HEADER, link_rows, overview, sensors
 from .comparison import comparison
 from .facts import Facts, facts_of
-from .gait_table import NO_STEADY, definitions, gait_table
+from .gait_table import definitions, gait_table
 from .heading import add_heading, add_making, title_of
 from .headline import headline
 from .key_figures import key_figures
@@ -88,8 +88,6 @@ def _ways(parent: Element, report: ReportContent) -> None:
 def _gait(parent: Element, report: ReportContent, facts: Facts) -> None:
     for means in facts.means:
         gait_table(parent, means)
-    if not facts.means:
-        paragraph(parent, NO_STEADY)
     figures = add(parent, "<div class='figures'/>")
     stride_figures(figures, [one for cycles in report.walk.cycles.values() for one in cycles], report.clock)
 
