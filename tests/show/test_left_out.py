@@ -103,6 +103,7 @@ def test_a_damaged_foot_is_in_no_figure_of_the_walk_nor_of_the_page(
     assert walk.feet[Foot.LEFT].strides == walk.feet[Foot.LEFT].distance == len(walk.cycles[Foot.LEFT]) == 0
     assert page["total"]["speed"] == pytest.approx(alone[2], abs=0.02)
     assert page["spoilt"] == ["left"]
+    assert not walk.turns, "the way is straight"
     known_at = min([one.known_at for one in spoiling])
     late = [one for one in cycles if one.foot is Foot.LEFT and one.known_at >= known_at]
     assert all([one.degraded and not one.steady for one in late])
@@ -171,3 +172,14 @@ def test_clocks_apart_withhold_the_comparison_in_every_row(tmp_path: Path) -> No
     assert Site.RIGHT_FOOT.value in [
         one["site"] for one in json.loads((tmp_path / "out" / "run.json").read_text())["findings"]
     ]
+
+
+def test_the_speed_of_the_outcomes_is_that_of_the_gait_table_and_counts_of_cycles_are_called_so(tmp_path: Path) -> None:
+    left = [one for one in _walked(Foot.LEFT) if not 20.0 < one.t < 40.0]  # fewer strides of one foot
+    files = _write(tmp_path / "left.csv", left), _write(tmp_path / "right.csv", _walked(Foot.RIGHT))
+    text = run("track", *files, "--outcomes").stdout
+    (table,) = [line.split() for line in text.splitlines() if line.startswith("speed m/s")]
+    (outcome,) = [line.split() for line in text.splitlines() if line.startswith("speed of steady strides")]
+    assert table[4] == outcome[5], text
+    assert "gait cycles " in text
+    assert "\nstrides " not in text.partition("walking, steady strides")[2].partition("stride time")[0]

@@ -80,7 +80,7 @@ class AirPressure(Part):
     """End of the newest stride of either foot, s; None before any."""
     degraded: bool = False
     """Flag: that stride is degraded."""
-    doubted: list[Foot] = state(factory=list)
+    wrong_heights: list[Foot] = state(factory=list)
     """Feet whose height may be wrong, because of a defect of their sensor."""
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
@@ -89,13 +89,15 @@ class AirPressure(Part):
         for event in events:
             if isinstance(event, StrideTaken):
                 self.stride_at, self.degraded = event.t, bool(event.flaws)
-            elif isinstance(event, DefectFound) and event.spoils and (foot := event.site.foot) not in self.doubted:
-                self.doubted += [] if foot is None else [foot]
+            elif (
+                isinstance(event, DefectFound) and event.spoils and (foot := event.site.foot) not in self.wrong_heights
+            ):
+                self.wrong_heights += [] if foot is None else [foot]
         return outputs
 
     def _add_reading(self, view: FootView) -> Outputs:
         t, barometer = view.t, self.feet[view.foot]
-        if view.foot in self.doubted or self.stride_at is None or abs(t - self.stride_at) > STRIDE_PAUSE:
+        if view.foot in self.wrong_heights or self.stride_at is None or abs(t - self.stride_at) > STRIDE_PAUSE:
             barometer.count = 0
             return ()
         difference = height_above_track(view)
@@ -109,7 +111,7 @@ class AirPressure(Part):
         """Forget what was found at a site, where another device is worn or the clock has restarted."""
         if site.foot is not None:
             self.feet[site.foot] = Barometer()
-            self.doubted = [foot for foot in self.doubted if foot is not site.foot]
+            self.wrong_heights = [foot for foot in self.wrong_heights if foot is not site.foot]
         self.stride_at = None
 
 

@@ -65,7 +65,7 @@ def gait_table(parent: Element, parameters: GaitParameters) -> None:
         notes(parent, [f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007)."])
     count = sum([strides_of(parameters, foot) or 0 for foot in Foot])  # whole numbers
     if count < MIN_STRIDES:
-        notes(parent, [f"Of {count} strides: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."])
+        notes(parent, [f"Of {count} gait cycles: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."])
 
 
 def definitions(parent: Element, tables: Sequence[GaitParameters], *, difference: bool) -> None:
