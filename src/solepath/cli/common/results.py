@@ -124,7 +124,7 @@ class Results:
 
     def urgent_links(self) -> list[str]:
         """Return what the counts of the links show to be wrong until somebody acts."""
-        return [one.text for one in findings(self.walk) if one.act and one.event is None]
+        return [one.text for one in findings(self.walk) if one.act and one.event is None and one.site is not None]
 
     def __enter__(self) -> Results:
         return self
