@@ -183,3 +183,13 @@ def test_the_speed_of_the_outcomes_is_that_of_the_gait_table_and_counts_of_cycle
     assert table[4] == outcome[5], text
     assert "gait cycles " in text
     assert "\nstrides " not in text.partition("walking, steady strides")[2].partition("stride time")[0]
+
+
+def test_a_walk_too_short_for_steady_cycles_says_so_in_every_output(tmp_path: Path) -> None:
+    short = Walker(Route().stand(2.0).walk(3.0, 1.3).stop(2.0), seed=3).samples(Foot.LEFT, 100.0)
+    walk, out, report = _write(tmp_path / "left.csv", short), tmp_path / "out", tmp_path / "walk.html"
+    text = run("track", walk, "--out", out, "--report", report).stdout
+    found = {one["code"]: one["text"] for one in json.loads((out / "run.json").read_text())["findings"]}
+    for shown in (text, run("check", walk).stdout):
+        assert found["no_steady_cycle"] in shown
+    assert "no gait cycle is steady" in unescape(report.read_text()).lower()
