@@ -73,7 +73,8 @@ def test_one_frame_of_so_many_is_missing_wherever_it_is_told(every: int, absence
         gaps += [event for event in events if isinstance(event, SampleGap)]
         scene.take(packet, events)
     link = frame(scene)["links"]["left foot"]
-    assert link["missing"] == lost and 100.0 * link["missing_share"] == share
+    assert link["missing"] == link["gaps"] == lost and 100.0 * link["missing_share"] == share
+    assert link["absent"] == pytest.approx(absence, abs=0.1)
     assert len(gaps) == lost + (absence > 0.0), "a loss is one event"
     assert sum(gap.count for gap in gaps) == lost
 

@@ -11,7 +11,7 @@ from ..recording.errors import UnusableValues
 from ..recording.source import label_files
 from ..show.tables.table import counted
 from .common.failure import MAX_LENGTH
-from .common.inputs import Recording, add_calibration, assumed_foot, calibration_of, recipe_option
+from .common.inputs import Recording, add_calibration, calibration_of, recipe_option, remarks_on
 from .common.own_devices import drivers_of
 from .common.parser import command
 from .common.tables import axes_repair, source_named, table_options
@@ -27,8 +27,6 @@ UNSEEN = (
     "clocks of the feet that are apart, of a wearer who limps",
 )
 """Some defects that may be in data of which the checks report nothing; there are others."""
-LARGE_SHARE = 0.1
-"""Share of damaged rows from which on they must be mended; chosen by hand."""
 
 
 def run(options: Namespace) -> int:
@@ -56,7 +54,7 @@ def run(options: Namespace) -> int:
         return 1
     session, recording = Session(recipe, calibration=calibration, poses=True, profiles=drivers), Recording(source)
     walk, must = Walk(), list[str]()
-    may = [*filter(None, [assumed_foot(source)])]
+    may = list[str]()
     for item in chain(recording, [None]):
         if recording.failure is not None and not walk.item_count:
             raise recording.failure
@@ -64,14 +62,15 @@ def run(options: Namespace) -> int:
         walk.take(item, events)
     if recording.failure is not None:
         must.append(_without_path(recording.failure))
+    walk.remarks = remarks_on(source)
     for one in findings(walk):
         (must if one.act or one.concern is Concern.WEAR else may).append(one.text + axes_repair(source, one.event))
-    bad_rows = source.bad_rows
-    has_many = bad_rows is not None and bad_rows.count > LARGE_SHARE * (bad_rows.count + bad_rows.good)
     prefix = f"{printable(str(options.files[0]))}: " if is_one else ""
     left_out = () if source.samples is None else source.samples.left_out
+    counted_rows = tuple([one.what for one in walk.remarks])  # named already
     for flaw in flaws:
-        (must if has_many or flaw in left_out else may).append(flaw.removeprefix(prefix))
+        if not flaw.endswith(counted_rows):
+            (must if flaw in left_out else may).append(flaw.removeprefix(prefix))
     strides = {foot: counts.strides for foot, counts in walk.feet.items() if counts.strides}
     walked = ", ".join(f"{foot} foot {counted(count, 'stride')}" for foot, count in strides.items()) or "no stride"
     print(f"{name}: {walk.covered_time.total:.1f} s, {walked}")

@@ -181,10 +181,12 @@ def _writer_class(out: Path, own: Iterable[Driver]) -> OpenWriter:
 
 def _to_storage(options: Namespace) -> int:
     from ..show.opensim import OpensimWriter, Quantity
+    from .common.run_file import made_by
 
     output = OutputFile(options.out, RECORDING_KIND)
     check_outputs(options, [output])
-    writer = OpensimWriter(Quantity.POSITIONS if options.positions else Quantity.ATTITUDES)
+    quantity = Quantity.POSITIONS if options.positions else Quantity.ATTITUDES
+    writer = OpensimWriter(quantity, made_by(recipes_of(options)[0], options))
 
     def add(samples: Iterable[PosedSample], _: Iterable[Event]) -> None:
         for posed in samples:
@@ -198,6 +200,7 @@ def _to_storage(options: Namespace) -> int:
 def _to_dataset(options: Namespace) -> int:
     from ..recording.bids.names import Entities
     from ..recording.bids.writer import MotionWriter
+    from .common.run_file import made_by
 
     try:
         entities = Entities(options.subject, options.task, options.session, options.repetition)
@@ -205,7 +208,8 @@ def _to_dataset(options: Namespace) -> int:
         raise Failure(str(error)) from None
     source = source_named(options)
     try:
-        writer = MotionWriter(options.out, entities, source.header, replace=options.force)
+        made = made_by(recipes_of(options)[0], options)
+        writer = MotionWriter(options.out, entities, source.header, replace=options.force, made_by=made)
     except RecordingError as error:
         raise Failure(f"{error}; --force replaces it" if "already" in error.what else str(error)) from None
     recording = _run(options, source, writer.add)

@@ -18,12 +18,12 @@ from .common.inputs import (
     add_clocks,
     add_floorplan,
     add_heading,
-    assumed_foot,
     calibration_of,
     check_pressure,
     floorplan_of,
     recipe_option,
     recipes_of,
+    remarks_on,
     source_of,
     undo_clocks,
 )
@@ -116,13 +116,13 @@ def run(options: Namespace) -> int:
         else:
             shown = _run_on_page(recording, runs[0], plan, calibration, address, pace)
         if recording.failure is None or runs[0].walk.item_count:
+            for one in runs:
+                one.walk.remarks = remarks_on(source)
             lines = [one.write() for one in runs]
             print("\n".join(lines[0] if is_one else _comparison(options, recording.name, runs)))
             for sentence in runs[0].urgent_links():
                 note(sentence)
     if recording.failure is None:
-        if (assumed := assumed_foot(source)) is not None:
-            note(assumed)
         return 0
     if shown:
         return 2  # the reason was already printed

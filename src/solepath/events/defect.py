@@ -87,6 +87,18 @@ class DefectFound(BaseEvent):
     """Standard deviation of `offset`, s; None without an offset."""
 
     @property
+    def spoilt_foot(self) -> Foot | None:
+        """Foot that nothing can be taken from; None for another site and a defect that costs less.
+
+        A peak that is cut off has its time: the strides of such a foot are degraded, and it goes on to count."""
+        return self.site.foot if self.spoils and self.defect is not Defect.CLIPPED else None
+
+    @property
+    def separates_feet(self) -> bool:
+        """True when the times of the feet cannot be compared: clocks are apart, or a foot's data cannot be right."""
+        return self.spoilt_foot is not None or self.defect is Defect.CLOCKS
+
+    @property
     def needs_action(self) -> bool:
         """True when results are wrong until somebody acts on `what`; False for a mere loss of accuracy."""
         return self.spoils or self.defect is Defect.CLOCKS

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from importlib import import_module
 from types import NoneType
@@ -66,7 +66,11 @@ TYPES = {
 
 
 def to_frame(
-    records: Iterable[BaseEvent | Sample], of: type[BaseEvent] | None = None, *, library: str | None = None
+    records: Iterable[BaseEvent | Sample],
+    of: type[BaseEvent] | None = None,
+    *,
+    library: str | None = None,
+    made_by: Mapping[str, Any] | None = None,
 ) -> Any:
     """Return a data frame with one row per event or sample, of pandas if that is installed, else of polars.
 
@@ -81,8 +85,9 @@ def to_frame(
     fields, because another event has a value of another kind or unit in a field of that name: level_name, phase_name,
     turn_name and offset_sigma.
 
-    Units are in `frame.attrs["units"]` of pandas, by column, and in the metadata "unit" of a field of Arrow. Polars has
-    no place for them. ImportError when the library is not installed."""
+    Units are in `frame.attrs["units"]` of pandas, by column, and in the metadata "unit" of a field of Arrow. `made_by`,
+    as `provenance` says it (saving/provenance.py), is in `frame.attrs["solepath"]` and in the metadata "solepath" of a
+    table of Arrow, as JSON. Polars has no place for them. ImportError when the library is not installed."""
     columns = _columns(records, of)
     modules = {"pandas": "pandas", "polars": "polars", "arrow": "pyarrow"}
     if library is not None:
@@ -95,14 +100,15 @@ def to_frame(
             module = import_module(name)
         except ImportError:
             continue
-        return {"pandas": _pandas, "polars": _polars, "pyarrow": _pyarrow}[name](module, columns)
+        return {"pandas": _pandas, "polars": _polars, "pyarrow": _pyarrow}[name](module, columns, made_by)
     hint = install_hint("frames") if "pandas" in names else f"pip install {names[0]}"
     raise ImportError(f"to_frame needs {' or '.join(names)}: {hint}")
 
 
-def _pandas(pandas: Any, columns: list[Column]) -> Any:
+def _pandas(pandas: Any, columns: list[Column], made_by: Mapping[str, Any] | None) -> Any:
     frame = pandas.DataFrame({column.name: _series(pandas, column) for column in columns})
     frame.attrs["units"] = {column.name: column.unit for column in columns if column.unit is not None}
+    frame.attrs |= {} if made_by is None else {"solepath": dict(made_by)}
     return frame
 
 
@@ -111,15 +117,16 @@ def _series(pandas: Any, column: Column) -> Any:
     return pandas.Series(column.values, dtype=kinds.get(column.form.kind, "object"))
 
 
-def _polars(polars: Any, columns: list[Column]) -> Any:
+def _polars(polars: Any, columns: list[Column], _: Mapping[str, Any] | None) -> Any:
     return polars.DataFrame([polars.Series(one.name, one.values, _type(polars, one.form)) for one in columns])
 
 
-def _pyarrow(pyarrow: Any, columns: list[Column]) -> Any:
+def _pyarrow(pyarrow: Any, columns: list[Column], made_by: Mapping[str, Any] | None) -> Any:
     units = [{} if column.unit is None else {"unit": column.unit} for column in columns]
     kinds = [_type(pyarrow, column.form) for column in columns]
     rows = zip(columns, kinds, units, strict=True)
-    schema = pyarrow.schema([pyarrow.field(column.name, kind, metadata=unit) for column, kind, unit in rows])
+    found = [pyarrow.field(column.name, kind, metadata=unit) for column, kind, unit in rows]
+    schema = pyarrow.schema(found, metadata=None if made_by is None else {"solepath": json.dumps(dict(made_by))})
     return pyarrow.table([column.values for column in columns], schema=schema)
 
 

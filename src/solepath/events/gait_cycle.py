@@ -24,8 +24,9 @@ class GaitCycleMeasured(BaseEvent):
     device or clock restarted; after a late start it takes longer, because a delay is corrected by 5 ms a second
     (link/clock.py). Between settled clocks the error of these times is up to 5 ms, with radios that hold packets back
     by up to 50 ms, plus the constant part of the radios' delay, which cannot be measured. They are also None if the
-    other foot's contact or toe-off lies in a gap in its samples, after a DefectFound of the clocks of the feet, and if
-    the cycle would have both a double support and a flight of more than 50 ms, which neither a walk nor a run has.
+    other foot's contact or toe-off lies in a gap in its samples, after a DefectFound of the clocks of the feet or one
+    that spoils a foot, and if the cycle would have both a double support and a flight of more than 50 ms, which neither
+    a walk nor a run has.
 
     The conditions for a `steady` cycle, which counts in the running means, are in body/gait/cycles.py."""
 
@@ -73,7 +74,8 @@ class GaitCycleMeasured(BaseEvent):
     rise: float | None
     """Height of the foot after the stride above its height before, m."""
     degraded: bool
-    """True when its stride has flaws, a gap in it would be one, or one of its gait events is inferred."""
+    """True when its stride has flaws, a gap in it would be one, one of its gait events is inferred, or a defect spoils
+    the data of its foot."""
     steady: bool
     """True when the cycle counts in the means (`Session.gait`, summary, report) if another cycle of the foot follows at
     once, which starts at this `t`; so the last cycle before a stop counts in none."""

@@ -135,7 +135,7 @@ class FootTracker:
         )  # fmt: skip
 
     def mark_defect(self, defect: Defect) -> None:
-        """Mark strides as flawed from now until `reset`: all, or those whose peaks are cut off if that is the defect."""
+        """Mark strides as flawed from now until `reset`: all, or of a range that is too small those with cut-off peaks."""
         if defect is Defect.CLIPPED:
             self.gait.stride.clips = True
         else:

@@ -98,8 +98,12 @@ class BadRows:
             self._raise()
         self._report_named()
         if self.count > MAX_NAMED:
-            total = self.count + self.good
-            self.report(f"{printable(str(self.path))}: {self.count} of {total} {self.noun}s are left out")
+            self.report(f"{printable(str(self.path))}: {self.words}")
+
+    @property
+    def words(self) -> str:
+        """Number of bad rows in words."""
+        return f"{self.count} of {self.count + self.good} {self.noun}s are left out"
 
     def _report_named(self) -> None:
         for sentence in self._held_back:

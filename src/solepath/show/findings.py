@@ -11,6 +11,7 @@ from attrs import evolve, frozen
 from ..events import (
     CellFault,
     CellsFailed,
+    Defect,
     DefectFound,
     Event,
     FeetSwapped,
@@ -25,7 +26,7 @@ from ..events.foot import LONGEST_HARMLESS_GAP
 from ..recording import printable
 from ..types import SITE_OF_FOOT, Foot, Site
 from ..walk.links import LinkLedger
-from ..walk.walk import Walk, site_of
+from ..walk.walk import FootCounts, Walk, site_of
 from .tables.table import counted, times
 
 MAX_NAMED_CELLS = 8
@@ -66,6 +67,12 @@ CAUSES = {
     Rejection.WRONG_DEVICE: "another device sends for this site: check which is where (Session.bind lets it)",
 }
 """The likely causes, in words, of each reason for which a packet or a sample is rejected (docs/events.md)."""
+NO_STEADY = (
+    "no gait cycle is steady, so that there are no means: steady ones are neither first nor last of a walk, nor in a "
+    "turn, on stairs or degraded"
+)
+NOT_COMPARED = "the times of the feet could not be compared: step time and double support are left out"
+NOTHING_RIGHT = "the data of no foot can be right, so nothing of the walk is counted"
 ADVICE = "a device of your own needs its driver: --driver FILE.py (docs/device.md)"
 
 
@@ -84,6 +91,8 @@ class Concern(Enum):
     """What the session does without."""
 
 
+KINDS = {Concern.DATA: "DEFECT, ", Concern.LIMITATION: "limitation, "}
+"""Words before the lines of findings."""
 CELLS = {
     CellFault.DEAD: ("shows no load", "show no load"),
     CellFault.STUCK: ("shows one value all the time", "show one value all the time"),
@@ -150,6 +159,11 @@ class Finding:
         return self._with_site(self.what)
 
     @property
+    def line(self) -> str:
+        """The text as a line among others, with the kind of the finding."""
+        return f"{KINDS.get(self.concern, '')}{self.text}"
+
+    @property
     def brief(self) -> str:
         """First sentence with the site, without a full stop."""
         return self._with_site(self.what.partition(". ")[0])
@@ -176,22 +190,51 @@ def finding_of(event: Event, count: int = 1) -> Finding | None:
 
 def findings(walk: Walk) -> list[Finding]:
     """Return what is wrong with a walk, in the order of `Concern`."""
-    found = reported(walk)
+    found = [*reported(walk), *[Finding(one.code, None, one.what, Concern.LINK, one.act) for one in walk.remarks]]
     for site, link in links_of(walk):
         found += [Finding(code, site, what, Concern.LINK, act) for code, what, act in _of_link(link, walk.now) if what]
-    for foot in [foot for foot in Foot if foot in walk.feet]:
-        counts = walk.feet[foot]
+    for foot in walk.known_feet:
+        counts = walk.feet.get(foot, FootCounts())
+        if foot not in walk.measured_feet:
+            found.append(Finding("foot_left_out", SITE_OF_FOOT[foot], _left_out(walk), Concern.STRIDES))
         flaws = [f"{words} in {counts.flaws[flaw]}" for flaw, words in FLAWS.items() if counts.flaws[flaw]]
         what = f"{counts.degraded} of {counted(counts.strides, 'stride')} degraded: {', '.join(flaws)}"
         found += [Finding("strides_degraded", SITE_OF_FOOT[foot], what, Concern.STRIDES)] if counts.degraded else []
+    found += [Finding(code, None, what, Concern.STRIDES) for code, what in _withheld(walk)]
     return sorted(found, key=lambda one: one.concern.value)
+
+
+def _withheld(walk: Walk) -> Iterator[tuple[str, str]]:
+    """Yield code and words of what is known of no gait cycle, though there are some."""
+    means = [one for one in (walk.gait.of(False), walk.gait.of(True)) if one is not None]
+    if not means and any([cycles.count for cycles in walk.cycles.values()]):
+        yield "no_steady_cycle", NO_STEADY
+    has_both = any([len(one.feet) == len(Foot) for one in means]) and not [one for one in means if one.both.step_time]
+    if has_both and Defect.CLOCKS not in [one.defect for one in walk.found_defects]:
+        yield "feet_not_compared", NOT_COMPARED
+
+
+def _left_out(walk: Walk) -> str:
+    """Return what it means for the figures of a walk that the data of a foot cannot be right."""
+    others = [foot for foot in walk.measured_feet]
+    return (
+        f"left out of strides, gait and distance, which are those of the {others[0]} foot alone"
+        if others
+        else NOTHING_RIGHT
+    )
 
 
 def reported(walk: Walk, *, now: bool = False) -> list[Finding]:
     """Return what events of a walk say is wrong: all of it, or what holds `now`."""
     faults = [fault for fault in walk.faults.values() if fault.holds or not now]
     sentences = [finding_of(fault.event, fault.count) for fault in faults]
-    return [_beside(one, walk) for one in sentences if one is not None]
+    return [_beside(one, walk) for one in sentences if one is not None and not _is_explained(one, walk)]
+
+
+def _is_explained(one: Finding, walk: Walk) -> bool:
+    """Return whether the height of strides, with which air pressure is compared, is the one that is wrong."""
+    others = [other for other in walk.found_defects if other.site is one.site and other.spoils]
+    return one.code == Defect.AIR_PRESSURE.name.lower() and len(others) > 0
 
 
 def texts(walk: Walk, *concerns: Concern) -> list[str]:

@@ -7,11 +7,12 @@
             writer.add(one)
     writer.write("walk.sto")
 
-The header is that of OpenSim's STOFileAdapter, version 3: DataRate (1/s), DataType (Quaternion or Vec3), then one row
-for each instant. A row has the time, s, and one value for each foot, whose numbers are separated by commas: w,x,y,z of
-a unit quaternion that turns sensor coordinates into ground coordinates, or x,y,z, m. Ground is OpenSim's frame: x as in
-the world frame, along the first heading; y up; z to the right. OpenSense therefore needs no further rotation
-(`sensor_to_opensim_rotations` is 0 0 0). Attitudes are named as OpenSense expects them, calcn_l_imu and calcn_r_imu.
+The header is that of OpenSim's STOFileAdapter, version 3: DataRate (1/s), DataType (Quaternion or Vec3), and how the
+poses were computed (`solepath`, JSON). Then there is one row for each instant. It has the time, s, and one value for
+each foot, whose numbers are separated by commas: w,x,y,z of a unit quaternion that turns sensor coordinates into ground
+coordinates, or x,y,z, m. Ground is OpenSim's frame: x as in the world frame, along the first heading; y up; z to the
+right. OpenSense therefore needs no further rotation (`sensor_to_opensim_rotations` is 0 0 0). Attitudes are named as
+OpenSense expects them, calcn_l_imu and calcn_r_imu.
 
 All feet of a row are at one instant, and their sensors are not. The rows are spaced by the usual interval of the first
 foot; between two samples of a foot, positions are interpolated linearly, and attitudes along the shortest turn. Nothing
@@ -19,14 +20,16 @@ is interpolated over a gap: its rows are left out."""
 
 from __future__ import annotations
 
+import json
 from array import array
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from enum import Enum
 from itertools import pairwise
 from math import acos, floor, sin, sqrt
 from pathlib import Path
 from statistics import median_high
+from typing import Any
 
 from attrs import define, field
 
@@ -84,6 +87,8 @@ class OpensimWriter:
     """Collects the poses of the feet and writes one quantity of them; 40 bytes are kept for each sample."""
 
     quantity: Quantity
+    made_by: Mapping[str, Any] = field(factory=dict)
+    """How the poses were computed, as `provenance` says it (saving/provenance.py), for the header."""
     _feet: dict[Foot, _Poses] = field(factory=dict, init=False)
 
     def add(self, posed: PosedSample) -> None:
@@ -106,9 +111,8 @@ class OpensimWriter:
         suffix = "_imu" if self.quantity is Quantity.ATTITUDES else ""
         rows = 0
         with Path(path).open("w", encoding="ascii", newline="\n") as file:
-            file.write(
-                f"DataRate={rate:.6f}\nDataType={self.quantity.value}\nversion=3\nOpenSimVersion=4.1\nendheader\n"
-            )
+            file.write(f"DataRate={rate:.6f}\nDataType={self.quantity.value}\nversion=3\nOpenSimVersion=4.1\n")
+            file.write(f"solepath={json.dumps(self.made_by)}\nendheader\n" if self.made_by else "endheader\n")
             file.write("\t".join(["time", *[BODIES[foot] + suffix for foot in feet]]) + "\n")
             for t in self._instants(rate):
                 values = [poses.at(t) for poses in (self._feet[foot] for foot in feet)]

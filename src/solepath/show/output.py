@@ -17,7 +17,8 @@ from typing import TextIO
 
 from attrs import define, field
 
-from ..events import Event, FootMoved, GaitCycleMeasured, LiveEvent, Placed, StrideTaken
+from ..body.gait.means import as_found
+from ..events import DefectFound, Event, FootMoved, GaitCycleMeasured, LiveEvent, Placed, StrideTaken
 from ..recording.errors import printable
 
 EVENTS_FILE, TRACK_FILE, STRIDES_FILE, GAIT_CYCLES_FILE = "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"
@@ -149,6 +150,8 @@ class TrackFiles:
     """What writes a row of each table, by the names of their files."""
     _stride: StrideTaken | None = field(default=None, init=False)
     """Newest final stride."""
+    _cycles: list[GaitCycleMeasured] = field(factory=list, init=False)
+    """Gait cycles, which are written at the end: a defect may withhold what was measured before it was found."""
 
     def __attrs_post_init__(self) -> None:
         self.directory.mkdir(parents=True, exist_ok=True)
@@ -179,11 +182,16 @@ class TrackFiles:
             self._stride = event
             self._tables[STRIDES_FILE](_stride_row(event))
         elif isinstance(event, GaitCycleMeasured):
-            self._tables[GAIT_CYCLES_FILE](_cycle_row(event))
+            self._cycles.append(event)
+        elif isinstance(event, DefectFound):
+            self._cycles = [as_found(cycle, event) for cycle in self._cycles]
         elif isinstance(event, Placed) and self.places:
             self._tables[PLACES_FILE](_place_row(event, self._stride))
 
     def close(self) -> None:
-        """Close all files; an OSError names the directory."""
+        """Write the gait cycles and close all files; an OSError names the directory."""
         with os_errors_naming(self.directory):
+            for cycle in self._cycles:
+                self._tables[GAIT_CYCLES_FILE](_cycle_row(cycle))
+            self._cycles.clear()
             self._stack.close()

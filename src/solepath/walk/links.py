@@ -157,7 +157,7 @@ class LinkLedger:
     has_pressure: bool = False
     """True from the first sample of pressure cells on."""
     gaps: int = 0
-    """Number of losses and absences (SampleGap)."""
+    """Number of losses (SampleGap with a count); an absence is none."""
     ended_absences: float = 0.0
     """Total duration, s, of the absences that have ended."""
     silences: int = 0
@@ -227,7 +227,7 @@ class LinkLedger:
             case PacketsDropped(count=count):
                 self.dropped += count
             case SampleGap(duration=duration, count=count):
-                self.gaps += 1
+                self.gaps += count > 0
                 self.lost += count
                 self._losses.add(event.known_at, missing=count)
                 if count == 0:

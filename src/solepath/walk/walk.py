@@ -13,15 +13,14 @@ from collections import Counter, deque
 from collections.abc import Iterable, Sequence
 from math import inf
 
-from attrs import define, evolve, field
+from attrs import define, evolve, field, frozen
 
-from ..body.gait.means import GaitMeans, without_comparison
+from ..body.gait.means import GaitMeans, as_found
 from ..events import (
     ActivityChanged,
     CellsFailed,
     ClockReset,
     Connected,
-    Defect,
     DefectFound,
     Event,
     FeetSwapped,
@@ -91,7 +90,9 @@ def _of_each_foot() -> dict[Foot, ThinnedList[T]]:
 
 @define
 class FootCounts:
-    """The counts of one foot from the start until now."""
+    """The counts of one foot from the start until now, or since its data were wrong.
+
+    A foot whose data cannot be right (`Walk.spoilt_feet`) counts nothing but phases and positions."""
 
     strides: int = 0
     """Number of final strides."""
@@ -122,6 +123,17 @@ class Fault:
     """False once another device is connected there, its clock restarts, or the foot that was silent sends again."""
 
 
+@frozen
+class Remark:
+    """What reading a recording showed to be wrong with it, in words, before any session."""
+
+    code: str
+    """Name, such as "rows_damaged"."""
+    what: str
+    act: bool = False
+    """True if results are wrong until somebody acts."""
+
+
 @define
 class Walk:
     """The counts of a session from its start until now, and what it reported.
@@ -133,7 +145,8 @@ class Walk:
 
     limit: int | None = LIMIT
     keeps_all: bool = False
-    """True to keep every position of the feet, gait event and activity as well, as scores need them."""
+    """True to keep every position of the feet, gait event and activity as well, as scores need them, and the strides of
+    a foot whose data cannot be right."""
     item_count: int = 0
     """Number of items that were fed, used or not."""
     now: float = -inf
@@ -163,6 +176,8 @@ class Walk:
     elevator_rides: Counter[bool] = field(factory=Counter)
     """Number of elevator rides upwards (True) and downwards (False)."""
     turns: Counter[Turn] = field(factory=Counter)
+    remarks: list[Remark] = field(factory=list)
+    """What is wrong with the recording as it was read; whoever reads it sets them."""
     faults: dict[str, Fault] = field(factory=dict)
     """What is wrong: a fault for each defect of a site, and for each thing that another event says."""
     strides: dict[Foot, ThinnedList[StrideTaken]] = field(factory=_of_each_foot)
@@ -300,7 +315,7 @@ class Walk:
         return self.soles.setdefault(foot, SoleLoads())
 
     def _count_gait_event(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
-        if event.final:
+        if event.final and self._counts(event.foot):
             name = GAIT_EVENTS[type(event)]
             self.foot(event.foot).events[name] += 1
             if self.keeps_all:
@@ -308,6 +323,8 @@ class Walk:
 
     def _count_event(self, event: Event) -> None:
         match event:
+            case StrideTaken() | GaitCycleMeasured() if not self._counts(event.foot):
+                pass
             case StrideTaken(final=True):
                 counts = self.foot(event.foot)
                 counts.strides += 1
@@ -363,17 +380,41 @@ class Walk:
                 self.faults[key] = Fault(event, known.count + 1)
             elif len(self.faults) < MAX_FAULTS:
                 self.faults[key] = Fault(event)
-            if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
-                self.gait.separate_feet()
-                self.recent_gait.separate_feet()
-                for cycles in self.cycles.values():
-                    cycles.change(without_comparison)
-                for _ in range(len(self.newest_cycles)):
-                    self.newest_cycles.append(without_comparison(self.newest_cycles.popleft()))
+            if isinstance(event, DefectFound) and event.separates_feet:
+                self._withhold(event)
         elif isinstance(event, FootResumed | Connected) or isinstance(event, ClockReset) and event.restarted:
             for fault in self.faults.values():
                 if site_of(fault.event) is site_of(event):
                     fault.holds &= isinstance(event, FootResumed) and not isinstance(fault.event, FootSilent)
+
+    def _withhold(self, found: DefectFound) -> None:
+        """Forget what a defect makes wrong: all of a foot whose data cannot be right, and what compares the feet."""
+        if (foot := found.spoilt_foot) is not None and not self.keeps_all:
+            if (counts := self.feet.get(foot)) is not None:
+                self.feet[foot] = FootCounts(phase=counts.phase, start=counts.start, position=counts.position)
+            self.strides[foot], self.distances[foot], self.cycles[foot] = ThinnedList(), ThinnedList(), ThinnedList()
+        self.gait.withhold(found)
+        self.recent_gait.withhold(found)
+        for cycles in self.cycles.values():
+            cycles.change(lambda cycle: as_found(cycle, found))
+        for _ in range(len(self.newest_cycles)):
+            self.newest_cycles.append(as_found(self.newest_cycles.popleft(), found))
+
+    def _counts(self, foot: Foot) -> bool:
+        """Return whether what a foot did counts."""
+        return self.keeps_all or foot not in self.spoilt_feet
+
+    @property
+    def spoilt_feet(self) -> list[Foot]:
+        """Feet whose data cannot be right now: they give no strides, gait, distance or comparison of the feet."""
+        found = [one.event for one in self.faults.values() if one.holds and isinstance(one.event, DefectFound)]
+        return [foot for foot in Foot if any([one.spoilt_foot is foot for one in found])]
+
+    @property
+    def measured_feet(self) -> list[Foot]:
+        """Feet that the figures of the walk are of: those with data that were right all the time."""
+        spoilt = {one.spoilt_foot for one in self.found_defects}
+        return [foot for foot in self.known_feet if foot not in spoilt]
 
     @property
     def found_defects(self) -> list[DefectFound]:

@@ -12,7 +12,7 @@ from soak import soaked
 
 from solepath import ActivityChanged, DefectFound, LiftRidden, Sample, Session, StrideTaken
 from solepath.body.altitude import SCALE_HEIGHT, STANDARD_PRESSURE
-from solepath.emulate import Insole, Route, sampled
+from solepath.emulate import CC2541, Insole, Route, emulate, sampled
 from solepath.emulate.walk import SampledWalk
 from solepath.events import Defect, Event, FlightClimbed
 from solepath.types import Activity, Foot, Site
@@ -112,3 +112,12 @@ def test_stairs_are_climbed_with_a_barometer_that_is_stuck() -> None:
     one, events = session(STAIRS, stuck)
     (flight,) = [event for event in events if isinstance(event, FlightClimbed)]
     assert flight.up and height(one) == pytest.approx(3.4, abs=0.4)
+
+
+def test_what_a_clipped_gyroscope_explains_is_no_fault_of_the_barometer() -> None:
+    route = Route().stand(3.0).walk(45.0, 1.3).stop(2.0)
+    sent = emulate(route, devices={Site.LEFT_FOOT: CC2541(), Site.RIGHT_FOOT: CC2541()}, seed=3).packets
+    session = Session()
+    found = [event for packet in sent for event in session.feed(packet) if isinstance(event, DefectFound)]
+    assert Defect.CLIPPED in {one.defect for one in found}
+    assert Defect.AIR_PRESSURE not in {one.defect for one in found}

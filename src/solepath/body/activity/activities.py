@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 from ...events import ActivityChanged, Defect, DefectFound, Event, LiftRidden, StrideFeatures, StrideTaken
 from ...events.happening import BaseEvent
 from ...foot.view import FootView
-from ...types import Activity, PerFoot, Site, Vec3, per_foot
+from ...types import OTHER, Activity, Foot, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import evolve, field, frozen, state, stateful
 from ...types.vector import TIME_EPSILON, ZERO
 from ..part import ActivityPart, Inputs, Outputs, PartOutput
@@ -84,6 +84,8 @@ class Activities(ActivityPart):
     """Last activities before a reset of all feet, and that nothing is known from then on, until something is fed."""
     strides: deque[StrideTaken] = state(factory=deque)
     """Strides whose activity is not known yet, without their features."""
+    spoilt: list[Foot] = state(factory=list)
+    """Feet whose data cannot be right. Beside one whose data are right they say nothing about the activity."""
 
     @property
     def activity(self) -> Activity:
@@ -105,6 +107,7 @@ class Activities(ActivityPart):
             return
         known = [side.index for side in self.feet.values() if side.index is not None]
         self.feet[site.foot].restart()
+        self.spoilt = [foot for foot in self.spoilt if foot is not site.foot]
         if self.pressure_height is not None:
             self.pressure_height.restart(site.foot)
         self.flights.reset()
@@ -123,6 +126,11 @@ class Activities(ActivityPart):
         if self.held:
             times = [event.known_at for event in events if isinstance(event, BaseEvent)]
             outputs += self._take_held(min(times, default=-inf) if view is None else view.known_at)
+        for event in events:
+            if isinstance(event, DefectFound):
+                self._leave_out(event)
+        if view is not None and self._is_left_out(view.foot):
+            return outputs
         if view is not None and (self.origin is not None or view.sample.acc is not None):
             sample, t, side = view.sample, view.t, self.feet[view.foot]
             acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
@@ -145,10 +153,6 @@ class Activities(ActivityPart):
                     self.report.strides.add_event(event)
                     if isinstance(event, StrideTaken):
                         outputs += self._add_stride(event, floor(block_number))
-        for event in events:  # a barometer that contradicts the strides is left out
-            if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
-                air = self.pressure_height or self._make_pressure_height()
-                air.leave_out(event.site.foot)
         return outputs
 
     def _take_held(self, now: float) -> list[PartOutput]:
@@ -156,6 +160,21 @@ class Activities(ActivityPart):
         held, self.held = self.held, []
         is_past = held[-1].t < now + BLOCK_DURATION
         return [evolve(one, t=min(one.t, now), known_at=now) for one in held if is_past]
+
+    def _leave_out(self, found: DefectFound) -> None:
+        """Leave out a barometer that contradicts the strides, and a foot whose data cannot be right."""
+        foot = found.site.foot
+        if foot is not None and found.defect is Defect.AIR_PRESSURE:
+            air = self.pressure_height or self._make_pressure_height()
+            air.leave_out(foot)
+        if foot is not None and foot is found.spoilt_foot and foot not in self.spoilt:
+            self.spoilt.append(foot)
+            if self._is_left_out(foot):
+                self.feet[foot].restart()
+
+    def _is_left_out(self, foot: Foot) -> bool:
+        other = OTHER[foot]
+        return foot in self.spoilt and other not in self.spoilt and self.feet[other].index is not None
 
     def _make_pressure_height(self) -> PressureHeight:
         from .pressure_height import PressureHeight  # few sensors have a barometer

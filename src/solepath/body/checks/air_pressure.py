@@ -1,5 +1,7 @@
 """Air pressure that changes although the wearer walks on the level, or does not change although they climb.
 
+It is not compared with the height of a foot whose sensor has another defect, which is the likelier cause.
+
 The height by air pressure minus the height of the foot's track should stay as it is while the wearer walks. It does not
 behind a door of a pressurised room or stairwell, under ventilation that starts, with a barometer that drifts, and on
 stairs with one that is stuck. It is compared while the wearer takes strides only: a foot that stands does not show the
@@ -9,9 +11,9 @@ from __future__ import annotations
 
 from math import exp
 
-from ...events import Defect, StrideTaken
+from ...events import Defect, DefectFound, StrideTaken
 from ...foot.view import FootView
-from ...types import PerFoot, Site, per_foot
+from ...types import Foot, PerFoot, Site, per_foot
 from ...types.attrs import define, state, stateful
 from ..altitude import DEGRADED_FACTOR, SCALE_HEIGHT, STANDARD_PRESSURE, height_above_track
 from ..part import Inputs, Outputs, Part
@@ -78,6 +80,8 @@ class AirPressure(Part):
     """End of the newest stride of either foot, s; None before any."""
     degraded: bool = False
     """Flag: that stride is degraded."""
+    wrong_heights: list[Foot] = state(factory=list)
+    """Feet whose height may be wrong, because of a defect of their sensor."""
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add the reading of a foot's barometer, if the sample has one, and strides, which show that people walk."""
@@ -85,11 +89,15 @@ class AirPressure(Part):
         for event in events:
             if isinstance(event, StrideTaken):
                 self.stride_at, self.degraded = event.t, bool(event.flaws)
+            elif (
+                isinstance(event, DefectFound) and event.spoils and (foot := event.site.foot) not in self.wrong_heights
+            ):
+                self.wrong_heights += [] if foot is None else [foot]
         return outputs
 
     def _add_reading(self, view: FootView) -> Outputs:
         t, barometer = view.t, self.feet[view.foot]
-        if self.stride_at is None or abs(t - self.stride_at) > STRIDE_PAUSE:
+        if view.foot in self.wrong_heights or self.stride_at is None or abs(t - self.stride_at) > STRIDE_PAUSE:
             barometer.count = 0
             return ()
         difference = height_above_track(view)
@@ -103,6 +111,7 @@ class AirPressure(Part):
         """Forget what was found at a site, where another device is worn or the clock has restarted."""
         if site.foot is not None:
             self.feet[site.foot] = Barometer()
+            self.wrong_heights = [foot for foot in self.wrong_heights if foot is not site.foot]
         self.stride_at = None
 
 

@@ -336,7 +336,7 @@ class FootClocks(Part):
                     self.lone.add_gap(event)
                     if event.duration > MAX_GAP:
                         foot.discard()
-                elif event.spoils and event.defect is not Defect.CLIPPED:  # a peak that is cut off has its time
+                elif event.spoilt_foot is not None:
                     foot.spoiled = True
                     self._forget()
         return outputs

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from math import cos, fsum, hypot, sin
 from typing import Final
 
-from ...events import Defect, DefectFound, Flaw, FootFlat, StrideTaken
+from ...events import DefectFound, Flaw, FootFlat, StrideTaken
 from ...foot.view import LONGEST_STRIDE, FootPose, FootView
 from ...foot.world import Covariance2, Covariance3
 from ...types import OTHER, Foot, PerFoot, Site, Vec2, Vec3, per_foot
@@ -217,7 +217,7 @@ class MeanOfFeet(TrackPart):
                     other.strides_alone += not (other.absent or self.tracks[event.foot].discredited)
             elif isinstance(event, DefectFound) and event.site.foot is not None:
                 # peaks that are cut off add to the drift
-                self.tracks[event.site.foot].spoiled |= event.spoils and event.defect is not Defect.CLIPPED
+                self.tracks[event.site.foot].spoiled |= event.spoilt_foot is not None
         for stride in strides:
             self.tracks[stride.foot].stands = True
             if stride.length > LONGEST_STRIDE:

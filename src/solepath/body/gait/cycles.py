@@ -48,7 +48,7 @@ class PendingCycle:
     follows_cycle: bool
     """Flag: the cycle directly before was accepted too."""
     degraded: bool
-    """Flag: an event of the cycle is inferred, a gap in it is a flaw, or its stride has flaws."""
+    """Flag: an event of the cycle is inferred, a gap in it is a flaw, its stride has flaws, or its foot is spoilt."""
     foot_was_flat: bool = False
     """Flag: a foot-flat followed the cycle; if no stride ended there, the wearer stepped on the spot."""
     stride: StrideTaken | None = None
@@ -141,7 +141,8 @@ class Footfalls:
 #
 # GaitCycleMeasured defines the values. Only steady cycles enter the running means. A gait cycle is steady when
 #
-# - it is not degraded: its stride has no flaw, no gap in it would be one, and none of its events is inferred;
+# - it is not degraded: its stride has no flaw, no gap in it would be one, none of its events is inferred, and nothing
+#   was found that makes the data of its foot wrong;
 # - it follows another cycle without a pause. This leaves out the first three steps of a walk, after which gait is
 #   steady (Mann et al. 1979, J. Bone Joint Surg. Am. 61): the half stride from standing, and the first cycle;
 # - neither its time nor its length differs from that of the cycle before by a factor of `STEADY_FACTOR` or more,
@@ -277,6 +278,8 @@ class GaitCycles(Part):
     means: GaitMeans = state(factory=GaitMeans)
     idle: bool = True
     """Flag: no cycle waits for samples of the other foot."""
+    spoilt: list[Foot] = state(factory=list)
+    """Feet whose data cannot be right, so that their cycles are degraded and nothing is compared with them."""
     clocks_apart: bool = False
     """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 
@@ -288,16 +291,16 @@ class GaitCycles(Part):
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its events and return the cycles that are complete."""
         for event in events:
-            if isinstance(event, SampleGap) and event.site.foot is not None:
+            if isinstance(event, DefectFound):
+                self.clocks_apart |= event.defect is Defect.CLOCKS
+                if (foot := event.spoilt_foot) is not None and foot not in self.spoilt:
+                    self.spoilt.append(foot)
+                self.means.withhold(event)
+            elif isinstance(event, SampleGap) and event.site.foot is not None:
                 self.feet[event.site.foot].add_gap(event)
-        outputs = () if view is None else self._add_sample(view, events)
-        for event in events:
-            if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
-                self.clocks_apart = True
-                self.means.separate_feet()
             elif isinstance(event, ClockUnsettled) and event.site.foot is not None:
                 self.feet[event.site.foot].unsettled = event.until
-        return outputs
+        return () if view is None else self._add_sample(view, events)
 
     def _add_sample(self, view: FootView, events: Inputs) -> Outputs:
         if self.idle and view.after is None:
@@ -338,7 +341,7 @@ class GaitCycles(Part):
     def reset(self, site: Site) -> None:
         """Discard the cycles and the times of a foot whose clock restarts or that wears another device."""
         if site.foot is not None:
-            self.clocks_apart = False
+            self.clocks_apart, self.spoilt = False, [foot for foot in self.spoilt if foot is not site.foot]
             self.means.reset(site.foot)
             falls = self.feet[site.foot]
             self.feet[site.foot] = Footfalls(count=falls.count, unsettled=falls.unsettled)
@@ -362,9 +365,10 @@ class GaitCycles(Part):
         """Measure the first of the waiting cycles and return its event."""
         this, other = self.feet[foot], self.feet[OTHER[foot]]
         this.count, this.waiting_cycles = this.count + 1, this.waiting_cycles[1:]
-        comparable = not self.clocks_apart
+        comparable = not self.clocks_apart and not self.spoilt
         for falls in (this, other):
             comparable &= falls.unsettled is None or falls.unsettled <= cycle.start
+        cycle.degraded |= foot in self.spoilt
         measured = measure_cycle(foot, cycle, self.means.newest[foot], this, other, comparable, known_at)
         self.means.add(measured)
         return measured

@@ -14,7 +14,7 @@ from __future__ import annotations
 from math import fsum, sqrt
 from typing import Any
 
-from ...events import GaitCycleMeasured
+from ...events import DefectFound, GaitCycleMeasured
 from ...types import Foot, PerFoot, ValueEnum, per_foot
 from ...types.attrs import define, evolve, field, frozen, state, stateful
 
@@ -122,8 +122,14 @@ BETWEEN_FEET = (
 """Parameters that compare the times of both feet."""
 
 
-def without_comparison(stride: GaitCycleMeasured) -> GaitCycleMeasured:
-    """Return a stride without what compares the times of the feet, which have separate clocks."""
+def as_found(stride: GaitCycleMeasured, found: DefectFound) -> GaitCycleMeasured:
+    """Return what is left of a stride after a defect was found: nothing that a wrong foot or clock would have part in.
+
+    A foot whose data cannot be right has no steady strides, also not before that was found."""
+    if stride.foot is found.spoilt_foot:
+        stride = evolve(stride, steady=False)
+    if not found.separates_feet:
+        return stride
     unknown: dict[str, Any] = dict.fromkeys([parameter.value for parameter in BETWEEN_FEET])
     return evolve(stride, **unknown)
 
@@ -219,12 +225,17 @@ class GaitMeans:
             self.running = running = previous.running
             (self.running_means if running else self.walking_means).add(previous, memory)
 
-    def separate_feet(self) -> None:
-        """Discard the means that compare the times of the feet, because the feet have separate clocks."""
-        for means in (*self.walking_means.feet.values(), *self.running_means.feet.values()):
-            for parameter in (*BETWEEN_FEET, Parameter.OFF_PHASE):
-                means.pop(parameter, None)
-        self.newest = {foot: stride and without_comparison(stride) for foot, stride in self.newest.items()}
+    def withhold(self, found: DefectFound) -> None:
+        """Discard the means that a defect makes wrong: those of its foot, and those that compare the feet."""
+        if not found.separates_feet:
+            return
+        for kind in (self.walking_means, self.running_means):
+            for foot, means in kind.feet.items():
+                for parameter in [*means] if foot is found.spoilt_foot else (*BETWEEN_FEET, Parameter.OFF_PHASE):
+                    means.pop(parameter, None)
+        self.newest = {foot: stride and as_found(stride, found) for foot, stride in self.newest.items()}
+        if self.running is not None and self.of(self.running) is None:
+            self.running = None
 
     def reset(self, foot: Foot) -> None:
         """Reset a foot, so that its next stride does not count as following the newest one."""

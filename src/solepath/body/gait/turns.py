@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from math import fsum, pi
 
-from ...events import FootFlat, HeelOff, StrideTaken, TurnMade
+from ...events import DefectFound, FootFlat, HeelOff, StrideTaken, TurnMade
 from ...foot.view import AfterEvents, FootView
 from ...types import OTHER, Foot, PerFoot, Quat, Site, Turn, per_foot
 from ...types.attrs import define, field, frozen, state, stateful
@@ -231,6 +231,12 @@ class TurnDetector:
         self.t_start = self.previous_end = None
         self.feet[foot].stride_end, self.feet[foot].pivots = None, []
 
+    def leave_out(self, foot: Foot) -> None:
+        """Leave out a foot whose data cannot be right, and the turn under way if it alone showed it."""
+        self.feet[foot], other_end = FootTurn(), self.feet[OTHER[foot]].stride_end
+        if self.t_start is not None and (other_end is None or other_end < self.t_start):
+            self.t_start = None
+
     def _end_turn(self, start: float) -> TurnProcess:
         """Return the turn under way, which began at `start`, s."""
         feet = self.feet.values()
@@ -301,15 +307,21 @@ class Turns(Part):
     detector: TurnDetector = state(factory=TurnDetector)
     last_flat: dict[Foot, FlatFoot] = state(factory=dict)
     """Newest foot-flat of each foot."""
+    spoilt: list[Foot] = state(factory=list)
+    """Feet whose data cannot be right, so that they show no turns."""
     idle: bool = True
     """Flag: no turn is under way."""
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add a sample of a foot with its events and return the turns that have ended."""
+        for found in events:
+            if isinstance(found, DefectFound) and (foot := found.spoilt_foot) is not None and foot not in self.spoilt:
+                self.spoilt.append(foot)
+                self.detector.leave_out(foot)
         if view is None:
             return ()
         outputs: list[PartOutput] = []
-        for event in events:
+        for event in () if view.foot in self.spoilt else events:
             ended = None
             if isinstance(event, StrideTaken):
                 ended = self.detector.add_stride(event)
@@ -346,6 +358,7 @@ class Turns(Part):
             self.detector.reset(site.foot)
             self.idle = True
             self.last_flat.pop(site.foot, None)
+            self.spoilt = [foot for foot in self.spoilt if foot is not site.foot]
 
 
 def turn_made(process: TurnProcess | None, known_at: float) -> list[PartOutput]:

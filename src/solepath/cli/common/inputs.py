@@ -25,6 +25,11 @@ if TYPE_CHECKING:
     from ...recipes import Recipe
     from ...recording.btsnoop import BtsnoopLog
     from ...recording.errors import Report
+    from ...walk.walk import Remark
+
+
+LARGE_SHARE = 0.1
+"""Share of damaged rows from which on they must be mended; chosen by hand."""
 
 
 def recipe_option(what: str = "how to compute", **more: Any) -> Option:
@@ -136,6 +141,18 @@ def assumed_foot(source: Source) -> str | None:
         return None
     why = "the file does not say of which foot it is" if tables[0].is_assumed else "only the file's name says its foot"
     return f"{why}: taken as the {tables[0].foot} one; --foot says otherwise"
+
+
+def remarks_on(source: Source) -> list[Remark]:
+    """Return what reading a recording to its end showed: rows that are left out, and a foot that is assumed."""
+    from ...walk.walk import Remark
+
+    rows, found = source.bad_rows, list[Remark]()
+    if rows is not None and rows.count:
+        found.append(Remark("rows_damaged", rows.words, rows.count > LARGE_SHARE * (rows.count + rows.good)))
+    if (assumed := assumed_foot(source)) is not None:
+        found.append(Remark("foot_assumed", assumed))
+    return found
 
 
 def check_pressure(recipe: Recipe, source: Source, own: Iterable[Driver] = ()) -> None:

@@ -24,7 +24,7 @@ from ...types import Packet, Sample
 from ...walk.walk import Walk
 from .failure import Failure
 from .files import OutputFile, replacements
-from .run_file import write_run
+from .run_file import made_by, write_run
 
 if TYPE_CHECKING:
     from ...show.outcomes.clinic import OutcomeRequest
@@ -113,6 +113,8 @@ class Results:
                     write_bouts(found, self._replacements.temporary_path(self.out / BOUTS_FILE))
                     write_outcomes(found, self._replacements.temporary_path(self.out / OUTCOMES_FILE))
             lines.append(f"written to {printable(str(self.out))}")
+        if self.contents is not None and self.options is not None:
+            self.contents.made_by = made_by(self.session.recipe, self.options)
         if self.contents is not None and self._report_path is not None and self.report is not None:
             with os_errors_naming(self.report):
                 self.contents.write(self._report_path)
@@ -122,7 +124,7 @@ class Results:
 
     def urgent_links(self) -> list[str]:
         """Return what the counts of the links show to be wrong until somebody acts."""
-        return [one.text for one in findings(self.walk) if one.act and one.event is None]
+        return [one.text for one in findings(self.walk) if one.act and one.event is None and one.site is not None]
 
     def __enter__(self) -> Results:
         return self

@@ -9,15 +9,13 @@ from __future__ import annotations
 
 import argparse
 import json
-from hashlib import file_digest, sha256
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from attrs import asdict, has
 
 from ...recipes import Recipe
-from ...saving import codec
+from ...saving.provenance import provenance
 from ...show.findings import findings, links_of
 from ...walk.links import LinkLedger
 from ...walk.walk import Walk
@@ -27,15 +25,14 @@ WITHOUT_EFFECT = {*WRITTEN, "command", "force", "view", "no_browser", "speed"}
 """Options that say where results are written and shown, which do not depend on them."""
 
 
+def made_by(recipe: Recipe, options: argparse.Namespace) -> dict[str, Any]:
+    """Return how results of a command came about: `provenance` of its recipe, the files it reads and its options."""
+    return provenance(recipe, files_read(options), _given(options))
+
+
 def write_run(path: Path, recipe: Recipe, walk: Walk, options: argparse.Namespace) -> None:
     """Write run.json of a recording that was run with this recipe, from what the walk has counted."""
-    settings = json.dumps(codec.save(recipe), sort_keys=True)
-    content = {
-        "solepath": version("solepath"),
-        "recipe": recipe.name,
-        "recipe_sha256": sha256(settings.encode()).hexdigest(),
-        "inputs": [{"name": one.name, "sha256": _digest(one)} for one in files_read(options) if one.is_file()],
-        "options": _given(options),
+    content = made_by(recipe, options) | {
         "sites": {site.value: _figures(link, walk.now) for site, link in links_of(walk)},
         "findings": [
             {"code": one.code, "site": "" if one.site is None else one.site.value, "text": one.what}
@@ -57,11 +54,6 @@ def _plain(value: Any) -> Any:
     if has(type(value)):
         return {name: _plain(one) for name, one in asdict(value, recurse=False).items()}
     return value if isinstance(value, bool | int | float | str | None) else getattr(value, "name", str(value))
-
-
-def _digest(path: Path) -> str:
-    with path.open("rb") as file:
-        return file_digest(file, "sha256").hexdigest()
 
 
 def _figures(link: LinkLedger, now: float) -> dict[str, float]:

@@ -14,6 +14,7 @@ from typing import Any
 
 from attrs import define, field
 
+from ...saving.provenance import installed_version
 from ...types import Site
 from ..errors import RecordingError, os_error_text, printable
 from ..posed import PosedSample
@@ -86,7 +87,7 @@ class MotionColumns:
                 rows.append(row | {"units": self.pressure_units} if quantity == "pressure" else row)
         return rows
 
-    def metadata(self, task: str, start: float, version: str) -> dict[str, Any]:
+    def metadata(self, task: str, start: float) -> dict[str, Any]:
         """Return the content of motion.json; `start` is the time of the recording's start, s."""
         channels = self.channels()
         duration = self.t[-1] - self.t[0]
@@ -103,7 +104,7 @@ class MotionColumns:
             "MissingValues": TSV_MISSING,
             "MotionChannelCount": len(channels),
             "TrackedPointsCount": 1,
-            "SoftwareVersions": f"solepath {version}",
+            "SoftwareVersions": f"solepath {installed_version()}",
         } | {f"{kind}ChannelCount": counts[kind] for kind in CHANNEL_TYPES}
 
     def write_motion(self, path: Path, start: float) -> None:

@@ -17,13 +17,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from datetime import timedelta
-from importlib.metadata import version
 from importlib.resources import files as files_of
 from pathlib import Path
 from typing import Any
 
 from ...events import Event, LayoutKnown
 from ...saving.files import FileReplacements, write_whole
+from ...saving.provenance import installed_version
 from ...types import Site
 from ..errors import RecordingError
 from ..packets import read_start_time
@@ -34,6 +34,7 @@ from .names import BIDS_VERSION, TSV_MISSING, Entities
 
 _TEXTS = files_of(__name__.rpartition(".")[0])
 """Folder with the files that every dataset has."""
+GENERATOR: dict[str, Any] = {"Name": "solepath", "Version": installed_version()}
 DESCRIPTION, README, PARTICIPANTS = "dataset_description.json", "README", "participants.tsv"
 _README_TEXT = """\
 {name}
@@ -47,14 +48,22 @@ describes each. events.tsv has gait events, strides and activities, which solepa
 class MotionWriter:
     """Collects a recording for the dataset in folder `root`, and writes it at the end.
 
-    `header`: header of the recording of packets, for its start time. RecordingError for a folder that has other files
-    but no dataset, for a dataset whose description is damaged, and when the dataset has this recording already, unless
-    `replace` is True."""
+    `header`: header of the recording of packets, for its start time. `made_by`: how tracks and events were computed, as
+    `provenance` says it (saving/provenance.py); it is in each motion.json, as "GeneratedBy". RecordingError for a
+    folder that has other files but no dataset, for a dataset whose description is damaged, and when the dataset has
+    this recording already, unless `replace` is True."""
 
     def __init__(
-        self, root: Path | str, entities: Entities, header: Mapping[str, Any] = {}, *, replace: bool = False
+        self,
+        root: Path | str,
+        entities: Entities,
+        header: Mapping[str, Any] = {},
+        *,
+        replace: bool = False,
+        made_by: Mapping[str, Any] = {},
     ) -> None:
         self.root, self.entities, self._header = Path(root), entities, header
+        self._generated_by = [GENERATOR | {"Settings": dict(made_by)}] if made_by else [GENERATOR]
         self._sensors: dict[Site, MotionColumns] = {}
         self._events: list[tuple[float, dict[str, str]]] = []
         self._pressure_units: dict[Site, str] = {}
@@ -98,7 +107,7 @@ class MotionWriter:
                 columns.pressure_units, system = self._pressure_units.get(site, "N"), columns.tracksys
                 texts[name("motion.tsv", system)] = ""
                 texts[name("channels.tsv", system)] = to_tsv(CHANNEL_COLUMNS, columns.channels())
-                metadata = columns.metadata(self.entities.task, start, version("solepath"))
+                metadata = columns.metadata(self.entities.task, start) | {"GeneratedBy": self._generated_by}
                 texts[name("motion.json", system)] = to_json(metadata)
                 texts[name("channels.json", system)] = described["channels.json"]
             written = {folder / one: files.temporary_path(folder / one) for one in texts}
@@ -132,12 +141,7 @@ class MotionWriter:
 
     def _write_dataset(self) -> None:
         name = self.root.resolve().name
-        description = {
-            "Name": name,
-            "BIDSVersion": BIDS_VERSION,
-            "DatasetType": "raw",
-            "GeneratedBy": [{"Name": "solepath", "Version": version("solepath")}],
-        }
+        description = {"Name": name, "BIDSVersion": BIDS_VERSION, "DatasetType": "raw", "GeneratedBy": [GENERATOR]}
         if not (self.root / DESCRIPTION).exists():
             write_whole(self.root / DESCRIPTION, to_json(description))
         if not any(self.root.glob("README*")):

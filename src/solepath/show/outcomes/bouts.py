@@ -37,8 +37,8 @@ MIN_TURN = radians(45.0)
 class WalkingBout:
     """One walking bout: at least four strides without a break of more than 3 s (Kluge et al. 2021; mobgap).
 
-    Means are over all its strides of both feet, also those of its turns, of stairs and of its first and last steps,
-    unlike the means of steady strides in `Session.gait`. Runners' strides belong to no bout."""
+    Means are over all its strides of both feet that are not degraded, also those of its turns, of stairs and of its
+    first and last steps, unlike the means of steady strides in `Session.gait`. Runners' strides belong to no bout."""
 
     number: int
     """Number of the bout in the recording, from 1."""
@@ -53,16 +53,16 @@ class WalkingBout:
     contacts of that foot."""
     turns: int
     """Number of turns by 45 degrees or more whose middle is in the bout (El-Gohary et al. 2014)."""
-    stride_duration: float
-    """Mean stride time, s."""
-    cadence: float
+    stride_duration: float | None
+    """Mean stride time, s; None when all strides are degraded, as of the other means."""
+    cadence: float | None
     """Mean of the strides' cadences, steps a minute."""
     stride_length: float | None
     """Mean stride length, m; None when no length is known."""
     walking_speed: float | None
     """Mean of the strides' speeds, m/s; None when no length is known."""
     degraded: int
-    """Number of strides that are degraded; they count like the others."""
+    """Number of strides that are degraded; they are in no mean."""
 
     @property
     def duration(self) -> float:
@@ -105,6 +105,7 @@ def count_contacts(cycles: Sequence[GaitCycleMeasured], after: float = -inf, unt
 
 def _bout(number: int, cycles: Sequence[GaitCycleMeasured], turns: Sequence[TurnMade]) -> WalkingBout:
     start, end = cycles[0].t_start, max([cycle.t for cycle in cycles])
+    good = [cycle for cycle in cycles if not cycle.degraded]
     return WalkingBout(
         number=number,
         t_start=start,
@@ -112,10 +113,10 @@ def _bout(number: int, cycles: Sequence[GaitCycleMeasured], turns: Sequence[Turn
         strides=len(cycles),
         steps=count_contacts(cycles),
         turns=len([turn for turn in turns if start <= 0.5 * (turn.t_start + turn.t) <= end]),
-        stride_duration=fmean([cycle.stride_time for cycle in cycles]),
-        cadence=fmean([cycle.cadence for cycle in cycles]),
-        stride_length=mean_of([cycle.stride_length for cycle in cycles]),
-        walking_speed=mean_of([cycle.speed for cycle in cycles]),
+        stride_duration=mean_of([cycle.stride_time for cycle in good]),
+        cadence=mean_of([cycle.cadence for cycle in good]),
+        stride_length=mean_of([cycle.stride_length for cycle in good]),
+        walking_speed=mean_of([cycle.speed for cycle in good]),
         degraded=len([cycle for cycle in cycles if cycle.degraded]),
     )
 

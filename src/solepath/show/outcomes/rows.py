@@ -6,11 +6,12 @@ from collections.abc import Sequence
 
 from attrs import asdict, evolve, frozen
 
-from ...events import Event
-from .bouts import mean_of
+from ...body.gait.means import GaitMeans
+from ...events import Event, GaitCycleMeasured
+from ...walk.walk import UNLIMITED_STRIDES
 from .mobility import MobilityOutcomes, unit_of
 from .references import Person, Reference, six_minute_reference, up_and_go_reference, walking_speed_reference
-from .spread import VARIABLE, IntervalEstimate, asymmetry, steady_strides, variability
+from .spread import VARIABLE, IntervalEstimate, asymmetry, variability
 from .walk_tests import SixMinuteWalk, TimedUpAndGo
 
 SIX_MINUTE_WALK, UP_AND_GO, MOBILITY = "six-minute walk", "timed up and go", "mobility"
@@ -130,8 +131,13 @@ def mobility_rows(outcomes: MobilityOutcomes) -> list[OutcomeRow]:
 
 
 def stride_rows(events: Sequence[Event], person: Person | None) -> list[OutcomeRow]:
-    """Return the mean speed of steady strides, and variability and asymmetry of the fields in VARIABLE."""
-    speed = mean_of([stride.speed for stride in steady_strides(events)])
+    """Return the mean speed of steady strides as the gait table has it, and variability and asymmetry (VARIABLE)."""
+    means = GaitMeans()
+    for event in events:
+        if isinstance(event, GaitCycleMeasured):
+            means.add(event, UNLIMITED_STRIDES)
+    walking = means.of(False)
+    speed = None if walking is None or walking.both.speed is None else walking.both.speed.mean
     reference = None if person is None else walking_speed_reference(person)
     label = "speed of steady strides, mean"
     rows = [OutcomeRow(MOBILITY, "steady_speed", label, "m/s", speed, reference=reference)]

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from importlib.metadata import PackageNotFoundError, version
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from attrs import define, field, frozen
 
 from ...events import Event, FootMoved, StrideTaken, WearerMoved
 from ...floorplan.plan import FloorPlan
+from ...saving.provenance import installed_version
 from ...types import Packet, Sample
 from ...walk.walk import Walk
 from .bands import Band
@@ -34,13 +34,6 @@ class ReportDetails:
     device: str = ""
 
 
-def _installed() -> str:
-    try:
-        return version("solepath")
-    except PackageNotFoundError:  # solepath runs from a folder without being installed
-        return ""
-
-
 @define
 class ReportContent:
     """The content of the report of a session with `poses` and `pressures`.
@@ -52,8 +45,10 @@ class ReportContent:
     plan: FloorPlan | None = None
     recipe: str = ""
     when: str = ""
-    version: str = field(factory=_installed)
+    version: str = field(factory=installed_version)
     walk: Walk = field(factory=Walk)
+    made_by: Mapping[str, Any] = field(factory=dict)
+    """How the walk was computed, with hashes of the recipe and of the inputs (saving/provenance.py)."""
     details: ReportDetails = field(factory=ReportDetails)
     bands: Mapping[str, Band] = field(factory=dict)
     """Bands of reference by the names of the measures (measures.py)."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...recording import printable
 from ...types import Foot
 from ...walk.walk import Walk
-from ..findings import links_of
+from ..findings import NOTHING_RIGHT, links_of
 from ..tables.summary import activity_lines
 from ..tables.table import counted, duration_text, number
 from .markup import whole_sentences
@@ -25,10 +25,10 @@ def overview(walk: Walk, duration: float, end: float) -> list[str]:
             distance = f" over {number(counts.distance, 1)} m" if counts.distance > 0.0 else ""
             lines.append(f"the {foot} foot took {counted(counts.strides, 'stride')}{distance}")
         elif cycles:
-            lines.append(f"the {foot} foot took {counted(cycles, 'stride')}; how far is not known")
+            lines.append(f"the {foot} foot took {counted(cycles, 'gait cycle')}; how far is not known")
     if len(lines) == 1:
-        lines.append("no foot took a stride")
-    if walk.fused is not None:
+        lines.append("no foot took a stride" if walk.measured_feet or not walk.known_feet else NOTHING_RIGHT)
+    if walk.fused is not None and walk.measured_feet == walk.known_feet:
         lines.append(f"both feet together went {number(walk.fused.distance, 1)} m")
     return whole_sentences(lines + activity_lines(walk, end))
 

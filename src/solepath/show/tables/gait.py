@@ -115,7 +115,7 @@ def gait_cells(parameters: GaitParameters, separator: str) -> list[list[str]]:
     times = [column.stride_time for column in columns]
     cadences = [None if time is None else 120.0 / time.mean for time in times]
     return [
-        ["strides", *[number(strides_of(parameters, foot), 0) for foot in Foot], "-", "-", "-"],
+        ["gait cycles", *[number(strides_of(parameters, foot), 0) for foot in Foot], "-", "-", "-"],
         ["cadence, steps/min", *[number(cadence, 1) for cadence in cadences], "-", "-"],
         *[[f"{row.label}, {row.unit}", *row.cells(separator)] for row in gait_rows(parameters)],
     ]

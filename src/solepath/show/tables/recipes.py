@@ -10,7 +10,7 @@ from attrs import define
 
 from ...types import Foot
 from ...walk.walk import FootCounts, Walk
-from ..findings import Concern, texts
+from ..findings import Concern, findings, texts
 from .gait import gait_rows
 from .table import number, table
 
@@ -59,7 +59,9 @@ def recipe_lines(title: str, runs: Sequence[RecipeRun]) -> list[str]:
     names = dict.fromkeys([name for column in columns for name in column])
     rows = [[name, *[column.get(name, "-") for column in columns]] for name in names]
     lines = table(header, [row for row in rows if set(row[1:]) != {"-"}]).splitlines()
+    found: dict[str, list[str]] = {}
     for run in runs:
-        for kind, concern in (("DEFECT", Concern.DATA), ("limitation", Concern.LIMITATION)):
-            lines += [f"{run.recipe}: {kind}, {what}" for what in texts(run.walk, concern)]
-    return lines
+        for one in findings(run.walk):
+            found.setdefault(one.line, []).append(run.recipe)
+    # what all recipes say is said once
+    return lines + [what if len(names) == len(runs) else f"{', '.join(names)}: {what}" for what, names in found.items()]

@@ -8,7 +8,7 @@ from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
 from ...walk.links import LinkLedger
 from ...walk.places import MAX_LISTED, PlaceCounts
 from ...walk.walk import GAIT_EVENTS, FootCounts, Walk
-from ..findings import Concern, links_of, texts
+from ..findings import Concern, findings, links_of
 from .gait import gait_lines
 from .table import counted, duration_text, number, table, times
 from .words import activity_words, directions, turn_words
@@ -19,9 +19,10 @@ NO_DATA = "no data from either foot"
 def summary(walk: Walk, *, title: str, seconds: float) -> str:
     """Return the summary of one recording; `seconds` is the wall time that computing it took."""
     duration = walk.covered_time.total
-    lines = [f"{title}: {duration:.1f} s", *[f"DEFECT, {what}" for what in texts(walk, Concern.DATA)]]
+    found = findings(walk)
+    lines = [f"{title}: {duration:.1f} s", *[one.line for one in found if one.concern is Concern.DATA]]
     lines += ["", _foot_table(walk), ""] if walk.known_feet else [NO_DATA]
-    if (fused := walk.fused) is not None:
+    if (fused := walk.fused) is not None and walk.measured_feet == walk.known_feet:
         lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen} foot's path")
     if walk.modes:
         modes = ", ".join([f"{mode} {walk.modes[mode]}" for mode in WalkingMode if walk.modes[mode]])
@@ -29,8 +30,7 @@ def summary(walk: Walk, *, title: str, seconds: float) -> str:
     lines += activity_lines(walk, walk.now)
     if gait := gait_lines(walk.gait):
         lines += ["", *gait]
-    lines += texts(walk, Concern.WEAR, Concern.LINK, Concern.STRIDES)
-    lines += [f"limitation, {what}" for what in texts(walk, Concern.LIMITATION)]
+    lines += [one.line for one in found if one.concern is not Concern.DATA]
     samples = sum([walk.samples(foot) for foot in Foot])  # whole numbers
     if seconds > 0.0 and samples:
         pace = f"{duration / seconds:.0f} times as fast as walked, {1e6 * seconds / samples:.0f} us a sample"
@@ -43,8 +43,9 @@ def _foot_table(walk: Walk) -> str:
     names, rows = GAIT_EVENTS.values(), []
     for foot in walk.known_feet:
         counts, link = walk.feet.get(foot, FootCounts()), walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
-        row = [foot.value, str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
-        rows.append(row + [str(counts.events[name]) for name in names])
+        figures = [str(counts.strides), number(counts.distance), *[str(counts.events[name]) for name in names]]
+        figures = ["-"] * len(figures) if foot in walk.spoilt_feet else figures
+        rows.append([foot.value, str(link.samples), number(link.rate, 1), *figures])
     return table(["foot", "samples", "Hz", "strides", "distance m", *[f"{name}s" for name in names]], rows)
 
 

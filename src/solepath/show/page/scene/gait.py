@@ -4,6 +4,7 @@ Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from attrs import asdict, define, field
@@ -49,18 +50,15 @@ class ScenePace:
         """Discard the strides of a foot; after a reset, times are not comparable with theirs."""
         self.strides.pop(foot, None)
 
-    def frame(
-        self, now: float, activity: Activity, since: float, unsound: frozenset[Foot] = frozenset()
-    ) -> dict[str, Any] | None:
+    def frame(self, now: float, activity: Activity, since: float, spoilt: Sequence[Foot] = ()) -> dict[str, Any] | None:
         """Return the member "pace" of a frame at `now`, s; None while there is no pace.
 
-        `activity` is the wearer's activity, which started at `since`, s. Strides of `unsound` feet do not count, unless
-        both feet are."""
+        `activity` is the wearer's activity, which started at `since`, s. Strides of `spoilt` feet do not count."""
         is_still = activity in STILL_ACTIVITIES
         recent = [
             strides
             for foot, strides in self.strides.items()
-            if (foot not in unsound or len(unsound) == len(Foot))
+            if foot not in spoilt
             and now - strides[-1].t <= MAX_TIME_RATIO * strides[-1].stride_time + MAX_STRIDE_LATENCY
             and not (is_still and strides[-1].t <= since)
         ]

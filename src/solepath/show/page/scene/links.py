@@ -6,7 +6,7 @@ from typing import Any
 
 from ....events import Defect, DefectFound
 from ....recording import printable
-from ....types import SITE_OF_FOOT, Foot, Site
+from ....types import Site
 from ....walk.links import LinkLedger
 from ....walk.walk import Walk
 from ...findings import Concern, Finding, reported
@@ -48,6 +48,7 @@ def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
         **members(link, "missing", "gaps", "battery", "name", "signal", "trouble"),
         "state": state,
         "rate": rate if rate is None else round(rate) if rate >= 20.0 else round(rate, 1),
+        "absent": plain(link.absent_time(now), 1),
         "missing_share": plain(link.missing_share, 4),
         "recent_share": plain(link.recent_share(now), 4) if state == "ok" else None,
         "rejected": link.rejected.total(),
@@ -68,12 +69,6 @@ def standing_findings(walk: Walk) -> list[Finding]:
     What is wrong with a link stands at the link."""
     found = [one for one in reported(walk, now=True) if one.concern in (Concern.DATA, Concern.WEAR)]
     return sorted(found, key=lambda one: (not one.act, -one.event.t if one.event else 0.0))
-
-
-def unsound(walk: Walk) -> frozenset[Foot]:
-    """Return the feet whose figures cannot be right until somebody acts."""
-    sites = {one.site for one in standing_findings(walk) if one.act}
-    return frozenset(foot for foot in Foot if SITE_OF_FOOT[foot] in sites)
 
 
 def findings_frame(walk: Walk, broken: frozenset[str]) -> list[dict[str, Any]]:

@@ -42,7 +42,7 @@ from ..player.playback import Playback
 from .bending import bend_of
 from .feet import NO_COUNTS, PHASE_OF_EVENT, FootScene
 from .gait import SceneGaitMeans, ScenePace, activity_frame
-from .links import feet_silent_since, findings_frame, link_frame, unsound
+from .links import feet_silent_since, findings_frame, link_frame
 from .lists import GrowingList
 from .log import SceneLog
 from .plan_drawing import PlanDrawing, draw_plan
@@ -217,10 +217,11 @@ class Scene:
             "wearer": self.wearer.wearer_frame(),
             "place": self.wearer.place_frame(walk.places.last),
             "activity": activity_frame(since, activity, silent_since),
-            "pace": None if silent_since is not None else self.pace.frame(now, activity, since, unsound(walk)),
+            "pace": None if silent_since is not None else self.pace.frame(now, activity, since, walk.spoilt_feet),
             "support": None if left is None or right is None else SUPPORT[left][right].value,
             "touchdown": None if down is None else members(down, "t", "foot", "mode", "position"),
             "body": legs,
+            "spoilt": [foot.value for foot in walk.spoilt_feet],
             "fused": None if fused is None else _fused_frame(fused),
             "scales": self.scales.frame(),
             **self.gait_means.frames(walk.recent_gait, walk.gait),

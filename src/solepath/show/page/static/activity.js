@@ -6,7 +6,7 @@ import { distance, isWrong, means, sidesKnown, sourceWords, unsound } from "./tr
 import { SUPPORTS, activityText, capital, describe, element, fixed, setData, span, wordOf, write } from "./words.js";
 
 export const activityPanel = {
-  uses: ["activity", "support", "pace", "feet", "gait", "total", "findings", "place", "wearer", "links", "playback", "scene", "second"],
+  uses: ["activity", "support", "pace", "feet", "gait", "total", "spoilt", "findings", "place", "wearer", "links", "playback", "scene", "second"],
 
   draw(state) {
     const { activity, support, finished, strides, start, t } = state;

@@ -24,7 +24,7 @@ const MAIN = [
 ];
 
 export class Gait {
-  uses = ["gait", "findings", "playback", "activity", "scene"];
+  uses = ["gait", "spoilt", "findings", "playback", "activity", "scene"];
   all = new Map();
   main = mainRows([]).map(() => new Row("gait-main-rows", false)); // there from the start, so that nothing moves later
 

@@ -37,7 +37,8 @@ export function linksText({ links, source, finished }) {
   const most = mostLost(links);
   if (!finished && most > 0) return `${some}, ${lossText(most)}`;
   if (finished && sum("missing") > 0) return `${some}, ${counted(sum("missing"), "sample")} missing`;
-  if (sum("missing") + sum("gaps") === 0) return `${some}, no data lost`;
+  if (finished && sum("absent") > 0) return `${some}, absent for ${fixed(sum("absent"), 1)} s`;
+  if (sum("missing") + sum("absent") === 0) return `${some}, no data lost`;
   return `${some}, ${finished ? "with some data lost" : "no data lost now"}`;
 }
 
@@ -54,6 +55,7 @@ const FIGURES = {
   recent: ({ recent_share }) => recent_share !== null && lossText(recent_share),
   missing: ({ missing: n, missing_share: share }) => n > 0 && `${counted(n, "sample")} missing since the start (${percent(share, 1)})`,
   gaps: ({ gaps }) => gaps > 0 && counted(gaps, "interruption"),
+  absent: ({ absent }) => absent > 0 && `absent for ${fixed(absent, 1)} s`,
   rejected: ({ rejected }) => rejected > 0 && `${counted(rejected, "packet")} rejected`,
   battery: ({ battery }) => battery !== null && `battery ${percent(battery)}`,
   signal: ({ signal }) => signal !== null && `signal ${fixed(signal)} dBm`,

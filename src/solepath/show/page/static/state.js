@@ -10,7 +10,7 @@ const CELLS_TIME = 1; // s after the start within which cells of an insole have 
 
 // Members that a frame sends whole, and those of which it sends what is new.
 const OF_THE_WEARER = ["feet", "wearer", "place", "activity", "pace", "support", "touchdown", "body", "fused", "gait", "total"];
-const VALUES = ["t", ...OF_THE_WEARER, "scales", "findings", "links", "playback", "posture"];
+const VALUES = ["t", ...OF_THE_WEARER, "scales", "spoilt", "findings", "links", "playback", "posture"];
 const LISTS = ["tracks", "places", "phases", "log", "reports"];
 
 // Nothing but the next three is there before the first scene.

@@ -3,11 +3,11 @@
 import { FEET, capital } from "./words.js";
 
 const siteOf = (foot) => `${foot} foot`;
-const isFaulty = ({ findings }, foot) => findings.some(({ site, act }) => act && site === siteOf(foot));
+const isFaulty = ({ spoilt }, foot) => spoilt.includes(foot);
 export const isBroken = (link) => link?.state === "lost" || link?.state === "silent";
 export const isGone = ({ links }, foot) => isBroken(links[siteOf(foot)]);
 
-// Feet whose figures cannot be right until somebody acts, or which send nothing now.
+// Feet whose data cannot be right, or which send nothing now.
 export const unsound = (state) => FEET.filter((foot) => isFaulty(state, foot) || (!state.finished && isGone(state, foot)));
 
 // True while a foot sends what cannot be right: then the place is not right either.

@@ -21,7 +21,7 @@ class Bout:
     """Duration, s."""
     distance: float | None
     """Distance, m; None if it is not known."""
-    strides: int
+    cycles: int
     """Number of gait cycles of both feet."""
 
 
@@ -77,11 +77,11 @@ def facts_of(report: ReportContent) -> Facts:
     found = [] if walking is None else measures(walking, interval)
     found += [] if running is None else measures(running)
     cycles = [one for found in walk.cycles.values() for one in found]
-    distances = {foot: list(pairs) for foot, pairs in walk.distances.items()}
+    distances = {foot: list(pairs) for foot, pairs in walk.distances.items() if foot in walk.measured_feet}
     bouts = {}
     for is_run, spans in gait_spans(walk.timeline.spans(report.clock.end), cycles).items():
         duration, distance = fsum([end - start for start, end in spans]), distance_in(spans, distances) or None
-        strides = len([one for one in cycles if any([start <= one.t <= end for start, end in spans])])
-        if duration > 0.0 and (strides or distance):
-            bouts[is_run] = Bout(duration, distance, strides)
+        count = len([one for one in cycles if any([start <= one.t <= end for start, end in spans])])
+        if duration > 0.0 and (count or distance):
+            bouts[is_run] = Bout(duration, distance, count)
     return Facts(report, [one for one in (walking, running) if one is not None], bouts, differences, found)

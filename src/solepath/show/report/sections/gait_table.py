@@ -13,11 +13,6 @@ from ..markup import notes, table, terms
 from ..running import running_means
 
 HEADER = ("parameter", "left", "right", "both", "CV %", "asymmetry")
-NO_STEADY = (
-    "No stride was steady, so that there are no means: steady strides are neither first nor last of a walk, nor in a "
-    "turn, on stairs or degraded."
-)
-
 DEFINITIONS = {
     "stride_time": "from a contact of a foot to its next one (Hollman et al. 2011)",
     "step_time": "from the other foot's contact to this one's",
@@ -70,7 +65,7 @@ def gait_table(parent: Element, parameters: GaitParameters) -> None:
         notes(parent, [f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007)."])
     count = sum([strides_of(parameters, foot) or 0 for foot in Foot])  # whole numbers
     if count < MIN_STRIDES:
-        notes(parent, [f"Of {count} strides: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."])
+        notes(parent, [f"Of {count} gait cycles: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."])
 
 
 def definitions(parent: Element, tables: Sequence[GaitParameters], *, difference: bool) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ....types import Activity
+from ...findings import NOTHING_RIGHT
 from ...tables.summary import NO_DATA
 from ...tables.table import counted, duration_text, number, times
 from ...tables.words import directions
@@ -33,10 +34,12 @@ def headline(facts: Facts) -> str:
     if rides := [f"{way} {times(count)}" for way, count in directions(walk.elevator_rides)]:
         clauses.append(f"rode a lift {' and '.join(rides)}")
     if not clauses:
+        if walk.known_feet and not walk.measured_feet:
+            return f"Recorded for {duration_text(facts.duration)}; {NOTHING_RIGHT}."
         stood = Activity.STANDING in walk.timeline.durations(facts.report.clock.end)
         return f"{'Stood' if stood else 'Recorded'} for {duration_text(facts.duration)}; no stride was taken."
-    if bouts and len(walk.known_feet) == 1:
-        clauses[-1] += f", measured at the {walk.known_feet[0]} foot alone"
+    if bouts and len(walk.measured_feet) == 1:
+        clauses[-1] += f", measured at the {walk.measured_feet[0]} foot alone"
     return whole_sentences(["; ".join([*clauses, *difference_clauses(facts.differences)])])[0]
 
 
@@ -51,7 +54,7 @@ def _way(facts: Facts, is_run: bool) -> str:
     if pace:
         words = [f"{one.text} {one.unit.replace('steps/min', 'steps a minute')}" for one in pace]
         return f"{text}, in steady strides {'with' if len(pace) == 1 else 'at'} {' and '.join(words)}"
-    taken = f" ({counted(bout.strides, 'stride')})" if bout.strides else ""
+    taken = f" ({counted(bout.cycles, 'gait cycle')})" if bout.cycles else ""
     return f"{text}{taken}, too short for steady strides"
 
 

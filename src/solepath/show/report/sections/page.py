@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from xml.etree.ElementTree import Element
 
+from ....recording import printable
 from ...findings import Concern, texts
 from ...tables.svg import add
 from ..content import ReportContent
@@ -16,7 +17,7 @@ from ..markup import paragraph, section, sentences, skeleton, table, whole_sente
 from ..words import LINK_HEADER, link_rows, overview, sensors
 from .comparison import comparison
 from .facts import Facts, facts_of
-from .gait_table import NO_STEADY, definitions, gait_table
+from .gait_table import definitions, gait_table
 from .heading import add_heading, add_making, title_of
 from .headline import headline
 from .key_figures import key_figures
@@ -87,8 +88,6 @@ def _ways(parent: Element, report: ReportContent) -> None:
 def _gait(parent: Element, report: ReportContent, facts: Facts) -> None:
     for means in facts.means:
         gait_table(parent, means)
-    if not facts.means:
-        paragraph(parent, NO_STEADY)
     figures = add(parent, "<div class='figures'/>")
     stride_figures(figures, [one for cycles in report.walk.cycles.values() for one in cycles], report.clock)
 
@@ -123,6 +122,11 @@ def _making(report: ReportContent) -> list[tuple[str, str]]:
         ("Recording", ", ".join(filter(None, [report.source, times]))),
         ("Start", report.when),
         ("Sensors", sensors(report.walk)),
-        ("Recipe", report.recipe),
+        ("Recipe", _hashed(report.recipe, report.made_by.get("recipe_sha256"))),
+        *[("Input", _hashed(one["name"], one["sha256"])) for one in report.made_by.get("inputs", ())],
         ("Made by", f"solepath {report.version}".rstrip()),
     ]
+
+
+def _hashed(name: str, sha256: str | None) -> str:
+    return printable(name) if sha256 is None else f"{printable(name)}, SHA-256 {sha256}"

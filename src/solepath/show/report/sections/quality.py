@@ -53,7 +53,7 @@ def judgements(facts: Facts) -> list[Judgement]:
     if not facts.report.walk.known_feet:
         return []
     found = {
-        "strides": _strides(facts),
+        "gait cycles": _gait_cycles(facts),
         "samples": _samples(facts),
         "clocks": _clocks(facts),
         "plausibility": _plausibility(facts),
@@ -89,15 +89,15 @@ def quality_box(parent: Element, parts: Sequence[Judgement]) -> None:
         add(box, row, part.part, part.verdict.name.lower(), part.verdict.value, part.words)
 
 
-def _strides(facts: Facts) -> Found:
+def _gait_cycles(facts: Facts) -> Found:
     found = sum([cycles.count for cycles in facts.report.walk.cycles.values()])  # whole numbers
     used = sum([strides_of(means, foot) or 0 for means in facts.means for foot in Foot])  # whole numbers
-    words = f"{used} of {counted(found, 'stride')} are steady and count."
+    words = f"{used} of {counted(found, 'gait cycle')} are steady and count."
     if not found:
-        return LOOK, "No stride was found.", "no strides"
+        return LOOK, "No gait cycle was found that counts.", "no gait cycles"
     if used >= MIN_STRIDES:
         return GOOD, words, ""
-    return LOOK, f"{words} Figures settle with {MIN_STRIDES} (Galna et al. 2013).", "few strides"
+    return LOOK, f"{words} Figures settle with {MIN_STRIDES} (Galna et al. 2013).", "few gait cycles"
 
 
 def _samples(facts: Facts) -> Found:
