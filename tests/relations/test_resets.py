@@ -55,8 +55,8 @@ CriticalCues.restart:
 Decoder.restart_clock: firmware link* newest_stream_arrival* used link.restart_clock()
 DoubleFoot.reset: chosen error_balance paths* apart
 Flights.reset: level_stride_count stride_count t_end t_start trusted_rise
-FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares resolution sink speed squares
-  strike_height top total tracked
+FootBlocks.restart: bias climb fast flat_height force gyro_count hard rate_squares resolution sink squares steady
+  strike_height total tracked
 FootClocks._forget: feet* idle
 FootClocks.reset: feet* idle
 FootTracker.reset: corrector* counts_losses cues* detector* gait* levelled limitations rest* rhythm sole* walk_scale*
@@ -126,7 +126,7 @@ BiasZupt.start: bias motion_acc
 CommonError.start_stride: covariance estimates foot_biases
 Cycle._start_span: highs lows past_high past_low sensor_height shoe
 ErrorStateFilter.start: interval level recovery rhythm velocity_error
-FootBlocks.start_block: blocks bottom flat_height rest_force rested strides strike_height top
+FootBlocks.start_block: blocks flat_height rest_force rested strides strike_height
 GatedTilt.start: velocity_change
 GyroscopeMagnitude._start_span: highs lows past_high past_low shoe
 Impact.start_swing: peak_shock_time

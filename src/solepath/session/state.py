@@ -324,10 +324,10 @@ class SessionState:
             if events[0].defect is not None:
                 self._run_parts(events, None, events[0].known_at)
             return events
+        if known_tracker is None and (tracker.t is not None or tracker.stuck.held):
+            self._add_tracker(tracker)
         if tracker.t is None or (tracker.stuck.held and not events):  # the foot does not use such a sample
             return events
-        if known_tracker is None:
-            self._add_tracker(tracker)
         t: float = sample.t  # declared, because the fields of a compiled Sample have any type
         known_at: float = sample.known_at if sample.known_at > t else t
         if tracker.viewed_at is None or t > tracker.viewed_at:

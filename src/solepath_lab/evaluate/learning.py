@@ -46,11 +46,15 @@ def _blocks(make: Callable[..., Iterable[activities.Blocks]], *given: Any) -> li
 
 
 def _activity_sources(folder: Path) -> Sources:
-    """Return the sources of train/activities.py: the wearers of hugadb, level walks and emulated wearers."""
+    """Return the sources of train/activities.py: wearers of hugadb, level walks, emulated ones, other motions."""
     hugadb = folder / "hugadb"
     wearers = [(partial(_blocks, activities.hugadb, hugadb, WEARERS - {one}), one) for one in sorted(WEARERS)]
     emulated = [(partial(_blocks, activities.emulated_walks, [seed]), None) for seed in activities.EMULATED]
-    return [*wearers, (partial(_blocks, activities.level_walks, folder), None), *emulated]
+    patients = [(partial(_blocks, activities.emulated_patients, [seed]), None) for seed in activities.PATIENTS]
+    others = [(partial(_blocks, activities.other_motions_of, [seed]), None) for seed in activities.PATIENTS]
+    walks = partial(_blocks, activities.level_walks, folder)
+    rides = partial(_blocks, activities.rides, folder / "hugadb_daily")
+    return [*wearers, (walks, None), *emulated, *patients, *others, (rides, None)]
 
 
 LEARNERS: dict[type, Learner] = {

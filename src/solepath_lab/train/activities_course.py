@@ -16,15 +16,16 @@ from attrs import frozen
 
 from solepath.body.activity.chain import Chances, Shifts
 from solepath.body.activity.elevator_evidence import BlockForce
-from solepath.body.activity.foot_blocks import BLOCK_DURATION
+from solepath.body.activity.foot_blocks import BLOCK_DURATION, BlockFeatures
 from solepath.body.activity.hypotheses import NO_EVIDENCE, BlockEvidence, Hypotheses
 from solepath.body.activity.motion import MotionModel, motion_votes
+from solepath.body.activity.reconcile import GAITS
 from solepath.types import Activity, Foot
 
-from .activities_net import CLASSES
+from .activities_fit import CLASSES
 from .hugadb import SPAN_GAP, Span
 
-FootEvidence = tuple[list[float], BlockForce | None]
+FootEvidence = tuple[BlockFeatures, BlockForce | None]
 """Features of a foot in a block, and the foot's vertical forces, in which an elevator ride can be detected."""
 
 DEFAULT_CHANCES: Chances = (
@@ -90,7 +91,8 @@ def shifts(courses: Sequence[LabelledCourse], model: MotionModel) -> Shifts:
     """Return the time by which each change is labelled later than it is detected, s.
 
     Changes labelled by people and emulated changes have a median each, if there are at least MIN_CHANGES of them. The
-    shift is the mean of these medians."""
+    shift is that of people between two gaits, because the emulator divides the stride between them in another way, and
+    the mean of both between others."""
     delays: dict[tuple[Activity, Activity], dict[bool, list[float]]] = {}
     for course in courses:
         detected = changes(report_spans(course, model))
@@ -102,7 +104,12 @@ def shifts(courses: Sequence[LabelledCourse], model: MotionModel) -> Shifts:
     shifts = []
     for before in Activity:
         for after in Activity:
-            medians = [median(times) for times in delays.get((before, after), {}).values() if len(times) >= MIN_CHANGES]
+            kinds = {
+                kind: times for kind, times in delays.get((before, after), {}).items() if len(times) >= MIN_CHANGES
+            }
+            if True in kinds and before in GAITS and after in GAITS:
+                kinds.pop(False, None)
+            medians = [median(times) for times in kinds.values()]
             if medians:
                 n_units = round(sum(medians) / len(medians) / SHIFT_RESOLUTION)
                 shifts.append((before, after, round(SHIFT_RESOLUTION * n_units, 2)))

@@ -8,8 +8,8 @@ from functools import cache
 from views import fed
 
 from solepath.body.activity.activities import Activities
-from solepath.body.activity.foot_blocks import FEATURE_COUNT, FIRST_GYRO_FEATURE
-from solepath.body.activity.motion import load_released_model, motion_votes
+from solepath.body.activity.foot_blocks import FEATURES, FORCE_FEATURES
+from solepath.body.activity.motion import CONSTANT, MOTIONS, load_released_model
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -56,9 +56,18 @@ def test_after_a_long_gap_nobody_knows_what_was_done_in_it() -> None:
     assert "UNKNOWN" in [event.activity.name for event in events if isinstance(event, ActivityChanged)]
 
 
+def test_each_feature_has_a_weight_for_each_motion_with_and_without_a_gyroscope() -> None:
+    model = load_released_model()
+    assert (tuple(model.gyroscope), tuple(model.alone)) == ((CONSTANT, *FEATURES), (CONSTANT, *FORCE_FEATURES))
+    assert {len(row) for table in (model.gyroscope, model.alone) for row in table.values()} == {len(MOTIONS)}
+
+
 def test_a_foot_without_a_gyroscope_is_judged_by_its_accelerometer_alone() -> None:
-    model, acc = load_released_model(), [0.1] * FIRST_GYRO_FEATURE
-    rest = FEATURE_COUNT - FIRST_GYRO_FEATURE - 1
-    unknown = motion_votes(model, [[*acc, 0.0, *[0.0] * rest]])
-    assert unknown == motion_votes(model, [[*acc, 0.0, *[0.3] * (rest - 11), *[0.0] * 11]])
-    assert unknown != motion_votes(model, [[*acc, 1.0, *[0.3] * (rest - 11), *[0.0] * 11]])
+    reported = set[str]()
+    for gyroscope in (True, False):
+        worn = WornPart()
+        samples = [one if gyroscope else Sample(t=one.t, site=one.site, acc=one.acc) for one in walk()]
+        events = [event for sample in samples for event in worn.feed(sample)]
+        reported |= {event.activity.name for event in events if isinstance(event, ActivityChanged)}
+        assert "WALKING" in {event.activity.name for event in events if isinstance(event, ActivityChanged)}
+    assert "RUNNING" not in reported

@@ -128,6 +128,8 @@ def test_a_runner_runs_at_every_stride() -> None:
     known = [
         event.activity
         for event in run(samples(route, 50.0))[0]
-        if isinstance(event, ActivityChanged) and running[0] + 2.0 < event.known_at < running[1] - 1.0
+        if isinstance(event, ActivityChanged)
+        and event.t > running[0] - 1.0  # what was done before may become final meanwhile
+        and running[0] + 2.0 < event.known_at < running[1] - 1.0
     ]
     assert Activity.WALKING not in known, "a level stride is no walk: it may be run as well"

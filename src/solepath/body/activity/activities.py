@@ -27,7 +27,7 @@ from ..part import ActivityPart, Inputs, Outputs, PartOutput
 from .early import NO_ACTIVITY, ActivityCue, ActivityReport, BlockSigns, Early, cue_of_stride, follow, follow_block
 from .elevator_evidence import BlockForce, ElevatorEvidence
 from .flights import Flights, integrated_rise
-from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, FootBlocks
+from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, BlockFeatures, FootBlocks
 from .hypotheses import BLOCKS_BEFORE, NO_EVIDENCE, BlockEvidence, Hypotheses, activity_at
 from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
 
@@ -110,10 +110,10 @@ class Activities(ActivityPart):
         self.flights.reset()
         self.strides.clear()
         if known and all([side.index is None for side in self.feet.values()]):
-            t = self._time(max(known) + 1)
+            t, activity = self._time(max(known) + 1), self.activity
             last = self.report.add(self.hypotheses, (), 1e6 + t, t, True)
             self.held = [one for one in last if one.t < t and isinstance(one, ActivityChanged | LiftRidden)]
-            if self.held or self.activity is not Activity.UNKNOWN:
+            if self.held or activity is not Activity.UNKNOWN:
                 self.held.append(self.report.end(t))
             self._restart()
 
@@ -138,7 +138,7 @@ class Activities(ActivityPart):
                     self.report.strides.tracked = self.report.strides.tracked or side.tracked
                     side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
                     outputs += self._judge(t, view.known_at)
-                side.add(acc, sample.gyro, view.velocity if view.levelled else None, view.position[2])
+                side.add(acc, sample.gyro, view.velocity if view.levelled else None)
             if events:
                 side.add_events(events, view.position[2])
                 for event in events:
@@ -199,6 +199,9 @@ class Activities(ActivityPart):
             if self.walked:
                 pressure_scores = air.score_slope(index, BLOCK_DURATION)
             before, after = air.height(index - BLOCKS_BEFORE, index - 1), air.height(index, index + WINDOW_REACH)
+        for side in self.feet.values():
+            if (block := side.block(index)) is not None:
+                self.report.strides.add_block(self._time(index), block)
         forces = self._forces(index)
         if (leans := ElevatorEvidence(forces).leans) is not None:
             self.report.strides.forces.append((self._time(index), leans))
@@ -215,7 +218,7 @@ class Activities(ActivityPart):
         )
         return any([one is not None for one in features])
 
-    def _features(self, index: int) -> list[list[float] | None]:
+    def _features(self, index: int) -> list[BlockFeatures | None]:
         """Return the features of a block of both feet, with as many later blocks as there are."""
         t = self._time(index) + 0.5 * BLOCK_DURATION
         return [side.features(index, t) for side in self.feet.values()]

@@ -162,8 +162,9 @@ def _ride_event(ride: ActivitySegment, t_end: float, known_at: float) -> LiftRid
     return LiftRidden(t=end, known_at=max(known_at, end), t_start=start, up=up, height=height)
 
 
-LEAST_MARGIN = 1.0
-"""Least difference of the log-likelihoods of a new motion and of the present one: 2.7 to 1.
+LEAST_MARGIN = 0.5
+"""Least difference of the log-likelihoods of a new motion and of the present one: 1.6 to 1; 1.0 is 0.3 points worse 1 s
+after a moment, and nothing changes at the end (hugadb).
 
 Without a margin, a twentieth more activities are reported and withdrawn (hugadb)."""
 LEAST_PUSH, PUSH_VARIANCE = 0.25, 0.02
@@ -198,7 +199,7 @@ CUE_OF_VOTE = (
     ActivityCue.DESCENDING,
     ActivityCue.STRANGE,
 )
-"""Cue of each of `MOTIONS`, and of an unknown activity."""
+"""Cue of each of `MOTIONS`."""
 
 _MOVING = {
     ActivityCue.WALKING: Activity.WALKING,
@@ -234,7 +235,7 @@ STATE_OF_ACTIVITY = {activity: ACTIVITIES.index(activity) for activity in Activi
 
 
 BlockSigns = tuple[Floats, ElevatorEvidence]
-"""Signs of activity in a block: the log-likelihoods of `MOTIONS` and of an unknown one, and the forces on both feet."""
+"""Signs of activity in a block: the log-likelihoods of `MOTIONS` and the forces on both feet."""
 
 
 def follow(found: list[Early], t: float, cue: tuple[ActivityCue, float] | None, chain: Chain) -> None:
@@ -262,7 +263,7 @@ def cue_of_block(
 ) -> tuple[ActivityCue, float] | None:
     """Return the cue of a block and the probability of what it shows; None if the activity `before` goes on.
 
-    `votes` are the log-likelihoods of `MOTIONS` and of an unknown one, `levels` the forces on the feet at rest."""
+    `votes` are the log-likelihoods of `MOTIONS`, `levels` the forces on the feet at rest."""
     best = max(range(len(votes)), key=votes.__getitem__)
     probability = 1.0 / fsum([exp(vote - votes[best]) for vote in votes])
     push = None if best != STAND or levels is None else elevator.estimate_acceleration(levels)

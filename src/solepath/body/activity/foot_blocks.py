@@ -14,34 +14,54 @@ from .flights import integrated_rise
 
 # Features of one foot's blocks (half seconds of samples), from which activities are recognised.
 #
-# Sample features use only the lengths of vectors, so they do not depend on the mounting of the sensor. They use shares
-# of samples instead of numbers of samples, so they depend little on the sample rate. Some accelerometers clip at 2 g,
-# so all |acc| above that share one bin.
+# Features of samples use only the lengths of vectors, so they do not depend on the mounting of the sensor. They use
+# shares of samples instead of numbers of samples, so they depend little on the sample rate.
 
 BLOCK_DURATION = 0.5
 """Duration of a block, s."""
 WINDOW_REACH = 2
 """Number of blocks before and after the judged one in its window: five blocks, 2.5 s."""
-BIN_COUNT = 10
-"""Number of bins of |acc|, 2 m/s^2 wide, and of |gyro|, 1 rad/s wide; the last bin has no upper limit."""
-ACC_LIMIT, RATE_LIMIT = 2.0 * BIN_COUNT, 1.0 * BIN_COUNT
-"""Lower limits of the last bins: |acc|, m/s^2, and |gyro|, rad/s."""
-WINDOW_PARTS = 3
-"""Number of parts of a window: the blocks before the judged one, the judged one, and the blocks after it."""
-FIRST_GYRO_FEATURE = 4 + WINDOW_PARTS * BIN_COUNT
-"""Index of the first feature that needs a gyroscope."""
-FIRST_TRACK_FEATURE = FIRST_GYRO_FEATURE + 5 + WINDOW_PARTS * BIN_COUNT
-"""Index of the first feature that needs a track."""
-FIRST_STRIDE_FEATURE = FIRST_TRACK_FEATURE + 6
-"""Index of the first feature of a stride."""
-FEATURE_COUNT = FIRST_STRIDE_FEATURE + 11
-"""Number of features."""
+STEADY_FORCES, HARD_FORCE = (8.0, 12.0), 18.0
+"""Specific forces between which a foot is hardly accelerated, and from which on it is hard, m/s^2.
+
+Some accelerometers clip at 2 g, so what is above counts the same. Edges of the bins of an earlier model."""
+FAST_RATE = 5.0
+"""Angular rate from which on a foot turns fast, rad/s: in the swing of a walk, not in its stance."""
 MOVING_VARIANCE = 1.0
 """Least variance of |acc| of a foot that moves, (m/s^2)^2."""
 REST_BLOCKS = 10
 """Number of blocks over which the specific force of a foot at rest is averaged: 5 s, longer than a car brakes."""
 MAX_LENGTH, MAX_RISE = 2.0, 0.6
 """Largest length of a stride and largest height change that features distinguish, m: two stairs at a time."""
+MAX_SPEED = 3.0
+"""Largest upward or downward velocity that features distinguish, m/s."""
+LEAST_SLOPE_LENGTH = 0.2
+"""Least length by which the rise of a stride is divided, m."""
+
+FEATURES = (
+    "steady", "hard", "turning", "turning_squared", "turning_around", "fast", "climb", "climb_squared", "sink",
+    "climb_now", "sink_now", "stride", "stride_time", "stride_length", "slope", "strike_height",
+)  # fmt: skip
+"""Names of the features of a foot with a gyroscope.
+
+- `steady`, `hard`: shares of the samples in the window with such a force
+- `turning`, its square, and `turning_around`: a quarter of the logarithm of the mean square of the angular rate, in
+  (rad/s)^2, in the judged half second and in the window
+- `fast`: share of the samples in the window with such a rate
+- `climb`, its square, `sink`, and the same `now`: largest upward and downward velocity in the window, and in the judged
+  half second, m/s; 0 without a track
+- `stride`: 1 if a stride is known at the middle of the judged half second, else 0, and so are the others:
+  `stride_time`, s, `stride_length`, m, `slope`, the rise over the length, and `strike_height`, that of the heel-strike
+  above the foot-flat before it, m"""
+FORCE_FEATURES = (
+    "steady", "hard", "shaking", "shaking_squared", "shaking_around", "shaking_around_squared", "stillest",
+)  # fmt: skip
+"""Names of the features of a foot without a gyroscope.
+
+`shaking`, `shaking_around` and `stillest` are a quarter of the logarithm of the variance of |acc|, in (m/s^2)^2, in the
+judged half second, in the window, and in the stillest half second of the window."""
+
+Row = tuple[float, ...]
 
 
 @define
@@ -58,22 +78,20 @@ class ActivityBlock:
     """Variance of |acc|, (m/s^2)^2."""
     lean: float
     """Part of the mean specific force across its mean direction since the foot came to rest, m/s^2; 0 if it moves."""
-    acc_bins: tuple[int, ...]
-    """Number of samples in each bin of |acc|, at most 255 each."""
+    steady: int
+    """Number of samples between `STEADY_FORCES`."""
+    hard: int
+    """Number of samples from `HARD_FORCE` on."""
     gyro_count: int
     """Number of samples with a gyroscope."""
     gyro_mean_square: float
     """Mean square of |gyro|, (rad/s)^2."""
-    gyro_bins: tuple[int, ...]
-    """Number of samples in each bin of |gyro|, at most 255 each."""
-    tracked: bool
-    """Flag: velocity and position of the foot are known."""
+    fast: int
+    """Number of samples from `FAST_RATE` on."""
     climb: float
-    """Largest upward velocity, m/s."""
+    """Largest upward velocity, m/s; 0 when it is not known."""
     sink: float
-    """Largest downward velocity, m/s, negative."""
-    speed: float
-    """Largest horizontal speed, m/s."""
+    """Largest downward velocity, m/s, negative; 0 when it is not known."""
 
 
 @define
@@ -83,106 +101,89 @@ class BlockStride:
     start: float
     end: float
     length: float
+    """Length, at most `MAX_LENGTH`."""
     rise: float
-    """Height change, m."""
-    clearance: float
-    speed: float
-    """Peak speed, m/s."""
-    pitch: float
-    """Pitch of the swing, rad."""
-    top: float
-    """Greatest height in the stride above its start, m."""
-    bottom: float
-    """Lowest height in the stride above its start, m; 0 or negative."""
+    """Height change, at most `MAX_RISE` up or down."""
     strike_height: float
-    """Height at heel-strike above the start of the stride, m."""
+    """Height at heel-strike above the start of the stride."""
 
 
-def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: BlockStride | None) -> list[float]:
-    """Return `FEATURE_COUNT` features, scaled to the order of 1, of the block `judged`; unknown features are 0.
+@define
+class BlockFeatures:
+    """What a foot shows in a block."""
 
-    `window` has the blocks of the window, including `judged`; `stride` is the stride in the middle of `judged`."""
-    parts = [
-        [block for block in window if block.index < judged.index],
-        [judged],
-        [block for block in window if block.index > judged.index],
-    ]
-    samples, forces, squares = 0, 0.0, 0.0
+    gyroscope: bool
+    """Flag: the values are those of `FEATURES`, else of `FORCE_FEATURES`."""
+    values: Row
+    stride: BlockStride | None
+    """Stride at the middle of the block; None when none is known."""
+
+
+def features_of(judged: ActivityBlock, window: Sequence[ActivityBlock], stride: BlockStride | None) -> Row:
+    """Return `FEATURES` of the block `judged`; `stride` is that in its middle.
+
+    `window` has the blocks of the window, including `judged`; one of them has a gyroscope."""
+    samples = steady = hard = gyro_samples = fast = 0
+    squares = climb = sink = 0.0
+    turning = judged
+    for block in window:
+        samples += block.count
+        steady += block.steady
+        hard += block.hard
+        gyro_samples += block.gyro_count
+        fast += block.fast
+        squares += block.gyro_mean_square * block.gyro_count
+        climb = max(climb, block.climb)
+        sink = min(sink, block.sink)
+        if not turning.gyro_count:
+            turning = block
+    now, climb = _logarithm(turning.gyro_mean_square), min(climb, MAX_SPEED)
+    known = (0.0,) * 5
+    if stride is not None:
+        slope = max(-1.0, min(1.0, stride.rise / max(stride.length, LEAST_SLOPE_LENGTH)))
+        known = (1.0, min(stride.end - stride.start, MAX_STRIDE_TIME), stride.length, slope, stride.strike_height)
+    return (
+        steady / samples,
+        hard / samples,
+        now,
+        now * now,
+        _logarithm(squares / gyro_samples),
+        fast / gyro_samples,
+        climb,
+        climb * climb,
+        max(sink, -MAX_SPEED),
+        min(judged.climb, MAX_SPEED),
+        max(judged.sink, -MAX_SPEED),
+        *known,
+    )
+
+
+def force_features_of(judged: ActivityBlock, window: Sequence[ActivityBlock]) -> Row:
+    """Return `FORCE_FEATURES` of the block `judged`; `window` has the blocks of the window, including `judged`."""
+    samples = steady = hard = 0
+    forces = squares = 0.0
+    stillest = judged.variance
     for block in window:
         n, force = block.count, block.force
         samples += n
+        steady += block.steady
+        hard += block.hard
         forces += force * n
         squares += (block.variance + force * force) * n
-    mean, variances = forces / samples, [block.variance for block in window]
-    values = _log_variances(judged.variance, variances, max(0.0, squares / samples - mean * mean))
-    for blocks in parts:
-        values += _shares([(block.acc_bins, block.count) for block in blocks])
-    with_gyro = [block for block in window if block.gyro_count]
-    if with_gyro:
-        gyro_count, squares = 0, 0.0
-        for block in with_gyro:
-            gyro_count += block.gyro_count
-            squares += block.gyro_mean_square * block.gyro_count
-        nearest = judged if judged.gyro_count else with_gyro[0]
-        mean_squares = [block.gyro_mean_square for block in with_gyro]
-        values += [1.0, *_log_variances(nearest.gyro_mean_square, mean_squares, squares / gyro_count)]
-        for blocks in parts:
-            values += _shares([(block.gyro_bins, block.gyro_count) for block in blocks if block.gyro_count])
-    else:
-        values += [0.0] * (FIRST_TRACK_FEATURE - FIRST_GYRO_FEATURE)
-    tracked = [block for block in window if block.tracked]
-    if tracked:
-        values += [
-            1.0,
-            min(max([block.climb for block in tracked]), 3.0),
-            max(min([block.sink for block in tracked]), -3.0),
-            0.5 * min(max([block.speed for block in tracked]), 6.0),
-            min(judged.climb, 3.0),
-            max(judged.sink, -3.0),
-        ]
-    else:
-        values += [0.0] * (FIRST_STRIDE_FEATURE - FIRST_TRACK_FEATURE)
-    if stride is None:
-        return values + [0.0] * (FEATURE_COUNT - FIRST_STRIDE_FEATURE)
-    return [
-        *values,
-        1.0,
-        min(stride.end - stride.start, 2.0),
-        min(stride.length, MAX_LENGTH),
-        2.0 * min(max(stride.rise, -MAX_RISE), MAX_RISE),
-        2.0 * min(max(stride.clearance, 0.0), 0.5),
-        0.5 * min(stride.speed, 6.0),
-        min(stride.pitch, 3.0),
-        min(max(stride.rise / max(stride.length, 0.2), -1.0), 1.0),
-        *[2.0 * min(max(height, -0.6), 0.6) for height in (stride.top, stride.bottom, stride.strike_height)],
-    ]
+        stillest = min(stillest, block.variance)
+    mean = forces / samples
+    now, around = _logarithm(judged.variance), _logarithm(squares / samples - mean * mean)
+    return (steady / samples, hard / samples, now, now * now, around, around * around, _logarithm(stillest))
 
 
-def stride_of(features: Sequence[float]) -> tuple[float, float, float] | None:
-    """Return the duration, up to 2 s, the length, up to 2 m, and the rise of the stride in a block, m.
-
-    Returns None without a stride."""
-    if not features[FIRST_STRIDE_FEATURE]:
-        return None
-    duration, length, doubled_rise = features[FIRST_STRIDE_FEATURE + 1 : FIRST_STRIDE_FEATURE + 4]
-    return duration, length, 0.5 * doubled_rise
+def _logarithm(square: float) -> float:
+    """Return a scaled logarithm of a mean square: about -1 at rest and 1 when running."""
+    return 0.25 * log(max(1e-4, min(1e4, square)))
 
 
-def _log_variances(judged: float, window: list[float], whole: float) -> list[float]:
-    """Return the scaled logarithms of variances: about -1 at rest and 1 when running.
-
-    They are of the judged block, the least and the largest in its window, and of the whole window."""
-    return [0.25 * log(max(1e-4, min(1e4, value))) for value in (judged, min(window), max(window), whole)]
-
-
-def _shares(blocks: list[tuple[tuple[int, ...], int]]) -> list[float]:
-    """Return the share of each bin among the samples of up to two blocks, each with its bins and number of samples."""
-    shares, samples = [0.0] * BIN_COUNT, sum([count for _, count in blocks])  # whole numbers
-    for bins, _ in blocks:
-        shares = [share + n / samples for share, n in zip(shares, bins, strict=True)]
-    return shares
-
-
+_HARD, _FAST = HARD_FORCE * HARD_FORCE, FAST_RATE * FAST_RATE
+_STEADY_FROM, _STEADY_TO = [force * force for force in STEADY_FORCES]
+"""Squares of the limits that samples are compared with."""
 MAX_BLOCKS = 2 * WINDOW_REACH + 1
 """Number of blocks that are kept: one window."""
 MAX_STRIDES = 3
@@ -207,12 +208,18 @@ class FootBlocks:
     """Sum of |acc| over the block under way, m/s^2."""
     squares: float = 0.0
     """Sum of |acc|^2 over the block under way, (m/s^2)^2."""
-    acc_bins: list[int] = field(factory=lambda: [0] * BIN_COUNT)
-    """Number of samples of the block under way in each bin of |acc|; every sample is in a bin."""
+    count: int = 0
+    """Number of samples of the block under way."""
+    steady: int = 0
+    """Number of them between `STEADY_FORCES`."""
+    hard: int = 0
+    """Number of them from `HARD_FORCE` on."""
+    gyro_count: int = 0
+    """Number of them with a gyroscope."""
+    fast: int = 0
+    """Number of them from `FAST_RATE` on."""
     rate_squares: float = 0.0
     """Sum of |gyro|^2 over the block under way, (rad/s)^2."""
-    gyro_bins: list[int] = field(factory=lambda: [0] * BIN_COUNT)
-    """Number of samples of the block under way in each bin of |gyro|."""
     bias: Vec3 = ZERO
     """Gyroscope bias at the start of the block, rad/s."""
     resolution: float = 0.0
@@ -223,14 +230,8 @@ class FootBlocks:
     """Largest upward velocity in the block under way, m/s."""
     sink: float = 0.0
     """Largest downward velocity in the block under way, m/s, negative."""
-    speed: float = 0.0
-    """Largest square of the horizontal speed in the block under way, (m/s)^2."""
     flat_height: float = 0.0
     """Height at the last foot-flat, navigation frame, m."""
-    top: float = 0.0
-    """Greatest height since the last foot-flat, navigation frame, m."""
-    bottom: float = 0.0
-    """Lowest height since the last foot-flat, navigation frame, m."""
     strike_height: float | None = None
     """Height at the last heel-strike, navigation frame, m; None when there was none since foot-flat."""
     blocks: deque[ActivityBlock] = field(factory=deque)
@@ -245,46 +246,43 @@ class FootBlocks:
         self.index = index
         self.force = self.squares = self.rate_squares = 0.0
         self.total = ZERO
-        self.acc_bins = [0] * BIN_COUNT
-        self.gyro_bins = [0] * BIN_COUNT
+        self.count = self.steady = self.hard = self.gyro_count = self.fast = 0
         self.bias = bias
         self.resolution = resolution
         self.tracked = False
-        self.climb = self.sink = self.speed = 0.0
+        self.climb = self.sink = 0.0
 
-    def add(self, acc: Vec3, gyro: Vec3 | None, velocity: Vec3 | None, height: float) -> None:
+    def add(self, acc: Vec3, gyro: Vec3 | None, velocity: Vec3 | None) -> None:
         """Add a sample to the block under way.
 
-        `velocity`, m/s, and `height`, m, are those of the foot after it, z up; no velocity: the motion is not known."""
+        `velocity`, m/s, z up, is that of the foot after it; None when it is not known."""
         x, y, z = acc
-        length = sqrt(x * x + y * y + z * z)
+        square = x * x + y * y + z * z
         a, b, c = self.total
         self.total = (a + x, b + y, c + z)
-        self.force += length
-        self.squares += length * length
-        self.acc_bins[int(length * 0.5) if length < ACC_LIMIT else BIN_COUNT - 1] += 1
+        self.count += 1
+        self.force += sqrt(square)
+        self.squares += square
+        if square >= _HARD:
+            self.hard += 1
+        elif _STEADY_FROM <= square < _STEADY_TO:
+            self.steady += 1
         if gyro is None:
             return
         (x, y, z), (u, v, w) = gyro, self.bias
         square = (x - u) * (x - u) + (y - v) * (y - v) + (z - w) * (z - w)
-        rate = sqrt(square)
+        self.gyro_count += 1
         self.rate_squares += square
-        self.gyro_bins[int(rate) if rate < RATE_LIMIT else BIN_COUNT - 1] += 1
+        if square >= _FAST:
+            self.fast += 1
         if velocity is None:
             return
         self.tracked = True
-        x, y, z = velocity
+        z = velocity[2]
         if z > self.climb:
             self.climb = z
         elif z < self.sink:
             self.sink = z
-        square = x * x + y * y
-        if square > self.speed:
-            self.speed = square
-        if height > self.top:
-            self.top = height
-        elif height < self.bottom:
-            self.bottom = height
 
     def add_events(self, events: Sequence[object], height: float) -> None:
         """Add the events of a sample; `height` is the foot's, navigation frame, m."""
@@ -295,12 +293,12 @@ class FootBlocks:
                 self.strike_height = height
         for event in events:
             if isinstance(event, FootFlat):
-                self.flat_height = self.top = self.bottom = height
+                self.flat_height = height
                 self.strike_height = None
 
     def close(self) -> None:
         """Close the block under way and keep it."""
-        n, rates = sum(self.acc_bins), sum(self.gyro_bins)  # whole numbers
+        n, rates = self.count, self.gyro_count
         if self.index is None or not n:
             return
         mean = self.force / n
@@ -312,14 +310,13 @@ class FootBlocks:
                 round(mean, 6),
                 variance,
                 self._lean(n, variance),
-                _limited(self.acc_bins),
+                self.steady,
+                self.hard,
                 rates,
                 round(self.rate_squares / rates, 6) if rates else 0.0,
-                _limited(self.gyro_bins),
-                self.tracked,
+                self.fast,
                 round(self.climb, 4),
                 round(self.sink, 4),
-                round(sqrt(self.speed), 4),
             )
         )
         if len(self.blocks) > MAX_BLOCKS:
@@ -340,22 +337,15 @@ class FootBlocks:
         return lean
 
     def _add_stride(self, stride: StrideTaken) -> None:
-        features = stride.features
-        # use heights as integrated: the network was trained with them; clearance is above the higher end of the stride
-        rise = integrated_rise(stride)
-        clearance = features.clearance + max(stride.height_change, 0.0) - max(rise, 0.0)
+        rise = integrated_rise(stride)  # the weights were learnt with heights as integrated
+        strike_height = 0.0 if self.strike_height is None else self.strike_height - self.flat_height
         self.strides.append(
             BlockStride(
                 stride.t_start,
                 stride.t_end,
-                round(stride.length, 4),
-                round(rise, 4),
-                round(clearance, 4),
-                round(features.peak_speed, 4),
-                round(features.swing_pitch, 4),
-                round(self.top - self.flat_height, 4),
-                round(self.bottom - self.flat_height, 4),
-                0.0 if self.strike_height is None else round(self.strike_height - self.flat_height, 4),
+                round(min(stride.length, MAX_LENGTH), 4),
+                round(max(-MAX_RISE, min(MAX_RISE, rise)), 4),
+                round(max(-MAX_RISE, min(MAX_RISE, strike_height)), 4),
             )
         )
         if len(self.strides) > MAX_STRIDES:
@@ -365,7 +355,7 @@ class FootBlocks:
         """Discard all blocks and strides, because the clock restarts or another device is worn."""
         self.index = None
         self.rested, self.rest_force = 0, ZERO
-        self.acc_bins = [0] * BIN_COUNT
+        self.count = 0
         self.blocks.clear()
         self.strides.clear()
 
@@ -373,13 +363,19 @@ class FootBlocks:
         """Return the block number `index`; None when it has no samples."""
         return next((block for block in self.blocks if block.index == index), None)
 
-    def features(self, index: int, t: float) -> list[float] | None:
+    def window(self, index: int) -> list[ActivityBlock]:
+        """Return the blocks in the window around the block number `index`."""
+        return [block for block in self.blocks if -WINDOW_REACH <= block.index - index <= WINDOW_REACH]
+
+    def features(self, index: int, t: float) -> BlockFeatures | None:
         """Return the features of the block number `index`, whose middle is at `t`, s; None when it has no samples."""
         here = self.block(index)
         if here is None:
             return None
-        near = [block for block in self.blocks if -WINDOW_REACH <= block.index - index <= WINDOW_REACH]
-        return features_of(here, near, self._stride_at(t))
+        window, stride = self.window(index), self._stride_at(t)
+        if any([block.gyro_count for block in window]):
+            return BlockFeatures(True, features_of(here, window, stride), stride)
+        return BlockFeatures(False, force_features_of(here, window), stride)
 
     def _stride_at(self, t: float) -> BlockStride | None:
         """Return the stride nearest to `t`, s; None when none is within a quarter of a second."""
@@ -390,7 +386,3 @@ class FootBlocks:
             if distance <= nearest:
                 best, nearest = stride, distance
         return best
-
-
-def _limited(bins: list[int]) -> tuple[int, ...]:
-    return tuple([min(n, 255) for n in bins])

@@ -1,19 +1,17 @@
-"""Parameters of the motion model: two small neural networks, and the statistics of their training data.
+"""The motion in half a second: a multinomial logistic regression on features that can be named, and slopes of strides.
 
-`motion_votes` turns the features of both feet into the likelihood of each motion with them.
-
-Each network has one hidden layer of tanh units and softmax outputs. One network uses all features; the other one serves
-feet without a gyroscope. `solepath-lab train activities` trains them and lists the training data. The result is
-activities.json in this directory. The file also has the transition chances and label delays that chain.py uses.
-"""
+`motion_votes` turns the features of both feet (foot_blocks.py) into the likelihood of each motion. Each feature has a
+weight for each motion; their sum plus a constant is the logarithm of the motion's odds. A second table of weights
+serves feet without a gyroscope. `solepath-lab train activities` learns the weights and lists the training data. The
+result is activities.json in this directory, a row for each feature. The file also has the transition chances and label
+delays that chain.py uses."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache, cached_property, lru_cache
-from itertools import repeat
-from math import dist, exp, fsum, hypot, inf, log, tanh
-from operator import truediv
+from math import exp, fsum, log
+from operator import mul
 from typing import Any
 
 from ...foot.bearing import RISE_ERROR, RISE_ERROR_SHARE, TREADS_RISE
@@ -21,13 +19,13 @@ from ...types import Activity, Floats
 from ...types.attrs import frozen
 from .chain import Chain, Chances, Shifts, chain_of
 from .elevator_evidence import SWAY_DEVIATION, BlockForce
-from .foot_blocks import FIRST_GYRO_FEATURE, MAX_RISE, MOVING_VARIANCE, ActivityBlock, stride_of
+from .foot_blocks import MAX_RISE, MAX_STRIDE_TIME, MOVING_VARIANCE, ActivityBlock, BlockFeatures, Row
 
 # Evidence of the slope of a stride for stairs: its rise over its length, with the errors that both have.
 #
 # The rise of a stride on the level is 0, on stairs that of two treads, or of four if the wearer takes two at a time,
 # and each is measured with an error that grows with the length. The logarithm of the likelihood ratio of stairs to
-# level is evidence that anyone can check, beside that of a network which may never have seen how this wearer climbs. A
+# level is evidence that anyone can check, beside that of weights which may never have seen how this wearer climbs. A
 # ramp of one in twelve is level by it. A track without heights has strides without rise, which are level.
 
 TREADS_DEVIATION = 0.06
@@ -66,57 +64,35 @@ def slope_evidence(length: float, rise: float) -> SlopeEvidence:
     return SlopeEvidence(*found)
 
 
-MOTIONS = ("still", "walking", "running", "stairs_up", "stairs_down")
-"""Motions that one foot's samples can distinguish, in the order of the network outputs.
+MOTIONS = ("still", "walking", "running", "stairs_up", "stairs_down", "other")
+"""Motions that one foot's samples can distinguish, in the order of the first states of chain.py.
 
-"still" is standing and riding in an elevator."""
+"still" is standing and riding in an elevator, "other" is a bicycle, jumps, and whatever is none of the activities."""
 
-Row = tuple[float, ...]
-
-
-@frozen
-class Network:
-    """A neural network with one hidden layer."""
-
-    hidden: tuple[Row, ...]
-    """Weights of the hidden layer, one row for each unit."""
-    hidden_bias: Row
-    output: tuple[Row, ...]
-    """Weights of the output layer, one row for each of `MOTIONS`."""
-    output_bias: Row
-
-    @cached_property
-    def hidden_half(self) -> Row:
-        """Bias of each hidden unit plus half the squared length of its weights (`_weighted_sums`)."""
-        return _with_half_squares(self.hidden, self.hidden_bias)
-
-    @cached_property
-    def output_half(self) -> Row:
-        """Bias of each output unit plus half the squared length of its weights."""
-        return _with_half_squares(self.output, self.output_bias)
+CONSTANT = "constant"
+"""Name of the first row of weights, whose feature is 1."""
+Weights = dict[str, Row]
+"""Weights by the name of the feature, one for each of `MOTIONS`; the first row is `CONSTANT`."""
 
 
 @frozen
 class MotionModel:
-    """The learnt parameters: two networks, statistics of the features, chances and delays of the chain."""
+    """The learnt parameters: weights of the features, chances and delays of the chain."""
 
     trained_on: str
     """Description of the training data, one sentence."""
-    whole: Network
-    """Network for all `FEATURE_COUNT` features, used with a gyroscope."""
-    alone: Network
-    """Network for the first `FIRST_GYRO_FEATURE` features, used without a gyroscope."""
-    usual: tuple[Row, ...]
-    """Means of the first `FIRST_GYRO_FEATURE` features, one row for each of `MOTIONS`."""
-    spread: tuple[Row, ...]
-    """Standard deviations of the first `FIRST_GYRO_FEATURE` features, one row for each of `MOTIONS`."""
+    gyroscope: Weights
+    """Weights of `FEATURES`."""
+    alone: Weights
+    """Weights of `FORCE_FEATURES`, for feet without a gyroscope."""
     chances: Chances
     shifts: Shifts
 
     @cached_property
-    def middles(self) -> tuple[Row, ...]:
-        """Rows of `usual` divided by the rows of `spread`."""
-        return tuple([tuple(map(truediv, *rows)) for rows in zip(self.usual, self.spread, strict=True)])
+    def columns(self) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
+        """The weights of each motion, alone and with a gyroscope."""
+        alone, gyroscope = [tuple(zip(*rows.values(), strict=True)) for rows in (self.alone, self.gyroscope)]
+        return alone, gyroscope
 
     @cached_property
     def chain(self) -> Chain:
@@ -131,23 +107,13 @@ def load_released_model() -> MotionModel:
     from pkgutil import get_data
 
     data: dict[str, Any] = json.loads(get_data(__package__, "activities.json") or b"")
+    gyroscope, alone = [{name: _row(row) for name, row in data[table].items()} for table in ("gyroscope", "alone")]
     return MotionModel(
         trained_on=data["trained_on"],
-        whole=_network(data["whole"]),
-        alone=_network(data["alone"]),
-        usual=_rows(data["usual"]),
-        spread=_rows(data["spread"]),
-        chances=_rows(data["chances"]),
+        gyroscope=gyroscope,
+        alone=alone,
+        chances=tuple([_row(row) for row in data["chances"]]),
         shifts=tuple([(Activity(a), Activity(b), shift) for a, b, shift in data["shifts"]]),
-    )
-
-
-def _network(data: dict[str, Any]) -> Network:
-    return Network(
-        hidden=_rows(data["hidden"]),
-        hidden_bias=_row(data["hidden_bias"]),
-        output=_rows(data["output"]),
-        output_bias=_row(data["output_bias"]),
     )
 
 
@@ -155,100 +121,55 @@ def _row(data: Sequence[Any]) -> Row:
     return tuple([float(value) for value in data])
 
 
-def _rows(data: Sequence[Sequence[Any]]) -> tuple[Row, ...]:
-    return tuple([_row(row) for row in data])
-
-
-def _with_half_squares(rows: Sequence[Row], bias: Row) -> Row:
-    return tuple([b + 0.5 * fsum([w * w for w in row]) for row, b in zip(rows, bias, strict=True)])
-
-
 # Votes (log-likelihoods) of both feet on the motion in a block of half a second, and their sum.
-#
-# Sums of products use math.dist: w x = (w w + x x - |w - x|^2) / 2. It is the only loop over floats that runs in C in
-# every Python from 3.11 on, three times as fast as sum(map(mul, ...)), and gives the same bits everywhere. The result
-# is off by 1e-12 at most, and hypotheses.py rounds the scores to 1e-4.
 
 STILL, STAIRS_UP, STAIRS_DOWN = [MOTIONS.index(motion) for motion in ("still", "stairs_up", "stairs_down")]
-LEAST_LENGTH, LONGEST_STRIDE, STRIDE_EVIDENCE = 0.2, 1.6, 4.0
-"""Least length, m, and longest duration, s, of a stride that speaks against a foot that stands, and by how much.
+LEAST_LENGTH, STRIDE_EVIDENCE = 0.2, 4.0
+"""Least length, m, of a stride that speaks against a foot that stands, and by how much.
 
-Feet that step sideways or backwards turn little, which a network takes for standing; but nobody stands and strides. The
-first stride after standing lasts longer. Chosen on emulated walks sideways; on hugadb it costs 0.1 points."""
-VOTE_WEIGHT = 0.6
-"""Weight of one vote; it is below 1 because neighbouring windows share samples."""
-LESSER_WEIGHT = 0.3
+Feet that step sideways or backwards turn little, which is usual for standing; but nobody stands and strides. The first
+stride after standing lasts longer than `MAX_STRIDE_TIME`. Chosen on emulated walks sideways."""
+LESSER_WEIGHT = 0.5
 """Weight of the vote of a foot without a gyroscope beside one that has one: it takes stairs for level ways. A half; a
 quarter is the same to 0.1 points (hugadb)."""
 MIN_VOTE = -12.0
 """Lowest vote (natural logarithm)."""
-UNKNOWN_COST = 3.0
-"""Penalty (minus log-likelihood) of an unknown activity for a foot of usual motion."""
-USUAL_STRANGENESS = 6.0
-"""Largest `strangeness` of usual motion; above it, an unknown activity becomes likelier."""
+NO_SAMPLES = (*[-1.0] * (len(MOTIONS) - 1), 0.0)
+"""Votes without samples: nobody knows what is done."""
 VARIANCE_SHARE = 0.05
 """Share of the variance of |acc| in a block that counts as variance of its mean."""
 MAX_STANDING_FORCE = 40.0
 """Largest mean force of a standing foot, m/s^2."""
 
 
-def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> Floats:
-    """Return the log-likelihoods of `MOTIONS` and of an unknown activity, from the features of each foot or None."""
+def motion_votes(model: MotionModel, feet: Sequence[BlockFeatures | None]) -> Floats:
+    """Return the log-likelihoods of `MOTIONS`, from the features of each foot or None."""
     votes = [0.0] * len(MOTIONS)
-    unknown = 0.0
-    known = False
-    with_gyro = any([features is not None and features[FIRST_GYRO_FEATURE] for features in feet])
-    for features in feet:
-        if features is None:
-            continue
-        known = True
-        weight = VOTE_WEIGHT if features[FIRST_GYRO_FEATURE] or not with_gyro else LESSER_WEIGHT
-        network = model.whole if features[FIRST_GYRO_FEATURE] else model.alone
-        for i, likely in enumerate(log_probabilities(network, features)):
+    shown = [one for one in feet if one is not None]
+    if not shown:
+        return NO_SAMPLES
+    with_gyro = any([one.gyroscope for one in shown])
+    for one in shown:
+        weight = 1.0 if one.gyroscope or not with_gyro else LESSER_WEIGHT
+        for i, likely in enumerate(log_probabilities(model.columns[one.gyroscope], one.values)):
             votes[i] += weight * max(likely, MIN_VOTE)
-        stride = stride_of(features)
+        stride = one.stride
         if stride is not None:
-            duration, length, rise = stride
-            slope = slope_evidence(length, rise)
-            if length > LEAST_LENGTH and duration < LONGEST_STRIDE:
+            slope = slope_evidence(stride.length, stride.rise)
+            if stride.length > LEAST_LENGTH and stride.end - stride.start < MAX_STRIDE_TIME:
                 votes[STILL] -= STRIDE_EVIDENCE
             votes[STAIRS_UP] += slope.up
             votes[STAIRS_DOWN] += slope.down
-        unknown += weight * min(0.5 * (strangeness(model, features) - USUAL_STRANGENESS) - UNKNOWN_COST, 0.0)
-    return (*votes, unknown) if known else (*[-1.0] * len(MOTIONS), 0.0)
+    return tuple(votes)
 
 
-def log_probabilities(network: Network, features: Sequence[float]) -> list[float]:
-    """Return the natural logarithm of the probability of each of `MOTIONS` by a network.
-
-    Features beyond the network's inputs are ignored."""
-    inputs = tuple(features[: len(network.hidden[0])])
-    hidden_values = tuple(map(tanh, _weighted_sums(network.hidden, network.hidden_half, inputs)))
-    output_values = _weighted_sums(network.output, network.output_half, hidden_values)
-    highest = max(output_values)
-    total = highest + log(fsum([exp(value - highest) for value in output_values]))
-    return [value - total for value in output_values]
-
-
-def strangeness(model: MotionModel, features: Sequence[float]) -> float:
-    """Return the distance of features from the training data: 1 is usual, 4 is two standard deviations everywhere.
-
-    It is the mean squared deviation from the nearest motion, over all accelerometer features, in standard
-    deviations."""
-    inputs, nearest = features[:FIRST_GYRO_FEATURE], inf
-    for spread, middle in zip(model.spread, model.middles, strict=True):
-        distance = dist([value / deviation for value, deviation in zip(inputs, spread, strict=True)], middle)
-        if distance < nearest:
-            nearest = distance
-    return nearest * nearest / FIRST_GYRO_FEATURE
-
-
-def _weighted_sums(rows: Sequence[Row], half: Row, inputs: Row) -> list[float]:
-    """Return bias + w x for each row w; `half` has the bias plus w w / 2."""
-    length = hypot(*inputs)
-    square = 0.5 * length * length
-    distances = map(dist, rows, repeat(inputs))
-    return [constant + square - 0.5 * distance * distance for constant, distance in zip(half, distances, strict=True)]
+def log_probabilities(columns: Sequence[Row], values: Row) -> list[float]:
+    """Return the natural logarithm of the probability of each of `MOTIONS`, by the weights of each and the features."""
+    inputs = (1.0, *values)
+    sums = [fsum(map(mul, weights, inputs)) for weights in columns]
+    highest = max(sums)
+    total = highest + log(fsum([exp(value - highest) for value in sums]))
+    return [value - total for value in sums]
 
 
 def block_force(block: ActivityBlock | None, resolution: float) -> BlockForce | None:
