@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from math import fsum, hypot, sqrt
 from struct import Struct
 
-from ..events import Defect, DefectFound, FeetSwapped, FootResumed, FootSilent, SampleRejected, StrideTaken, ToeOff
+from ..events import Defect, DefectFound, FeetSwapped, FootResumed, FootSilent, StrideTaken, ToeOff
 from ..foot.view import FootView
 from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec2, Vec3, per_foot
 from ..types.attrs import ROW_SIZE, define, field, frozen, state, stateful
@@ -291,7 +291,7 @@ class FootSilence:
     """The time without samples of one foot."""
 
     t: float | None = None
-    """Time of the newest sample, s; None before any, and while those that come cannot be used, which is said then."""
+    """Time of the newest sample, s; None before any, and of a stuck sensor, which is said then."""
     strides_since: int = 0
     """Number of strides that the other foot has taken since `t`."""
     silent: bool = False
@@ -332,8 +332,6 @@ class Wear(Part):
         for event in events:
             if isinstance(event, LayoutReported) and event.site.foot is not None:
                 self.sides.set_layout(event.site.foot, event.layout)
-            elif isinstance(event, SampleRejected) and event.site.foot is not None:
-                self.feet[event.site.foot].t = None
         if view is None:
             return ()
         t, this, other = view.t, self.feet[view.foot], self.feet[OTHER[view.foot]]

@@ -321,7 +321,8 @@ class SessionState:
         tracker = self._tracker(foot) if known_tracker is None else known_tracker
         events = tracker.feed(sample)
         if events and isinstance(events[0], SampleRejected):
-            self._run_parts(events, None, events[0].known_at)
+            if events[0].defect is not None:
+                self._run_parts(events, None, events[0].known_at)
             return events
         if known_tracker is None and (tracker.t is not None or tracker.stuck.held):
             self._add_tracker(tracker)
