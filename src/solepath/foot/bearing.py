@@ -87,8 +87,8 @@ def features(stride: StrideTaken, previous: StrideTaken | None) -> tuple[float, 
     `previous` is the stride before it in the same bout, if any. The features are: how much shorter the longest rest is
     than that of a walker or runner; how far the force in it is from gravity; the logarithm of the range of the specific
     force; how far the greatest speed differs from that of a swing of this length and time; shortness; the rise beyond
-    the error of a floor or a tread; how much higher than far the foot goes; the time of the swing beyond usual ones; the
-    speed beyond that of a walk; and the change of length and of swing since the stride before."""
+    the error of a floor or a tread; how much higher than far the foot goes; the time of the swing beyond usual ones;
+    the speed beyond that of a walk; and the change of length and of swing since the stride before."""
     measured, length = stride.features, max(stride.length, LEAST_LENGTH)
     swing, time = _swing(stride), max(0.1, min(stride.t_end - stride.t_start, LONGEST_TIME))
     off_gravity = NO_REST if measured.rest_force is None else min(4.0, abs(measured.rest_force - GRAVITY))

@@ -329,7 +329,7 @@ SHAKEN_ACC, IDLE_GYRO = 10.0, 0.25
 A foot at rest stays below the latter."""
 IDLE_BLOCKS, IDLE_CHANGE = 6, 3.0
 """Number of blocks of a foot that walks without any angular rate before it is reported, and least change of the mean
-specific force from one such block to the next, m/s^2: gravity turns in a foot that walks, not in one on a rough road."""
+specific force from one such block to the next, m/s^2: gravity turns in a foot that walks, not in a car."""
 
 
 @define
