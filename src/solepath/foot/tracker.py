@@ -135,7 +135,7 @@ class FootTracker:
         )  # fmt: skip
 
     def mark_defect(self, defect: Defect) -> None:
-        """Mark strides as flawed from now until `reset`: all, or those with cut-off peaks where the range is too small."""
+        """Mark strides as flawed from now until `reset`: all, or if a range is too small those with cut-off peaks."""
         if defect is Defect.CLIPPED:
             self.gait.stride.clips = True
         else:
