@@ -88,8 +88,8 @@ LONGEST_HARMLESS_GAP = 0.06
 """Longest gap that is no flaw at any rate, s: shorter ones cost a centimetre of a length (`solepath-lab damage
 losses`)."""
 HARMLESS_INTERVALS = 3.5
-"""Longest gap that is no flaw at a low rate, in intervals: with up to two lost samples. At 25 Hz they add less to the
-errors of lengths than the rate itself (emulated walks and pyshoe_vicon)."""
+"""Longest gap that is no flaw at a low rate, in intervals: with up to two lost samples. At 25 Hz lengths err by
+0.115 m without a loss and by 0.141 m with one lost sample (pyshoe_vicon, every eighth sample); with two they were few."""
 
 
 def is_harmless(gap: float, interval: float) -> bool:
