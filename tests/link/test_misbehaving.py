@@ -11,7 +11,18 @@ from soak import soaked
 from uncounted import ACC, GYRO, SITE, board
 from walks import of
 
-from solepath import Activity, ActivityChanged, DefectFound, Event, Foot, Packet, SampleGap, Session, StrideTaken
+from solepath import (
+    Activity,
+    ActivityChanged,
+    DefectFound,
+    Event,
+    Foot,
+    Limitation,
+    Packet,
+    SampleGap,
+    Session,
+    StrideTaken,
+)
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.link.driver import Driver, Measured, Reading
@@ -116,6 +127,17 @@ def test_zeros_until_the_first_measurement_are_no_strides_and_no_motion(name: st
     strides, distance = plain(name)
     assert (lost(events), len(of(StrideTaken, events)), len(of(DefectFound, events))) == (0, strides, 0)
     assert session.position is not None and session.position.position[0] == pytest.approx(distance, abs=0.05)
+
+
+@pytest.mark.parametrize("name", ["8 bits", *soaked("16 bits", "8 bits and a clock of 65.5 s")])
+@pytest.mark.parametrize("declared", [75.0, 110.0, *soaked(60.0, 90.0, 140.0, 190.0)])
+def test_a_device_that_counts_goes_by_the_rate_that_arrives(name: str, declared: float) -> None:
+    driver = evolve(DRIVERS[name], profile=evolve(DRIVERS[name].profile, nominal_rate=declared))
+    session, events = walk(driver, Course(distance=60.0))
+    assert lost(events) == 0 and session.position is not None
+    assert session.position.position[0] == pytest.approx(60.0, abs=4.0), "but for two strides until the rate is known"
+    (said,) = [event.what for event in of(Limitation, events) if "arrive" in event.what]
+    assert f"not the {declared:g} that were set" in said
 
 
 def test_a_sensor_that_sends_nothing_but_zeros_is_named() -> None:

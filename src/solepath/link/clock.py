@@ -36,6 +36,8 @@ MAX_WINDOWS = 32
 """Largest number of windows that the fit keeps."""
 MAX_DRIFT = 0.06
 """Largest relative deviation of the slope from nominal (some insoles run 4 % fast by design)."""
+OTHER_RATE_TIME = 2.0
+"""Time of arrivals after which a slope beyond MAX_DRIFT shows another rate, s; chosen by hand."""
 MAX_SLEW, MAX_FAST_SLEW, LARGE_ERROR = 0.005, 0.02, 0.25
 """Largest relative slew, largest relative slew for a large error, and smallest large error (s)."""
 SLEW_TIME = 2.0
@@ -77,6 +79,8 @@ class Clock:
     """Slope of the line minus 1; positive when the device's clock is slow."""
     offset: float = 0.0
     """Height of the line at the first packet, relative to `origin`, s."""
+    other_slope: float = 0.0
+    """Slope of the line minus 1 where it is surely beyond MAX_DRIFT, so that the rate is another one; else 0."""
     behind_since: float | None = None
     """Arrival since which every packet came later than STOPPED_DELAY, s; None if the newest one did not."""
     last_device_time: float | None = None
@@ -189,14 +193,16 @@ class Clock:
             if x_b >= middle:
                 slope = (r_b - r_a) / (x_b - x_a)
                 break
-        drift = max(-MAX_DRIFT, min(MAX_DRIFT, slope))
+        drift, self.other_slope = max(-MAX_DRIFT, min(MAX_DRIFT, slope)), 0.0
         # The uncertainty of the slope is four times the points' mean height above the line, divided by the span of
         # their times. Few points always lie close to a line, so `spare_points` enlarge it. A drift below its
         # uncertainty is reduced towards 0; a drift of 4 % is followed within about two seconds.
         spare_points, share = len(points) - 4, 0.0
         if spare_points > 0 and drift != 0.0:
-            heights, span = [r - drift * x for x, r in points], points[-1][0] - points[0][0]
+            heights, span = [r - slope * x for x, r in points], points[-1][0] - points[0][0]
             error = 4.0 * (fsum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / spare_points)
             share = drift * drift / (drift * drift + error * error)
+            if abs(slope) - error > MAX_DRIFT and span * (1.0 + slope) > OTHER_RATE_TIME:
+                self.other_slope = slope
         drift *= share
         self.drift, self.offset = drift, min([r - drift * x for x, r in points])

@@ -238,8 +238,7 @@ class PeriodicClock:
         if abs(declared / period - 1.0) <= OTHER_RATE:
             return []
         self.rate_reported = True
-        what = f"{count} arrive, not the {1.0 / declared:.3g} that were set: sample times go by what arrives"
-        return [Limitation(t=t, site=site, what=what)]
+        return [other_rate(site, t, count, 1.0 / declared)]
 
     def _is_copy(self, arrival: float, period: float) -> bool:
         """Return whether a value that repeats the newest one, directly after it, is the same measurement."""
@@ -349,3 +348,9 @@ class PeriodicClock:
         self.slot, self.newest_arrival, self.count_start = 0.0, arrival, arrival
         self.slipped_packets = self.revisable_packets = self.settled_packets = self.unsure = 0
         self.behind = self.ahead = self.stand_out = self.count = 0.0
+
+
+def other_rate(site: Site, t: float, arriving: str, declared: float) -> Limitation:
+    """Return that other samples arrive, in words, than the number a second that was declared."""
+    what = f"{arriving} arrive, not the {declared:.3g} that were set: sample times go by what arrives"
+    return Limitation(t=t, site=site, what=what)

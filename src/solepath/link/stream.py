@@ -22,7 +22,7 @@ from .clock import MIN_INCREMENT
 from .counters import MIN_GAP, PacketPosition, PacketRun, SampleTimes, signed_difference
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
-from .periodic import PeriodicClock
+from .periodic import PeriodicClock, other_rate
 
 TICKS_PER_SAMPLE = 100
 """Ticks that stand for one sample of a device that only counts; more than one, as a pause may end between samples."""
@@ -168,7 +168,7 @@ class StreamLink(DeviceLink):
         return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
 
     def _make_samples(self, driver: Driver, data: bytes, reading: Reading, arrival: float) -> Output:
-        axis, run = driver.axis, self.packet_run
+        axis, run, other_slope = driver.axis, self.packet_run, 0.0
         rate = self.rate if reading.rate is None else reading.rate
         checksum = crc32(data)
         if checksum == self.last_value and run.after_reconnection and axis is not TimeAxis.ARRIVAL:
@@ -189,10 +189,14 @@ class StreamLink(DeviceLink):
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
+            other_slope = 0.0 if run.clock is None or reading.rate is not None else run.clock.other_slope
         self.last_value = checksum
         out: Output = [*sample_times.make_events(self.site, arrival)]
         if self.periodic is not None:
             out += self.periodic.report_rate(len(reading.samples), self.site, arrival)
+        if other_slope:  # the next packet starts a fit at the rate that arrives
+            self._set_rate(rate / (1.0 + other_slope))
+            out.append(other_rate(self.site, arrival, f"{self.rate:.3g} samples a second", rate))
         if not self.limitation_reported:
             unused = UNUSED_TICKS if reading.ticks is not None and not driver.tick_rate else ""
             out += self.report_limitation("; ".join(filter(None, (driver.limitation, unused))), arrival)
