@@ -322,6 +322,8 @@ class FootTracker:
         gait.stride.add_gap(
             t_last, t, self.rhythm.usual_interval or 0.0 if duration <= self.rhythm.longest_loss else duration
         )
+        if duration > self.rhythm.longest_loss:
+            gait.stride.t_start = None  # nothing is known of an absence, so no stride lasts through it
         if duration > LONGEST_BRIDGE:
             self.rest.end_rest()
             self.levelling = Levelling()
