@@ -75,7 +75,7 @@ TABLE: dict[str, dict[str, str]] = {
         "solepath.papers.footstep_tracker.snake:PrintedSnake",
         "solepath.papers.shoe_sensing.short_time_energy:ShortTimeEnergy",
         "solepath.papers.shoe_sensing.printed:GatedTilt",
-        "solepath.papers.shoe_sensing.gated_tilt:ShoeSensing",
+        "solepath.papers.shoe_sensing.additions:ShoeSensing",
         "solepath.papers.shoe_sensing.walking_state:AnglePerMetre",
     ),
     # classes that are loaded with the first sample that needs them (saving/schema.py)

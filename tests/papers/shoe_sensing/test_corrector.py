@@ -10,7 +10,7 @@ import pytest
 from hypothesis import strategies as st
 
 from solepath.foot.stance.stance import Stance
-from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing
+from solepath.papers.shoe_sensing.additions import ShoeSensing
 from solepath.types import Phase, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector, multiply
 

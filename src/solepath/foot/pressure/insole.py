@@ -267,7 +267,9 @@ def above(unloaded: Iterable[float], cells: Floats) -> Floats:
 def weighted_sums(
     cells: Iterable[float], tare: Iterable[float], xs: Iterable[float], ys: Iterable[float]
 ) -> tuple[float, float, float]:
-    """Return the sums of the loads above tare, of loads times `xs`, and of loads times `ys`; all have one length."""
+    """Return the sums of the loads above tare, of loads times `xs`, and of loads times `ys`; all have one length.
+
+    In Chen et al. 2019 copY, from heel to toe, is x_sum / total, and copX is y_sum / total, equations (3) and (2)."""
     total = x_sum = y_sum = 0.0
     for value, unloaded, x, y in zip(cells, tare, xs, ys, strict=True):
         if value > unloaded:

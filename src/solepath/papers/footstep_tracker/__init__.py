@@ -1,6 +1,7 @@
 """Liu et al. 2015: strides of a 20 Hz SensorTag (the paper's steps), turns, activities, a Snake game on the plan.
 
-Where the paper's sections are:
+"Track your foot step: anchor-free indoor localization based on sensing users' foot steps", IEEE MASS 2015. Where the
+paper's sections are:
 
 - III, IV, figs. 1 to 3, framework and sensor: recipe.py, link/devices/cc2541.py
 - IV.A, fig. 5, table I, activity classifier: activity/two_second_windows.py (tree, elevator), hmm.py, window_model.py

@@ -16,7 +16,7 @@ from .swing_drift import SwingDedrift
 BOARD_SHARE = 0.44
 """Place of the circuit board between an insole's two areas, from the heel's end, as a share of its length.
 
-The paper has 12.5 cm of 28.5 cm."""
+The paper has 12.5 cm; 28.5 cm, the length of a 10.5 US shoe, is assumed."""
 
 SOME_LOAD = 0.005
 """Load of an area of the insole that counts as "some forces" in `KUPT_DFPC_PRINTED`, as a share of the full load.

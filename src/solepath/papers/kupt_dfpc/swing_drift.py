@@ -1,8 +1,9 @@
 """Corrector of KUPT as printed: the velocity is known from heel-strike to toe-off, in swing its drift is linear (8).
 
 Chen et al., "Smart insole-based indoor localization system for Internet of Things applications" (IEEE Internet of
-Things Journal 6, 2019), section III.C.3, equations (8) and (10). The known velocities come from known_velocity.py. A
-raw velocity is integrated from motion start without correction."""
+Things Journal 6, 2019), section III.C.3, equation (8), and section III.C.4, error index (10). The known velocities come
+from known_velocity.py. A raw velocity is integrated from motion start without correction. The integral of (8) is
+computed at motion end (`SwingDedrift._calibrated_displacement`); single velocities V_calibrated are not kept."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 """Navigation of Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), sections 3.2 to 3.4.
 
 Gravity corrects the tilt in stance only. A drift that is linear in time is removed from the velocity and, on level
-strides, from the height. Numbers without a source were chosen by hand."""
+strides, from the height. V(T) and S(T) are integrated by `Strapdown`; here their drift is taken off. Numbers without a
+source were chosen by hand."""
 
 from __future__ import annotations
 

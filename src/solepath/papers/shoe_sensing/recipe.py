@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...body.activity.activities import Activities
 from ...recipes import Recipe, usual_parts
 from ...types.attrs import evolve
-from .gated_tilt import ShoeSensing
+from .additions import ShoeSensing
 from .printed import GatedTilt
 from .short_time_energy import ShortTimeEnergy, printed_energy
 from .walking_state import AnglePerMetre

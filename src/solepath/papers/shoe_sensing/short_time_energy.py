@@ -1,7 +1,7 @@
 """Stance evidence of Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.1.2.
 
 `ShortTimeEnergy` uses the short-time energy of the magnitude of the specific force. The paper's baseline, the magnitude
-itself, is in solepath_lab/reproduce/shoe. Numbers without a source were chosen by hand."""
+itself, is in solepath_lab/reproduce/shoe/variants.py. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from solepath.emulate.sensors.parts import LSM6DSOX, MPU6050, Imu
 from solepath.emulate.wearers.contact import RIGID, GroundContact
 from solepath.emulate.wearers.shoe import ON_HEEL, ON_INSTEP, Mounting
 from solepath.foot.stance.stance import Detector, Load, Stance
-from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing
+from solepath.papers.shoe_sensing.additions import ShoeSensing
 from solepath.papers.shoe_sensing.printed import GatedTilt
 from solepath.papers.shoe_sensing.recipe import SHOE_SENSING, SHOE_SENSING_PRINTED
 from solepath.papers.shoe_sensing.short_time_energy import printed_energy
