@@ -89,7 +89,7 @@ LONGEST_HARMLESS_GAP = 0.06
 losses`)."""
 HARMLESS_INTERVALS = 3.5
 """Longest gap that is no flaw at a low rate, in intervals: with up to two lost samples. At 25 Hz lengths err by
-0.115 m without a loss and by 0.141 m with one lost sample (pyshoe_vicon, every eighth sample); with two they were few."""
+0.115 m without a loss and by 0.141 m with one lost sample (pyshoe_vicon, every eighth sample); two were rare."""
 
 
 def is_harmless(gap: float, interval: float) -> bool:

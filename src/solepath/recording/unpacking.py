@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import bz2
 import gzip
-import lzma
 import zlib
 from collections.abc import Callable, Sequence
 from io import BufferedReader, RawIOBase
@@ -16,6 +15,11 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
 
 from .errors import SAMPLE_SUFFIXES, RecordingError, describe_error, open_file, printable
 
+try:
+    import lzma
+except ImportError:  # Python in a browser has no lzma: .xz is not known there
+    lzma = None  # type: ignore[assignment]
+
 MAX_RATIO = 100.0
 """Largest ratio of unpacked to packed size. Tables of walks have 2 to 12, of a sensor that lies still 20; DEFLATE
 itself ends at 1032."""
@@ -24,11 +28,13 @@ HARMLESS = 5_000_000
 PACKED: dict[bytes, tuple[str, Callable[[BinaryIO], Any]]] = {
     b"\x1f\x8b": (".gz", lambda file: gzip.GzipFile(fileobj=file)),
     b"BZ": (".bz2", bz2.BZ2File),
-    b"\xfd7": (".xz", lzma.LZMAFile),
 }
 """Suffix and reader of each kind of compressed file, by its first bytes."""
-ERRORS = (OSError, zlib.error, lzma.LZMAError, BadZipFile, NotImplementedError, RuntimeError)
+ERRORS: tuple[type[Exception], ...] = (OSError, zlib.error, BadZipFile, NotImplementedError, RuntimeError)
 """Errors of these readers for damaged data; RuntimeError is for an archive with a password."""
+if lzma is not None:
+    PACKED[b"\xfd7"] = (".xz", lzma.LZMAFile)
+    ERRORS = (*ERRORS, lzma.LZMAError)
 
 
 def check_ratio(path: Path, unpacked: float, packed: float) -> None:

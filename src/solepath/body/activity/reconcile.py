@@ -27,10 +27,11 @@ GAITS = (Activity.WALKING, Activity.RUNNING, Activity.STAIRS_UP, Activity.STAIRS
 BOUT_PAUSE = 3.0
 """Longest pause within one bout of walking, s (Kluge et al., "Consensus based framework for digital mobility
 monitoring", PLoS ONE 16, 2021)."""
-LONGEST_TURN = 8.0
-"""Longest time between two strides with a turn on the spot, s: a pause before it, one after it, and a step of 2 s."""
-LEAST_LIFT = 0.3
-"""Shortest time for which a foot is lifted that moves, s; a foot at rest seems to leave the ground for less."""
+LEAST_LIFT, LONGEST_LIFT = 0.3, 2.0
+"""Shortest and longest time for which a foot is lifted that moves, s: one at rest seems to leave the ground for less, and
+the step of a patient who turns on the spot takes 2 s. What is longer hides an absence."""
+LONGEST_TURN = 2.0 * BOUT_PAUSE + LONGEST_LIFT
+"""Longest time between two strides with a turn on the spot, s: a pause before it, one after it, and a step."""
 EDGE = 1.5
 """Time before the first and after the last stride of a bout that may belong to it, s: a half stride, and the reach of a
 block's window (`WINDOW_REACH`)."""
@@ -98,7 +99,7 @@ class Strides:
         times = self.newest.setdefault(event.foot, {})
         if isinstance(event, FootFlat):
             lifted = times.get(HeelOff.__name__, event.t)
-            if event.t - lifted > LEAST_LIFT + TIME_EPSILON:
+            if LEAST_LIFT + TIME_EPSILON < event.t - lifted < LONGEST_LIFT + TIME_EPSILON:
                 self.moved.append((lifted, event.t))
         elif isinstance(event, ToeOff):
             swung, contact = times.get(ToeOff.__name__), times.get(HeelStrike.__name__)

@@ -14,6 +14,7 @@ from pathlib import Path
 from pkgutil import walk_packages
 
 from ... import body, calibration, events, floorplan, foot, link, recipes, saving, session, types, wire
+from ...recording.btsnoop import captures
 from .. import page, report
 from . import worker
 
@@ -35,7 +36,12 @@ def load_all() -> list[str]:
     """Import what the worker of the site may need; return the files of the modules that are loaded then."""
     names = [found.name for room in ROOMS for found in walk_packages(room.__path__, f"{room.__name__}.")]
     encodings = [f"encodings.{name}" for name in ENCODINGS]
-    for name in (*[name for name in names if not name.startswith(LEFT_OUT)], *encodings, worker.__name__):
+    for name in (
+        *[name for name in names if not name.startswith(LEFT_OUT)],
+        *encodings,
+        worker.__name__,
+        captures.__name__,
+    ):
         import_module(name)
     for name in recipes.NAMES:
         recipes.by_name(name)
