@@ -28,8 +28,8 @@ BOUT_PAUSE = 3.0
 """Longest pause within one bout of walking, s (Kluge et al., "Consensus based framework for digital mobility
 monitoring", PLoS ONE 16, 2021)."""
 LEAST_LIFT, LONGEST_LIFT = 0.3, 2.0
-"""Shortest and longest time for which a foot is lifted that moves, s: one at rest seems to leave the ground for less, and
-the step of a patient who turns on the spot takes 2 s. What is longer hides an absence."""
+"""Shortest and longest time for which a foot is lifted that moves, s: one at rest seems to leave the ground for less,
+and the step of a patient who turns on the spot takes 2 s. What is longer hides an absence."""
 LONGEST_TURN = 2.0 * BOUT_PAUSE + LONGEST_LIFT
 """Longest time between two strides with a turn on the spot, s: a pause before it, one after it, and a step."""
 EDGE = 1.5
