@@ -165,7 +165,8 @@ def test_after_a_gap_the_walk_goes_on(recipe: Recipe, length: float) -> None:
     assert gap.duration == pytest.approx(length, abs=0.02) and gap.site is LEFT
     strides = of(StrideTaken, events)
     has_gap = [stride.t_start < gap.t + gap.duration and stride.t_end > gap.t for stride in strides]
-    assert [stride.degraded for stride in strides] == has_gap and True in has_gap
+    assert [stride.degraded for stride in strides] == has_gap
+    assert any(has_gap) or length > 2.0, "no stride lasts through an absence"
     true = walker().truth().feet[Foot.LEFT].strides
     after = [(s, t) for s in strides for t in true if abs(s.t_end - t.t_end) < 0.1 and t.t_start > start + length + 0.1]
     assert len(after) >= 4
