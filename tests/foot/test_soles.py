@@ -144,18 +144,21 @@ FAULTS = (
     step, slow_step, fall, drift, fast_drift, drift_down, bursts, long_bursts, bursts_of_nothing, dead,
     wired_the_other_way, two_the_other_way,
 )  # fmt: skip
+UNNOTICED = {
+    (dead, 2, False): "nothing is left of a sole whose two cells are dead, and a foot that rests looks the same",
+    (two_the_other_way, 8, False): "the sum of the cells falls and rises twice in a stride, and nothing else shows it",
+}
+"""Faults of so many cells, with or without an inertial sensor, that cost contacts and are not named."""
 
 
 @each_sole
 @with_and_without
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.__name__)
 def test_a_fault_of_the_cells_costs_no_contact_or_is_named(
-    cells: int, level: float, inertial: bool, fault: Change
+    request: pytest.FixtureRequest, cells: int, level: float, inertial: bool, fault: Change
 ) -> None:
-    if fault is dead and cells == 2 and not inertial:
-        pytest.skip("nothing is left of a sole whose two cells are dead, and a foot that rests looks the same")
-    if fault is two_the_other_way and cells == 8 and not inertial:
-        pytest.skip("the sum of all cells falls and rises twice in a stride, and nothing else shows the swing")
+    if (fault, cells, inertial) in UNNOTICED:
+        request.applymarker(pytest.mark.xfail(reason=UNNOTICED[fault, cells, inertial], strict=True))
     events = said(cells, level, inertial, fault)
     assert missed(events) <= missed(said(cells, level, inertial)) or named(events)
     assert missed(events) <= 45  # of about 170

@@ -30,8 +30,6 @@ from solepath.wire.fields import Fields
 from solepath.wire.receiver import ConnectionFrame, build_connected
 
 RATE = 100.0
-EDGE = 2.0
-"""Time before the first stride after a silence that belongs to its bout at most, s."""
 
 
 def counting(sequence: int, tick_rate: float = 0.0, tick_modulus: int = 0) -> Driver:
@@ -170,20 +168,22 @@ def test_the_last_packet_again_after_a_reconnection_is_no_sample_and_no_loss(nam
 @pytest.mark.parametrize("name", DRIVERS)
 @pytest.mark.parametrize("away", [62.0, *soaked(6.0, 81.7)])
 @pytest.mark.parametrize("restarts", [True, False])
-def test_a_silence_is_a_gap_and_nothing_is_known_of_it(name: str, away: float, restarts: bool) -> None:
+def test_a_silence_is_a_gap_and_nothing_is_known_of_it(
+    request: pytest.FixtureRequest, name: str, away: float, restarts: bool
+) -> None:
+    if (name, away, restarts) == ("a clock of 16 bits", 81.7, False):
+        reason = "nothing tells a round of a clock without a counter from packets that were held back"
+        request.applymarker(pytest.mark.xfail(reason=reason, strict=True))
     _, events = walk(DRIVERS[name], Course((30.0, 30.0 + away), restarts, distance=150.0 if away > 10.0 else 60.0))
     assert lost(events) == 0
     (gap,) = of(SampleGap, events)
-    # nothing tells a round of a clock without a counter from packets that were held back
-    is_round = (name, away, restarts) == ("a clock of 16 bits", 81.7, False)
-    if not is_round:
-        assert (gap.t, gap.duration) == pytest.approx((130.0, away), abs=0.2)
+    # a count of 8 bits that starts again may be taken for one that went on, if both fit the arrivals
+    tolerance = 0.2 if restarts and name == "8 bits and a clock of 65.5 s" else 0.1
+    assert (gap.t, gap.duration) == pytest.approx((130.0, away), abs=tolerance)
     final = [one for one in of(ActivityChanged, events) if one.final]
     before = [one.activity for one in final if one.t < 129.0]
-    within = [one.activity for one in final if 129.0 <= one.t < 130.0 + away - EDGE]
-    after = [one.activity for one in final if one.t >= 130.0 + away - EDGE]
-    if is_round:
-        within, after = within[:1], within[1:]
+    within = [one.activity for one in final if 129.0 <= one.t < 130.0 + away - 1.0]
+    after = [one.activity for one in final if one.t >= 130.0 + away - 1.0]
     assert before[-1] is Activity.WALKING and within == [Activity.UNKNOWN] and after[0] is Activity.WALKING
     strides = of(StrideTaken, events)
     assert not [one for one in strides if one.t_start < 130.0 - 0.1 and one.t_end > 130.0 + away + 0.1]

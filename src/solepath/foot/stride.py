@@ -37,7 +37,8 @@ Two swings and a stance take more than twice that time. On recordings without da
 MOTION_GAIN, LARGEST_MOTION_RATIO = 0.2, 1.3
 """Weight of the newest time in the usual one, and the limit of its ratio to the usual one in the average."""
 GUESSED_SPEED_SIGMA = 1.0
-"""Standard deviation of the speed of a foot in a gap that is a flaw, m/s (`solepath-lab damage losses`)."""
+"""Standard deviation of the speed of a foot in a gap longer than `LONGEST_HARMLESS_GAP`, m/s: a longer one that is
+harmless at a low rate makes the length less sure, too (`solepath-lab damage losses`)."""
 FLAT_SIGMA = 0.01
 """Standard deviation of the place of the sensor, m, when its foot comes to lie flat: a shoe gives way, a foot settles
 (strides without losses of the first walks of pyshoe_vicon, `solepath-lab damage losses`)."""
@@ -59,7 +60,7 @@ class GapSums(NamedTuple):
     longest: float = 0.0
     """Longest time from one sample to the next."""
     guessed: float = 0.0
-    """Square root of the sum of the squared times of gaps that are a flaw."""
+    """Square root of the sum of the squared times of gaps longer than `LONGEST_HARMLESS_GAP`."""
 
     def with_gap(self, gap: Vec3, t_start: float, t_end: float) -> GapSums:
         """Return the sums with a gap of a stride from `t_start` to `t_end`, s."""
