@@ -55,7 +55,7 @@ GROUPS: dict[str, tuple[str, Kinds]] = {
     "train": (
         "learn the parameters of a part again",
         {
-            "activities": ("weights of the activities", (FOLDER,)),
+            "activities": ("curves of the activities", (FOLDER, PROCESSES)),
             "bearing": ("weights of what tells strides from other motions", (FOLDER, PROCESSES)),
             "turns": (
                 "weights of the classifier of turns",

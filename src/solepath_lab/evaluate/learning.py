@@ -5,7 +5,7 @@ trains one part for each fold, on the features of all sources without the wearer
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -38,28 +38,9 @@ class Learner:
     """Function that returns the part trained on the features of several sources."""
 
 
-WEARERS = frozenset().union(*FOLDS)
-
-
-def _blocks(make: Callable[..., Iterable[activities.Blocks]], *given: Any) -> list[activities.Blocks]:
-    return list(make(*given))
-
-
-def _activity_sources(folder: Path) -> Sources:
-    """Return the sources of train/activities.py: wearers of hugadb, level walks, emulated ones, other motions."""
-    hugadb = folder / "hugadb"
-    wearers = [(partial(_blocks, activities.hugadb, hugadb, WEARERS - {one}), one) for one in sorted(WEARERS)]
-    emulated = [(partial(_blocks, activities.emulated_walks, [seed]), None) for seed in activities.EMULATED]
-    patients = [(partial(_blocks, activities.emulated_patients, [seed]), None) for seed in activities.PATIENTS]
-    others = [(partial(_blocks, activities.other_motions_of, [seed]), None) for seed in activities.PATIENTS]
-    walks = partial(_blocks, activities.level_walks, folder)
-    rides = partial(_blocks, activities.rides, folder / "hugadb_daily")
-    return [*wearers, (walks, None), *emulated, *patients, *others, (rides, None)]
-
-
 LEARNERS: dict[type, Learner] = {
     Activities: Learner(
-        _activity_sources,
+        activities.sources,
         lambda features: Activities(
             ActivitiesSettings(activities.fit_model([one for blocks in features for one in blocks], "the other folds"))
         ),

@@ -1,6 +1,6 @@
-"""Learns the weights of `Activities` from blocks of half a second whose activity is known.
+"""Learns the curves of `Activities` from blocks of half a second whose activity is known.
 
-    solepath-lab train activities DATA_DIR
+    solepath-lab train activities DATA_DIR [--processes N]
 
 writes activities.json beside the part, and prints what each kind of evidence earns. The same data give the same file.
 
@@ -15,8 +15,10 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from copy import deepcopy
-from operator import attrgetter
+from functools import partial
+from operator import attrgetter, call
 from pathlib import Path
+from typing import Any
 
 import attrs
 import numpy as np
@@ -37,7 +39,7 @@ from solepath.body.activity.foot_blocks import (
     Row,
     force_features_of,
 )
-from solepath.body.activity.motion import MotionModel, block_force
+from solepath.body.activity.motion import MotionModel, block_force, log_probabilities
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
@@ -57,6 +59,7 @@ from solepath.types.vector import TIME_EPSILON
 
 from ..emulated import other_motions, slow_walkers
 from ..evaluate.not_walking import MOTIONS
+from ..processes import run_jobs
 from ..tables import markdown
 from . import emulated
 from .activities_course import FootEvidence, LabelledCourse, chances, shifts
@@ -94,8 +97,8 @@ DEVICES: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
     (10.0, MPU9250, IN_SOLE),
 )
 """Sensors of the emulated wearers, in rotation: rate in Hz, inertial sensor and mounting, or a device as it is sold."""
-EMULATED_WEARER, EMULATED_PATIENT, EMULATED_OTHER, RIDER = 2000, 2100, 2200, 3000
-"""Wearer numbers that all emulated wearers share, all patients, all other emulated motions, and all rides."""
+EMULATED_WEARER, EMULATED_WAY, EMULATED_PATIENT, EMULATED_OTHER, RIDER = 2000, 2050, 2100, 2200, 3000
+"""Wearer numbers that all emulated wearers share, all on ramps, all patients, all other emulated motions, all rides."""
 PATIENTS = range(emulated.FIRST_TRAINING_SEED, emulated.FIRST_TRAINING_SEED + 4)
 PATIENT_RATES = (100.0, 50.0, 200.0, 20.0)
 """Seeds of the emulated patients and other motions, and their sampling rates, Hz, in rotation."""
@@ -234,10 +237,10 @@ def _block_label(label: Label, t_start: float) -> Activity | None:
     return most_frequent if block_labels.count(most_frequent) >= MIN_LABEL_SHARE * n else None
 
 
-def hugadb(folder: Path, without: frozenset[int]) -> Iterator[Blocks]:
-    """Yield the blocks of all wearers of hugadb but `without`, once for every entry of VARIANTS."""
+def hugadb(folder: Path, wearer: int) -> Iterator[Blocks]:
+    """Yield the blocks of a wearer of hugadb, once for every entry of VARIANTS."""
     for one in recordings(folder):
-        if one.subject in without or one.path.stem in MISLABELLED:
+        if one.subject != wearer or one.path.stem in MISLABELLED:
             continue
         times, activities = labels(one.path)
         label_times = np.array(times)
@@ -264,38 +267,42 @@ def level_walks(data: Path) -> Iterator[Blocks]:
             yield blocks_of(samples, lambda t: Activity.WALKING, recipes.DEFAULT, 1000 + number, only_strides=True)
 
 
-def emulated_walks(seeds: Iterable[int] = EMULATED) -> Iterator[Blocks]:
-    """Yield the blocks of each emulated walk; every seed has another wearer."""
-    for seed in seeds:
-        walker = emulated.walker(seed, jogging=True)
-        samples = _sample_walk(walker, DEVICES[seed % len(DEVICES)], seed)
-        truth = walker.truth()
-        yield blocks_of(samples, truth.activity, recipes.DEFAULT, EMULATED_WEARER, course_spans=truth.activities)
-        yield blocks_of(samples, truth.activity, STRAPDOWN, EMULATED_WEARER)
+def emulated_walk(seed: int) -> Iterator[Blocks]:
+    """Yield the blocks of an emulated walk; every seed has another wearer."""
+    walker = emulated.walker(seed, jogging=True)
+    samples = _sample_walk(walker, DEVICES[seed % len(DEVICES)], seed)
+    truth = walker.truth()
+    yield blocks_of(samples, truth.activity, recipes.DEFAULT, EMULATED_WEARER, course_spans=truth.activities)
+    yield blocks_of(samples, truth.activity, STRAPDOWN, EMULATED_WEARER)
 
 
-def emulated_patients(seeds: Iterable[int] = PATIENTS) -> Iterator[Blocks]:
+def other_ways(seed: int) -> Iterator[Blocks]:
+    """Yield the blocks of an emulated walk on ramps, backwards, sideways and on the spot, none of which are stairs."""
+    walker = emulated.other_ways(seed)
+    samples = _sample_walk(walker, DEVICES[seed % len(DEVICES)], seed)
+    yield blocks_of(samples, walker.truth().activity, recipes.DEFAULT, EMULATED_WAY)
+
+
+def emulated_patients(seed: int) -> Iterator[Blocks]:
     """Yield the blocks of emulated patients who walk slowly, shuffle, limp or use a stick."""
-    for seed in seeds:
-        for gait in slow_walkers.GAITS:
-            one = slow_walkers.patient(gait, seed)
-            begins = min([t for foot in Foot for t in one.true_times(foot, "toe_off")])
-            ends = max([t for foot in Foot for t in one.true_times(foot, "heel_strike")])
+    for gait in slow_walkers.GAITS:
+        one = slow_walkers.patient(gait, seed)
+        begins = min([t for foot in Foot for t in one.true_times(foot, "toe_off")])
+        ends = max([t for foot in Foot for t in one.true_times(foot, "heel_strike")])
 
-            def label(t: float, begins: float = begins, ends: float = ends) -> Activity:
-                return Activity.WALKING if begins <= t < ends else Activity.STANDING
+        def label(t: float, begins: float = begins, ends: float = ends) -> Activity:
+            return Activity.WALKING if begins <= t < ends else Activity.STANDING
 
-            samples = slow_walkers.samples_of(gait, seed, PATIENT_RATES[seed % len(PATIENT_RATES)])
-            yield blocks_of(samples, label, recipes.DEFAULT, EMULATED_PATIENT)
+        samples = slow_walkers.samples_of(gait, seed, PATIENT_RATES[seed % len(PATIENT_RATES)])
+        yield blocks_of(samples, label, recipes.DEFAULT, EMULATED_PATIENT)
 
 
-def other_motions_of(seeds: Iterable[int] = PATIENTS) -> Iterator[Blocks]:
+def other_motions_of(seed: int) -> Iterator[Blocks]:
     """Yield the blocks of emulated motions that are not walking."""
-    for seed in seeds:
-        for one in other_motions.MOTIONS:
-            if one.name in OTHER_MOTIONS:
-                samples = other_motions.samples_of(one, seed, PATIENT_RATES[seed % len(PATIENT_RATES)])
-                yield blocks_of(samples, lambda t: Activity.UNKNOWN, recipes.DEFAULT, EMULATED_OTHER)
+    for one in other_motions.MOTIONS:
+        if one.name in OTHER_MOTIONS:
+            samples = other_motions.samples_of(one, seed, PATIENT_RATES[seed % len(PATIENT_RATES)])
+            yield blocks_of(samples, lambda t: Activity.UNKNOWN, recipes.DEFAULT, EMULATED_OTHER)
 
 
 def rides(folder: Path) -> Iterator[Blocks]:
@@ -327,9 +334,24 @@ def _sample_walk(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | 
     return sorted(found, key=attrgetter("t"))
 
 
-def fit_model(sources: Iterable[Blocks], note: str) -> MotionModel:
-    """Return the model that is fitted to the blocks of all sources; `note` states the training data."""
-    used = [blocks for blocks in sources if len(blocks.classes)]
+def _all(make: Callable[..., Iterable[Blocks]], *given: Any) -> list[Blocks]:
+    return list(make(*given))
+
+
+def sources(folder: Path) -> list[tuple[Callable[[], list[Blocks]], int | None]]:
+    """Return functions that give the blocks of each source in the data directory, with its wearer in hugadb or None.
+
+    They can be called in other processes."""
+    wearers = [(partial(_all, hugadb, folder / "hugadb", one), one) for one in sorted(frozenset().union(*FOLDS))]
+    made = [partial(_all, make, seed) for make in (emulated_walk, other_ways) for seed in EMULATED]
+    made += [partial(_all, make, seed) for make in (emulated_patients, other_motions_of) for seed in PATIENTS]
+    others = [partial(_all, level_walks, folder), *made, partial(_all, rides, folder / "hugadb_daily")]
+    return [*wearers, *[(source, None) for source in others]]
+
+
+def fit_model(given: Iterable[Blocks], note: str) -> MotionModel:
+    """Return the model that is fitted to blocks of all sources; `note` states the training data."""
+    used = [blocks for blocks in given if len(blocks.classes)]
     gyroscope, alone = fit_both(*joined(used))
     courses = [blocks.course for blocks in used if blocks.course is not None]
     model = MotionModel(note, gyroscope, alone, chances(courses), ())
@@ -349,18 +371,18 @@ def joined(used: Sequence[Blocks]) -> tuple[Floats, Floats, NDArray[np.int64], N
 EVIDENCE: dict[str, tuple[str, ...]] = {
     "everything": (),
     "no shares of forces": ("steady", "hard"),
-    "no angular rates": ("turning", "turning_squared", "turning_around", "fast"),
-    "no velocities up and down": ("climb", "climb_squared", "sink", "climb_now", "sink_now"),
+    "no angular rates": ("turning", "turning_around", "fast"),
+    "no velocities up and down": ("climb", "sink", "climb_now", "sink_now"),
     "no strides": STRIDE_FEATURES,
 }
 """Features that are left out, by the name of what is left."""
 
 
-def ablation(sources: Iterable[Blocks]) -> str:
+def ablation(given: Iterable[Blocks]) -> str:
     """Return the table of the half seconds of one foot that are right without each kind of evidence.
 
-    Each is judged with weights that were learnt in the other folds, of wearers or of recordings of bicycles."""
-    used = [blocks for blocks in sources if len(blocks.classes)]
+    Each is judged with curves that were learnt in the other folds, of wearers or of recordings of bicycles."""
+    used = [blocks for blocks in given if len(blocks.classes)]
     rows = []
     for title, left_out in EVIDENCE.items():
         names = [name for name in FEATURES if name not in left_out]
@@ -369,9 +391,9 @@ def ablation(sources: Iterable[Blocks]) -> str:
         for fold in range(len(FOLDS)):
             features, _, classes, wearers = joined([blocks for blocks in used if blocks.fold != fold])
             known = ~np.isnan(features[:, 0])
-            weights = np.array([*fit(names, features[known][:, columns], classes[known], wearers[known]).values()])
+            curves = fit(names, features[known][:, columns], classes[known], wearers[known])
             features, _, classes, _ = joined([blocks for blocks in used if blocks.fold == fold])
-            judged = (features[:, columns] @ weights[1:] + weights[0]).argmax(1)
+            judged = [np.argmax(log_probabilities(curves, tuple(row))) for row in features[:, columns].tolist()]
             np.add.at(counts, (classes, judged), 1.0)
         shares = [np.trace(counts) / counts.sum(), *(np.diag(counts) / counts.sum(1))]
         rows.append([title, *[percent(share) for share in shares]])
@@ -382,11 +404,11 @@ def run(options: Namespace) -> int:
     """Train the activity model on all training data, write it and print the table; return the exit status."""
     note = (
         f"all wearers of HuGaDB (without {' and '.join(MISLABELLED)}) as recorded and at 20 and 10 Hz; level "
-        f"walks of {', '.join(LEVEL_WALKS)}; emulated wearers, seeds {EMULATED[0]} to {EMULATED[-1]}, patients and "
-        f"other motions, seeds {PATIENTS[0]} to {PATIENTS[-1]}; and the bicycles of hugadb_daily"
+        f"walks of {', '.join(LEVEL_WALKS)}; emulated wearers, also on ramps, seeds {EMULATED[0]} to {EMULATED[-1]}, "
+        f"patients and other motions, seeds {PATIENTS[0]} to {PATIENTS[-1]}; and the bicycles of hugadb_daily"
     )
-    sources = [*hugadb(options.dir / "hugadb", frozenset()), *level_walks(options.dir), *emulated_walks()]
-    sources += [*emulated_patients(), *other_motions_of(), *rides(options.dir / "hugadb_daily")]
-    Path(motion.__file__).with_name("activities.json").write_text(to_json(fit_model(sources, note)), encoding="utf-8")
-    print(ablation(sources))
+    jobs = [source for source, _ in sources(options.dir)]
+    found = [blocks for of_source in run_jobs(call, jobs, processes=options.processes) for blocks in of_source]
+    Path(motion.__file__).with_name("activities.json").write_text(to_json(fit_model(found, note)), encoding="utf-8")
+    print(ablation(found))
     return 0

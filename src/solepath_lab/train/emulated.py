@@ -50,6 +50,19 @@ def walker(seed: int, *, jogging: bool = False) -> Walker:
     return Walker(route, wearer, seed)
 
 
+def other_ways(seed: int) -> Walker:
+    """Return a walker who walks ahead, up and down ramps, backwards, sideways, and turns on the spot."""
+    rng = np.random.default_rng([seed, 7])
+    wearer, _ = random_wearer(rng)
+    additions = [*[_add_ramp] * 4, *[_add_steps] * 2, _add_corridor]
+    route = Route(speed=float(rng.uniform(0.8, 1.5))).stand(_uniform(rng, 3.0, 8.0))
+    for k in rng.permutation(len(additions)):
+        route = additions[k](route, rng)
+        if rng.uniform() < 0.6:
+            route = route.stand(_uniform(rng, 2.0, 6.0))
+    return Walker(route.stand(4.0), wearer, seed)
+
+
 def walk(seed: int, *, jogging: bool = False) -> EmulatedWalk:
     """Return the walk with a CC2650 in each sole whose inertial sensor is as noisy as an MPU-6050."""
     route, wearer = draw_route(seed, jogging=jogging)
@@ -68,6 +81,20 @@ def _add_corridor(route: Route, rng: np.random.Generator) -> Route:
 
 def _add_jog(route: Route, rng: np.random.Generator) -> Route:
     return route.stand(2.0).jog(_uniform(rng, 25.0, 40.0), _uniform(rng, 2.3, 3.2)).stand(2.0)
+
+
+def _add_ramp(route: Route, rng: np.random.Generator) -> Route:
+    """Add a ramp up or down of 1 in 20 to 1 in 8, as in front of and in buildings."""
+    slope = _uniform(rng, 1.0 / 20.0, 1.0 / 8.0) * float(rng.choice([-1.0, 1.0]))
+    return route.walk(_uniform(rng, 2.0, 6.0)).walk(_uniform(rng, 8.0, 20.0), slope=slope).walk(_uniform(rng, 2.0, 6.0))
+
+
+def _add_steps(route: Route, rng: np.random.Generator) -> Route:
+    """Add some steps backwards, some to either side, and turns on the spot."""
+    route = route.stand(1.0).walk(_uniform(rng, 3.0, 8.0), direction=pi).stand(1.0)
+    for side in (0.5 * pi, -0.5 * pi):
+        route = route.walk(_uniform(rng, 2.0, 4.0), direction=side).stand(1.0)
+    return route.turn(pi).stand(1.0).turn(-pi)
 
 
 def _add_stairs(route: Route, rng: np.random.Generator, up: bool) -> Route:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 from functools import cache
 
+import pytest
 from views import fed
 
 from solepath.body.activity.activities import Activities
 from solepath.body.activity.foot_blocks import FEATURES, FORCE_FEATURES
-from solepath.body.activity.motion import CONSTANT, MOTIONS, load_released_model
+from solepath.body.activity.motion import MOTIONS, load_released_model
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -56,10 +57,19 @@ def test_after_a_long_gap_nobody_knows_what_was_done_in_it() -> None:
     assert "UNKNOWN" in [event.activity.name for event in events if isinstance(event, ActivityChanged)]
 
 
-def test_each_feature_has_a_weight_for_each_motion_with_and_without_a_gyroscope() -> None:
+def test_each_feature_has_a_curve_for_each_motion_with_and_without_a_gyroscope() -> None:
     model = load_released_model()
-    assert (tuple(model.gyroscope), tuple(model.alone)) == ((CONSTANT, *FEATURES), (CONSTANT, *FORCE_FEATURES))
-    assert {len(row) for table in (model.gyroscope, model.alone) for row in table.values()} == {len(MOTIONS)}
+    assert (tuple(model.gyroscope), tuple(model.alone)) == (FEATURES, FORCE_FEATURES)
+    for curve in (*model.gyroscope.values(), *model.alone.values()):
+        assert sorted(set(curve.values)) == list(curve.values) and len(curve.odds) == len(curve.values)
+        assert {len(row) for row in curve.odds} == {len(MOTIONS)}
+
+
+def test_a_value_that_nobody_has_learnt_says_no_more_than_the_last_one_that_somebody_has() -> None:
+    for name, curve in load_released_model().gyroscope.items():
+        assert (curve.at(-1e9), curve.at(1e9)) == (curve.odds[0], curve.odds[-1]), name
+        for value, odds in zip(curve.values, curve.odds, strict=True):
+            assert curve.at(value) == pytest.approx(odds), name
 
 
 def test_a_foot_without_a_gyroscope_is_judged_by_its_accelerometer_alone() -> None:

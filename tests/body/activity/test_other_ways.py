@@ -1,8 +1,8 @@
 """Ramps, turning on the spot, walking backwards and sideways are walking and no stairs, with insoles and SensorTags.
 
-This holds for the default speeds. With slow SensorTags a ramp may be reported as stairs (`RAMPS_AS_STAIRS`), up to half
-of its time. Not asserted, because it fails: walking backwards at 0.8 to 1.0 m/s is reported as stairs down for some
-wearers, most of the time. With slow SensorTags a turn on the spot may be reported as a ride."""
+This holds for the default speeds. With slow SensorTags the first second on a ramp, or of a walk, may be reported as
+stairs (`RAMPS_AS_STAIRS`). Not asserted, because it fails: walking backwards at 0.8 to 1.0 m/s is reported as stairs
+down for some wearers, most of the time. With slow SensorTags a turn on the spot may be reported as a ride."""
 
 from __future__ import annotations
 
@@ -41,22 +41,13 @@ ROUTES = {
 }  # fmt: skip
 WEARERS = {1: Wearer(), 2: SUBJECTS[2], 3: SUBJECTS[3]}
 """Wearer of each seed: the default one, the smallest subject and the tallest one."""
-RAMPS_AS_STAIRS = {("down", 1), ("down", 3), ("up", 2), ("everything", 2)}
-"""Routes and seeds of slow SensorTags, whose accelerometers clip, on which a ramp is reported as stairs."""
-FAILS = [pytest.mark.xfail(reason="a ramp is reported as stairs", strict=True)]
+RAMPS_AS_STAIRS = {("up", 1), ("up", 2), ("down", 1), ("everything", 1)}
+"""Routes and seeds of slow SensorTags, whose accelerometers clip, on which a second or two are reported as stairs."""
 OFTEN = ("up",)
-MARKS = ([], [pytest.mark.soak], [pytest.mark.long])
+MARKS = ((), pytest.mark.soak, pytest.mark.long)
 """Marks of what is always walked, of the other walks of the default wearer, and of other wearers."""
 WALKED = [
-    pytest.param(
-        name,
-        seed,
-        is_tag,
-        marks=[
-            *MARKS[2 if seed > 1 else is_tag or name not in OFTEN],
-            *(FAILS if is_tag and (name, seed) in RAMPS_AS_STAIRS else []),
-        ],
-    )
+    pytest.param(name, seed, is_tag, marks=MARKS[2 if seed > 1 else is_tag or name not in OFTEN])
     for name in ROUTES
     for seed in WEARERS
     for is_tag in (False, True)
@@ -83,7 +74,11 @@ def confusion(name: str, seed: int, is_tag: bool) -> Counter[tuple[Activity, Act
 
 
 @pytest.mark.parametrize(("name", "seed", "is_tag"), WALKED)
-def test_other_ways_of_walking_are_no_stairs(name: str, seed: int, is_tag: bool) -> None:
+def test_other_ways_of_walking_are_no_stairs(
+    request: pytest.FixtureRequest, name: str, seed: int, is_tag: bool
+) -> None:
+    if is_tag and (name, seed) in RAMPS_AS_STAIRS:
+        request.applymarker(pytest.mark.xfail(reason="a second or two are reported as stairs", strict=True))
     found = confusion(name, seed, is_tag)
     assert sum(count for (_, reported), count in found.items() if reported in STAIRS) < MAX_STAIRS * found.total()
 

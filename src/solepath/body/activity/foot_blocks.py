@@ -39,23 +39,21 @@ LEAST_SLOPE_LENGTH = 0.2
 """Least length by which the rise of a stride is divided, m."""
 
 FEATURES = (
-    "steady", "hard", "turning", "turning_squared", "turning_around", "fast", "climb", "climb_squared", "sink",
-    "climb_now", "sink_now", "stride", "stride_time", "stride_length", "slope", "strike_height",
+    "steady", "hard", "turning", "turning_around", "fast", "climb", "sink", "climb_now", "sink_now", "stride",
+    "stride_time", "stride_length", "slope", "strike_height",
 )  # fmt: skip
 """Names of the features of a foot with a gyroscope.
 
 - `steady`, `hard`: shares of the samples in the window with such a force
-- `turning`, its square, and `turning_around`: a quarter of the logarithm of the mean square of the angular rate, in
-  (rad/s)^2, in the judged half second and in the window
+- `turning`, `turning_around`: a quarter of the logarithm of the mean square of the angular rate, in (rad/s)^2, in the
+  judged half second and in the window
 - `fast`: share of the samples in the window with such a rate
-- `climb`, its square, `sink`, and the same `now`: largest upward and downward velocity in the window, and in the judged
-  half second, m/s; 0 without a track
+- `climb`, `sink`, and the same `now`: largest upward and downward velocity in the window, and in the judged half
+  second, m/s; 0 without a track
 - `stride`: 1 if a stride is known at the middle of the judged half second, else 0, and so are the others:
   `stride_time`, s, `stride_length`, m, `slope`, the rise over the length, and `strike_height`, that of the heel-strike
   above the foot-flat before it, m"""
-FORCE_FEATURES = (
-    "steady", "hard", "shaking", "shaking_squared", "shaking_around", "shaking_around_squared", "stillest",
-)  # fmt: skip
+FORCE_FEATURES = ("steady", "hard", "shaking", "shaking_around", "stillest")
 """Names of the features of a foot without a gyroscope.
 
 `shaking`, `shaking_around` and `stillest` are a quarter of the logarithm of the variance of |acc|, in (m/s^2)^2, in the
@@ -137,7 +135,6 @@ def features_of(judged: ActivityBlock, window: Sequence[ActivityBlock], stride: 
         sink = min(sink, block.sink)
         if not turning.gyro_count:
             turning = block
-    now, climb = _logarithm(turning.gyro_mean_square), min(climb, MAX_SPEED)
     known = (0.0,) * 5
     if stride is not None:
         slope = max(-1.0, min(1.0, stride.rise / max(stride.length, LEAST_SLOPE_LENGTH)))
@@ -145,12 +142,10 @@ def features_of(judged: ActivityBlock, window: Sequence[ActivityBlock], stride: 
     return (
         steady / samples,
         hard / samples,
-        now,
-        now * now,
+        _logarithm(turning.gyro_mean_square),
         _logarithm(squares / gyro_samples),
         fast / gyro_samples,
-        climb,
-        climb * climb,
+        min(climb, MAX_SPEED),
         max(sink, -MAX_SPEED),
         min(judged.climb, MAX_SPEED),
         max(judged.sink, -MAX_SPEED),
@@ -172,8 +167,13 @@ def force_features_of(judged: ActivityBlock, window: Sequence[ActivityBlock]) ->
         squares += (block.variance + force * force) * n
         stillest = min(stillest, block.variance)
     mean = forces / samples
-    now, around = _logarithm(judged.variance), _logarithm(squares / samples - mean * mean)
-    return (steady / samples, hard / samples, now, now * now, around, around * around, _logarithm(stillest))
+    return (
+        steady / samples,
+        hard / samples,
+        _logarithm(judged.variance),
+        _logarithm(squares / samples - mean * mean),
+        _logarithm(stillest),
+    )
 
 
 def _logarithm(square: float) -> float:

@@ -1,17 +1,18 @@
-"""The motion in half a second: a multinomial logistic regression on features that can be named, and slopes of strides.
+"""The motion in half a second: an additive model of features that can be named, and slopes of strides.
 
 `motion_votes` turns the features of both feet (foot_blocks.py) into the likelihood of each motion. Each feature has a
-weight for each motion; their sum plus a constant is the logarithm of the motion's odds. A second table of weights
-serves feet without a gyroscope. `solepath-lab train activities` learns the weights and lists the training data. The
-result is activities.json in this directory, a row for each feature. The file also has the transition chances and label
+curve for each motion: how much every value of the feature speaks for it. The sum of the curves is the logarithm of the
+motion's odds (a generalized additive model: Hastie, Tibshirani 1986, Statistical Science 1). Other curves serve feet
+without a gyroscope. `solepath-lab train activities` learns the curves and lists the training data. The result is
+activities.json in this directory, a few points for each feature. The file also has the transition chances and label
 delays that chain.py uses."""
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections.abc import Sequence
 from functools import cache, cached_property, lru_cache
-from math import exp, fsum, log
-from operator import mul
+from math import exp, log
 from typing import Any
 
 from ...foot.bearing import RISE_ERROR, RISE_ERROR_SHARE, TREADS_RISE
@@ -69,30 +70,47 @@ MOTIONS = ("still", "walking", "running", "stairs_up", "stairs_down", "other")
 
 "still" is standing and riding in an elevator, "other" is a bicycle, jumps, and whatever is none of the activities."""
 
-CONSTANT = "constant"
-"""Name of the first row of weights, whose feature is 1."""
-Weights = dict[str, Row]
-"""Weights by the name of the feature, one for each of `MOTIONS`; the first row is `CONSTANT`."""
+
+@frozen
+class Curve:
+    """What the values of a feature say about each of `MOTIONS`.
+
+    The curve is straight between its points and level beyond them, so that values that nobody has learnt say no more
+    than the last ones that somebody has."""
+
+    values: Row
+    """Values of the feature at the points, in ascending order."""
+    odds: tuple[Row, ...]
+    """Parts of the logarithms of the odds of `MOTIONS` at each point."""
+
+    def at(self, value: float) -> Row:
+        """Return the part of the logarithm of the odds of each motion at this value of the feature."""
+        after = bisect(self.values, value)
+        if after == 0:
+            return self.odds[0]
+        if after == len(self.values):
+            return self.odds[-1]
+        low, high = self.values[after - 1], self.values[after]
+        share = (value - low) / (high - low)
+        return tuple([a + share * (b - a) for a, b in zip(self.odds[after - 1], self.odds[after], strict=True)])
+
+
+Curves = dict[str, Curve]
+"""Curves by the name of the feature."""
 
 
 @frozen
 class MotionModel:
-    """The learnt parameters: weights of the features, chances and delays of the chain."""
+    """The learnt parameters: curves of the features, chances and delays of the chain."""
 
     trained_on: str
     """Description of the training data, one sentence."""
-    gyroscope: Weights
-    """Weights of `FEATURES`."""
-    alone: Weights
-    """Weights of `FORCE_FEATURES`, for feet without a gyroscope."""
+    gyroscope: Curves
+    """Curves of `FEATURES`."""
+    alone: Curves
+    """Curves of `FORCE_FEATURES`, for feet without a gyroscope."""
     chances: Chances
     shifts: Shifts
-
-    @cached_property
-    def columns(self) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
-        """The weights of each motion, alone and with a gyroscope."""
-        alone, gyroscope = [tuple(zip(*rows.values(), strict=True)) for rows in (self.alone, self.gyroscope)]
-        return alone, gyroscope
 
     @cached_property
     def chain(self) -> Chain:
@@ -107,7 +125,10 @@ def load_released_model() -> MotionModel:
     from pkgutil import get_data
 
     data: dict[str, Any] = json.loads(get_data(__package__, "activities.json") or b"")
-    gyroscope, alone = [{name: _row(row) for name, row in data[table].items()} for table in ("gyroscope", "alone")]
+    gyroscope, alone = [
+        {name: Curve(_row(curve["values"]), tuple(map(_row, curve["odds"]))) for name, curve in data[table].items()}
+        for table in ("gyroscope", "alone")
+    ]
     return MotionModel(
         trained_on=data["trained_on"],
         gyroscope=gyroscope,
@@ -151,7 +172,8 @@ def motion_votes(model: MotionModel, feet: Sequence[BlockFeatures | None]) -> Fl
     with_gyro = any([one.gyroscope for one in shown])
     for one in shown:
         weight = 1.0 if one.gyroscope or not with_gyro else LESSER_WEIGHT
-        for i, likely in enumerate(log_probabilities(model.columns[one.gyroscope], one.values)):
+        curves = model.gyroscope if one.gyroscope else model.alone
+        for i, likely in enumerate(log_probabilities(curves, one.values)):
             votes[i] += weight * max(likely, MIN_VOTE)
         stride = one.stride
         if stride is not None:
@@ -163,12 +185,17 @@ def motion_votes(model: MotionModel, feet: Sequence[BlockFeatures | None]) -> Fl
     return tuple(votes)
 
 
-def log_probabilities(columns: Sequence[Row], values: Row) -> list[float]:
-    """Return the natural logarithm of the probability of each of `MOTIONS`, by the weights of each and the features."""
-    inputs = (1.0, *values)
-    sums = [fsum(map(mul, weights, inputs)) for weights in columns]
+def log_probabilities(curves: Curves, values: Row) -> list[float]:
+    """Return the natural logarithm of the probability of each of `MOTIONS`; `values` are those of the curves."""
+    sums = [0.0] * len(MOTIONS)
+    for curve, value in zip(curves.values(), values, strict=True):
+        for i, part in enumerate(curve.at(value)):
+            sums[i] += part
     highest = max(sums)
-    total = highest + log(fsum([exp(value - highest) for value in sums]))
+    total = 0.0
+    for value in sums:
+        total += exp(value - highest)
+    total = highest + log(total)
     return [value - total for value in sums]
 
 

@@ -47,6 +47,8 @@ seconds of running of hugadb, whose accelerometers clip at 2 g, and in none of b
 0.17 m at 80 turns a minute adds 12 m/s^2, and the pedal hardly turns against the floor."""
 STAIRS_EVIDENCE = 1.0
 """Mean evidence of strides, a logarithm of a likelihood ratio, from which on they are on stairs; chosen by hand."""
+NEAR_TIME = 1.5
+"""Time before and after a cycle of gait in which others decide with it whether it was walked, s: two steps or more."""
 SETTLING_TIME = 6.0
 """Time after which all strides of a moment are known, s: a patient's stride, and the wait of a bout's first ones."""
 CERTAINTY = 0.9
@@ -71,8 +73,9 @@ class Strides:
     spans: list[StrideSpan] = field(factory=list)
     newest: dict[Foot, dict[str, float]] = field(factory=dict)
     """Time of the newest event of each kind of each foot, s."""
-    cycles: list[tuple[float, bool]] = field(factory=list)
-    """Time of the end of each stance, s, and whether it was longer than the swing before it: nobody ran."""
+    cycles: list[tuple[float, float, bool]] = field(factory=list)
+    """Time of the end of each stance, s, duration of the cycle, s, and whether the stance was longer than the swing
+    before it: nobody ran."""
     moved: list[tuple[float, float]] = field(factory=list)
     """Times at which a foot was lifted and came down again, with a stride or without, s."""
     forces: list[tuple[float, bool]] = field(factory=list)
@@ -106,7 +109,7 @@ class Strides:
             if swung is not None and contact is not None and swung < contact:
                 swing, stance = contact - swung, event.t - contact
                 if max(stance, swing) < MAX_PHASE_TIME - TIME_EPSILON:
-                    self.cycles.append((event.t, stance > swing + TIME_EPSILON))
+                    self.cycles.append((event.t, swing + stance, stance > swing + TIME_EPSILON))
         times[type(event).__name__] = event.t
 
     def add_block(self, t: float, block: ActivityBlock) -> None:
@@ -178,24 +181,44 @@ class Strides:
                 for t, until, supported in _cut(
                     segment.t, end, runs if segment.activity is Activity.RUNNING else bouts
                 ):
-                    activity = self._gait(segment.activity, t, until) if supported else Activity.UNKNOWN
-                    _append(agreed, segment, t, activity, probability if supported else 1.0 - CERTAINTY)
+                    if not supported:
+                        _append(agreed, segment, t, Activity.UNKNOWN, 1.0 - CERTAINTY)
+                    elif segment.activity is Activity.RUNNING:
+                        for t_start, walks in self._walks(t, until):
+                            activity = Activity.WALKING if walks else Activity.RUNNING
+                            _append(agreed, segment, t_start, activity, probability)
+                    else:
+                        _append(agreed, segment, t, segment.activity, probability)
             else:
                 in_vehicle = segment.activity in ELEVATOR_ACTIVITIES and self.leans(segment.t, end)
                 otherwise = Activity.UNKNOWN if in_vehicle else segment.activity
                 for t, until, supported in _cut(segment.t, end, walked):
-                    activity = self._gait(None, t, until) if supported else otherwise
+                    activity = self._gait(t, until) if supported else otherwise
                     _append(agreed, segment, t, activity, CERTAINTY if supported else probability)
         return agreed
 
-    def _gait(self, likeliest: Activity | None, start: float, end: float) -> Activity:
-        """Return the gait from `start` to `end`, s; `likeliest` is that of the sequence, None if that has none."""
-        if likeliest is Activity.RUNNING:
-            walked = [walks for t, walks in self.cycles if start <= t < end]
-            return Activity.WALKING if 2 * walked.count(True) > len(walked) else Activity.RUNNING
+    def _walks(self, start: float, end: float) -> list[tuple[float, bool]]:
+        """Return the parts of a run from `start` to `end`, s: when each starts, and whether it was walked.
+
+        Cycles that were walked fill most of the time of both feet around. Single ones show nothing: some detectors find
+        few contacts of a runner, and these late."""
+        cycles = sorted([cycle for cycle in self.cycles if start <= cycle[0] < end])
+        parts: list[tuple[float, bool]] = []
+        before = start
+        for t, _, _ in cycles:
+            since, until = max(start, t - NEAR_TIME), min(cycles[-1][0], t + NEAR_TIME)
+            walked = fsum([duration for other, duration, walks in cycles if walks and since < other <= until])
+            walks = walked > 0.5 * len(self.newest) * (until - since)
+            if not parts or walks != parts[-1][1]:
+                parts.append((before, walks))
+            before = t
+        return parts or [(start, False)]
+
+    def _gait(self, start: float, end: float) -> Activity:
+        """Return the gait from `start` to `end`, s, by the slopes of the strides."""
         spans = [span for span in self.spans if span.start < end and span.end > start]
-        if likeliest is not None or not spans:
-            return likeliest or Activity.WALKING
+        if not spans:
+            return Activity.WALKING
         up, down = [fsum(values) / len(spans) for values in zip(*[(span.up, span.down) for span in spans], strict=True)]
         if max(up, down) < STAIRS_EVIDENCE:
             return Activity.WALKING

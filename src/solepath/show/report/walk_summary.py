@@ -23,6 +23,8 @@ EVENT_ERROR = 0.010
 named beyond it is of the labelled foot (docs/report.md). Two settled clocks differ by 5 ms at most (docs/gait.md), by
 twice as much an asymmetry of step times errs."""
 
+HALF_STRIDE = 0.5
+"""Time from the middle of a stride to its end, s, about."""
 MIN_PAIRS = 4
 """Least number of strides of the right foot between two of the left one; chosen by hand, as in show/outcomes."""
 
@@ -114,10 +116,11 @@ def gait_spans(
 def distance_in(spans: Sequence[Span], distances: Mapping[Foot, Sequence[tuple[float, float]]]) -> float | None:
     """Return how far the wearer went in some spans of time, m: the mean of the feet; None without any.
 
-    `distances` has pairs of a time, s, and the distance that the foot has gone until then, m."""
+    `distances` has pairs of the end of a stride, s, and the distance that the foot has gone until then, m. A stride
+    counts where its middle is, because activities change in the middle of the first and the last one."""
 
     def until(pairs: Sequence[tuple[float, float]], t: float) -> float:
-        k = bisect_right(pairs, t, key=lambda pair: pair[0])
+        k = bisect_right(pairs, t + HALF_STRIDE, key=lambda pair: pair[0])
         return pairs[k - 1][1] if k else 0.0
 
     known = [pairs for pairs in distances.values() if pairs]
