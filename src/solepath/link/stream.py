@@ -13,7 +13,7 @@ from __future__ import annotations
 from binascii import crc32
 
 from ..events import BatteryLevel, KeysChanged, LayoutKnown, Rejection
-from ..types import Sample, Site, Vec3
+from ..types import Layout, Sample, Site, Vec3
 from ..types.attrs import define, field
 from ..types.vector import unit
 from ..wire.error import WireError
@@ -72,6 +72,8 @@ class StreamLink(DeviceLink):
     """Time of the newest sample, s; sample times strictly increase."""
     mag: Vec3 | None = None
     """Magnetometer value that waits for the next sample, T."""
+    layout: Layout | None = None
+    """Layout of the pressure cells as it was last reported; None before any."""
     air_pressure: float | None = None
     """Air pressure that waits for the next sample, Pa."""
     limitation_reported: bool = False
@@ -148,7 +150,8 @@ class StreamLink(DeviceLink):
 
     def _make_events(self, reading: Reading, arrival: float) -> Output:
         out: Output = []
-        if reading.layout is not None:
+        if reading.layout is not None and reading.layout != self.layout:
+            self.layout = reading.layout
             out.append(LayoutKnown(t=arrival, site=self.site, layout=reading.layout))
         if reading.battery is not None:
             out.append(BatteryLevel(t=arrival, site=self.site, level=float(reading.battery)))

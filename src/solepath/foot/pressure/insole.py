@@ -154,10 +154,11 @@ class InsoleLoads:
 
         `with_centre`: the centre of pressure is computed, too."""
         settings = self.settings
-        if settings.newtons is not None and not self.in_newtons:
-            cells = in_newtons(settings.newtons, cells)
-        if len(settings.noise) == len(cells):
-            cells = above(settings.noise, cells)
+        newtons, noise = None if self.in_newtons else settings.newtons, settings.noise
+        if newtons is not None:
+            cells = in_newtons(newtons, cells)
+        if len(noise) == len(cells):
+            cells = above(noise if newtons is None else in_newtons(newtons, noise), cells)
         self.cells = cells
         total = add_up(cells)
         last_range = self.total.high - self.total.low if self.load_risen else 0.0
