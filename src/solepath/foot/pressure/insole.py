@@ -8,7 +8,8 @@ alike.
 There is no `Load` before the sum has once fallen to a small share of its highest value and risen again. Until then a
 falling sum would always be the lowest so far, and a foot that is about to leave the ground would seem to be in the air.
 Cells that never show a small value, because of their voltage divider, or that show values below zero, because they were
-set to zero under the wearer, have no load before two swings have shown their level without load (unloaded.py). From then on the load is measured from that level, wherever it is, and follows it.
+set to zero under the wearer, have no load before two swings have shown their level without load (unloaded.py). From
+then on the load is measured from that level, wherever it is, and follows it.
 The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
