@@ -121,7 +121,7 @@ def test_another_number_of_cells_is_reported_and_the_inertial_part_is_used(count
     cell_events, rest = run_walk(96, lambda t, cells, cell_index: (*cells, 1.0)[:count], since=10.0)
     assert cell_events == [], "no cell has failed"
     (limitation,) = of(Limitation, rest)
-    number = f"the left foot sends {count} values of pressure cells a sample, but its layout has 96 cells"
+    number = f"samples have {count} values of pressure cells, but the layout of the insole has 96"
     assert limitation.what == f"{number}: no pressure is used"
     assert limitation.t == pytest.approx(11.0, abs=0.1)
     assert len(of(StrideTaken, rest)) == len(clean())

@@ -149,8 +149,8 @@ CONTRADICTION = (
 WRONG_SCALES: Final = tuple(
     [
         f"by {one}, the foot turns about {factor:g} times as far as by {other}: the range of the gyroscope is declared"
-        f" about {factor:g} times too {large}, or the times of the samples are too {long}, because the sensor measures at a"
-        f" {higher} rate than is assumed"
+        f" about {factor:g} times too {large}, or the times of the samples are too {long}, because the sensor measures"
+        f" at a {higher} rate than is assumed"
         for one, other, large, long, higher in (
             ("the gyroscope", "gravity", "large", "far apart", "higher"),
             ("gravity", "the gyroscope", "small", "close", "lower"),

@@ -354,9 +354,9 @@ class CellHealth:
             return False
         if not self.wrong_count_reported:
             self.wrong_count_reported = True
-            known = f"samples had {self.count} before" if layout is None else f"its layout has {self.count} cells"
+            known = "samples before had" if layout is None else "the layout of the insole has"
             use = "no pressure is used" if layout is not None or not count else "it is taken for another insole"
-            what = f"the {self.site.words} sends {count} values of pressure cells a sample, but {known}: {use}"
+            what = f"samples have {count} values of pressure cells, but {known} {self.count}: {use}"
             events.append(Limitation(t=t, known_at=known_at, site=self.site, what=what))
         if layout is None and count:
             self._set_count(count)
