@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from pathlib import Path
 
@@ -78,6 +79,17 @@ def test_samples_rate_and_losses_are_those_of_whatever_the_device_measures(senso
     (link,) = json.loads((tmp_path / "out" / "run.json").read_text())["sites"].values()
     assert (link["samples"], link["missing"]) == (len(WALKED) - lost, lost)
     assert link["missing_share"] == pytest.approx(lost / len(WALKED), abs=1e-6)
+
+
+def test_outcomes_of_cells_alone_have_no_turns_and_no_distance(tmp_path: Path) -> None:
+    driver, walk = sole(tmp_path, *SENSORS["cells at known places"])
+    done = run("track", walk, "--driver", driver, "--out", tmp_path / "out", "--outcomes", "--six-minute-walk")
+    assert "Walked an unknown distance" in done.stdout and "turns about" not in done.stdout
+    (bout,) = csv.DictReader((tmp_path / "out" / "bouts.csv").open())
+    assert (bout["turns"], bout["stride_length_m"], bout["strides"]) == ("", "", "16")
+    rows = csv.DictReader((tmp_path / "out" / "outcomes.csv").open())
+    known = {row["outcome"]: row["value"] for row in rows}
+    assert known["turns_all_sum"] == known.get("distance", "") == "" and known["wb_all_sum"] == "1"
 
 
 def test_check_says_what_cells_alone_show_and_nothing_of_sensors_that_are_not_there(tmp_path: Path) -> None:
