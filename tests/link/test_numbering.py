@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from itertools import product
 from random import Random
 from typing import Any
 
 import pytest
+from attrs import evolve
 from toys import KIND, Toy, times, toy
 from walks import of
 
-from solepath.events import Limitation, PacketRejected, SampleGap
+from solepath import Sample
+from solepath.events import ClockReset, Limitation, PacketRejected, SampleGap
 
 RATE = 100.0
 WITH_NUMBERS = pytest.mark.parametrize("name", ["number", "both", "coarse"])
@@ -69,3 +72,14 @@ def test_of_a_device_that_counts_notifications_nothing_is_said_whatever_gets_los
         unsaid = 2 * (first_step - sent[0] + 1 - sent.index(first_step) - 1)
         lost = sum(gap.count for gap in of(SampleGap, output))
         assert 2 * (sent[-1] - sent[0] + 1 - len(sent)) - unsaid <= lost <= 2 * (sent[-1] - sent[0] + 1 - len(sent))
+
+
+@pytest.mark.parametrize("numbers", [2, 3, 4, 16, 65536])
+def test_no_number_and_no_count_of_samples_is_an_error(numbers: int) -> None:
+    for name, seed in product(("number", "both"), range(20)):
+        device, random, steady = toy(evolve(KIND[name], sequence=numbers)), Random(seed), seed % 2 == 0
+        for k in range(60):
+            count = 2 if steady and k < 40 else random.choice((1, 2, 3, 4, 9, 200))
+            number = 2 * k if steady and k < 40 else random.randrange(65536)
+            output = device.send_data(10.0 + 0.02 * k, number, 20_000 * k, count)
+            assert all(type(item) in (ClockReset, Limitation, PacketRejected, Sample, SampleGap) for item in output)

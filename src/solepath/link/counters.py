@@ -68,7 +68,7 @@ class Numbering:
             return int(not is_copy), modulus
         may_be_samples = self.sample_steps >= 0 and samples > 1 and difference % samples == 0
         if may_be_samples or self.sample_steps >= STEADY_NUMBERS:
-            return difference // samples, modulus // samples
+            return difference // samples, max(1, modulus // samples)
         return difference, modulus
 
     def accept(self, number: int, modulus: int, samples: int, is_first: bool) -> str:
