@@ -24,7 +24,7 @@ MOTION = Channel("shoe/motion", UUID(1), UUID(2), Access.NOTIFY)
 START = Channel("shoe/start", UUID(1), UUID(3), Access.WRITE)
 PROFILE = Profile(
     name="shoe", names=("My shoe",), services=(UUID(1),), channels=(MOTION, START), streams=("shoe/motion",),
-    setup=(Write("shoe/start", b"\xc2"),), reads=(), nominal_rate=100.0, stale_after=1.0,
+    setup=(Write("shoe/start", b"\xc2"),), nominal_rate=100.0, stale_after=1.0,
 )  # fmt: skip
 FORMATS = {
     "shoe/motion": Struct(

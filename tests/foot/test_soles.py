@@ -92,6 +92,32 @@ def test_contacts_are_found_whatever_cells_show_without_load(cells: int, level: 
     assert missed(events) <= (0 if inertial else 8)  # cells alone need the first two swings to learn their level
 
 
+SET_TO_ZERO = {
+    "standing": lambda counts: counts[100],
+    "at the largest load": lambda counts: tuple(map(max, zip(*counts, strict=True))),
+}
+"""Counts that cells show when somebody sets them to zero while the wearer is on them."""
+
+
+@with_and_without
+@pytest.mark.parametrize("when", SET_TO_ZERO)
+def test_cells_that_were_set_to_zero_under_the_wearer_show_the_load_above_their_level_in_the_air(
+    when: str, inertial: bool
+) -> None:
+    zero = SET_TO_ZERO[when]([sample.pressure or () for sample in walk(16, 100.0)])
+    session, events = Session(), list[Event]()
+    for sample in walk(16, 100.0):
+        net = tuple([value - least for value, least in zip(sample.pressure or (), zero, strict=True)])
+        sample = evolve(sample, pressure=net)
+        events += session.feed(sample if inertial else evolve(sample, acc=None, gyro=None))
+    assert named(events) == []
+    assert missed(events) <= (0 if inertial else 8)
+    loads = [event.features.contact_load for event in of(StrideTaken, events)]
+    true = [event.features.contact_load for event in of(StrideTaken, said(16, 100.0, True))] if inertial else []
+    assert loads[:2] == [None, None][: len(loads)], "nobody knows the level yet, and no load is below zero"
+    assert loads[3:] == pytest.approx(true[3:], rel=0.02)
+
+
 def step(t: float, counts: Floats) -> list[float]:
     return [value + 400.0 * (t > 30.3) for value in counts]
 
@@ -182,11 +208,12 @@ def test_a_sole_that_is_wired_the_other_way_round_is_turned_within_five_strides(
     assert match(truth, [event.t for event in of(HeelStrike, later)]).f1 == 1.0
 
 
-def test_a_wearer_who_stands_and_sways_on_cells_with_a_high_level_takes_no_step() -> None:
+@pytest.mark.parametrize("zero", [0.0, 2900.0], ids=["a high level", "set to zero under the wearer"])
+def test_a_wearer_who_stands_and_sways_takes_no_step_whatever_the_cells_show(zero: float) -> None:
     random, session, events, sway = Random(2), Session(), list[Event](), [0.0, 0.0]
     for k in range(6000):
         sway = [0.98 * one + random.gauss(0.0, 0.02) for one in sway]
-        counts = tuple([clipped(2500.0 + 400.0 * (1.0 + one)) for one in sway])
+        counts = tuple([clipped(2500.0 + 400.0 * (1.0 + one)) - zero for one in sway])
         events += session.feed(Sample(0.01 * k, WALKER.samples(Foot.LEFT, 100.0)[0].site, pressure=counts))
     assert of(HeelStrike | ToeOff, events) == [] and named(events) == []
 

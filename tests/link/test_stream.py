@@ -132,6 +132,8 @@ def test_what_is_no_sample_becomes_an_event_or_is_remembered() -> None:
     assert battery == BatteryLevel(t=1.0, known_at=1.0, site=LEFT, level=0.5)
     assert device.send_more(1.0, 6, 1.0) == [KeysChanged(t=1.0, known_at=1.0, site=LEFT, down=("left",))]
     assert device.send_more(1.0, 7, 0.0) == [LayoutKnown(t=1.0, known_at=1.0, site=LEFT, layout=LAYOUT)]
+    assert device.send_more(1.0, 7, 0.0) == [], "it is the same layout"
+    assert [event.layout.id for event in device.send_more(1.0, 7, 1.0)] == [LAYOUT.id + 1]
     assert device.send_more(1.0, 5, 1.0) == device.send_more(1.0, 8, 4.0) == []
     (sample,) = of(Sample, device.send_data(1.1, 1))
     assert sample.acc == pytest.approx((0.0, 0.0, 2 * 9.80665)) and sample.quat == (1.0, 0.0, 0.0, 0.0)

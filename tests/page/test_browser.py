@@ -10,8 +10,10 @@ from attrs import evolve
 from browsers import UNREACHABLE, Browser, window
 from shown import CONNECTED, frame, open_page, packets_between, scene_after, show
 
-from solepath import Candidate, Connected, LinkTrouble, Placed, Site, WearerMoved
+from solepath import Candidate, Connected, LinkTrouble, Placed, Session, Site, WearerMoved
+from solepath.emulate import Route, Walker
 from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.sensors.insoles import layout
 from solepath.show.page.messages import encode
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server.server import Page
@@ -45,6 +47,18 @@ async def test_a_walk_is_drawn_while_it_goes_on_and_its_figures_are_those_of_the
             await view.until(f"Math.abs({force} - {expected['feet'][foot.value]['force']}) <= 1")
             words = await view.tab.locator(f"#sole-{foot.value}").get_attribute("aria-label")
             assert words is not None and words.startswith(f"{foot.value.capitalize()} sole: ") and " newton" in words
+
+
+async def test_cells_alone_show_the_cadence_and_neither_strides_nor_a_distance(chromium: Browser) -> None:
+    session, scene = Session(poses=True, pressures=True), Scene("cells alone", "default", "recording")
+    walker = Walker(Route().stand(2.0).walk(15.0).stop(2.0), seed=3)
+    for sample in walker.samples(Foot.LEFT, 50.0, layout=layout(24, Foot.LEFT))[:600]:
+        sample = evolve(sample, acc=None, gyro=None)
+        scene.take(sample, session.feed(sample))
+    async with open_page(chromium, scene) as (view, _):
+        await view.until("document.getElementById('cadence').textContent !== '–'")
+        assert await view.tab.evaluate("document.getElementById('figures').dataset.known") == "true"
+        assert [await view.text(name) for name in ("strides", "distance", "speed")] == ["–"] * 3
 
 
 @pytest.mark.soak

@@ -9,6 +9,7 @@ from itertools import count
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from toys import NUMBERED
 
 from solepath import Event, Packet, Sample, Session, Site
 from solepath.emulate.radio import Radio
@@ -30,6 +31,7 @@ PACKETS = tuple(
     for packet in emulate(ROUTE, devices=INSOLES, radio=BAD_RADIO, seed=5).packets
     if packet.site is Site.RIGHT_FOOT or not SILENT_SPAN[0] < packet.t < SILENT_SPAN[1]
 )
+TOY_VALUE = {"ticks": 0, "count": 1, "up": [9.80665]}
 CLOCK_INTERVAL = 0.05
 """Time between two reads of the clock, s."""
 
@@ -81,6 +83,18 @@ def shown(player: Player) -> dict:
     message = player.scene.whole_message()
     message["frame"]["playback"] = (player.playback.t, player.playback.seeking)
     return message
+
+
+def test_a_recording_of_a_device_of_an_app_is_played_again_from_any_time() -> None:
+    toys = [
+        Packet(0.1 * k, Site.LEFT_FOOT, "toy/data", NUMBERED.write("toy/data", TOY_VALUE | {"number": k}))
+        for k in range(300)
+    ]
+    session = Session(poses=True, pressures=True, profiles=[NUMBERED])
+    player = Player(PackedItems(toys), session, Scene("a toy", "default", "recording"), profiles=[NUMBERED])
+    for t in (25.0, 15.0, 25.0):
+        stop_at(player, t)
+        assert player.session.now == pytest.approx(t, abs=0.1)
 
 
 END = PackedItems(PACKETS).end

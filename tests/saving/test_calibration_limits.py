@@ -26,7 +26,7 @@ insoles.left.layout.full_scale | 1e-6 | 1e9
 insoles.left.newtons.coefficients.* | -1e12 | 1e12
 insoles.left.newtons.threshold | 0 | 200
 insoles.left.newtons.most | 5 | 1e5
-insoles.left.noise.1 | 0 | 1e6
+insoles.left.noise.1 | -1e6 | 1e6
 shoe.heel_radius | 0.001 | 1
 shoe.height | 0 | 1
 shoe.forefoot_radius.0 | -1 | 1

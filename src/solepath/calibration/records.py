@@ -49,9 +49,8 @@ class InsoleCalibration:
     """Positions of the cells, for devices and files that do not send them."""
     newtons: Newtons | None = None
     """Conversion of raw values to N; None when the values stay in their own unit."""
-    noise: Floats = field(default=(), metadata=limits(0.0, 1e6))
-    """Value of each unloaded cell, in N if there are `newtons`, otherwise in the unit of the samples (Chen et al. 2019,
-    equation (1))."""
+    noise: Floats = field(default=(), metadata=limits(-1e6, 1e6))
+    """Value of each unloaded cell, in the unit of the samples (Chen et al. 2019, equation (1))."""
 
     def contradiction(self) -> str | None:
         """Return what is wrong with the number of cells."""
@@ -226,8 +225,8 @@ class Calibration:
 def merged(known: Calibration, newer: Calibration) -> Calibration:
     """Return `known` with its values replaced by those that `newer` has, field by field and insole by insole.
 
-    Known noise is discarded when `newer` changes the conversion to newtons, because it was measured in another unit. So
-    are a foot's heading and drift when its sensor is corrected otherwise, because they are what its errors caused."""
+    A foot's heading and drift are discarded when its sensor is corrected otherwise, because they are what its errors
+    caused."""
     stale = stale_feet(known, newer)
     values: dict[str, Any] = {}
     for one in fields(Calibration):
@@ -244,8 +243,7 @@ def merged(known: Calibration, newer: Calibration) -> Calibration:
 
 
 def _merged_insoles(known: InsoleCalibration, newer: InsoleCalibration) -> InsoleCalibration:
-    noise = known.noise if newer.newtons in (None, known.newtons) else ()
-    return InsoleCalibration(newer.layout or known.layout, newer.newtons or known.newtons, newer.noise or noise)
+    return InsoleCalibration(newer.layout or known.layout, newer.newtons or known.newtons, newer.noise or known.noise)
 
 
 def stale_feet(known: Calibration, newer: Calibration) -> list[Foot]:

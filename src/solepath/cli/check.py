@@ -19,7 +19,8 @@ from .common.tables import axes_repair, source_named, table_options
 UNSEEN = (
     "all three axes of an accelerometer reversed, which turns left into right",
     "one sensor of a device turned against the other by up to about 10 degrees",
-    "a gyroscope whose scale is wrong by less than about a half",
+    "a gyroscope whose scale is wrong by less than about a half, or is an eighth of the right one where somebody walks "
+    "slowly",
     "one axis of a sensor that is dead, in about half of the cases",
     "a gyroscope that is late against the accelerometer, or early, by less than 0.1 s",
     "a clock that runs at a wrong but constant speed, by less than about a third",
@@ -35,6 +36,7 @@ def run(options: Namespace) -> int:
     RecordingError is raised for a file that cannot be read as a recording. One whose values are in another unit can be
     read, and gets a verdict. Rows and packets that cannot be read are left out and named."""
     from ..body.checks.axes import SETTLED_STRIDES
+    from ..link.kinds import make_kinds
     from ..recipes import by_name
     from ..session import Session
     from ..show.findings import Concern, findings
@@ -53,7 +55,7 @@ def run(options: Namespace) -> int:
         print("nothing else was checked: mend this first")
         return 1
     session, recording = Session(recipe, calibration=calibration, poses=True, profiles=drivers), Recording(source)
-    walk, must = Walk(), list[str]()
+    walk, must = Walk(kinds=make_kinds(drivers)), list[str]()
     may = list[str]()
     for item in chain(recording, [None]):
         if recording.failure is not None and not walk.item_count:
@@ -72,12 +74,18 @@ def run(options: Namespace) -> int:
         if not flaw.endswith(counted_rows):
             (must if flaw in left_out else may).append(flaw.removeprefix(prefix))
     strides = {foot: counts.strides for foot, counts in walk.feet.items() if counts.strides}
-    walked = ", ".join(f"{foot} foot {counted(count, 'stride')}" for foot, count in strides.items()) or "no stride"
+    taken = [f"{foot} foot {counted(count, 'stride')}" for foot, count in strides.items()]
+    of_cells = [foot for foot in walk.known_feet if not walk.has_strides(foot)]
+    taken += [f"{foot} foot {counted(walk.cycles[foot].count, 'gait cycle')}" for foot in of_cells]
+    walked = ", ".join(taken) or "no stride"
     print(f"{name}: {walk.covered_time.total:.1f} s, {walked}")
     _print_list("must be mended", must)
     _print_list("worth knowing", may)
     if not must:
         print("nothing must be mended")
+    if of_cells and of_cells == walk.known_feet:
+        print("without an inertial sensor, axes, scales and clocks cannot be checked")
+        return 1 if must else 0
     if min(strides.values(), default=0) < SETTLED_STRIDES:
         needed = f"axes need {SETTLED_STRIDES} strides of a foot, and clocks of the feet a minute of walking"
         print(f"too few strides to check everything: {needed}")

@@ -37,6 +37,7 @@ from .common.view import PageAddress, add_no_browser, page_address_of, play, spe
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
     from ..floorplan.plan import Start
+    from ..link.driver import Driver
     from ..recipes import Recipe
     from ..session import Session
     from .common.results import Results
@@ -50,6 +51,7 @@ OF_ONE_RECIPE = (
 
 def run(options: Namespace) -> int:
     """Run the recording, with several recipes through a session for each at once; return the exit status."""
+    from ..link.kinds import make_kinds
     from ..session import Session
     from .common.loop import stop_signals_raise
     from .common.results import Results
@@ -84,12 +86,12 @@ def run(options: Namespace) -> int:
             start=start,
         )
 
-    before = None
+    before, kinds = None, make_kinds(drivers)
     if options.compare is not None:
         earlier = source_of(options.compare, feet_of(options), mapping_of(options))
         check_pressure(recipes[0], earlier, drivers)
         before = report_of(options, earlier, recipe=recipes[0].name, before=None)
-        _run([Results(new_session(recipes[0]), "", contents=before)], recording := Recording(earlier))
+        _run([Results(new_session(recipes[0]), "", contents=before, kinds=kinds)], recording := Recording(earlier))
         if recording.failure is not None:
             raise recording.failure
     recording = Recording(source)
@@ -104,6 +106,7 @@ def run(options: Namespace) -> int:
             outputs,
             outcomes,
             options,
+            kinds,
         )
         for recipe in recipes
     ]
@@ -114,7 +117,7 @@ def run(options: Namespace) -> int:
         if address is None:
             _run(runs, recording)
         else:
-            shown = _run_on_page(recording, runs[0], plan, calibration, address, pace)
+            shown = _run_on_page(recording, runs[0], plan, calibration, drivers, address, pace)
         if recording.failure is None or runs[0].walk.item_count:
             for one in runs:
                 one.walk.remarks = remarks_on(source)
@@ -182,6 +185,7 @@ def _run_on_page(
     results: Results,
     plan: IndexedPlan | None,
     calibration: Calibration | None,
+    drivers: Sequence[Driver],
     address: PageAddress,
     pace: float,
 ) -> bool:
@@ -200,7 +204,7 @@ def _run_on_page(
         return False
     session = results.session
     scene = Scene(recording.name, session.recipe.name, "recording", plan=results.plan, newtons=newtons_of(calibration))
-    player = Player(items, session, scene, plan, fault=fault, on_events=results.add)
+    player = Player(items, session, scene, plan, drivers, fault=fault, on_events=results.add)
     if fault:
         note(fault)
     play(player, address, pace, "recording")

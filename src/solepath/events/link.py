@@ -189,7 +189,8 @@ class LayoutKnown(BaseEvent):
     """The layout of the pressure cells is known from the device or from the calibration.
 
     A layout of the calibration is used if it has as many cells as the samples. `t` is the time of the packet with the
-    layout, or of the first sample with as many cells, with which it is reported."""
+    layout, or of the first sample with as many cells, with which it is reported. A layout that a declared device
+    repeats is reported once."""
 
     site: Site
     layout: Layout

@@ -231,7 +231,9 @@ class FootTracker:
             return events
         if acc is None or gyro is None:
             text = f"no {'accelerometer' if acc is None else 'gyroscope'} on the {self.foot.value} foot"
-            text = f"{text}: no steps and no track from it"
+            has_contacts = sole is not None and sole.had_cells
+            lacking = "its pressure cells show contacts, and no strides and no track" if has_contacts else ""
+            text = f"{text}: {lacking or 'no steps and no track from it'}"
             self.limitations.report_lacking(text, t, known_at, events)
             if load is not None:
                 for timed_cue in self.cues.alone(t, dt, load, self.phase):

@@ -24,11 +24,71 @@ MAX_OVERTAKING_TIME = 2.0
 
 An older packet shows that the device restarted its counters."""
 
+STEADY_NUMBERS = 6
+"""Number of packets that show what the numbers of a device count."""
+SAMPLE_NUMBERS = (
+    "the number goes up by {0} with each notification of {0} samples, so it counts samples: give sequence=number // {0}"
+    " in the reader and sequence={1} in the Driver, or count notifications in the device"
+)
+REPEATED_NUMBERS = (
+    "the same number comes with several notifications, whose values differ: count every notification in the device, or "
+    "give no sequence"
+)
+
 
 def signed_difference(difference: int, modulus: int) -> int:
     """Return the value nearest to zero that equals `difference` modulo `modulus`, at which the counters wrap."""
     half = modulus // 2
     return (difference + half) % modulus - half
+
+
+@define
+class Numbering:
+    """What the sequence numbers of a declared device count, if they do not count its packets.
+
+    A number that goes up by the number of samples in a packet from the first packet on counts samples. A number that
+    comes with other values than before does not count every packet. Neither is a loss or a copy of a packet. Both are
+    said once, when `STEADY_NUMBERS` packets have shown it."""
+
+    newest: int = 0
+    """Number of the newest accepted packet, as sent."""
+    sample_steps: int = 0
+    """Number of steps by the samples in a packet, until they are known to be samples; -1 once a step was another."""
+    repeats: int = 0
+    """Number of packets that repeated a number, until that is known to be no accident."""
+    has_stepped: bool = False
+    """The newest number was another one than the number before."""
+
+    def count_packets(self, number: int, modulus: int, samples: int, is_copy: bool) -> tuple[int, int]:
+        """Return how many packets after the newest one a packet is, and the packets in a round of the counter.
+
+        `is_copy`: the packet has the values of the newest one."""
+        difference = signed_difference(number - self.newest, modulus)
+        if difference == 0:
+            return int(not is_copy), modulus
+        may_be_samples = self.sample_steps >= 0 and samples > 1 and difference % samples == 0
+        if may_be_samples or self.sample_steps >= STEADY_NUMBERS:
+            return difference // samples, max(1, modulus // samples)
+        return difference, modulus
+
+    def accept(self, number: int, modulus: int, samples: int, is_first: bool) -> str:
+        """Take the number of a packet that was accepted; return what the numbers count, in words, when it is known."""
+        difference, what = signed_difference(number - self.newest, modulus), ""
+        self.newest = number
+        if is_first:
+            return what
+        if difference == 0 and self.repeats < STEADY_NUMBERS:
+            self.repeats += 1
+            what = REPEATED_NUMBERS if self.repeats == STEADY_NUMBERS else ""
+        elif difference and self.has_stepped and self.repeats < STEADY_NUMBERS:
+            self.repeats = 0
+        self.has_stepped = difference != 0
+        if difference and 0 <= self.sample_steps < STEADY_NUMBERS:
+            is_step = samples > 1 and difference % samples == 0
+            self.sample_steps = self.sample_steps + (difference == samples) if is_step else -1
+            if self.sample_steps == STEADY_NUMBERS:
+                what = SAMPLE_NUMBERS.format(samples, modulus // samples)
+        return what
 
 
 @define

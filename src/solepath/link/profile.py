@@ -74,16 +74,16 @@ class Profile:
     """UUIDs of the services that it advertises."""
     channels: tuple[Channel, ...]
     """Channels of the device."""
-    setup: tuple[Write, ...]
-    """Writes that start the device, in order; they follow the subscriptions, except those `before_subscribing`."""
-    reads: tuple[str, ...]
-    """Channels to be read once after connecting, if the device has them."""
     nominal_rate: float
     """Samples a second after `setup`, Hz."""
     streams: tuple[str, ...]
     """Channels that must not fall silent."""
     stale_after: float
     """Time after which a stream counts as silent, s."""
+    setup: tuple[Write, ...] = ()
+    """Writes that start the device, in order; they follow the subscriptions, except those `before_subscribing`."""
+    reads: tuple[str, ...] = ()
+    """Channels to be read once after connecting, if the device has them."""
     prefixes: tuple[str, ...] = ()
     """Starts of names that it may advertise."""
 

@@ -12,14 +12,14 @@ from __future__ import annotations
 
 from binascii import crc32
 
-from ..events import BatteryLevel, KeysChanged, LayoutKnown, Rejection
-from ..types import Sample, Site, Vec3
+from ..events import BatteryLevel, KeysChanged, LayoutKnown, Limitation, Rejection
+from ..types import Layout, Sample, Site, Vec3
 from ..types.attrs import define, field
 from ..types.vector import unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
 from .clock import MIN_INCREMENT
-from .counters import MIN_GAP, PacketPosition, PacketRun, SampleTimes, signed_difference
+from .counters import MIN_GAP, Numbering, PacketPosition, PacketRun, SampleTimes, signed_difference
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
 from .periodic import PeriodicClock, other_rate
@@ -57,6 +57,7 @@ class StreamLink(DeviceLink):
     """Numbers from earlier values that are passed to the readers of later values."""
     may_be_silent: bool = False
     packet_run: PacketRun = field(factory=PacketRun)
+    numbering: Numbering = field(factory=Numbering)
     coarse_ticks: int = 0
     """Device time of the newest packet as sent, ticks, for a device that has sequence numbers as well."""
     off_rate_packets: int = 0
@@ -72,6 +73,8 @@ class StreamLink(DeviceLink):
     """Time of the newest sample, s; sample times strictly increase."""
     mag: Vec3 | None = None
     """Magnetometer value that waits for the next sample, T."""
+    layout: Layout | None = None
+    """Layout of the pressure cells as it was last reported; None before any."""
     air_pressure: float | None = None
     """Air pressure that waits for the next sample, Pa."""
     limitation_reported: bool = False
@@ -148,7 +151,8 @@ class StreamLink(DeviceLink):
 
     def _make_events(self, reading: Reading, arrival: float) -> Output:
         out: Output = []
-        if reading.layout is not None:
+        if reading.layout is not None and reading.layout != self.layout:
+            self.layout = reading.layout
             out.append(LayoutKnown(t=arrival, site=self.site, layout=reading.layout))
         if reading.battery is not None:
             out.append(BatteryLevel(t=arrival, site=self.site, level=float(reading.battery)))
@@ -169,6 +173,7 @@ class StreamLink(DeviceLink):
 
     def _make_samples(self, driver: Driver, data: bytes, reading: Reading, arrival: float) -> Output:
         axis, run, other_slope = driver.axis, self.packet_run, 0.0
+        is_first = run.clock is None
         rate = self.rate if reading.rate is None else reading.rate
         checksum = crc32(data)
         if checksum == self.last_value and run.after_reconnection and axis is not TimeAxis.ARRIVAL:
@@ -178,12 +183,12 @@ class StreamLink(DeviceLink):
             longest_loss = 0.0 if self.may_be_silent else driver.profile.stale_after
             sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss, data)
         elif axis is TimeAxis.TICKS:
-            position = self._locate_by_ticks(driver, reading, rate)
+            position = self._locate_by_ticks(driver, reading, rate, checksum)
             sample_times = self.packet_run.accept(position, driver.tick_rate, arrival)
             self._set_rate(rate)
             self._correct_rate(driver, reading, position)
         else:
-            position = self._locate_by_count(driver, reading, rate, arrival)
+            position = self._locate_by_count(driver, reading, rate, arrival, checksum)
             sample_times = self.packet_run.accept(
                 position, rate * TICKS_PER_SAMPLE, arrival, new_fit=self._has_stopped(driver, arrival)
             )
@@ -192,6 +197,9 @@ class StreamLink(DeviceLink):
             other_slope = 0.0 if run.clock is None or reading.rate is not None else run.clock.other_slope
         self.last_value = checksum
         out: Output = [*sample_times.make_events(self.site, arrival)]
+        if driver.sequence and reading.sequence is not None:
+            what = self.numbering.accept(int(reading.sequence), driver.sequence, len(reading.samples), is_first)
+            out += [Limitation(t=arrival, site=self.site, what=what)] if what else []
         if self.periodic is not None:
             out += self.periodic.report_rate(len(reading.samples), self.site, arrival)
         if other_slope:  # the next packet starts a fit at the rate that arrives
@@ -216,7 +224,7 @@ class StreamLink(DeviceLink):
             out.append(sample)
         return out
 
-    def _locate_by_ticks(self, driver: Driver, reading: Reading, rate: float) -> PacketPosition:
+    def _locate_by_ticks(self, driver: Driver, reading: Reading, rate: float, checksum: int) -> PacketPosition:
         run, count = self.packet_run, len(reading.samples)
         if reading.ticks is None or (driver.sequence and reading.sequence is None):
             raise malformed("no device time or no sequence number, which this device has")
@@ -224,7 +232,8 @@ class StreamLink(DeviceLink):
         ticks = signed_difference(reading.ticks - run.ticks, driver.tick_modulus)
         if reading.sequence is not None and driver.sequence:
             sequence = int(reading.sequence)
-            difference, packets = run.count_packets(sequence, driver.sequence, ticks)
+            sequence, modulus = self._number(driver, sequence, count, checksum)
+            difference, packets = run.count_packets(sequence, modulus, ticks)
             return PacketPosition(sequence, int(reading.ticks), interval, count, difference, packets, ticks)
         if ticks > 0:  # ticks were cut to whole ones: the true distance may be up to one tick less
             packets = round(ticks / run.packet_ticks) if ticks - 1 >= MIN_GAP * run.packet_ticks else 1
@@ -232,7 +241,9 @@ class StreamLink(DeviceLink):
             packets = 0 if ticks == 0 else min(-1, round(ticks / run.packet_ticks))
         return PacketPosition(0, int(reading.ticks), interval, count, packets, packets, ticks)
 
-    def _locate_by_count(self, driver: Driver, reading: Reading, rate: float, arrival: float) -> PacketPosition:
+    def _locate_by_count(
+        self, driver: Driver, reading: Reading, rate: float, arrival: float, checksum: int
+    ) -> PacketPosition:
         """Return a packet's position by its sequence number; the elapsed time gives the counter's whole rounds."""
         run, count = self.packet_run, len(reading.samples)
         if reading.sequence is None:
@@ -243,7 +254,8 @@ class StreamLink(DeviceLink):
             device_time = signed_difference(reading.ticks - self.coarse_ticks, driver.tick_modulus) / driver.tick_rate
             device_time = device_time if -MAX_DEVICE_LAG <= device_time - elapsed <= MAX_DEVICE_LEAD else None
         ticks = (elapsed if device_time is None else device_time) * rate * TICKS_PER_SAMPLE
-        difference, packets = run.count_packets(reading.sequence, driver.sequence, ticks)
+        sequence, modulus = self._number(driver, int(reading.sequence), count, checksum)
+        difference, packets = run.count_packets(sequence, modulus, ticks)
         ticks_after = round(packets * run.packet_ticks)
         if (
             packets >= 1
@@ -251,7 +263,16 @@ class StreamLink(DeviceLink):
             and ticks > PAUSE_RATIO * ticks_after + PAUSE_LEAD * rate * TICKS_PER_SAMPLE
         ):
             ticks_after = round(ticks)
-        return PacketPosition(int(reading.sequence), 0, TICKS_PER_SAMPLE, count, difference, packets, ticks_after)
+        return PacketPosition(sequence, 0, TICKS_PER_SAMPLE, count, difference, packets, ticks_after)
+
+    def _number(self, driver: Driver, number: int, samples: int, checksum: int) -> tuple[int, int]:
+        """Return the number of a packet among packets, whatever the device counts, and their number in a round."""
+        run = self.packet_run
+        if run.clock is None:
+            return number, driver.sequence
+        is_copy = checksum == self.last_value
+        packets, modulus = self.numbering.count_packets(number, driver.sequence, samples, is_copy)
+        return (run.sequence + packets) % modulus, modulus
 
     def _has_stopped(self, driver: Driver, arrival: float) -> bool:
         """Return whether a packet is so late that the device must have stopped counting before it."""

@@ -232,9 +232,11 @@ def reported(walk: Walk, *, now: bool = False) -> list[Finding]:
 
 
 def _is_explained(one: Finding, walk: Walk) -> bool:
-    """Return whether the height of strides, with which air pressure is compared, is the one that is wrong."""
-    others = [other for other in walk.found_defects if other.site is one.site and other.spoils]
-    return one.code == Defect.AIR_PRESSURE.name.lower() and len(others) > 0
+    """Return whether another defect is the cause: of strides that cannot be, or of a height that air contradicts."""
+    causes = [other for other in walk.found_defects if other.site is one.site and other.spoils]
+    if one.code == Defect.IMPOSSIBLE_MOTION.name.lower():
+        return any([other.defect is not Defect.IMPOSSIBLE_MOTION for other in causes])
+    return one.code == Defect.AIR_PRESSURE.name.lower() and len(causes) > 0
 
 
 def texts(walk: Walk, *concerns: Concern) -> list[str]:

@@ -29,7 +29,7 @@ from ..events import (
     StreamStale,
 )
 from ..foot.rhythm import longest_loss
-from ..link.kinds import BUILT_IN_KINDS
+from ..link.kinds import DeviceKinds
 from ..types import Packet
 from ..wire.fragment import is_fragment
 
@@ -53,9 +53,9 @@ STRAGGLER_TIME = 1.0
 """Time after the end of a connection within which a sample does not mean that there is a new connection, s."""
 
 
-def is_sample_channel(channel: str) -> bool:
-    """Return whether samples come on this channel of a device that solepath knows."""
-    kind = BUILT_IN_KINDS.get(channel.partition("/")[0])
+def is_sample_channel(channel: str, kinds: DeviceKinds) -> bool:
+    """Return whether samples come on this channel of a device."""
+    kind = kinds.get(channel.partition("/")[0])
     return kind is not None and channel in kind.profile.streams
 
 
@@ -135,7 +135,7 @@ class LinkLedger:
     is_counted: bool = True
     received: int = 0
     """Packets of samples that came and were used. The fragments of a frame count as one packet, when a sample is
-    complete. The count is 0 where samples are fed without packets, and for a device that only the app knows."""
+    complete. The count is 0 where samples are fed without packets, and for a device that the walk does not know."""
     lost: int = 0
     """Samples that were counted as lost (`SampleGap.count`). A packet that was rejected because it came twice is not
     lost. One that came damaged or late, or that the receiver dropped, is."""

@@ -51,7 +51,9 @@ from ..events import (
     WearerMoved,
 )
 from ..link.decoder import Decoder
+from ..link.kinds import BUILT_IN_KINDS, DeviceKinds
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Turn, Vec2, Vec3, WalkingMode
+from ..types.attrs import NOT_SAVED
 from .links import NO_DEVICE, SET_BACK_TOLERANCE, CoveredTime, LinkLedger, is_frame_fragment, is_sample_channel
 from .places import PlaceCounts
 from .soles import SoleLoads
@@ -147,6 +149,8 @@ class Walk:
     keeps_all: bool = False
     """True to keep every position of the feet, gait event and activity as well, as scores need them, and the strides of
     a foot whose data cannot be right."""
+    kinds: DeviceKinds | None = field(default=None, metadata=NOT_SAVED, repr=False)
+    """Devices of the session (`make_kinds`); None if an app has added none."""
     item_count: int = 0
     """Number of items that were fed, used or not."""
     now: float = -inf
@@ -242,15 +246,15 @@ class Walk:
         if isinstance(item, Sample):
             self.link(item.site).add_sample(item.t, item.t if item.known_at is None else item.known_at)
             return
-        link = self.links.get(item.site)
+        link, kinds = self.links.get(item.site), self.kinds or BUILT_IN_KINDS
         has_samples = any([isinstance(event, FootMoved | FootPressed) for event in events])
         if link is None or not (link.has_motion or link.has_pressure):
             decoder = self._other_decoders.setdefault(item.site, Decoder(item.site))
-            for record in decoder.feed(item):
+            for record in decoder.feed(item, kinds):
                 if isinstance(record, Sample) and any((record.acc, record.gyro, record.pressure, record.quat)):
                     self.link(item.site).add_sample(record.t, item.t)
                     has_samples = True
-        if is_sample_channel(item.channel) and (has_samples or not is_frame_fragment(item)):
+        if is_sample_channel(item.channel, kinds) and (has_samples or not is_frame_fragment(item)):
             self.link(item.site).add_packet(item.t)
 
     def advance(self, now: float) -> None:
@@ -431,6 +435,11 @@ class Walk:
     def known_feet(self) -> list[Foot]:
         """Feet with any count or sample."""
         return [foot for foot in Foot if foot in self.feet or self.samples(foot)]
+
+    def has_strides(self, foot: Foot) -> bool:
+        """Return whether strides and distance of a foot can be known: pressure cells alone show contacts and no way."""
+        link = self.links.get(SITE_OF_FOOT[foot])
+        return link is None or link.has_motion or self.feet.get(foot, FootCounts()).strides > 0
 
     def samples(self, foot: Foot) -> int:
         """Return the number of used samples of a foot."""

@@ -185,6 +185,22 @@ def test_times_that_are_wrong_by_a_factor_are_named(walk: list[Sample], factor: 
     assert [event.what for event in found] == [event.what], "a scale of the gyroscope looks the same"
 
 
+@pytest.mark.parametrize("size", [0.125, 0.25, 0.5, 2.0, 4.0, 8.0])
+@pytest.mark.parametrize("walk", [WALK, SLOW], ids=["walking", "walking slowly"])
+def test_a_wrong_range_of_the_gyroscope_is_named_with_its_factor(
+    request: pytest.FixtureRequest, walk: list[Sample], size: float
+) -> None:
+    if walk is SLOW and size == 0.125:
+        request.applymarker(pytest.mark.xfail(reason="a foot that hardly turns takes no swing", strict=True))
+    factor, wrong = (f"{size:g}", "large") if size > 1.0 else (f"{1.0 / size:g}", "small")
+    found, _ = run([vectors(gyro=scaled(size))(sample) for sample in walk])
+    (cause,) = [event for event in found if event.defect is not Defect.IMPOSSIBLE_MOTION]
+    if cause.defect is Defect.GYRO_UNIT:
+        assert size == 8.0 and "the range of the gyroscope is declared several times too large" in cause.what
+    else:
+        assert f"the range of the gyroscope is declared about {factor} times too {wrong}" in cause.what
+
+
 def test_of_an_accelerometer_one_thing_is_said() -> None:
     """Findings on its size exclude each other, and axes are not judged with it."""
     for factor in (1.0 / GRAVITY, 0.02, 0.25, 2.0):

@@ -31,7 +31,6 @@ def board(rate: float) -> Driver:
         names=("Board",),
         services=(SERVICE,),
         channels=(Channel("board/motion", SERVICE, SERVICE.replace("0001", "0002"), Access.NOTIFY),),
-        reads=(),
         setup=(),
         streams=("board/motion",),
         nominal_rate=rate,

@@ -8,13 +8,17 @@ from pathlib import Path
 
 import pytest
 
+from solepath import Session
 from solepath.calibration import Calibration, CalibrationError, InsoleCalibration, Newtons, ShoeGeometry
+from solepath.calibration.records import merged
+from solepath.events import FootPressed
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.papers.kupt_dfpc.noise import pressure_noise
 from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT
 from solepath.papers.kupt_dfpc.shoe.fit import MeasuredPosture, fit_shoe, write_measurements
 from solepath.papers.kupt_dfpc.shoe.gauge import PitchGauge
 from solepath.types import Cell, Foot, Layout, Sample, Site, Vec3
+from solepath.types.checking import find_fault
 from solepath.types.vector import GRAVITY, from_rotation_vector, rotate
 
 
@@ -54,10 +58,22 @@ def test_the_insoles_two_areas_meet_at_the_board_12_5_of_28_5_cm_from_the_heel()
         assert (insole.heel_cells, insole.forefoot_cells) == ((0, 1), (2, 3))
 
 
-def test_noise_is_in_newtons_where_the_calibration_makes_newtons() -> None:
-    known = Calibration(insoles={Foot.LEFT: InsoleCalibration(newtons=Newtons((0.0, 2.0, 0.0, 0.0), threshold=1.0))})
+NEWTONS = InsoleCalibration(newtons=Newtons((0.0, 2.0, 0.0, 0.0), threshold=1.0))
+
+
+def test_noise_and_newtons_make_the_same_forces_whichever_was_calibrated_first() -> None:
     rows = [(1.0, 4.0)] * 20 + [(40.0, 45.0)] * 80
-    assert pressure_noise(samples_of(rows), 0.20, known).insoles[Foot.LEFT].noise == pytest.approx((2.0, 8.0))
+    noise, newtons = pressure_noise(samples_of(rows), 0.20), Calibration(insoles={Foot.LEFT: NEWTONS})
+    both = merged(noise, newtons)
+    assert both == merged(newtons, noise)
+    session = Session(calibration=both, pressures=True)
+    pressed = [event for sample in samples_of(rows) for event in session.feed(sample) if isinstance(event, FootPressed)]
+    assert pressed[0].values == (0.0, 0.0) and pressed[-1].values == (78.0, 82.0)
+
+
+def test_noise_may_be_below_zero_as_that_of_cells_that_were_set_to_zero_under_the_wearer() -> None:
+    noise = pressure_noise(samples_of([(-50.0, -20.0)] * 40 + [(10.0, 20.0)] * 110))
+    assert find_fault(noise, Calibration) is None
 
 
 def test_each_foot_has_its_own_noise_and_nothing_else_is_calibrated() -> None:

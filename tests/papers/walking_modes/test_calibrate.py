@@ -13,6 +13,7 @@ from corpus import given
 
 from solepath.calibration import Calibration, CalibrationError, Limbs, Newtons
 from solepath.events import TouchedDown
+from solepath.foot.pressure.insole import in_newtons
 from solepath.papers.walking_modes.calibrate import (
     ModeMark,
     StepError,
@@ -53,7 +54,7 @@ def test_the_cubic_of_a_gauge_is_found_and_what_lies_beside_it_is_its_residual(t
     rows = [(3000.0 * k, force_of(3000.0 * k) + aside[k]) for k in range(6)]
     found = fit_gauge(write_gauge(tmp_path / "g.csv", rows))
     coefficients = (1.0, 60.0 / 16000.0, 40.0 / 16000.0**2, 100.0 / 16000.0**3)
-    assert found.newtons == Newtons(pytest.approx(coefficients, rel=1e-9), 5.0, 200.0)  # type: ignore[arg-type]
+    assert found.newtons == Newtons(pytest.approx(coefficients, rel=1e-9), 5.0, rows[-1][1])  # type: ignore[arg-type]
     assert found.residual == pytest.approx(0.2 * sqrt(42.0)) and found.worst == pytest.approx(2.0)
     assert found.points == 6
 
@@ -62,7 +63,7 @@ def test_the_cubic_of_a_gauge_is_found_and_what_lies_beside_it_is_its_residual(t
     ("rows", "line", "message"),
     [
         ([(0.0, 0.0)] * 3, "hello,5", "line 5: counts is 'hello', not a number"),
-        ([(0.0, 0.0)] * 3, "7,200.5", "line 5: newtons is 200.5, which is not between 0 and 200 N"),
+        ([(0.0, 0.0)] * 3, "7,5000.5", "line 5: newtons is 5000.5, which is not between 0 and 5000 N"),
         ([(k % 4, 20.0 * k) for k in range(8)], "3,200", "4 different counts, and a cubic needs 5 or more"),
         ([(k, 200.0 - 20.0 * k) for k in range(9)], "", "does not rise"),
         ([(k, k) for k in range(5)], "", "does not rise"),  # 4 N at most: the insole feels none of it
@@ -73,6 +74,13 @@ def test_a_gauge_that_shows_no_cubic_is_rejected(
 ) -> None:
     with pytest.raises(CalibrationError, match=message):
         fit_gauge(write_gauge(tmp_path / "g.csv", rows, line))
+
+
+def test_forces_are_cut_at_the_largest_of_the_gauge_and_not_before(tmp_path: Path) -> None:
+    for largest in (60.0, 800.0):
+        newtons = fit_gauge(write_gauge(tmp_path / "g.csv", [(k, 0.1 * largest * k) for k in range(11)])).newtons
+        assert newtons.most == largest
+        assert in_newtons(newtons, (5.0, 10.0, 12.0)) == pytest.approx((0.5 * largest, largest, largest))
 
 
 def test_five_counts_are_enough_and_forces_below_5_newtons_need_not_rise(tmp_path: Path) -> None:

@@ -39,11 +39,13 @@ AXES: Final[tuple[Axes, ...]] = tuple(
 Turn = tuple[float, ...]
 """A rotation matrix, row by row."""
 UNTURNED: Final[Turn] = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-SCALES: Final = (2.0 / 3.0, 1.5)
-"""Factors of the turn that are tried too: that of samples whose times, or whose angular rates, are 1.5 times too large,
-and that of times or rates which are too small."""
-LESSER_TURN, NO_TURN = len(AXES), len(AXES) + len(SCALES)
-"""Indices of the residual with the smaller one of SCALES, and of that of a gyroscope that reads nothing.
+WRONG_BY: Final = (1.5, 2.0, 4.0, 8.0)
+"""Factors by which times or angular rates may be too large or too small: those between the ranges of a gyroscope (250,
+500, 1000 and 2000 degrees/s), and one of a wrong rate."""
+SCALES: Final = (*[1.0 / factor for factor in WRONG_BY], *WRONG_BY)
+"""Factors of the turn that are tried too."""
+LESSER_TURN, GREATER_TURN, NO_TURN = len(AXES), len(AXES) + len(WRONG_BY), len(AXES) + len(SCALES)
+"""Indices of the first residuals with a lesser and with a greater turn, and of that of a gyroscope that reads nothing.
 
 The latter is what the turns have to explain; the others are measured by it."""
 LEAST_RESIDUAL, LEAST_SHARE = 0.05, 0.1
@@ -136,7 +138,7 @@ CLOSING = 0.75
 
 It is the part of a stride's turn that the gyroscope leaves unexplained, so it does not depend on the pace: 0.04 to 0.3
 in recordings, up to 0.54 where the specific force clips, about 0.55 with a gyroscope or a rate that is wrong by a
-factor of 1.5, and 1 with one that is wrong by a factor of 2."""
+factor of 1.5, and 1 with one that is wrong by a factor of 2 and more."""
 CLIPPED_CLOSING = 0.6
 """The same ratio where peaks of the specific force are cut off, up to which a lesser turn is no explanation."""
 CONTRADICTION = (
@@ -146,13 +148,14 @@ CONTRADICTION = (
 """Sentence on strides that close with no axes."""
 WRONG_SCALES: Final = tuple(
     [
-        f"the foot turns much {more} by the gyroscope than by gravity: the times of the samples are too {long}, because"
-        f" the sensor measures at a {higher} rate than is assumed, or the angular rates are too {large}. One of them is"
-        " wrong by about a half or more"
-        for more, long, higher, large in (
-            ("further", "far apart", "higher", "large"),
-            ("less", "close", "lower", "small"),
+        f"by {one}, the foot turns about {factor:g} times as far as by {other}: the range of the gyroscope is declared"
+        f" about {factor:g} times too {large}, or the times of the samples are too {long}, because the sensor measures"
+        f" at a {higher} rate than is assumed"
+        for one, other, large, long, higher in (
+            ("the gyroscope", "gravity", "large", "far apart", "higher"),
+            ("gravity", "the gyroscope", "small", "close", "lower"),
         )
+        for factor in WRONG_BY
     ]
 )
 """Sentence on strides that close with a turn by each of SCALES; times and rates cannot be told apart."""
@@ -221,10 +224,9 @@ class AxesCheck:
     @property
     def _explanations(self) -> list[float]:
         """The evidence for what may explain strides that close badly; clipped peaks do that as a lesser turn does."""
-        lesser = (
-            [0.0] if self.clipped and self._closes(0, CLIPPED_CLOSING) else self.evidence[LESSER_TURN : LESSER_TURN + 1]
-        )
-        return self.evidence[:LESSER_TURN] + lesser + self.evidence[LESSER_TURN + 1 :]
+        if not (self.clipped and self._closes(0, CLIPPED_CLOSING)):
+            return self.evidence
+        return self.evidence[:LESSER_TURN] + [0.0] * len(WRONG_BY) + self.evidence[GREATER_TURN:]
 
     @property
     def wrong(self) -> bool:

@@ -390,8 +390,8 @@ class GravityCheck:
             if self.fast_blocks >= FAST_BLOCKS:
                 return Finding(
                     Defect.GYRO_UNIT,
-                    f"angular rates of {gyro_peak:.0f} rad/s are faster than any foot: they look like degrees a second;"
-                    " multiply them by pi / 180",
+                    f"angular rates of {gyro_peak:.0f} rad/s are faster than any foot: they look like degrees a second"
+                    " (multiply them by pi / 180), or the range of the gyroscope is declared several times too large",
                 )
             return None
         if gyro_peak > IDLE_GYRO:

@@ -21,6 +21,7 @@ from ...events import Event
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ...link.driver import Driver
+from ...link.kinds import make_kinds
 from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, printable
 from ...session import Session
@@ -76,7 +77,7 @@ async def listen(
         floorplan=plan,
         start=start,
     )
-    walk, floor = Walk(), None if plan is None else plan.plan
+    walk, floor = Walk(kinds=make_kinds(drivers)), None if plan is None else plan.plan
     collector: Walk | Scene = walk
     async with AsyncExitStack() as stack:
         run_file = None if options.out is None else OutputFile(options.out / RUN_FILE, TRACK_KINDS[RUN_FILE])

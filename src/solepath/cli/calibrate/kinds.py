@@ -26,7 +26,7 @@ def _noise(options: Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.kupt_dfpc.noise import pressure_noise
 
     _, samples = samples_named(options)
-    learnt = pressure_noise(samples, known=known)
+    learnt = pressure_noise(samples)
     rows = [
         [foot.value, str(len(insole.noise)), number(sum(insole.noise) / len(insole.noise)), number(max(insole.noise))]
         for foot, insole in learnt.insoles.items()
@@ -65,7 +65,9 @@ def _newton(options: Namespace, known: Calibration) -> LearntCalibration:
     insole = InsoleCalibration(newtons=fit.newtons)
     return Calibration(insoles={foot: insole for foot in feet}), [
         f"{' and '.join(foot.value for foot in feet)}: N = {a:.4g} + {b:.4g} c + {c:.4g} c^2 + {d:.4g} c^3, "
-        f"{fit.points} points, rms error {fit.residual:.2f} N, largest {fit.worst:.2f} N"
+        f"{fit.points} points, rms error {fit.residual:.2f} N, largest {fit.worst:.2f} N",
+        f"forces below {fit.newtons.threshold:g} N count as 0, and those above {fit.newtons.most:g} N, the largest of "
+        f"the gauge, as {fit.newtons.most:g} N",
     ]
 
 

@@ -13,6 +13,7 @@ from attrs import define, field
 
 from ...events import Event
 from ...floorplan.plan import FloorPlan
+from ...link.kinds import DeviceKinds
 from ...recording import printable
 from ...saving.files import FileReplacements
 from ...session import Session
@@ -52,6 +53,8 @@ class Results:
     """Clinical outcomes; None without any."""
     options: Namespace | None = None
     """Options of the command, for run.json; None without this file."""
+    kinds: DeviceKinds | None = None
+    """Devices of the session; None if none was added."""
     walk: Walk = field(factory=Walk, init=False)
     seconds: float = field(default=0.0, init=False)
     """Wall time that `feed` took, s."""
@@ -61,6 +64,7 @@ class Results:
     _stack: ExitStack = field(factory=ExitStack, init=False)
 
     def __attrs_post_init__(self) -> None:
+        self.walk.kinds = self.kinds
         self._replacements = replacements(self.outputs)
         self._stack.callback(self._replacements.discard)
         if self.out is not None or self.outcomes is not None:

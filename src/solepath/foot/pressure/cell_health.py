@@ -3,13 +3,12 @@
 Cells are judged over windows of walking, each of which contains SWINGS_OF_WINDOW swings of the foot.
 
 - DEAD, STUCK and SATURATED are reported when two windows in a row show the fault (`CellWindow`).
-- MISSING is reported when for MISSING_TIME the cell gives no number, or samples do not have as many cells as the
-  insole. This needs no swings.
+- MISSING is reported when for MISSING_TIME the cell gives no number. This needs no swings.
 
 `usable` returns 0 for failed cells, so load, areas and centre of pressure work without them. A cell that loads again in
 two windows in a row is used again. This is not reported, but another failure of the same cell is. If a sample has a
-wrong number of cells, its pressure is not used, but its inertial part is. Without a layout, a wrong number that lasts
-for MISSING_TIME means another insole.
+wrong number of cells, its pressure is not used, but its inertial part is; if that lasts for MISSING_TIME, it is a
+Limitation. Without a layout it then means another insole.
 
 A cell is "lively" in a window in which it both loads and unloads. The numbers were chosen by hand and not swept."""
 
@@ -18,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from math import atan2, hypot, pi
 
-from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads
+from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads, Limitation
 from ...types import Floats, Layout, Phase, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ..rejection import ABSURD_PRESSURE
@@ -354,9 +353,11 @@ class CellHealth:
         if t - self.wrong_count_since < MISSING_TIME:
             return False
         if not self.wrong_count_reported:
-            missing_cells = tuple(range(count, self.count)) or tuple(range(self.count, count))
             self.wrong_count_reported = True
-            self._report(t, known_at, CellFault.MISSING, missing_cells, events)
+            known = "samples before had" if layout is None else "the layout of the insole has"
+            use = "no pressure is used" if layout is not None or not count else "it is taken for another insole"
+            what = f"samples have {count} values of pressure cells, but {known} {self.count}: {use}"
+            events.append(Limitation(t=t, known_at=known_at, site=self.site, what=what))
         if layout is None and count:
             self._set_count(count)
             return True

@@ -7,8 +7,9 @@ alike.
 
 There is no `Load` before the sum has once fallen to a small share of its highest value and risen again. Until then a
 falling sum would always be the lowest so far, and a foot that is about to leave the ground would seem to be in the air.
-Cells that never show a small value, because of their voltage divider, have no load before two swings have shown their
-level without load (unloaded.py). From then on the load is measured from that level, wherever it is, and follows it.
+Cells that never show a small value, because of their voltage divider, or that show values below zero, because they were
+set to zero under the wearer, have no load before two swings have shown their level without load (unloaded.py). From
+then on the load is measured from that level, wherever it is, and follows it.
 The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
@@ -154,10 +155,11 @@ class InsoleLoads:
 
         `with_centre`: the centre of pressure is computed, too."""
         settings = self.settings
-        if settings.newtons is not None and not self.in_newtons:
-            cells = in_newtons(settings.newtons, cells)
-        if len(settings.noise) == len(cells):
-            cells = above(settings.noise, cells)
+        newtons, noise = None if self.in_newtons else settings.newtons, settings.noise
+        if newtons is not None:
+            cells = in_newtons(newtons, cells)
+        if len(noise) == len(cells):
+            cells = above(noise if newtons is None else in_newtons(newtons, noise), cells)
         self.cells = cells
         total = add_up(cells)
         last_range = self.total.high - self.total.low if self.load_risen else 0.0
@@ -197,7 +199,9 @@ class InsoleLoads:
             self.trouble, self.unloaded.moved = MOVED, False
         self.sum = total if level is None else total - level
         full = high if level is None else high - level
-        if high - low <= LEAST_LOAD_RANGE * full or high <= low:
+        # values far below zero are not those of unloaded cells at zero: whoever set them to zero stood on them
+        is_net = level is None and low < -LEAST_LOAD_RANGE * high
+        if high - low <= LEAST_LOAD_RANGE * full or high <= low or is_net:
             self.load_risen = False
             return None
         if level is not None:
@@ -229,7 +233,7 @@ class InsoleLoads:
         self.inverted = True
         self.total, self.heel, self.forefoot = Extremes(), Extremes(), Extremes()
         self.tare, self.was_airborne, self.load_risen = (0.0,) * len(self.tare), False, False
-        self.unloaded, self.jumps = UnloadedLevel(), Jumps()
+        self.unloaded, self.jumps = self.turned.turned(), Jumps()
 
     def _shift(self, step: float, count: int) -> None:
         """Add `step` to everything that was learnt of the values of each of `count` cells."""

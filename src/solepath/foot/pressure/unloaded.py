@@ -13,7 +13,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from ...types import Floats
-from ...types.attrs import define, field
+from ...types.attrs import define, evolve, field
 from ...types.vector import TIME_EPSILON
 
 VALLEY_DEPTH = 0.35
@@ -128,6 +128,11 @@ class UnloadedLevel:
         self.level = None if self.level is None else self.level + by
         self.bottom = None if self.bottom is None else self.bottom + by
         self.top, self.base = self.top + by, self.base + by
+
+    def turned(self) -> UnloadedLevel:
+        """Return this level of sums with another sign as that of cells whose values change their signs from now on."""
+        cells, sure_cells = [tuple([-value for value in values]) for values in (self.cells, self.sure_cells)]
+        return evolve(self, cells=cells, sure_cells=sure_cells)
 
     def _lay_band(self, t: float, total: float) -> None:
         self.base, self.base_t, self.flat_t, self.flat = total, t, t, 1

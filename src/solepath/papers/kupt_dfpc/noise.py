@@ -11,7 +11,6 @@ from collections.abc import Iterable
 import numpy as np
 
 from ...calibration import Calibration, CalibrationError, InsoleCalibration
-from ...foot.pressure.insole import in_newtons
 from ...types import Floats, Foot, Sample
 
 SWING_SHARE = 0.15
@@ -20,15 +19,12 @@ FEWEST_SAMPLES = 20
 """Least number of swing samples for a standard deviation; 5 s of walking at 30 Hz have 22."""
 
 
-def pressure_noise(
-    samples: Iterable[Sample], share: float = SWING_SHARE, known: Calibration | None = None
-) -> Calibration:
+def pressure_noise(samples: Iterable[Sample], share: float = SWING_SHARE) -> Calibration:
     """Return a calibration that contains only the noise of every cell of every insole in `samples`.
 
-    `share` is the share of the samples that are taken for swing (`SWING_SHARE`). The noise is in N if the calibration
-    `known` converts the insole's values to newtons, otherwise in the samples' unit. All pressures are kept in memory.
-    Raises CalibrationError when there are no cells, too few samples, or a number of cells that changes, and ValueError
-    when the share is outside 0 to 1."""
+    `share` is the share of the samples that are taken for swing (`SWING_SHARE`). The noise is in the unit of the
+    samples. All pressures are kept in memory. Raises CalibrationError when there are no cells, too few samples, or a
+    number of cells that changes, and ValueError when the share is outside 0 to 1."""
     if not 0.0 < share <= 1.0:
         raise ValueError(f"share is {share}")
     rows: dict[Foot, list[Floats]] = {}
@@ -37,11 +33,10 @@ def pressure_noise(
         if foot is None or not sample.pressure:
             continue
         cells = sample.pressure
-        newtons = None if known is None else known.insole(foot).newtons
         foot_rows = rows.setdefault(foot, [])
         if foot_rows and len(foot_rows[0]) != len(cells):
             raise CalibrationError(f"the {foot.value} insole has {len(foot_rows[0])} cells and then {len(cells)}")
-        foot_rows.append(cells if newtons is None else in_newtons(newtons, cells))
+        foot_rows.append(cells)
     if not rows:
         raise CalibrationError("no pressure cells in this recording: nothing to learn of their noise")
     return Calibration(insoles={foot: _insole_noise(foot, rows[foot], share) for foot in Foot if foot in rows})

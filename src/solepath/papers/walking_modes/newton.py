@@ -2,7 +2,8 @@
 
 After Gong et al. 2023 (Sensors 23, 5417), section 3.1 and fig. 6: a gauge presses a cell with 0 to 200 N, and "the
 mathematical relationship between the pressure value and the AD value of the insole is a cubic polynomial". The insole
-does not record forces below 5 N or above 200 N."""
+does not record forces below 5 N or above 200 N. Here the largest force of the gauge takes the place of these 200 N,
+because nothing shows whether the cubic still rises beyond it."""
 
 from __future__ import annotations
 
@@ -14,8 +15,10 @@ from ...calibration import CalibrationError, Newtons
 from ...types.attrs import frozen
 from ..tables import read_rows
 
-LOWEST_FORCE, HIGHEST_FORCE = 5.0, 200.0
-"""Range of the paper's insole, N."""
+LOWEST_FORCE = 5.0
+"""Least force that the paper's insole records, N."""
+HEAVIEST_WEARER = 5000.0
+"""Largest force on a cell, N: the largest weight of a wearer that a calibration may have."""
 LEAST_POINTS = 5
 """Least number of points of a fit; a cubic goes through any four."""
 
@@ -40,7 +43,7 @@ def fit_gauge(path: Path | str) -> GaugeFit:
     counts."""
     rows = read_rows(path, ("counts", "newtons"))
     counts = np.array([row.number("counts") for row in rows])
-    forces = np.array([row.number("newtons", 0.0, HIGHEST_FORCE, "N") for row in rows])
+    forces = np.array([row.number("newtons", 0.0, HEAVIEST_WEARER, "N") for row in rows])
     distinct_counts = len(set(counts.tolist()))
     if distinct_counts < LEAST_POINTS:
         raise CalibrationError(f"{path}: {distinct_counts} different counts, and a cubic needs {LEAST_POINTS} or more")
@@ -52,5 +55,5 @@ def fit_gauge(path: Path | str) -> GaugeFit:
         raise CalibrationError(f"{path}: the fitted force does not rise with the counts")
     residuals = forces - np.polynomial.polynomial.polyval(counts / unit, coefficients)
     a, b, c, d = (float(value) / unit**power for power, value in enumerate(coefficients))
-    newtons = Newtons((a, b, c, d), LOWEST_FORCE, HIGHEST_FORCE)
+    newtons = Newtons((a, b, c, d), LOWEST_FORCE, float(forces.max()))
     return GaugeFit(newtons, float(np.sqrt(np.mean(residuals**2))), float(np.abs(residuals).max()), len(rows))

@@ -51,8 +51,10 @@ class WalkingBout:
     steps: int
     """Number of initial contacts of both feet, which Mobilise-D counts as steps; of a wearer of one sensor, twice the
     contacts of that foot."""
-    turns: int
-    """Number of turns by 45 degrees or more whose middle is in the bout (El-Gohary et al. 2014)."""
+    turns: int | None
+    """Number of turns by 45 degrees or more whose middle is in the bout (El-Gohary et al. 2014).
+
+    None when no length is known: pressure cells alone show no turns."""
     stride_duration: float | None
     """Mean stride time, s; None when all strides are degraded, as of the other means."""
     cadence: float | None
@@ -106,13 +108,14 @@ def count_contacts(cycles: Sequence[GaitCycleMeasured], after: float = -inf, unt
 def _bout(number: int, cycles: Sequence[GaitCycleMeasured], turns: Sequence[TurnMade]) -> WalkingBout:
     start, end = cycles[0].t_start, max([cycle.t for cycle in cycles])
     good = [cycle for cycle in cycles if not cycle.degraded]
+    made = [turn for turn in turns if start <= 0.5 * (turn.t_start + turn.t) <= end]
     return WalkingBout(
         number=number,
         t_start=start,
         t_end=end,
         strides=len(cycles),
         steps=count_contacts(cycles),
-        turns=len([turn for turn in turns if start <= 0.5 * (turn.t_start + turn.t) <= end]),
+        turns=None if all([cycle.stride_length is None for cycle in cycles]) else len(made),
         stride_duration=mean_of([cycle.stride_time for cycle in good]),
         cadence=mean_of([cycle.cadence for cycle in good]),
         stride_length=mean_of([cycle.stride_length for cycle in good]),

@@ -219,5 +219,5 @@ def bout_row(bout: WalkingBout) -> list[str]:
         "walking_speed": number(bout.walking_speed),
     }
     shown = [f"({mean})" if name in wrong else mean for name, mean in means.items()]
-    counts = [str(count) for count in (bout.strides, bout.steps, bout.turns)]
+    counts = [number(count, 0) for count in (bout.strides, bout.steps, bout.turns)]
     return [str(bout.number), f"{bout.t_start:.1f}", f"{bout.duration:.1f}", *counts, *shown]

@@ -40,8 +40,8 @@ class MobilityOutcomes:
     """Sum of the durations of all bouts, s."""
     wbsteps_all_sum: int
     """Number of initial contacts in all bouts."""
-    turns_all_sum: int
-    """Number of turns by 45 degrees or more in all bouts."""
+    turns_all_sum: int | None
+    """Number of turns by 45 degrees or more in all bouts; None when those of no bout are known."""
     wb_all_sum: int
     """Number of bouts."""
     wb_10_sum: int
@@ -132,7 +132,7 @@ def mobility_outcomes(
             getattr(bout, name) for bout, excluded in pairs if above < bout.duration <= up_to and name not in excluded
         ]
         values = [value for value in found if value is not None]
-        if how == "sum":
+        if how == "sum" and (values or not found):
             return len(values) if kind == "wb" else sum(values) if name in ("steps", "turns") else fsum(values)
         if how == "var":
             return stdev(values) / fmean(values) if len(values) > 1 else None

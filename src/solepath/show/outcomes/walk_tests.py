@@ -33,15 +33,15 @@ class SixMinuteWalk:
     foot_distances: Mapping[Foot, float]
     """Distance that each foot went, m."""
     minutes: tuple[float, ...]
-    """Distances walked in each whole minute, m."""
+    """Distances walked in each whole minute, m; none when no stride was taken."""
     steps: int
     """Number of initial contacts of both feet."""
     stops: int
     """Number of times that nobody walked for more than 3 s: breaks between walking bouts, from the start to the end."""
     stopped_time: float
     """Sum of the durations of these stops, s."""
-    about_turns: int
-    """Number of turns about, as at the ends of a corridor."""
+    about_turns: int | None
+    """Number of turns about, as at the ends of a corridor; None when no stride was taken."""
     degraded: int
     """Number of strides that are degraded; they count like the others."""
 
@@ -120,7 +120,7 @@ def six_minute_walk(
     breaks = [min(b, stop) - max(a, start) for a, b in zip(edges[::2], edges[1::2], strict=True)]
     stops = [length for length in breaks if length > MAX_BREAK]
     distances = _foot_distances(swings, start, stop)
-    starts = [start + k * MINUTE for k in range(int(duration // MINUTE))]
+    starts = [start + k * MINUTE for k in range(int(duration // MINUTE))] if distances else []
     turns = [event for event in events if isinstance(event, TurnMade) and event.turn is Turn.ABOUT]
     return SixMinuteWalk(
         t_start=start,
@@ -131,7 +131,7 @@ def six_minute_walk(
         steps=_count_steps(events, start, stop),
         stops=len(stops),
         stopped_time=fsum(stops),
-        about_turns=len([turn for turn in turns if start <= turn.t <= stop]),
+        about_turns=len([turn for turn in turns if start <= turn.t <= stop]) if distances else None,
         degraded=len([one for one in swings if one.stride.degraded and start < one.stride.t_end <= stop]),
     )
 

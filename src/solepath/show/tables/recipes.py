@@ -28,7 +28,7 @@ class RecipeRun:
         """Return the figures of the run as texts by their names; "-" is a figure that is not known."""
         walk, cells = self.walk, {}
         feet = {foot: walk.feet.get(foot, FootCounts()) for foot in Foot}
-        for foot in walk.known_feet:
+        for foot in filter(walk.has_strides, walk.known_feet):
             cells[f"strides, {foot} foot"] = str(feet[foot].strides)
             cells[f"degraded strides, {foot} foot"] = str(feet[foot].degraded)
             cells[f"distance m, {foot} foot"] = number(feet[foot].distance)

@@ -43,8 +43,10 @@ def _foot_table(walk: Walk) -> str:
     names, rows = GAIT_EVENTS.values(), []
     for foot in walk.known_feet:
         counts, link = walk.feet.get(foot, FootCounts()), walk.links.get(SITE_OF_FOOT[foot], LinkLedger())
-        figures = [str(counts.strides), number(counts.distance), *[str(counts.events[name]) for name in names]]
-        figures = ["-"] * len(figures) if foot in walk.spoilt_feet else figures
+        figures, events = [str(counts.strides), number(counts.distance)], [str(counts.events[name]) for name in names]
+        if not walk.has_strides(foot):  # what it cannot know is no figure of 0
+            figures, events = ["-", "-"], ["-" if text == "0" else text for text in events]
+        figures = ["-"] * len(figures + events) if foot in walk.spoilt_feet else figures + events
         rows.append([foot.value, str(link.samples), number(link.rate, 1), *figures])
     return table(["foot", "samples", "Hz", "strides", "distance m", *[f"{name}s" for name in names]], rows)
 

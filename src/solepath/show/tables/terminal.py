@@ -12,8 +12,9 @@ from rich.panel import Panel
 from rich.table import Table
 from rich.text import Text
 
+from ...events import HeelStrike
 from ...types import Foot, Phase
-from ...walk.walk import FootCounts, Walk
+from ...walk.walk import GAIT_EVENTS, FootCounts, Walk
 from ..findings import Concern, texts
 from .plot import plot
 from .summary import status
@@ -67,4 +68,10 @@ def _foot(walk: Walk, foot: Foot) -> tuple[str, ...]:
     counts = walk.feet.get(foot, FootCounts())
     phase = "-" if counts.phase is None else f"[bold {PHASE_COLOURS[counts.phase]}]{counts.phase:10}[/]"
     position = "" if counts.position is None else "at " + " ".join([f"{v:6.2f}" for v in counts.position]) + " m"
-    return foot.value, phase, f"{counts.strides:3d} strides", f"{counts.distance:6.2f} m", position
+    way = (f"{counts.strides:3d} strides", f"{counts.distance:6.2f} m")
+    return foot.value, phase, *(way if walk.has_strides(foot) else _contacts(counts)), position
+
+
+def _contacts(counts: FootCounts) -> tuple[str, str]:
+    """Return what is known of a foot without an inertial sensor: its contacts, and no distance."""
+    return f"{counts.events[GAIT_EVENTS[HeelStrike]]:3d} heel-strikes", "- m"

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import pickle
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from copy import copy
 
 from attrs import define, field, frozen
 
 from ....events import Event
 from ....floorplan.index import IndexedPlan
+from ....link.driver import Driver
 from ....session import Session
 from ....types import Packet, Sample
 from ..body import LiveBody
@@ -61,6 +62,8 @@ class Player:
     session: Session
     scene: Scene
     plan: IndexedPlan | None = None
+    profiles: Sequence[Driver] = ()
+    """Devices that an app added to the session."""
     fault: str = ""
     on_events: OnEvents | None = None
     spacing: float = STATE_SPACING
@@ -192,7 +195,7 @@ class Player:
     def _restore(self, saved: _SavedState) -> None:
         plan = self.scene.plan
         snapshot, self.scene = pickle.loads(zlib.decompress(saved.state))
-        self.session = Session.restore(snapshot, floorplan=self.plan)
+        self.session = Session.restore(snapshot, profiles=self.profiles, floorplan=self.plan)
         self.scene.plan = plan
         self._show_session()
         self._next = saved.next

@@ -37,19 +37,21 @@ function figures(state) {
   const share = Math.abs(most?.share ?? NaN);
   const side = most && ` ${most.share < 0 ? "left" : "right"} ${most.more}`; // a space outside of it would move
   const metres = distance(state);
+  // Pressure cells alone show contacts, and neither strides nor a position.
+  const hasTrack = strides > 0 || Object.values(state.feet).some((foot) => foot?.position);
   const texts = {
     speed: fixed(speed, 2),
     cadence: fixed(cadence),
     symmetry: !most ? "–" : most.even ? "even" : `${fixed(100 * share, share < 0.0995 ? 1 : 0)} %`,
     distance: strides > 0 ? fixed(metres, metres < 99.95 ? 1 : 0) : "–",
-    strides: String(strides ?? "–"),
+    strides: hasTrack ? String(strides ?? "–") : "–",
     "symmetry-words": most && rests ? " last walk" : !most || most.even ? "" : side,
     "symmetry-label": !most ? "left and right" : most.even ? `${most.name}: ${fixed(100 * share, 1)} ${most.points ? "points" : "%"}` : most.name,
     "speed-label": `${finished ? "mean speed" : "speed now"}, m/s`,
     "cadence-label": `${finished ? "mean" : "cadence now,"} steps/min`,
   };
   for (const [id, words] of Object.entries(texts)) write(id, words);
-  setData("figures", { known: strides > 0 });
+  setData("figures", { known: strides > 0 || texts.cadence !== "–" });
   for (const name of ["speed", "cadence", "symmetry", "distance"]) {
     const sound = name === "symmetry" ? bad === 0 && sidesKnown(state) && !rests : bad < 2;
     setData(`figure-${name}`, { now: texts[name] !== "–", sound });
