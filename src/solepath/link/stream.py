@@ -19,7 +19,7 @@ from ..types.vector import unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
 from .clock import MIN_INCREMENT
-from .counters import MIN_GAP, PacketPosition, PacketRun, SampleTimes, signed_difference
+from .counters import MIN_GAP, REMEMBERED_PACKETS, PacketPosition, PacketRun, SampleTimes, signed_difference
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
 from .periodic import PeriodicClock, other_rate
@@ -66,8 +66,8 @@ class StreamLink(DeviceLink):
     periodic: PeriodicClock | None = None
     newest_arrival: float | None = None
     """Arrival of the newest packet with samples, s."""
-    last_value: int = -1
-    """Checksum of that packet; -1 before the first."""
+    recent: list[tuple[int, int]] = field(factory=list)
+    """Sequence number and checksum of the newest packets with samples, oldest first, of which no number is twice."""
     last_t: float | None = None
     """Time of the newest sample, s; sample times strictly increase."""
     mag: Vec3 | None = None
@@ -171,7 +171,7 @@ class StreamLink(DeviceLink):
         axis, run, other_slope = driver.axis, self.packet_run, 0.0
         rate = self.rate if reading.rate is None else reading.rate
         checksum = crc32(data)
-        if checksum == self.last_value and run.after_reconnection and axis is not TimeAxis.ARRIVAL:
+        if self.recent and checksum == self.recent[-1][1] and run.after_reconnection and axis is not TimeAxis.ARRIVAL:
             raise WireError(Rejection.DUPLICATE, "the newest packet again, after a new connection")
         if axis is TimeAxis.ARRIVAL:
             self._set_rate(rate)
@@ -185,12 +185,16 @@ class StreamLink(DeviceLink):
         else:
             position = self._locate_by_count(driver, reading, rate, arrival)
             sample_times = self.packet_run.accept(
-                position, rate * TICKS_PER_SAMPLE, arrival, new_fit=self._has_stopped(driver, arrival)
+                position,
+                rate * TICKS_PER_SAMPLE,
+                arrival,
+                new_fit=self._has_stopped(driver, arrival) or self._is_another(position, checksum),
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
             other_slope = 0.0 if run.clock is None or reading.rate is not None else run.clock.other_slope
-        self.last_value = checksum
+        number, kept = reading.sequence or 0, min(REMEMBERED_PACKETS, driver.sequence or 1)
+        self.recent = [*self.recent[-kept + 1 :], (number, checksum)] if kept > 1 else [(number, checksum)]
         out: Output = [*sample_times.make_events(self.site, arrival)]
         if self.periodic is not None:
             out += self.periodic.report_rate(len(reading.samples), self.site, arrival)
@@ -263,6 +267,12 @@ class StreamLink(DeviceLink):
             delay > MIN_DELAY_AFTER_CONNECTION
             if run.after_reconnection
             else silence > LONG_SILENCE and delay > MIN_DELAY_AFTER_SILENCE
+        )
+
+    def _is_another(self, position: PacketPosition, checksum: int) -> bool:
+        """Return whether a packet has a number of a recent one and other bytes, so that the count started again."""
+        return position.packets_after <= 0 and any(
+            [number == position.sequence and known != checksum for number, known in self.recent]
         )
 
     def _correct_rate(self, driver: Driver, reading: Reading, position: PacketPosition) -> None:
