@@ -188,7 +188,7 @@ class StreamLink(DeviceLink):
                 position,
                 rate * TICKS_PER_SAMPLE,
                 arrival,
-                new_fit=self._has_stopped(driver, arrival) or self._is_another(position, checksum),
+                new_fit=self._has_stopped(driver, arrival) or self._is_another(driver, position, checksum),
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
@@ -269,11 +269,12 @@ class StreamLink(DeviceLink):
             else silence > LONG_SILENCE and delay > MIN_DELAY_AFTER_SILENCE
         )
 
-    def _is_another(self, position: PacketPosition, checksum: int) -> bool:
-        """Return whether a packet has a number of a recent one and other bytes, so that the count started again."""
-        return position.packets_after <= 0 and any(
-            [number == position.sequence and known != checksum for number, known in self.recent]
-        )
+    def _is_another(self, driver: Driver, position: PacketPosition, checksum: int) -> bool:
+        """Return whether a packet has a number of a recent one and other bytes, so that the count started again.
+
+        A clock of the device would show it, so that the number is damaged."""
+        is_known = [number == position.sequence and known != checksum for number, known in self.recent]
+        return position.packets_after <= 0 and not driver.tick_modulus and any(is_known)
 
     def _correct_rate(self, driver: Driver, reading: Reading, position: PacketPosition) -> None:
         if driver.sequence or reading.interval is not None or position.ticks_after <= 0:
