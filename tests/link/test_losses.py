@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from random import Random
 from typing import Any
 
 import pytest
-from attrs import frozen
+from attrs import evolve, frozen
 from decoded import acc_packet, gyro_packet, insole_frame, movement_packet
 from hypothesis import Phase, assume, given, settings
 from hypothesis import strategies as st
@@ -220,6 +221,25 @@ def test_the_time_without_a_connection_is_absent_once_and_none_of_it_is_missing(
         link = received.walk.links[site]
         assert (link.missing, link.samples) == (0, pytest.approx(received.arrived, abs=2 * sender.partial))
         assert link.ended_absences == pytest.approx(duration, abs=(2.1 if sender.partial else 1.1) / sender.rate + 0.02)
+
+
+@pytest.mark.parametrize("site", [LEFT, PELVIS])
+@pytest.mark.parametrize("period", [0.07, 0.085, 0.095, 0.1, 0.11, 0.12, 0.13, 0.15, 0.17, 0.2])
+def test_what_is_missing_of_a_cc2541_that_loses_one_packet_in_five_is_right_whatever_its_period(
+    period: float, site: Site
+) -> None:
+    session, walk, random, lost = Session(poses=True), Walk(), Random(1), 0
+    for k in range(int(60.0 / period)):
+        arrival = 100.0 + k * period + random.uniform(0.0, 0.02)
+        for made in (acc_packet(0.0, (k % 3, 0, 16)), gyro_packet(0.0, (k % 250, 0, 0))):
+            if random.random() < 0.2:
+                lost += 1
+                continue
+            packet = evolve(made, t=arrival, site=site)
+            walk.take(packet, session.feed(packet))
+    walk.take(None, session.finish())
+    (link,) = walk.links.values()
+    assert 0.85 < link.missing_time / (0.5 * lost * period) < 1.1
 
 
 @pytest.mark.parametrize("site", [LEFT, PELVIS])

@@ -14,11 +14,13 @@ from walks import of
 from solepath import (
     Activity,
     ActivityChanged,
+    ClockReset,
     DefectFound,
     Event,
     Foot,
     Limitation,
     Packet,
+    PacketRejected,
     SampleGap,
     Session,
     StrideTaken,
@@ -76,6 +78,8 @@ class Course:
     """True if it sends its last packet again after the silence."""
     reset_at: float = 1e9
     """Time at which its counters start again without a silence, s."""
+    back: int = 0
+    """Number of packets by which its count goes back then, in place of to 0."""
     zeros: int = 0
     """Number of samples from the start that are all zero."""
     distance: float = field(default=40.0)
@@ -99,7 +103,7 @@ def walk(driver: Driver, course: Course) -> tuple[Session, list[Event]]:
             if course.repeats:
                 events += session.feed(Packet(now, SITE, "board/motion", last))
         if course.reset_at <= t < course.reset_at + 1.0 / RATE:
-            since = (k, t)
+            since = (course.back or k, t)
         number, ticks = k - since[0], int((t - since[1]) * (driver.tick_rate or 1.0))
         values = {"acc": [0] * 3 if k < course.zeros else acc, "gyro": [0] * 3 if k < course.zeros else gyro}
         fields = {"number": number % (driver.sequence or 2**32), "ticks": ticks % (driver.tick_modulus or 2**32)}
@@ -154,6 +158,19 @@ def test_counters_that_start_again_are_no_loss(name: str, reset_at: float) -> No
     assert len(of(StrideTaken, events)) <= plain(name)[0]
 
 
+@pytest.mark.parametrize("name", ["8 bits", "16 bits"])
+@pytest.mark.parametrize("back", [1, 8, 64, 100, *soaked(2, 20, 50, 65, 120, 127)])
+def test_a_count_that_goes_back_is_a_restart_and_no_sample_comes_twice_or_is_called_lost(name: str, back: int) -> None:
+    session, events = walk(DRIVERS[name], Course(reset_at=20.0, back=back))
+    late = max(0, back - 64)  # numbers older than those that a receiver remembers may be of packets that were overtaken
+    # a number that comes once more with other values is that of the next packet of some devices
+    assert lost(events) == 0 and len(of(ClockReset, events)) == (back > 1)
+    assert len(of(PacketRejected, events)) == late
+    assert [gap.duration for gap in of(SampleGap, events)] == pytest.approx([(late + 1) / RATE][:late], abs=0.03)
+    assert len(of(StrideTaken, events)) >= plain(name)[0] - 1 - (late > 0)
+    assert session.position is not None and session.position.position[0] == pytest.approx(plain(name)[1], abs=1.0)
+
+
 @pytest.mark.parametrize("name", DRIVERS)
 @pytest.mark.parametrize("away", [3.0, *soaked(2.0, 7.3)])
 def test_the_last_packet_again_after_a_reconnection_is_no_sample_and_no_loss(name: str, away: float) -> None:
@@ -162,7 +179,7 @@ def test_the_last_packet_again_after_a_reconnection_is_no_sample_and_no_loss(nam
     assert lost(events) == 0
     (gap,) = of(SampleGap, events)
     assert (gap.t, gap.duration) == pytest.approx((120.0, away), abs=0.05)
-    assert [event.reason.value for event in events if type(event).__name__ == "PacketRejected"] == ["duplicate"]
+    assert [event.reason.value for event in of(PacketRejected, events)] == ["duplicate"]
 
 
 @pytest.mark.parametrize("name", DRIVERS)

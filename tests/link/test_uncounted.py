@@ -53,6 +53,18 @@ def test_the_rate_is_the_count_over_time_within_seconds_and_nothing_is_lost(
 
 
 @pytest.mark.parametrize("burst", BURSTS)
+@pytest.mark.parametrize("share", [0.9, 0.92, 0.93, 0.935, 1.065, 1.07, 1.08, 1.1, 1.15])
+def test_a_rate_that_is_a_little_off_is_followed_within_five_seconds(share: float, burst: int) -> None:
+    for true in (40.0, 50.0, 100.0, 180.0):
+        clock = PeriodicClock(1.0 / (share * true))
+        times, lost = times_of(clock, arrivals(true, 20.0, Radio(burst=burst)))
+        assert lost == 0
+        second = int(true)
+        for start in range(5 * second, 19 * second, second):
+            assert times[start + second] - times[start] == pytest.approx(second / true, rel=0.02)
+
+
+@pytest.mark.parametrize("burst", BURSTS)
 @pytest.mark.parametrize("rate", [30, 52, 100, 200])
 def test_a_rate_that_is_right_stays(rate: float, burst: int) -> None:
     clock = PeriodicClock(1.0 / rate)

@@ -67,7 +67,7 @@ def test_a_walk_gives_the_same_packets_whatever_captured_it(
 @pytest.mark.parametrize("name", ["iphone.pklg", "h4.pcap", "flags.pcapng"])
 def test_convert_and_track_take_it_to_a_summary(tmp_path: Path, log: Log, name: str) -> None:
     (tmp_path / name).write_bytes(CAPTURES[name](log))
-    assert "`solepath convert` makes a recording of it" in one_line(run("track", tmp_path / name))
+    assert "`solepath convert` makes a recording of" in one_line(run("track", tmp_path / name))
     done = run("convert", tmp_path / name, tmp_path / "walk.jsonl")
     assert done.returncode == 0 and "left_foot, insole" in done.stdout
     frames_sent = [p.data for p in read_packets(tmp_path / "walk.jsonl") if p.channel == "insole/frame"]
@@ -102,12 +102,31 @@ def test_packets_that_are_cut_short_are_said_first(tmp_path: Path, log: Log) -> 
     assert "cut short" in reports[0] and reports[0].endswith(": 3")
 
 
-@pytest.mark.parametrize("link", [1, 189, 251, 272, 999])
-def test_a_capture_of_something_else_gets_one_line_that_says_what_to_do(tmp_path: Path, log: Log, link: int) -> None:
-    path = tmp_path / "walk.pcap"
-    path.write_bytes(pcap(log, link))
+AIR = ": Bluetooth LE on the air)"
+"""What a sniffer beside the two devices captures; it has no HCI."""
+OTHERS = {
+    1: "1 (Ethernet)",
+    189: "189 (USB)",
+    251: f"251 (a sniffer{AIR}",
+    256: f"256 (a sniffer such as Ubertooth{AIR}",
+    272: f"272 (an nRF Sniffer{AIR}",
+    999: "999",
+}
+
+
+@pytest.mark.parametrize("capture", [pcap, pcapng])
+@pytest.mark.parametrize("link", OTHERS)
+def test_a_capture_of_something_else_gets_one_line_that_says_what_it_is_and_what_to_do(
+    tmp_path: Path, log: Log, link: int, capture: Callable[[Log, int], bytes]
+) -> None:
+    path = tmp_path / "walk.capture"
+    path.write_bytes(capture(log, link))
     done = run("convert", path, tmp_path / "walk.jsonl")
-    assert f"is a capture of link type {link}" in one_line(done) and "repair: capture HCI on the phone" in done.stderr
+    assert done.returncode == 2 and f"{OTHERS[link]}, not of HCI; repair: capture HCI on the phone" in one_line(done)
+    assert not (tmp_path / "walk.jsonl").exists()
+    for command in ("check", "track"):
+        done = run(command, path)
+        assert done.returncode == 2 and "is a Bluetooth capture: if it is of HCI, `solepath convert`" in one_line(done)
 
 
 def test_a_log_is_found_in_a_bug_report(tmp_path: Path, log: Log, packets: list[Packet]) -> None:

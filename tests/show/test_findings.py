@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Callable
 from hashlib import sha256
 from html import unescape
+from math import nan
 from pathlib import Path
+from typing import Any
 
 import pytest
+from attrs import evolve
 from commands import run
 from here import EXAMPLES
 from recordings import recorded
@@ -24,11 +28,14 @@ from solepath import (
     FootSilent,
     Limitation,
     Packet,
+    Session,
     Site,
 )
+from solepath.emulate import Walker
 from solepath.emulate.routes.route import Route
-from solepath.show.findings import finding_of
+from solepath.show.findings import finding_of, findings
 from solepath.show.tables.summary import summary
+from solepath.walk import Walk
 
 LEFT = Site.LEFT_FOOT
 SILENT_FROM, SILENT_UNTIL = 12.0, 24.0
@@ -74,6 +81,46 @@ def test_the_page_says_what_the_summary_says() -> None:
     assert {one["site"] for one in found} == {"left foot", "right foot", ""} and len(found) == len(events)
     for one in found:
         assert f"{one['site']}: {one['what']}".removeprefix(": ") in text
+
+
+Change = Callable[[Any], Any]
+REFUSED: dict[str, tuple[str, Change]] = {
+    "packets are damaged": ("packets_rejected", lambda one: evolve(one, data=one.data[::-1])),
+    "packets are of another channel": ("channel_unknown", lambda one: evolve(one, channel="other/motion")),
+    "packets are empty": ("packets_rejected", lambda one: evolve(one, data=b"")),
+    "samples are no numbers": ("samples_rejected", lambda one: evolve(one, acc=(nan, 0.0, 0.0))),
+    "samples are of no sensor": ("samples_rejected", lambda one: evolve(one, acc=(1e9, 0.0, 0.0))),
+    "samples are of the past": ("samples_rejected", lambda one: evolve(one, t=one.t - 30.0)),
+}
+"""What makes a foot's packets or samples useless, and the finding that says so."""
+
+
+@pytest.mark.parametrize("start", [12.0, 36.0])
+@pytest.mark.parametrize("change", REFUSED)
+def test_a_foot_of_which_all_that_comes_is_rejected_has_that_for_a_finding_and_is_not_called_silent(
+    change: str, start: float
+) -> None:
+    code, changed = REFUSED[change]
+    route, walk, session = Route().stand(2.0).walk(45.0, speed=1.2).stop(2.0), Walk(), Session()
+    samples = sorted([one for foot in Foot for one in Walker(route).samples(foot, 100.0)], key=lambda one: one.t)
+    items = samples if code == "samples_rejected" else walked(route, cells=8)
+    for one in items:
+        item = changed(one) if one.site is LEFT and one.t > items[0].t + start else one
+        walk.take(item, session.feed(item))
+    assert [one.code for one in findings(walk) if one.act] == [code]
+
+
+@pytest.mark.parametrize("damaged", [0, 1, 20])
+def test_a_foot_that_falls_silent_after_some_damaged_packets_is_called_silent(damaged: int) -> None:
+    walk, session, number = Walk(), Session(), 0
+    for one in walked(Route().stand(2.0).walk(45.0, speed=1.2).stop(2.0), cells=8):
+        if one.site is LEFT and one.t > SILENT_FROM:
+            number += 1
+            if number > damaged:
+                continue
+            one = evolve(one, data=one.data[::-1])
+        walk.take(one, session.feed(one))
+    assert [one.code for one in findings(walk) if one.act] == ["foot_silent"]
 
 
 @pytest.mark.parametrize("count", [1, 2, 12])

@@ -134,6 +134,14 @@ def test_every_file_of_a_recording_gives_the_sound_foot_alone(
     rows = [one for one in csv.DictReader((out / "gait_cycles.csv").open()) if one["foot"] == "left"]
     assert {row["steady"] for row in rows} <= {"0"}
     assert not [row for row in csv.DictReader((out / "gait_cycles.csv").open()) if row["step_time_s"]]
+    strides = list(csv.DictReader((out / "strides.csv").open()))
+    assert {row["degraded"] for row in strides if row["foot"] == "right"} == {"0"}
+    assert {row["degraded"] for row in strides if row["foot"] == "left"} <= {"1"}
+    assert all(["defect" in row["flaws"].split() for row in strides if row["foot"] == "left"])
+    events = [json.loads(line) for line in (out / "events.jsonl").open()]
+    assert [[row["foot"], float(row["t_end_s"])] for row in strides] == [
+        [one["foot"], one["t"]] for one in events if one["event"] == "StrideTaken" and one["final"]
+    ]
     outcomes = {row["outcome"]: row["value"] for row in csv.DictReader((out / "outcomes.csv").open())}
     assert float(outcomes["steady_speed"]) == pytest.approx(alone[2], abs=0.02)
     assert "foot_left_out" in [one["code"] for one in json.loads((out / "run.json").read_text())["findings"]]

@@ -91,6 +91,8 @@ class Clock:
     """Newest sample whose time was further than SETTLED_ERROR from the line, or the first sample, device seconds."""
     unsettled_until: float | None = None
     """Newest time assigned while the clock was unsettled, s; times up to it are not comparable with other clocks."""
+    max_drift: float = MAX_DRIFT
+    """Largest relative deviation of the slope from nominal."""
     t_min: float | None = None
     """Lower bound of the first assigned time, s; it keeps times in order when a fit follows another one."""
 
@@ -193,7 +195,7 @@ class Clock:
             if x_b >= middle:
                 slope = (r_b - r_a) / (x_b - x_a)
                 break
-        drift, self.other_slope = max(-MAX_DRIFT, min(MAX_DRIFT, slope)), 0.0
+        drift, self.other_slope = max(-self.max_drift, min(self.max_drift, slope)), 0.0
         # The uncertainty of the slope is four times the points' mean height above the line, divided by the span of
         # their times. Few points always lie close to a line, so `spare_points` enlarge it. A drift below its
         # uncertainty is reduced towards 0; a drift of 4 % is followed within about two seconds.

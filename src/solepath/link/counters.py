@@ -180,7 +180,7 @@ class PacketRun:
             # Sequence and ticks agree on how far the packet is from the newest one.
             same_run = abs(packets * self.packet_ticks - ticks) <= 2 * self.packet_ticks
             held_back = same_run and not self.after_reconnection
-            if ticks <= 0 or packets <= 0:
+            if (ticks <= 0 or packets <= 0) and not new_fit:
                 self._reject_repeated(clock, position, arrival, same_run)
             last = self.ticks + ticks + packet_ticks - position.interval
             # samples that were lost took their time: a counter that gets ahead of it was reset or set

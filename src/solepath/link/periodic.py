@@ -7,7 +7,8 @@ those of protocol/clock.md, "Devices without counters":
 
 - The period is the time over the count, whatever was written: arrivals that get ahead of their slots, or fall behind
   them, by a quarter of a second more than a clock may, show another period. It is looked at again after 1 s and 3 s.
-  Gaps that stand out from the others say nothing about it. A loss of a constant share is another rate.
+  Gaps that stand out from the others say nothing about it. A smaller difference shows in the line below the arrivals of
+  those that come at their own pace, as for a device that counts. A loss of a constant share is another rate.
 - A value that repeats the one before, far sooner than the period, is a copy of it, if values that are a period apart
   differ, or if its slot is still to come. A sensor at rest repeats its values, too.
 - A gap of at least 1.5 periods is a loss at once when the gap before it was about a period, and when the packet is
@@ -78,6 +79,8 @@ MIN_REGULAR = 0.4
 """Share of gaps of about a period, above which packets come one by one, not in bursts.
 
 An exponential jitter of half a period leaves 0.6 of them; bursts of a radio leave none."""
+MAX_PERIOD_DRIFT = MIN_GAP - 1.0
+"""Largest relative deviation from the period that the fit follows: beyond it, each gap would look like a loss."""
 CATCH_UP_SHARE = 0.4
 """Largest share of a period by which assigned times catch up in each slot after a correction of the period."""
 LEAST_RATE, OTHER_RATE = 5.0, 0.1
@@ -95,6 +98,12 @@ class PeriodicClock:
     """Period in s, as written to the device, from its profile, or as counted."""
     clock: Clock = field(factory=lambda: Clock(1.0))
     """Fit of slot numbers to arrivals, which starts with the first packet."""
+    pace: Clock = field(factory=lambda: Clock(1.0))
+    """Fit of the number of gaps that show no loss to their total time: its slope shows another rate."""
+    pace_count: float = 0.0
+    """That number since the fit started."""
+    holes: float = 0.0
+    """Total time of the gaps that may show a loss, s."""
     slot: float = 0.0
     """Slot number of the newest packet."""
     declared_period: float | None = None
@@ -296,6 +305,11 @@ class PeriodicClock:
         self.last_gap, slots = gap, 1.0 + (lost_count if period >= MAX_RADIO_DELAY else 0)
         self.count += slots
         self.mean_gap += (gap / slots - self.mean_gap) * (MEMORY if self.mean_gap else 1.0)
+        if period < MAX_RADIO_DELAY or self.regular < MIN_REGULAR or gap < MIN_GAP * period:
+            self.pace_count += 1.0
+            self.pace.observe(self.pace_count, arrival - self.holes)
+        else:  # whether packets are lost in it or not
+            self.holes += gap
         step, allowed = gap - slots * period, MAX_DRIFT * slots * period
         self.ahead = max(0.0, self.ahead + max(0.0, -self.behind - step) - allowed)
         self.behind = max(0.0, self.behind + step - allowed)
@@ -306,6 +320,9 @@ class PeriodicClock:
         starts_burst = gap >= 0.5 * self.usual_gap  # from one start of a burst to another, the count is exact
         is_due = self.looks < len(LOOK_AGAIN) and elapsed >= coarseness * LOOK_AGAIN[self.looks]
         is_wrong = max(self.ahead, self.behind - self.stand_out) > limit and elapsed >= WRONG_PERIOD_TIME
+        fitted = self.period * (1.0 + self.pace.other_slope)
+        if self.pace.other_slope and abs(fitted / period - 1.0) > WRONG_SHARE:
+            return fitted
         if starts_burst and (is_wrong or is_due):
             counted = (elapsed - self.stand_out) / self.count
             self.looks = min(self.looks + 1, len(LOOK_AGAIN)) if is_due else 0
@@ -343,8 +360,10 @@ class PeriodicClock:
         return SampleTimes([t], gap_start=last_t if is_gap else None)
 
     def _start_fit(self, arrival: float, t_min: float | None) -> None:
-        self.clock = Clock(1.0 / self.period, t_min=t_min)
+        self.clock = Clock(1.0 / self.period, max_drift=MAX_PERIOD_DRIFT, t_min=t_min)
         self.clock.observe(0.0, arrival)
+        self.pace, self.pace_count, self.holes = Clock(1.0 / self.period), 0.0, 0.0
+        self.pace.observe(0.0, arrival)
         self.slot, self.newest_arrival, self.count_start = 0.0, arrival, arrival
         self.slipped_packets = self.revisable_packets = self.settled_packets = self.unsure = 0
         self.behind = self.ahead = self.stand_out = self.count = 0.0

@@ -19,7 +19,7 @@ from ..types.vector import unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
 from .clock import MIN_INCREMENT
-from .counters import MIN_GAP, Numbering, PacketPosition, PacketRun, SampleTimes, signed_difference
+from .counters import MIN_GAP, REMEMBERED_PACKETS, Numbering, PacketPosition, PacketRun, SampleTimes, signed_difference
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
 from .periodic import PeriodicClock, other_rate
@@ -67,8 +67,8 @@ class StreamLink(DeviceLink):
     periodic: PeriodicClock | None = None
     newest_arrival: float | None = None
     """Arrival of the newest packet with samples, s."""
-    last_value: int = -1
-    """Checksum of that packet; -1 before the first."""
+    recent: list[tuple[int, int]] = field(factory=list)
+    """Sequence number and checksum of the newest packets with samples, oldest first, of which no number is twice."""
     last_t: float | None = None
     """Time of the newest sample, s; sample times strictly increase."""
     mag: Vec3 | None = None
@@ -172,11 +172,11 @@ class StreamLink(DeviceLink):
         return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
 
     def _make_samples(self, driver: Driver, data: bytes, reading: Reading, arrival: float) -> Output:
-        axis, run, other_slope = driver.axis, self.packet_run, 0.0
+        axis, run, other_slope, number = driver.axis, self.packet_run, 0.0, 0
         is_first = run.clock is None
         rate = self.rate if reading.rate is None else reading.rate
         checksum = crc32(data)
-        if checksum == self.last_value and run.after_reconnection and axis is not TimeAxis.ARRIVAL:
+        if self.recent and checksum == self.recent[-1][1] and run.after_reconnection and axis is not TimeAxis.ARRIVAL:
             raise WireError(Rejection.DUPLICATE, "the newest packet again, after a new connection")
         if axis is TimeAxis.ARRIVAL:
             self._set_rate(rate)
@@ -184,18 +184,24 @@ class StreamLink(DeviceLink):
             sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss, data)
         elif axis is TimeAxis.TICKS:
             position = self._locate_by_ticks(driver, reading, rate, checksum)
+            number = position.sequence
             sample_times = self.packet_run.accept(position, driver.tick_rate, arrival)
             self._set_rate(rate)
             self._correct_rate(driver, reading, position)
         else:
             position = self._locate_by_count(driver, reading, rate, arrival, checksum)
+            number = position.sequence
             sample_times = self.packet_run.accept(
-                position, rate * TICKS_PER_SAMPLE, arrival, new_fit=self._has_stopped(driver, arrival)
+                position,
+                rate * TICKS_PER_SAMPLE,
+                arrival,
+                new_fit=self._has_stopped(driver, arrival) or self._is_another(driver, position, checksum),
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
             other_slope = 0.0 if run.clock is None or reading.rate is not None else run.clock.other_slope
-        self.last_value = checksum
+        kept = min(REMEMBERED_PACKETS, driver.sequence or 1)
+        self.recent = [*self.recent[-kept + 1 :], (number, checksum)] if kept > 1 else [(number, checksum)]
         out: Output = [*sample_times.make_events(self.site, arrival)]
         if driver.sequence and reading.sequence is not None:
             what = self.numbering.accept(int(reading.sequence), driver.sequence, len(reading.samples), is_first)
@@ -270,7 +276,7 @@ class StreamLink(DeviceLink):
         run = self.packet_run
         if run.clock is None:
             return number, driver.sequence
-        is_copy = checksum == self.last_value
+        is_copy = bool(self.recent) and checksum == self.recent[-1][1]
         packets, modulus = self.numbering.count_packets(number, driver.sequence, samples, is_copy)
         return (run.sequence + packets) % modulus, modulus
 
@@ -285,6 +291,13 @@ class StreamLink(DeviceLink):
             if run.after_reconnection
             else silence > LONG_SILENCE and delay > MIN_DELAY_AFTER_SILENCE
         )
+
+    def _is_another(self, driver: Driver, position: PacketPosition, checksum: int) -> bool:
+        """Return whether a packet has a number of a recent one and other bytes, so that the count started again.
+
+        A clock of the device would show it, so that the number is damaged."""
+        is_known = [number == position.sequence and known != checksum for number, known in self.recent]
+        return position.packets_after <= 0 and not driver.tick_modulus and any(is_known)
 
     def _correct_rate(self, driver: Driver, reading: Reading, position: PacketPosition) -> None:
         if driver.sequence or reading.interval is not None or position.ticks_after <= 0:

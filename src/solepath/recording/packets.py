@@ -106,7 +106,9 @@ def _explain_start(start: bytes) -> str:
     from .btsnoop.captures import is_capture  # packets do not need it
 
     if is_capture(start):
-        return "is a Bluetooth capture: `solepath convert` makes a recording of it (of a file, not of a pipe)"
+        return (
+            "is a Bluetooth capture: if it is of HCI, `solepath convert` makes a recording of it (a file, not a pipe)"
+        )
     is_wide = start[:2] in (b"\xff\xfe", b"\xfe\xff") or start[:2].count(0) == 1
     return "is text in UTF-16; a recording is in UTF-8: save it so" if is_wide else ""
 

@@ -271,7 +271,7 @@ def _beside(one: Finding, walk: Walk) -> Finding:
 def _of_link(link: LinkLedger, now: float) -> Iterator[tuple[str, str, bool]]:
     """Yield code and words of each figure of a link, "" for none, and whether somebody must act on it."""
     yield "samples_missing" if link.missing else "sensor_absent", missing_words(link, now), False
-    is_unknown = link.unknown.total() > LARGE_SHARE * link.packets
+    is_unknown = link.unknown.total() > (0.0 if link.rejected_all else LARGE_SHARE * link.packets)
     names = ", ".join([printable(name, 80) for name, _ in link.unknown.most_common(MAX_NAMED)])
     unknown = (
         f"{link.unknown.total()} of {link.packets} packets are of a channel that no known device has, or not the one "
@@ -284,11 +284,12 @@ def _of_link(link: LinkLedger, now: float) -> Iterator[tuple[str, str, bool]]:
             reasons.pop(Rejection.UNKNOWN_CHANNEL, None)
         words = ", ".join(sorted([f"{reason.value} {count}" for reason, count in reasons.items()]))
         rejected, lost = sum(reasons.values()), sum(reasons.values()) - reasons.get(Rejection.DUPLICATE, 0)
-        if kind == "packet" and lost > LARGE_SHARE * link.packets:
-            used = f"only {link.packets - lost} of {link.packets} packets"
-            used = f"none of its {link.packets} packets" if lost >= link.packets else used
+        total = link.packets if kind == "packet" else link.samples + rejected
+        if lost > LARGE_SHARE * total or (lost and link.rejected_all):
+            used = f"only {total - lost} of {total} {kind}s"
+            used = f"none of its {total} {kind}s" if lost >= total else used
             chief = max(reasons, key=lambda one: reasons[one] * (one is not Rejection.DUPLICATE))
-            yield "packets_rejected", f"{used} can be used ({words}); {chief.value} means {CAUSES[chief]}", True
+            yield f"{kind}s_rejected", f"{used} can be used ({words}); {chief.value} means {CAUSES[chief]}", True
         else:
             yield f"{kind}s_rejected", f"{counted(rejected, kind)} rejected ({words})" if words else "", False
     for code, count, text in (

@@ -18,7 +18,7 @@ from typing import TextIO
 from attrs import define, field
 
 from ..body.gait.means import as_found
-from ..events import DefectFound, Event, FootMoved, GaitCycleMeasured, LiveEvent, Placed, StrideTaken
+from ..events import DefectFound, Event, Flaw, FootMoved, GaitCycleMeasured, LiveEvent, Placed, StrideTaken
 from ..recording.errors import printable
 
 EVENTS_FILE, TRACK_FILE, STRIDES_FILE, GAIT_CYCLES_FILE = "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"
@@ -61,6 +61,8 @@ PLACE_COLUMNS = (
     "t_s", "level", "room", "door", "x_m", "y_m", "z_m", "spread_m", "walking_direction_deg", "frame_heading_deg",
     "candidates", "weight",
 )  # fmt: skip
+DEFECT = Flaw.DEFECT.name.lower()
+"""Flaw in strides.csv of the strides of a foot whose data cannot be right."""
 FORMULA = re.compile(r"\s*[=+\-@]")
 """Start of a text that programs for tables run as a formula."""
 MIN_DIRECTED_STRIDE = 0.3
@@ -134,11 +136,12 @@ class TrackFiles:
     """The files that are written to `directory`, which is made when there is none.
 
     Files of an earlier run are replaced. A FootMoved is a row of track.csv, a final StrideTaken one of strides.csv, a
-    GaitCycleMeasured one of gait_cycles.csv. A Placed is a row of places.csv with its heaviest candidate and the number
-    of candidates, and with the direction on the plan of the newest stride. Every event except a LiveEvent is a line of
-    events.jsonl. `places` says that the session has a floor plan; without one there is no places.csv. `path_to_write`
-    returns for the path of a file the path to write, such as a temporary file that is renamed later; None writes to the
-    path itself. Every method raises OSError, naming the directory, when the files cannot be made or written."""
+    GaitCycleMeasured one of gait_cycles.csv. A defect changes rows of the last two that were written before it. A
+    Placed is a row of places.csv with its heaviest candidate and the number of candidates, and with the direction on
+    the plan of the newest stride. Every event except a LiveEvent is a line of events.jsonl. `places` says that the
+    session has a floor plan; without one there is no places.csv. `path_to_write` returns for the path of a file the
+    path to write, such as a temporary file that is renamed later; None writes to the path itself. Every method raises
+    OSError, naming the directory, when the files cannot be made or written."""
 
     directory: Path
     places: bool = False
@@ -146,6 +149,7 @@ class TrackFiles:
     _stack: ExitStack = field(factory=ExitStack, init=False)
     _events: TextIO = field(init=False)
     _track: TextIO = field(init=False)
+    _strides: TextIO = field(init=False)
     _tables: dict[str, Callable[[Iterable[object]], object]] = field(factory=dict, init=False)
     """What writes a row of each table, by the names of their files."""
     _stride: StrideTaken | None = field(default=None, init=False)
@@ -155,16 +159,16 @@ class TrackFiles:
 
     def __attrs_post_init__(self) -> None:
         self.directory.mkdir(parents=True, exist_ok=True)
-        self._events, self._track = self._open(EVENTS_FILE), self._open(TRACK_FILE)
+        self._events, self._track, self._strides = [self._open(one) for one in (EVENTS_FILE, TRACK_FILE, STRIDES_FILE)]
         self._track.write(",".join(TRACK_COLUMNS) + "\n")
         places = [(PLACES_FILE, PLACE_COLUMNS)] if self.places else []
         for name, columns in [(STRIDES_FILE, STRIDE_COLUMNS), (GAIT_CYCLES_FILE, CYCLE_COLUMNS), *places]:
-            self._tables[name] = table_writer(self._open(name))
+            self._tables[name] = table_writer(self._strides if name == STRIDES_FILE else self._open(name))
             self._tables[name](columns)
 
     def _open(self, name: str) -> TextIO:
         path = (self.path_to_write or Path)(self.directory / name)
-        return self._stack.enter_context(path.open("w", encoding="utf-8", newline=""))
+        return self._stack.enter_context(path.open("w+", encoding="utf-8", newline=""))
 
     def write(self, event: Event) -> None:
         """Write one event; an OSError names the directory."""
@@ -185,8 +189,23 @@ class TrackFiles:
             self._cycles.append(event)
         elif isinstance(event, DefectFound):
             self._cycles = [as_found(cycle, event) for cycle in self._cycles]
+            if event.spoilt_foot is not None:
+                self._withhold_strides(event.spoilt_foot.value)
         elif isinstance(event, Placed) and self.places:
             self._tables[PLACES_FILE](_place_row(event, self._stride))
+
+    def _withhold_strides(self, foot: str) -> None:
+        """Mark the strides of a foot whose data cannot be right that were written before that was found."""
+        self._strides.seek(0)
+        rows = [*csv.DictReader(self._strides)]
+        wrong = [row for row in rows if row["foot"] == foot and DEFECT not in row["flaws"]]
+        for row in wrong:
+            row["degraded"], row["flaws"] = "1", f"{row['flaws']} {DEFECT}".strip()
+        if wrong:
+            self._strides.seek(0)
+            self._strides.truncate()
+            for cells in [STRIDE_COLUMNS, *[row.values() for row in rows]]:
+                self._tables[STRIDES_FILE](cells)
 
     def close(self) -> None:
         """Write the gait cycles and close all files; an OSError names the directory."""

@@ -173,6 +173,10 @@ class LinkLedger:
     """Name of the device; empty while it is not known."""
     signal: int | None = None
     """Signal strength of the last advertisement before the connection, dBm."""
+    rejected_at: float | None = None
+    """Moment at which a packet or sample that had not come before was rejected, s; None before any."""
+    rejected_all: bool = False
+    """True if all that came was rejected while the other foot walked on."""
     trouble: str = ""
     """The last LinkTrouble, or defect that spoils; empty again when the device is connected."""
     last_sample_at: float | None = None
@@ -214,8 +218,10 @@ class LinkLedger:
         if self.broken_at is None or known_at > self.broken_at + STRAGGLER_TIME:
             self.broken_at, self._has_samples, self._stale = None, True, False
 
-    def add_event(self, event: Event) -> None:
-        """Count an event of this link; other events change nothing."""
+    def add_event(self, event: Event, now: float) -> None:
+        """Count an event of this link that came at `now`, s; other events change nothing."""
+        if isinstance(event, PacketRejected | SampleRejected) and event.reason is not Rejection.DUPLICATE:
+            self.rejected_at = now
         match event:
             case PacketRejected(reason=reason, channel=channel):
                 self.rejected["packets", reason.value] += 1
@@ -294,6 +300,10 @@ class LinkLedger:
     def missing_time(self) -> float:
         """Total duration of what is missing, s: its number times the interval between samples."""
         return self.missing / self.rate if self.rate else 0.0
+
+    def still_rejects(self, now: float) -> bool:
+        """Return whether something came shortly before `now`, s, and was rejected."""
+        return self.rejected_at is not None and now - self.rejected_at <= SILENCE_TIME
 
     def recent_share(self, now: float) -> float | None:
         """Return the share, 0 to 1, of the samples of the LOSS_WINDOW before `now`, s, that are missing."""

@@ -292,7 +292,7 @@ class Walk:
             case _:
                 site = getattr(event, "site", None)
                 if site is not None:
-                    self.link(site).add_event(event)
+                    self.link(site).add_event(event, self.now)
                 self._count_event(event)
                 self._add_fault(event)
                 self.places.add(event)
@@ -375,8 +375,12 @@ class Walk:
                 pass
 
     def _add_fault(self, event: Event) -> None:
-        """Add what is wrong, or note that it does not hold any more."""
-        if isinstance(event, FAULTS):
+        """Add what is wrong, or note that it does not hold any more.
+
+        A foot is not silent when what comes of it is rejected: its link says that."""
+        if isinstance(event, FootSilent) and (link := self.link(SITE_OF_FOOT[event.foot])).still_rejects(self.now):
+            link.rejected_all = True
+        elif isinstance(event, FAULTS):
             names = ("defect", "fault", "cells") if isinstance(event, DefectFound | CellsFailed) else ("what",)
             key = " ".join([type(event).__name__, *[str(getattr(event, name, "")) for name in names]])
             key = f"{key} {site_of(event)}"

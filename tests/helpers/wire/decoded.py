@@ -78,5 +78,5 @@ def acc_packet(t: float, counts: tuple[int, int, int] = (0, 0, 16)) -> Packet:
     return cc2541_packet(t, "accelerometer", acc=counts)
 
 
-def gyro_packet(t: float) -> Packet:
-    return cc2541_packet(t, "gyroscope", gyro=(0, 0, 0))
+def gyro_packet(t: float, counts: tuple[int, int, int] = (0, 0, 0)) -> Packet:
+    return cc2541_packet(t, "gyroscope", gyro=counts)

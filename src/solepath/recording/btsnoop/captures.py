@@ -21,9 +21,9 @@ NAMED_LINKS = {
     189: " (USB)",
     220: " (USB)",
     249: " (USB)",
-    251: " (radio sniffer)",
-    256: " (radio sniffer)",
-    272: " (nRF Sniffer)",
+    251: " (a sniffer: Bluetooth LE on the air)",
+    256: " (a sniffer such as Ubertooth: Bluetooth LE on the air)",
+    272: " (an nRF Sniffer: Bluetooth LE on the air)",
 }
 """What the link types are that people take for HCI."""
 TIME_OF_1970 = 0x00DCDDB30F2F8000
