@@ -150,6 +150,8 @@ class Bearing:
     """Strides of which it is not known yet whether the foot carried its walker, oldest first."""
     previous: StrideTaken | None = None
     """Newest stride of the bout; None before any."""
+    beside: float = 0.0
+    """Evidence of the other foot when it came to stand last; 0 before."""
 
     def add(self, stride: StrideTaken) -> tuple[list[StrideTaken], list[StrideTaken]]:
         """Add a stride; return the strides that are known now, and those that were none."""
@@ -158,11 +160,14 @@ class Bearing:
             # whoever has walked walks again sooner than they get on a bicycle, but the first stride does not decide
             previous, self.evidence = None, min(self.evidence, KNOWN - MOST_OF_FIRST)
         least, most = (-MOST_OF_FIRST, MOST_OF_FIRST) if previous is None else (MOST_AGAINST, MOST_FOR)
-        one = max(least, min(most, evidence_of(stride, previous)))
+        # nobody walks on one foot, but a sensor that fails may hide that the other foot carries
+        one = evidence_of(stride, previous) + min(0.0, self.beside)
+        one = max(least, min(most, one))
         if stride.missing > MOST_MISSING or Flaw.GAP in stride.flaws:
             one = max(0.0, one)  # what a gap hides speaks against nobody
-        if stride.length < LEAST_PROGRESS:
-            one = min(0.0, one)
+        turning = stride.t_end - stride.t_start - stride.features.longest_rest
+        if stride.length < LEAST_PROGRESS or turning < SWING_TIMES[0] - TIME_EPSILON:
+            one = min(0.0, one)  # on the spot, or without a turn, as on wheels
         self.evidence = max(-KNOWN, min(SUREST, self.evidence + one))
         self.previous = stride
         waiting = [*self.waiting, stride]
