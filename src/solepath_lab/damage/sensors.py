@@ -170,7 +170,7 @@ def examine(piece: WalkingFoot) -> DefectOutcome | None:
     if len(strides) < 4:
         return None
     whole = tuple(_reported(samples, piece.foot))
-    walks = [all([stride.in_a_row for _, stride in strides[i + 1 : i + 3]]) for i in range(len(strides))]
+    walks = [all([stride.walked for _, stride in strides[i + 1 : i + 3]]) for i in range(len(strides))]
     known_at, first_stride = strides[walks.index(True)]
     start = known_at - first_stride.duration
     t = samples[:, 0]

@@ -188,9 +188,8 @@ def _examine(check: SensorCheck, gyro_bias: Vec3) -> list[Finding | None]:
     axes.uncertain = is_slow or Defect.REPEATED in check.reported
     axes.clipped = Defect.CLIPPED in check.reported and Defect.CLIPPED not in check.mild
     for t, stride in check.stances.add(check.rows, gyro_bias):
-        if not stride.in_a_row:
-            continue
-        findings.append(check.gravity.add_stance(stride.last, stride.motion))
+        if stride.in_a_row:
+            findings.append(check.gravity.add_stance(stride.last, stride.motion))
         if stride.walked:  # what names a repair needs somebody who walks
             findings += [
                 None if is_slow else check.bandwidth.add(stride),
