@@ -1,7 +1,7 @@
 """For a phone or a desktop: an app with BeeWare Toga shows what somebody does who walks, and the figures of the gait.
 
-pip install '.[ble]' 'toga-qt[pyside6-essentials]>=0.5.7'   on Linux; on macOS and Windows 'toga>=0.5.7' instead
-python examples/toga/gait_app/__main__.py                   two insoles nearby, or emulated ones"""
+    pip install '.[ble]' 'toga-qt[pyside6-essentials]>=0.5.7'   on Linux; on macOS and Windows 'toga>=0.5.7' instead
+    python examples/toga/gait_app/__main__.py                   two insoles nearby, or emulated ones"""
 
 import asyncio
 
@@ -20,7 +20,6 @@ async def sensors():
 
 async def emulated(speed=1.0):
     from solepath.emulate import Route, emulate
-
     for packet in emulate(Route().stand(2).walk(12, speed=1.3).turn(1.6, radius=1.5).walk(8).stop(2)).packets:
         await asyncio.sleep(0.005 / speed)  # two insoles send 200 packets a second
         yield packet

@@ -15,7 +15,7 @@ from solepath.walk.timeline import Timeline
 from solepath_lab.emulated.other_motions import MOTIONS, samples_of
 
 QUICK = [("marching on the spot", 23), ("bicycling", 23), ("inline skating", 23), ("sitting, legs dangle", 23)]
-"""A march that is as even as a walk, a ride, skates on which one foot seems to rest, and legs that swing as pendulums."""
+"""A march that is as even as a walk, a ride, skates on which a foot seems to rest, and legs that are pendulums."""
 CASES = [(motion.name, seed) for motion in MOTIONS for seed in (23, 24)]
 GAITS = {Activity.WALKING, Activity.RUNNING, Activity.STAIRS_UP, Activity.STAIRS_DOWN}
 DURATION, RATE = 40.0, 50.0

@@ -141,7 +141,7 @@ class Strides:
         parts = [min(end, last) - max(start, first) for first, last in self._bouts()]
         return fsum([max(0.0, part) for part in parts])
 
-    def _busy(self, start: float, end: float) -> list[tuple[float, float]]:
+    def _long_motions(self, start: float, end: float) -> list[tuple[float, float]]:
         """Return the times from `start` to `end`, s, in which the feet move for longer than the pause of a bout.
 
         Who stands shifts a foot within 2 s (hugadb, slow_gait), and whoever moves their feet for longer taps or swings
@@ -207,8 +207,8 @@ class Strides:
                     if supported:
                         _append(agreed, segment, t, self._gait(None, t, until), CERTAINTY)
                         continue
-                    for first, _, is_busy in _cut(t, until, self._busy(t, until)):
-                        _append(agreed, segment, first, Activity.UNKNOWN if is_busy else otherwise, probability)
+                    for first, _, moves in _cut(t, until, self._long_motions(t, until)):
+                        _append(agreed, segment, first, Activity.UNKNOWN if moves else otherwise, probability)
         return agreed
 
     def _gait(self, likeliest: Activity | None, start: float, end: float) -> Activity:

@@ -66,11 +66,11 @@ TICK, TURN, FORCE = 2.0**-20, 2.0**-16, 2.0**-10
 MOST_PAUSE = 2.0
 """Longest time since the stride before, as a multiple of the duration: patients stand for 1.5 of it (felius)."""
 LEAST_PEAK, LEAST_STRIKE, LEAST_REST = 1.5, 3.0, 0.12
-"""Least peak of the angular rate, rad/s, range of the specific force, m/s^2, and share of the time at rest at both ends,
-of the strides of a foot that carries its walker.
+"""Least peak of the angular rate, rad/s, range of the specific force, m/s^2, and share of the time at rest at both
+ends, of the strides of a foot that carries its walker.
 
-Peaks are those of the slowest walkers. Nine in ten strides of slow walkers have a range of 3.5 m/s^2, and nine in ten of
-every data set of walks rest for 0.14 and more; legs that dangle for 0.03 to 0.1."""
+Peaks are those of the slowest walkers. Nine in ten strides of slow walkers have a range of 3.5 m/s^2, and nine in ten
+of every data set of walks rest for 0.14 and more; legs that dangle for 0.03 to 0.1."""
 BEST_WITHIN = int(0.4 / TICK)
 """Time after the first and before the last instant of a stance in which its stillest one is searched, `TICK`."""
 MOST_INTERVALS = 360
@@ -109,19 +109,19 @@ class ClosedStride(NamedTuple):
 
     @property
     def walked(self) -> bool:
-        """Return whether the foot swung, was struck and rested as one that carries a walker or patient, at any mounting.
+        """Return whether the foot swung, was struck and rested as one that carries its walker, at any mounting.
 
         Legs that dangle hardly rest, feet that tap or steer hardly swing, and a sensor on the trunk does neither."""
         rates = [(x * x + y * y + z * z) * (TURN / (TICK * ticks)) ** 2 for ticks, x, y, z, *_ in self.intervals]
         forces = [FORCE * hypot(*force) for _, _, _, _, *force in self.intervals]
         fastest = max(rates)
-        rests = [rate < RESTING_RATE or rate < RESTING_SHARE * fastest for rate in rates]
-        ends = [*takewhile(bool, rests), *takewhile(bool, reversed(rests))]
+        is_still = [rate < RESTING_RATE or rate < RESTING_SHARE * fastest for rate in rates]
+        ends = [*takewhile(bool, is_still), *takewhile(bool, reversed(is_still))]
         return (
             self.pause < MOST_PAUSE * self.duration
             and fastest > LEAST_PEAK * LEAST_PEAK
             and max(forces) - min(forces) > LEAST_STRIKE
-            and len(ends) * self.duration > LEAST_REST * len(rests) * min(self.duration, LONGEST_TIME)
+            and len(ends) * self.duration > LEAST_REST * len(is_still) * min(self.duration, LONGEST_TIME)
         )
 
 
