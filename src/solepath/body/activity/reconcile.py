@@ -141,14 +141,14 @@ class Strides:
         parts = [min(end, last) - max(start, first) for first, last in self._bouts()]
         return fsum([max(0.0, part) for part in parts])
 
-    def _long_motions(self, bouts: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-        """Return the times, s, in which the feet move outside `bouts` for longer than the pause of one.
+    def _long_motions(self, gaits: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+        """Return the times, s, in which the feet move outside `gaits` for longer than a pause of one.
 
         Who stands shifts a foot within 2 s (hugadb, slow_gait), and whoever moves their feet for longer taps or swings
         them."""
         spans: list[tuple[float, float]] = []
         for t in self.restless:
-            if all([not start <= t < end for start, end in bouts]):
+            if all([not start <= t < end for start, end in gaits]):
                 since = spans.pop()[0] if spans and t - spans[-1][1] < TIME_EPSILON else t
                 spans.append((since, t + BLOCK_DURATION))
         return [span for span in spans if span[1] - span[0] > BOUT_PAUSE + TIME_EPSILON]
@@ -191,7 +191,7 @@ class Strides:
             if now - open_since < SETTLING_TIME - TIME_EPSILON:
                 bouts.append((open_since, inf))
                 runs.append((open_since, inf))
-        motions, agreed = self._long_motions(bouts), list[Likely]()
+        motions, agreed = self._long_motions(runs), list[Likely]()
         for k, (segment, probability) in enumerate(likely):
             end = likely[k + 1][0].t if k + 1 < len(likely) else inf
             if segment.activity in GAITS:
