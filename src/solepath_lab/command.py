@@ -14,7 +14,7 @@ from solepath.cli.common.parser import Option, Parser, option
 from solepath.cli.completion import COMPLETING, complete
 from solepath.cli.main import form, guarded
 
-from .options import FOLDER, ONLY, PROCESSES, only, seeds
+from .options import EVERY, FOLDER, ONLY, PROCESSES, only, seeds
 
 Kinds = Mapping[str, tuple[str, tuple[Option, ...]]]
 """What the help says of each command, or of each kind of one, and its options beside the OPTIONS of its module."""
@@ -31,7 +31,7 @@ GROUPS: dict[str, tuple[str, Kinds]] = {
     "damage": (
         "damage recordings on purpose: what is noticed, and what is reported of whole ones",
         {
-            "sensors": ("damaged sensors", (FOLDER, ONLY, PROCESSES)),
+            "sensors": ("damaged sensors", (FOLDER, ONLY, EVERY, PROCESSES)),
             "clocks": ("separate clocks of the feet", (FOLDER, ONLY, PROCESSES)),
             "losses": ("lengths of strides with samples cut out", (FOLDER, PROCESSES)),
             "faults": ("sensors that fail in mid-walk", (FOLDER, ONLY, seeds(3, 9001), PROCESSES)),

@@ -40,4 +40,5 @@ PROCESSES = option(
     default=os.cpu_count() or 1,
     help="jobs at a time (default: one for each processor)",
 )
+EVERY = option("--every", metavar="N", type=parse_count, default=1, help="one in N of them (default: all)")
 JSON = option("--json", metavar="FILE", type=Path, help="write the figures as JSON too")

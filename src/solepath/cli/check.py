@@ -19,8 +19,8 @@ from .common.tables import axes_repair, source_named, table_options
 UNSEEN = (
     "all three axes of an accelerometer reversed, which turns left into right",
     "one sensor of a device turned against the other by up to about 10 degrees",
-    "a gyroscope whose scale is wrong by less than about a half, or is an eighth of the right one where somebody walks "
-    "slowly",
+    "a gyroscope whose scale is wrong by less than about a half, or is a quarter of the right one or less where "
+    "somebody walks slowly",
     "one axis of a sensor that is dead, in about half of the cases",
     "a gyroscope that is late against the accelerometer, or early, by less than 0.1 s",
     "a clock that runs at a wrong but constant speed, by less than about a third",

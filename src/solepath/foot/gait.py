@@ -147,7 +147,7 @@ class Gait:
         if not self.heading_settled and stride.t_toe_off is not None:
             # the first stride gives the final heading; until then it is the direction from the origin to the foot
             self.heading_settled = world.find_heading(corrector.position, SHORTEST_STRIDE)
-        ended = stride.finish(t, known_at, corrector, world, rise)
+        ended, shaking = stride.finish(t, known_at, corrector, world, rise), stride.shaking
         if ended is not None:
             # the frame of a stride must not change, even if it was too short to give a direction
             self.heading_settled = True
@@ -155,7 +155,7 @@ class Gait:
         stride.start_stride(t, corrector.position, corrector.attitude)
         if ended is None:
             return []
-        strides, dropped = ([ended], []) if self.every_stride else self.bearing.add(ended)
+        strides, dropped = ([ended], []) if self.every_stride else self.bearing.add(ended, shaking)
         if dropped:
             self._undo(dropped, corrector)
         events: list[Event] = []

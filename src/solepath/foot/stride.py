@@ -106,10 +106,10 @@ class StrideBuilder:
     """Largest height of the sensor in the stride, navigation frame, m."""
     peak_speed: float = 0.0
     """Largest speed of the sensor in the stride, m/s."""
-    rest: Vec2 = (0.0, 0.0)
+    rest: Vec3 = ZERO
     """Duration, s, of the rest under way, in which the foot turns slower than `RESTING_RATE` or `RESTING_SHARE` of its
-    peak, and the sum of the squared specific force over it, (m/s^2)^2 s."""
-    longest_rest: Vec2 = (0.0, 0.0)
+    peak, and the integrals of the specific force squared, (m/s^2)^2 s, and to the fourth power, (m/s^2)^4 s."""
+    longest_rest: Vec3 = ZERO
     """The same of the longest rest of the stride."""
     peak_rate: float = 0.0
     """Square of the largest angular rate of this stride and the one before, (rad/s)^2."""
@@ -184,7 +184,7 @@ class StrideBuilder:
         self.peak_height = position[2]
         self.creep = self.peak_speed = self.pitch = self.pitch_low = self.pitch_high = 0.0
         self.peak_rate, self.stride_rate = self.stride_rate, 0.0
-        self.rest = self.longest_rest = (0.0, 0.0)
+        self.rest = self.longest_rest = ZERO
         self.least_force = GRAVITY * GRAVITY
         self.most_force = self.least_force
         self.load_sum = 0.0
@@ -230,13 +230,13 @@ class StrideBuilder:
             self.stride_rate = rate
             if rate > self.peak_rate:
                 self.peak_rate = rate
-        duration, squares = self.rest
+        duration, squares, fourths = self.rest
         if rate < RESTING_RATE or rate < RESTING_SHARE * self.peak_rate:
-            self.rest = rest = (duration + dt, squares + force * dt)
+            self.rest = rest = (duration + dt, squares + force * dt, fourths + force * force * dt)
             if rest > self.longest_rest:
                 self.longest_rest = rest
         elif duration:
-            self.rest = (0.0, 0.0)
+            self.rest = ZERO
         x, y, z = position
         if z > self.peak_height:
             self.peak_height = z
@@ -257,6 +257,12 @@ class StrideBuilder:
             t_contact = self.t_contact
             if t_contact is None or t <= self.t_mid_stance or t - t_contact > LONGEST_CONTACT:
                 self.flat_pitch = pitch
+
+    @property
+    def shaking(self) -> float:
+        """Standard deviation of the size of the specific force in the longest rest, m/s^2, by that of its square."""
+        duration, squares, fourths = self.longest_rest
+        return 0.5 * sqrt(max(0.0, fourths / squares - squares / duration)) if squares > 0.0 else 0.0
 
     def add_toe_off(self, t: float, interval: float) -> None:
         """Set the toe-off at `t`, s; `interval` is the usual interval between samples, s; zeros before any."""

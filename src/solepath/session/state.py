@@ -343,6 +343,8 @@ class SessionState:
             stride = any([isinstance(event, StrideTaken) for event in events])
             other = self.feet.get(OTHER[foot])
             other_t = None if other is None else other.viewed_at
+            if other is not None:
+                other.gait.bearing.alone = tracker.gait.bearing.is_none
             view = tracker.view(sample, known_at, bool(events), stride, other_t)
             moved = self._run_parts(events, view, known_at)
             if moved is not None and self.settings.poses and stride:

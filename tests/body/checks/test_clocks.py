@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 from soak import soaked
+from strides import stride
 from views import told
 from walks import RIGHT, of, samples
 
@@ -53,7 +54,7 @@ def steps(
     supports: tuple[float, float] = (0.13, 0.13),
     scatter: float = 0.013,
 ) -> Iterator[Event]:
-    """Yield the contacts and toe-offs of a walker in the order of the right and left foot's own clocks.
+    """Yield the contacts, strides and toe-offs of a walker in the order of the right and left foot's own clocks.
 
     `swings` are the swing times of the left and the right foot, `supports` the double supports after the left and after
     the right foot's contact, s. Hand labels scatter by 5 to 13 ms."""
@@ -64,6 +65,8 @@ def steps(
         if foot is Foot.RIGHT:
             at = (1.0 + rate) * at + delay
         events.append(kind(t=at, known_at=at, foot=foot))
+        if kind is HeelStrike:
+            events.append(stride(foot, at + 0.05))
 
     for _ in range(count):
         add(HeelStrike, Foot.LEFT, t)

@@ -2,8 +2,9 @@
 
 The sequence (hypotheses.py) is found from blocks of half a second, some of which are the slow stance of a patient, and
 some the legs of a cyclist. A stride that is reported is of a foot that carries its walker (foot/bearing.py). So the
-wearer walks, runs or is on stairs while a stride lasts, whatever its duration; and what looks like walking, but has no
-stride for longer than the pause of one bout, is not known."""
+wearer walks, runs or is on stairs while a stride lasts, whatever its duration; what looks like walking, but has no
+stride for longer than the pause of one bout, is not known, and neither are feet that move for longer than that while
+they seem to stand."""
 
 from __future__ import annotations
 
@@ -11,6 +12,7 @@ from collections.abc import Sequence
 from math import fsum, inf
 
 from ...events import FootFlat, GaitEvent, HeelOff, HeelStrike, StrideTaken, ToeOff
+from ...foot.stride import RESTING_RATE
 from ...types import Activity, Foot
 from ...types.attrs import define, field
 from ...types.vector import TIME_EPSILON
@@ -82,6 +84,8 @@ class Strides:
     """Times of half seconds at rest, s, and whether the force on the feet leans in them."""
     runs: list[float] = field(factory=list)
     """Times of half seconds in which a foot moves as in a run, s: a runner's foot-flat is too short to end strides."""
+    restless: list[float] = field(factory=list)
+    """Times of half seconds in which a foot turns or is shaken, s."""
     tracked: bool = False
     """Flag: the feet have gyroscopes and are navigated, so that a walk has strides."""
     gait_since: float | None = None
@@ -117,6 +121,9 @@ class Strides:
         fast = block.gyro_mean_square > RUNNING_RATE * RUNNING_RATE
         if fast and block.force > RUNNING_FORCE and block.variance > MOVING_VARIANCE:
             self.runs.append(t)
+        is_restless = block.gyro_mean_square > RESTING_RATE or block.variance > MOVING_VARIANCE
+        if is_restless and t not in self.restless[-1:]:
+            self.restless.append(t)
 
     def drop_before(self, until: float) -> None:
         """Drop what ended before `until`, s."""
@@ -125,6 +132,7 @@ class Strides:
         self.moved = [times for times in self.moved if times[1] >= until]
         self.forces = [force for force in self.forces if force[0] >= until]
         self.runs = [t for t in self.runs if t >= until]
+        self.restless = [t for t in self.restless if t >= until]
 
     def leans(self, start: float, end: float) -> bool:
         """Return whether the force on the feet leans so often from `start` to `end`, s, that they are in a vehicle."""
@@ -135,6 +143,18 @@ class Strides:
         """Return the time between `start` and `end`, s, in which strides moved the wearer."""
         parts = [min(end, last) - max(start, first) for first, last in self._bouts()]
         return fsum([max(0.0, part) for part in parts])
+
+    def _long_motions(self, gaits: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+        """Return the times, s, in which the feet move outside `gaits` for longer than a pause of one.
+
+        Who stands shifts a foot within 2 s (hugadb, slow_gait), and whoever moves their feet for longer taps or swings
+        them."""
+        spans: list[tuple[float, float]] = []
+        for t in self.restless:
+            if all([not start <= t < end for start, end in gaits]):
+                since = spans.pop()[0] if spans and t - spans[-1][1] < TIME_EPSILON else t
+                spans.append((since, t + BLOCK_DURATION))
+        return [span for span in spans if span[1] - span[0] > BOUT_PAUSE + TIME_EPSILON]
 
     def _bouts(self) -> list[tuple[float, float]]:
         """Return the bouts, s: the times of walking with pauses of at most `BOUT_PAUSE`.
@@ -174,7 +194,7 @@ class Strides:
             if now - open_since < SETTLING_TIME - TIME_EPSILON:
                 bouts.append((open_since, inf))
                 runs.append((open_since, inf))
-        agreed: list[Likely] = []
+        motions, agreed = self._long_motions(runs), list[Likely]()
         for k, (segment, probability) in enumerate(likely):
             end = likely[k + 1][0].t if k + 1 < len(likely) else inf
             if segment.activity in GAITS:
@@ -193,8 +213,11 @@ class Strides:
                 in_vehicle = segment.activity in ELEVATOR_ACTIVITIES and self.leans(segment.t, end)
                 otherwise = Activity.UNKNOWN if in_vehicle else segment.activity
                 for t, until, supported in _cut(segment.t, end, walked):
-                    activity = self._gait(t, until) if supported else otherwise
-                    _append(agreed, segment, t, activity, CERTAINTY if supported else probability)
+                    if supported:
+                        _append(agreed, segment, t, self._gait(t, until), CERTAINTY)
+                        continue
+                    for first, _, moves in _cut(t, until, motions):
+                        _append(agreed, segment, first, Activity.UNKNOWN if moves else otherwise, probability)
         return agreed
 
     def _walks(self, start: float, end: float) -> list[tuple[float, bool]]:

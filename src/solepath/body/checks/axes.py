@@ -121,8 +121,8 @@ def _residual(order: Order, signs: Signs, ends: list[list[list[float]]]) -> floa
     return sqrt(largest)
 
 
-SHORTEST_STRIDE, LONGEST_STRIDE = 0.3, 4.0
-"""Duration of strides that count, s: those of a walk, by times that may be wrong by a factor of 2 and more."""
+SHORTEST_STRIDE, LONGEST_STRIDE = 0.2, 6.5
+"""Duration of strides that count, s: fast and slow walkers, by times that may be wrong by a factor of 3."""
 LARGEST_DEVIATION = 0.3
 """Largest deviation from 1 g, as a part of it, with which strides count; with a larger one another unit is at fault."""
 LEAST_STRIDES, SETTLED_STRIDES, MOST_STRIDES = 3, 6, 40

@@ -261,6 +261,8 @@ class FootClock:
     """Toe-off of the cycle under way; None before it."""
     swings: list[Swing] = field(factory=list)
     """Newest swings, oldest first."""
+    stride_end: float | None = None
+    """End of the newest stride in which this foot carried the wearer; None before any."""
     unsettled: float | None = None
     """Time up to which the clock of this foot is not settled; None when it is."""
     spoiled: bool = False
@@ -278,6 +280,8 @@ class FootClock:
         self.contact, self.toe_off = t, None
         if contact is None or toe_off is None or not (contact < toe_off < t and MIN_CYCLE <= t - contact <= MAX_CYCLE):
             return None
+        if self.stride_end is None or contact > self.stride_end:
+            return None  # a pedal has contacts, too
         if self.unsettled is not None and contact < self.unsettled:
             return None
         swing = Swing(0.5 * (toe_off + t), t - toe_off, t - contact)
@@ -317,6 +321,8 @@ class FootClocks(Part):
         outputs: list[PartOutput] = []
         if view is not None:
             self.by_cells = view.moved_at is None
+            if self.by_cells:  # its load shows that the foot carries
+                self.feet[view.foot].stride_end = view.t
             self.lone.see(view)
             self.idle = self.lone.requested is None
             if self.lone_sentences is not None:
@@ -347,7 +353,9 @@ class FootClocks(Part):
 
     def _add_event(self, event: GaitEvent, foot: FootClock) -> Outputs:
         """Add an event of a foot; return DefectFound if the offset that it shows is significant and new."""
-        if isinstance(event, FootFlat):
+        if isinstance(event, StrideTaken):
+            foot.stride_end = event.t_end
+        elif isinstance(event, FootFlat):
             if foot.toe_off is not None:  # the heel-strike was not detected
                 foot.discard()
         elif isinstance(event, ToeOff | HeelStrike):
@@ -367,7 +375,7 @@ class FootClocks(Part):
     def reset(self, site: Site) -> None:
         """Discard everything when the clock or the device of a foot has changed."""
         if site.foot is not None:
-            self.feet[site.foot].spoiled = False
+            self.feet[site.foot].spoiled, self.feet[site.foot].stride_end = False, None
             self._forget()
             self.reported, self.lone_reported = None, False
 

@@ -188,13 +188,13 @@ def _examine(check: SensorCheck, gyro_bias: Vec3) -> list[Finding | None]:
     axes.uncertain = is_slow or Defect.REPEATED in check.reported
     axes.clipped = Defect.CLIPPED in check.reported and Defect.CLIPPED not in check.mild
     for t, stride in check.stances.add(check.rows, gyro_bias):
-        if not stride.in_a_row:  # what names a repair needs somebody who walks
-            continue
-        findings += [
-            check.gravity.add_stance(stride.last, stride.motion),
-            None if is_slow else check.bandwidth.add(stride),
-            None if axes.settled or cuts_off else axes.add(t, stride),
-        ]
+        if stride.in_a_row:
+            findings.append(check.gravity.add_stance(stride.last, stride.motion))
+        if stride.walked:  # what names a repair needs somebody who walks
+            findings += [
+                None if is_slow else check.bandwidth.add(stride),
+                None if axes.settled or cuts_off else axes.add(t, stride),
+            ]
     if (axes.settled or cuts_off) and check.gravity.knows_stances and (is_slow or check.bandwidth.judged):
         # what was learnt is reported, and the state of a session stays small
         check.axes, check.stances, check.settled_at = AxesCheck(), StanceFinder(), times[-1]
