@@ -21,8 +21,11 @@ LATER = Change(later=2.0**31)
 TURNED = Change(yaw=0.7)
 NORTH = Change(north=0.7)
 MOUNTED = from_rotation_vector((0.4, -0.7, 0.5))
-MUCH_LATER = {"": 1e-5, "cadence": 1e-4, "velocity": 3e-5, "peak_speed": 3e-5, "position": 2e-5}
-"""At 2^31 s a time has steps of 0.24 us; cadence is 120 over a time of 1 s, velocities are up to 5 m/s."""
+MUCH_LATER = {
+    "": 1e-5, "cadence": 1e-4, "velocity": 3e-5, "peak_speed": 3e-5, "position": 2e-5, "probability": 1e-3
+}  # fmt: skip
+"""At 2^31 s a time has steps of 0.24 us; cadence is 120 over a time of 1 s, velocities are up to 5 m/s. Velocities that
+speak for an activity are kept to 0.1 mm/s, whose last digit may be another one."""
 STRIDES_ALONE = {"": inf, "strides alone": 0.0}
 """Tolerances for recipes whose strides alone are compared, and of these what has a tolerance of its own."""
 

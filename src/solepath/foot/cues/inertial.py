@@ -159,6 +159,8 @@ class InertialCues:
     """Unit vector to the wearer's left, sensor frame, learnt from the turn of the foot at push-off; None at first."""
     other_axis_push_offs: int = 0
     """Number of push-offs in a row about another axis than `axis`."""
+    turned_back: bool = False
+    """Flag: the foot turns as in a swing in what is taken for a push-off, which is counted once."""
     force: Vec3 | None = None
     """Specific force of the last sample, sensor frame, m/s^2."""
     sagittal: float = 0.0
@@ -275,6 +277,8 @@ class InertialCues:
             self.impact.start_swing(t)
             self.lowest_rate = self.peak_rate = 0.0
             self.landing_at = None
+        elif cue is Cue.LIFT:
+            self.turned_back = False
         elif cue is Cue.CONTACT:
             self.peak_rate = 0.0
             self.turn = ZERO
@@ -309,9 +313,10 @@ class InertialCues:
         if learnt is None:
             self.axis = newest
             return True
-        if dot(learnt, newest) < SAME_AXIS_COSINE:
+        if (cosine := dot(learnt, newest)) < SAME_AXIS_COSINE:
             # a single turn about another axis is no push-off; several in a row mean that the sensor was turned
-            self.other_axis_push_offs += 1
+            self.other_axis_push_offs += not (self.turned_back and cosine < -SAME_AXIS_COSINE)
+            self.turned_back = cosine < -SAME_AXIS_COSINE
             if self.other_axis_push_offs < OTHER_AXIS_PUSH_OFFS:
                 return False
             learnt = newest
