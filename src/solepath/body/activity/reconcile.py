@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from math import fsum, inf
 
 from ...events import FootFlat, GaitEvent, HeelOff, HeelStrike, StrideTaken, ToeOff
+from ...foot.bearing import LONGEST_WAIT, MOST_WAITING
 from ...foot.stride import RESTING_RATE
 from ...types import Activity, Foot
 from ...types.attrs import define, field
@@ -138,6 +139,19 @@ class Strides:
         """Return whether the force on the feet leans so often from `start` to `end`, s, that they are in a vehicle."""
         leaning = [leans for t, leans in self.forces if start <= t + TIME_EPSILON < end]
         return leaning.count(True) > LEANING_SHARE * len(leaning)
+
+    def undecided_since(self, now: float) -> float:
+        """Return the time from which lifts of a foot may still become strides, s; infinite if none may.
+
+        A patient's first strides are known with later ones only (foot/bearing.py), and standing cannot contain one, nor
+        be a pause of their bout."""
+        known = max([span.end for span in self.spans], default=-inf)
+        oldest, after = inf, now
+        for lifted, fallen in sorted(self.moved, reverse=True)[: MOST_WAITING * len(self.newest)]:
+            if lifted < known or after - fallen > LONGEST_WAIT + TIME_EPSILON:
+                break
+            oldest, after = lifted, fallen
+        return known if oldest - known <= BOUT_PAUSE + TIME_EPSILON else oldest
 
     def covered(self, start: float, end: float) -> float:
         """Return the time between `start` and `end`, s, in which strides moved the wearer."""
