@@ -83,16 +83,18 @@ class Curve:
     odds: tuple[Row, ...]
     """Parts of the logarithms of the odds of `MOTIONS` at each point."""
 
-    def at(self, value: float) -> Row:
-        """Return the part of the logarithm of the odds of each motion at this value of the feature."""
-        after = bisect(self.values, value)
-        if after == 0:
-            return self.odds[0]
-        if after == len(self.values):
-            return self.odds[-1]
-        low, high = self.values[after - 1], self.values[after]
-        share = (value - low) / (high - low)
-        return tuple([a + share * (b - a) for a, b in zip(self.odds[after - 1], self.odds[after], strict=True)])
+    def added_to(self, sums: Sequence[float], value: float) -> list[float]:
+        """Return the sums with the part of the logarithm of the odds of each motion at this value of the feature."""
+        values, odds = self.values, self.odds
+        after = bisect(values, value)
+        if 0 < after < len(values):
+            low = values[after - 1]
+            share = (value - low) / (values[after] - low)
+            rest = 1.0 - share
+            return [
+                total + rest * a + share * b for total, a, b in zip(sums, odds[after - 1], odds[after], strict=True)
+            ]
+        return [total + a for total, a in zip(sums, odds[max(0, after - 1)], strict=True)]
 
 
 Curves = dict[str, Curve]
@@ -189,8 +191,7 @@ def log_probabilities(curves: Curves, values: Row) -> list[float]:
     """Return the natural logarithm of the probability of each of `MOTIONS`; `values` are those of the curves."""
     sums = [0.0] * len(MOTIONS)
     for curve, value in zip(curves.values(), values, strict=True):
-        for i, part in enumerate(curve.at(value)):
-            sums[i] += part
+        sums = curve.added_to(sums, value)
     highest = max(sums)
     total = 0.0
     for value in sums:

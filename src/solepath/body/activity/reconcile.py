@@ -208,7 +208,7 @@ class Strides:
             if now - open_since < SETTLING_TIME - TIME_EPSILON:
                 bouts.append((open_since, inf))
                 runs.append((open_since, inf))
-        motions, agreed = self._long_motions(runs), list[Likely]()
+        agreed: list[Likely] = []
         for k, (segment, probability) in enumerate(likely):
             end = likely[k + 1][0].t if k + 1 < len(likely) else inf
             if segment.activity in GAITS:
@@ -230,7 +230,7 @@ class Strides:
                     if supported:
                         _append(agreed, segment, t, self._gait(t, until), CERTAINTY)
                         continue
-                    for first, _, moves in _cut(t, until, motions):
+                    for first, _, moves in _cut(t, until, self._long_motions(runs)):
                         _append(agreed, segment, first, Activity.UNKNOWN if moves else otherwise, probability)
         return agreed
 
