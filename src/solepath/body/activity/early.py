@@ -67,8 +67,9 @@ class ActivityReport:
         path = () if best is None else best.path if hypotheses.settled is None else best.path[1:]
         likely = [*self.settled, *[(segment, hypotheses.probability(segment)) for segment in path], *early]
         agreed = self.strides.reconcile(likely, settled_by)
-        certain = min(hypotheses.settled_until(settled_by), settled_by - SETTLING_TIME) + TIME_EPSILON
-        known_until = min(certain, self.strides.undecided_since(settled_by) - TIME_EPSILON)
+        # a change that may still come a little later is not known yet
+        undecided = min(hypotheses.settled_until(settled_by), self.strides.undecided_since(settled_by))
+        known_until = min(undecided - TIME_EPSILON, settled_by - SETTLING_TIME + TIME_EPSILON)
         events = self._report_rides(settled_by, known_at, ending)
         newest = self._newest(agreed)
         while newest and (ending or newest[0][0].t <= known_until):
