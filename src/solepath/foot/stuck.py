@@ -64,6 +64,8 @@ class Stuck:
     """Number of samples at rest with another value than the one before; `MOST_STILL` at most."""
     still_repeats: int = 0
     """Number of samples at rest with both values of the sample before."""
+    turned: bool = False
+    """Flag: the gyroscope has shown a foot that moves, so that it was neither off nor in another unit."""
     awake: bool = False
     """Flag: a value was other than 0."""
     held: bool = False
@@ -84,8 +86,10 @@ class Stuck:
             self.first_acc = acc
             if not same_acc:  # nearly always
                 self.held = False
-                if self.still < MOST_STILL and hypot(*gyro) < MOVING:
-                    self.still += 1
+                if self.still < MOST_STILL or not self.turned:
+                    turns = hypot(*gyro) > MOVING
+                    self.turned = self.turned or turns
+                    self.still += not turns and self.still < MOST_STILL
                 return None
         rate = hypot(*gyro)
         if rate < MOVING and same_acc and same_gyro:
@@ -108,9 +112,9 @@ class Stuck:
         acc_time, gyro_time = [t - one.since if one.count >= STUCK_SAMPLES else 0.0 for one in (self.acc, self.gyro)]
         self.held |= impossible and min(acc_time, gyro_time) >= HELD_TIME
         acc_stuck = acc_time >= STUCK_TIME and (self.acc.motion > TURN or impossible)
-        # a gyroscope that reads nothing is off, or in another unit, which the checks of the body see
+        # a gyroscope that has always read nothing is off, or in another unit, which the checks of the body see
         shows = self.gyro.motion > FORCE_CHANGE or moves or impossible
-        gyro_stuck = gyro_time >= STUCK_TIME and self.gyro.value != ZERO and shows
+        gyro_stuck = gyro_time >= STUCK_TIME and (self.turned or self.gyro.value != ZERO) and shows
         if not (acc_stuck or gyro_stuck):
             return None
         self.held = True

@@ -17,6 +17,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
+from solepath.types import Vec3
 
 WALKER = Walker(Route().stand(2.0).walk(20.0, 1.3).stop(2.0), seed=1)
 MOST_PER_CELL = 1e5
@@ -95,6 +96,17 @@ def test_one_of_two_sensors_that_says_the_same_while_the_other_moves_is_stuck(na
     found = [one for one in of(DefectFound, events) if one.defect is Defect.REPEATED]
     text = f"the {name} repeats the same values while the foot moves: it is stuck; restart the sensor"
     assert found and (found[-1].what, found[-1].spoils) == (text, True)
+
+
+@pytest.mark.parametrize("speed", [0.3, 1.2])
+@pytest.mark.parametrize("value", [(0.0, 0.0, 0.0), (0.01, 0.02, -0.01)])
+def test_a_gyroscope_that_has_shown_a_walk_and_stops_is_stuck_whatever_it_says(value: Vec3, speed: float) -> None:
+    samples = Walker(Route().stand(2.0).walk(8.0, speed), seed=7).samples(Foot.LEFT, 100.0, LSM6DSOX)
+    since = 0.5 * samples[-1].t
+    session = Session()
+    events = session.feed([evolve(sample, gyro=value) if sample.t >= since else sample for sample in samples])
+    (found,) = of(DefectFound, events)
+    assert found.defect is Defect.REPEATED and found.spoils and found.known_at < since + 1.5
 
 
 @pytest.mark.parametrize("stuck", Foot)
