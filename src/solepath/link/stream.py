@@ -179,7 +179,7 @@ class StreamLink(DeviceLink):
         return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
 
     def _make_samples(self, driver: Driver, data: bytes, reading: Reading, arrival: float) -> Output:
-        axis, run, other_slope, number = driver.axis, self.packet_run, 0.0, 0
+        axis, run, other_slope, number, packets = driver.axis, self.packet_run, 0.0, 0, 0
         is_first = run.clock is None
         rate = self.rate if reading.rate is None else reading.rate
         checksum = crc32(data)
@@ -191,13 +191,13 @@ class StreamLink(DeviceLink):
             sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss, data)
         elif axis is TimeAxis.TICKS:
             position = self._locate_by_ticks(driver, reading, rate, checksum)
-            number = position.sequence
+            number, packets = position.sequence, position.sequence_difference
             sample_times = self.packet_run.accept(position, driver.tick_rate, arrival)
             self._set_rate(rate)
             self._correct_rate(driver, reading, position)
         else:
             position = self._locate_by_count(driver, reading, rate, arrival, checksum)
-            number = position.sequence
+            number, packets = position.sequence, position.sequence_difference
             sample_times = self.packet_run.accept(
                 position,
                 rate * TICKS_PER_SAMPLE,
@@ -215,7 +215,8 @@ class StreamLink(DeviceLink):
         self.recent = [*self.recent[-kept + 1 :], (number, checksum)] if kept > 1 else [(number, checksum)]
         out: Output = [*sample_times.make_events(self.site, arrival)]
         if driver.sequence and reading.sequence is not None:
-            what = self.numbering.accept(int(reading.sequence), driver.sequence, len(reading.samples), is_first)
+            count = len(reading.samples)
+            what = self.numbering.accept(int(reading.sequence), driver.sequence, count, packets, is_first)
             out += [Limitation(t=arrival, site=self.site, what=what)] if what else []
         if self.periodic is not None:
             out += self.periodic.report_rate(len(reading.samples), self.site, arrival)
@@ -249,7 +250,7 @@ class StreamLink(DeviceLink):
         ticks = signed_difference(reading.ticks - run.ticks, driver.tick_modulus)
         if reading.sequence is not None and driver.sequence:
             sequence = int(reading.sequence)
-            sequence, modulus = self._number(driver, sequence, count, checksum)
+            sequence, modulus = self._number(driver, sequence, count, ticks, checksum)
             difference, packets = run.count_packets(sequence, modulus, ticks)
             return PacketPosition(sequence, int(reading.ticks), interval, count, difference, packets, ticks)
         if ticks > 0:  # ticks were cut to whole ones: the true distance may be up to one tick less
@@ -271,7 +272,7 @@ class StreamLink(DeviceLink):
             device_time = signed_difference(reading.ticks - self.coarse_ticks, driver.tick_modulus) / driver.tick_rate
             device_time = device_time if -MAX_DEVICE_LAG <= device_time - elapsed <= MAX_DEVICE_LEAD else None
         ticks = (elapsed if device_time is None else device_time) * rate * TICKS_PER_SAMPLE
-        sequence, modulus = self._number(driver, int(reading.sequence), count, checksum)
+        sequence, modulus = self._number(driver, int(reading.sequence), count, ticks, checksum)
         difference, packets = run.count_packets(sequence, modulus, ticks)
         ticks_after = round(packets * run.packet_ticks)
         if (
@@ -282,13 +283,15 @@ class StreamLink(DeviceLink):
             ticks_after = round(ticks)
         return PacketPosition(sequence, 0, TICKS_PER_SAMPLE, count, difference, packets, ticks_after)
 
-    def _number(self, driver: Driver, number: int, samples: int, checksum: int) -> tuple[int, int]:
+    def _number(self, driver: Driver, number: int, samples: int, ticks_after: float, checksum: int) -> tuple[int, int]:
         """Return the number of a packet among packets, whatever the device counts, and their number in a round."""
         run = self.packet_run
         if run.clock is None:
             return number, driver.sequence
         is_copy = bool(self.recent) and checksum == self.recent[-1][1]
-        packets, modulus = self.numbering.count_packets(number, driver.sequence, samples, is_copy)
+        packets, modulus = self.numbering.count_packets(
+            number, driver.sequence, samples, ticks_after / run.packet_ticks, is_copy
+        )
         return (run.sequence + packets) % modulus, modulus
 
     def _find_other_slope(self, pace: Clock, arrival: float) -> float:
