@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from math import fsum
 
 import pytest
 from attrs import evolve, field, frozen
@@ -142,6 +143,35 @@ def test_a_device_that_counts_goes_by_the_rate_that_arrives(name: str, declared:
     assert session.position.position[0] == pytest.approx(60.0, abs=4.0), "but for two strides until the rate is known"
     (said,) = [event.what for event in of(Limitation, events) if "arrive" in event.what]
     assert f"not the {declared:g} that were set" in said
+
+
+@pytest.mark.parametrize("every", [(1, 2), (2, 1), *soaked((1, 4), (4, 1))])
+def test_a_device_that_only_counts_may_change_its_rate_in_mid_walk(every: tuple[int, int]) -> None:
+    before, after = every
+    driver = evolve(DRIVERS["16 bits"], profile=evolve(DRIVERS["16 bits"].profile, nominal_rate=RATE / before))
+    session, events, number = Session(profiles=[driver]), list[Event](), 0
+    for k, (t, acc, gyro) in enumerate(counts(60.0)):
+        if k % (before if t < 20.0 else after) == 0:
+            data = driver.write("board/motion", {"number": number, "ticks": 0, "acc": acc, "gyro": gyro})
+            events += session.feed(Packet(100.0 + t + 0.005, SITE, "board/motion", data))
+            number += 1
+    events += session.finish()
+    (said,) = [event for event in of(Limitation, events) if "arrive" in event.what]
+    assert f"{RATE / after:.3g} samples a second arrive" in said.what and said.t < 125.0
+    late = [stride.length for stride in of(StrideTaken, events) if stride.t > 128.0]
+    assert lost(events) == 0 and len(late) >= 10
+    assert fsum(late) / len(late) == pytest.approx(1.4, abs=0.1), "once the rate is known"
+
+
+@pytest.mark.parametrize("speed", [1.3, 2.0, *soaked(1.5, 4.0, 1e6)])
+def test_packets_that_catch_up_after_a_silence_are_no_other_rate(speed: float) -> None:
+    driver, events = DRIVERS["16 bits"], list[Event]()
+    session = Session(profiles=[driver])
+    for k, (t, acc, gyro) in enumerate(counts(40.0)):
+        fields = {"number": k % driver.sequence, "ticks": 0, "acc": acc, "gyro": gyro}
+        sent = max(t, 12.0 + (t - 10.0) / speed) if t >= 10.0 else t
+        events += session.feed(Packet(100.005 + sent, SITE, "board/motion", driver.write("board/motion", fields)))
+    assert of(Limitation, events) == [] and lost(events) == 0
 
 
 def test_a_sensor_that_sends_nothing_but_zeros_is_named() -> None:

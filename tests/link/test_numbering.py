@@ -47,6 +47,22 @@ def test_numbers_that_count_samples_lose_none_and_are_named(name: str, count: in
 
 
 @WITH_NUMBERS
+@pytest.mark.parametrize("step", [2, 10])
+def test_numbers_that_go_up_by_a_constant_step_lose_none_and_are_named(name: str, step: int) -> None:
+    for count in (1, 3):
+        device, random, output = toy(KIND[name]), Random(1), list[Any]()
+        for k in range(400):
+            if k not in (200, 201):
+                t = 10.0 + (k + 1) * count / RATE + 0.003 * random.random()
+                unit = 1000 if name == "coarse" else 1_000_000
+                output += device.send_data(t, 65_530 + k * step, round(unit * k * count / RATE), count)
+        (limitation,) = said(output)
+        assert f"the number goes up by {step} with each notification, so nothing is lost" in limitation.what
+        (gap,) = of(SampleGap, output)
+        assert gap.count == 2 * count and of(PacketRejected, output) == [] and len(times(output)) == 398 * count
+
+
+@WITH_NUMBERS
 @pytest.mark.parametrize("copies", [2, 3])
 def test_numbers_that_come_several_times_cost_no_samples_and_are_named(name: str, copies: int) -> None:
     device, random, output = toy(KIND[name]), Random(1), list[Any]()

@@ -30,6 +30,9 @@ SAMPLE_NUMBERS = (
     "the number goes up by {0} with each notification of {0} samples, so it counts samples: give sequence=number // {0}"
     " in the reader and sequence={1} in the Driver, or count notifications in the device"
 )
+STEP_NUMBERS = (
+    "the number goes up by {0} with each notification, so nothing is lost in between: count notifications in the device"
+)
 REPEATED_NUMBERS = (
     "the same number comes with several notifications, whose values differ: count every notification in the device, or "
     "give no sequence"
@@ -46,33 +49,40 @@ def signed_difference(difference: int, modulus: int) -> int:
 class Numbering:
     """What the sequence numbers of a declared device count, if they do not count its packets.
 
-    A number that goes up by the number of samples in a packet from the first packet on counts samples. A number that
-    comes with other values than before does not count every packet. Neither is a loss or a copy of a packet. Both are
-    said once, when `STEADY_NUMBERS` packets have shown it."""
+    A number that goes up by the number of samples in a packet from the first packet on counts samples; by another
+    constant step, something else. A number that comes with other values than before does not count every packet. None
+    of them is a loss or a copy of a packet. Each is said once, when `STEADY_NUMBERS` packets have shown it."""
 
     newest: int = 0
     """Number of the newest accepted packet, as sent."""
-    sample_steps: int = 0
-    """Number of steps by the samples in a packet, until they are known to be samples; -1 once a step was another."""
+    step: int = 0
+    """Difference of the numbers of two packets in a row, if it is not 1; 0 before the second packet."""
+    steps: int = 0
+    """Number of differences of one step, until it is known to be constant; -1 once one was no multiple of it."""
     repeats: int = 0
     """Number of packets that repeated a number, until that is known to be no accident."""
     has_stepped: bool = False
     """The newest number was another one than the number before."""
 
-    def count_packets(self, number: int, modulus: int, samples: int, is_copy: bool) -> tuple[int, int]:
+    def count_packets(self, number: int, modulus: int, samples: int, expected: float, is_copy: bool) -> tuple[int, int]:
         """Return how many packets after the newest one a packet is, and the packets in a round of the counter.
 
-        `is_copy`: the packet has the values of the newest one."""
+        `expected`: that number by the time from one to the other. `is_copy`: it has the values of the newest one."""
         difference = signed_difference(number - self.newest, modulus)
         if difference == 0:
             return int(not is_copy), modulus
-        may_be_samples = self.sample_steps >= 0 and samples > 1 and difference % samples == 0
-        if may_be_samples or self.sample_steps >= STEADY_NUMBERS:
-            return difference // samples, max(1, modulus // samples)
+        step = self.step
+        if step == 0:  # a second packet that comes when the next one is due is the next one, whatever its number is
+            step = difference if difference > 1 and expected < 0.5 * (1 + difference) else samples
+        may_be_steps = self.steps >= 0 and step > 1 and difference % step == 0
+        if may_be_steps or self.steps >= STEADY_NUMBERS:
+            return difference // step, max(1, modulus // step)
         return difference, modulus
 
-    def accept(self, number: int, modulus: int, samples: int, is_first: bool) -> str:
-        """Take the number of a packet that was accepted; return what the numbers count, in words, when it is known."""
+    def accept(self, number: int, modulus: int, samples: int, packets: int, is_first: bool) -> str:
+        """Take the number of a packet that was accepted; return what the numbers count, in words, when it is known.
+
+        `packets`: how many packets after the newest one it is."""
         difference, what = signed_difference(number - self.newest, modulus), ""
         self.newest = number
         if is_first:
@@ -83,11 +93,14 @@ class Numbering:
         elif difference and self.has_stepped and self.repeats < STEADY_NUMBERS:
             self.repeats = 0
         self.has_stepped = difference != 0
-        if difference and 0 <= self.sample_steps < STEADY_NUMBERS:
-            is_step = samples > 1 and difference % samples == 0
-            self.sample_steps = self.sample_steps + (difference == samples) if is_step else -1
-            if self.sample_steps == STEADY_NUMBERS:
-                what = SAMPLE_NUMBERS.format(samples, modulus // samples)
+        if difference and 0 <= self.steps < STEADY_NUMBERS:
+            if self.step == 0 and packets:
+                self.step = difference // packets
+            is_step = self.step > 1 and difference % self.step == 0
+            self.steps = self.steps + (difference == self.step) if is_step else -1
+            if self.steps == STEADY_NUMBERS:
+                is_samples = self.step == samples
+                what = (SAMPLE_NUMBERS if is_samples else STEP_NUMBERS).format(self.step, modulus // self.step)
         return what
 
 

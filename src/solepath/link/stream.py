@@ -18,7 +18,7 @@ from ..types.attrs import define, field
 from ..types.vector import unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
-from .clock import MIN_INCREMENT
+from .clock import LARGE_ERROR, MIN_INCREMENT, Clock
 from .counters import MIN_GAP, REMEMBERED_PACKETS, Numbering, PacketPosition, PacketRun, SampleTimes, signed_difference
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
@@ -34,6 +34,9 @@ LONG_SILENCE, MIN_DELAY_AFTER_SILENCE, MIN_DELAY_AFTER_CONNECTION = 5.0, 2.5, 0.
 """Silence after which a device may have stopped counting, and delays of the next packet that show that it did, s.
 
 After a new connection, which delivers no old packets, MIN_DELAY_AFTER_CONNECTION is enough, without a silence."""
+PACE_TIME, PACE_WINDOW = 3.0, 0.1
+"""Time of the newest arrivals that show another rate, s, and length of their windows, device seconds: a quarter of the
+rate still fills seven windows."""
 STEADY_PACKETS = 6
 """Number of packets in a row at a steady distance that shows that the rate is wrong."""
 RATE_TOLERANCE = 0.2
@@ -58,6 +61,10 @@ class StreamLink(DeviceLink):
     may_be_silent: bool = False
     packet_run: PacketRun = field(factory=PacketRun)
     numbering: Numbering = field(factory=Numbering)
+    pace: Clock | None = None
+    """Fit of the newest PACE_TIME of arrivals, whose slope shows another rate, for a device that only counts."""
+    late_arrival: float | None = None
+    """Arrival of the newest packet that was late by LARGE_ERROR, s: packets that catch up after it show no rate."""
     coarse_ticks: int = 0
     """Device time of the newest packet as sent, ticks, for a device that has sequence numbers as well."""
     off_rate_packets: int = 0
@@ -172,7 +179,7 @@ class StreamLink(DeviceLink):
         return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
 
     def _make_samples(self, driver: Driver, data: bytes, reading: Reading, arrival: float) -> Output:
-        axis, run, other_slope, number = driver.axis, self.packet_run, 0.0, 0
+        axis, run, other_slope, number, packets = driver.axis, self.packet_run, 0.0, 0, 0
         is_first = run.clock is None
         rate = self.rate if reading.rate is None else reading.rate
         checksum = crc32(data)
@@ -184,13 +191,13 @@ class StreamLink(DeviceLink):
             sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss, data)
         elif axis is TimeAxis.TICKS:
             position = self._locate_by_ticks(driver, reading, rate, checksum)
-            number = position.sequence
+            number, packets = position.sequence, position.sequence_difference
             sample_times = self.packet_run.accept(position, driver.tick_rate, arrival)
             self._set_rate(rate)
             self._correct_rate(driver, reading, position)
         else:
             position = self._locate_by_count(driver, reading, rate, arrival, checksum)
-            number = position.sequence
+            number, packets = position.sequence, position.sequence_difference
             sample_times = self.packet_run.accept(
                 position,
                 rate * TICKS_PER_SAMPLE,
@@ -199,12 +206,17 @@ class StreamLink(DeviceLink):
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
-            other_slope = 0.0 if run.clock is None or reading.rate is not None else run.clock.other_slope
+            if self.pace is None or is_first or sample_times.restarted is not None:
+                self.pace, self.late_arrival = Clock(rate * TICKS_PER_SAMPLE, window_length=PACE_WINDOW), None
+            other_slope = 0.0 if reading.rate is not None else self._find_other_slope(self.pace, arrival)
+            if other_slope < 0.0 and arrival - self.pace.origin > PACE_TIME:  # a mean with the rate before it
+                self.pace, other_slope = Clock(rate * TICKS_PER_SAMPLE, window_length=PACE_WINDOW), 0.0
         kept = min(REMEMBERED_PACKETS, driver.sequence or 1)
         self.recent = [*self.recent[-kept + 1 :], (number, checksum)] if kept > 1 else [(number, checksum)]
         out: Output = [*sample_times.make_events(self.site, arrival)]
         if driver.sequence and reading.sequence is not None:
-            what = self.numbering.accept(int(reading.sequence), driver.sequence, len(reading.samples), is_first)
+            count = len(reading.samples)
+            what = self.numbering.accept(int(reading.sequence), driver.sequence, count, packets, is_first)
             out += [Limitation(t=arrival, site=self.site, what=what)] if what else []
         if self.periodic is not None:
             out += self.periodic.report_rate(len(reading.samples), self.site, arrival)
@@ -238,7 +250,7 @@ class StreamLink(DeviceLink):
         ticks = signed_difference(reading.ticks - run.ticks, driver.tick_modulus)
         if reading.sequence is not None and driver.sequence:
             sequence = int(reading.sequence)
-            sequence, modulus = self._number(driver, sequence, count, checksum)
+            sequence, modulus = self._number(driver, sequence, count, ticks, checksum)
             difference, packets = run.count_packets(sequence, modulus, ticks)
             return PacketPosition(sequence, int(reading.ticks), interval, count, difference, packets, ticks)
         if ticks > 0:  # ticks were cut to whole ones: the true distance may be up to one tick less
@@ -260,7 +272,7 @@ class StreamLink(DeviceLink):
             device_time = signed_difference(reading.ticks - self.coarse_ticks, driver.tick_modulus) / driver.tick_rate
             device_time = device_time if -MAX_DEVICE_LAG <= device_time - elapsed <= MAX_DEVICE_LEAD else None
         ticks = (elapsed if device_time is None else device_time) * rate * TICKS_PER_SAMPLE
-        sequence, modulus = self._number(driver, int(reading.sequence), count, checksum)
+        sequence, modulus = self._number(driver, int(reading.sequence), count, ticks, checksum)
         difference, packets = run.count_packets(sequence, modulus, ticks)
         ticks_after = round(packets * run.packet_ticks)
         if (
@@ -271,14 +283,28 @@ class StreamLink(DeviceLink):
             ticks_after = round(ticks)
         return PacketPosition(sequence, 0, TICKS_PER_SAMPLE, count, difference, packets, ticks_after)
 
-    def _number(self, driver: Driver, number: int, samples: int, checksum: int) -> tuple[int, int]:
+    def _number(self, driver: Driver, number: int, samples: int, ticks_after: float, checksum: int) -> tuple[int, int]:
         """Return the number of a packet among packets, whatever the device counts, and their number in a round."""
         run = self.packet_run
         if run.clock is None:
             return number, driver.sequence
         is_copy = bool(self.recent) and checksum == self.recent[-1][1]
-        packets, modulus = self.numbering.count_packets(number, driver.sequence, samples, is_copy)
+        packets, modulus = self.numbering.count_packets(
+            number, driver.sequence, samples, ticks_after / run.packet_ticks, is_copy
+        )
         return (run.sequence + packets) % modulus, modulus
+
+    def _find_other_slope(self, pace: Clock, arrival: float) -> float:
+        """Return the slope of the newest arrivals minus 1 if the rate is surely another one; else 0."""
+        run = self.packet_run
+        ticks = run.ticks + run.packet_ticks - run.interval
+        if run.clock is not None and arrival - run.clock.fit_time(ticks) > LARGE_ERROR:
+            self.late_arrival = arrival
+        pace.observe(ticks, arrival)
+        while arrival - pace.origin - (pace.windows[0][0] + pace.windows[0][1]) > PACE_TIME and len(pace.windows) > 1:
+            del pace.windows[0]
+        catches_up = self.late_arrival is not None and arrival - self.late_arrival <= PACE_TIME
+        return 0.0 if pace.other_slope < 0.0 and catches_up else pace.other_slope
 
     def _has_stopped(self, driver: Driver, arrival: float) -> bool:
         """Return whether a packet is so late that the device must have stopped counting before it."""
