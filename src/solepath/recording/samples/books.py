@@ -142,10 +142,15 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
 
     The text is that of its value, without a formula and without how it is pronounced."""
     parser, found, attributes_of = ParserCreate(), list[tuple[str, dict[str, str], str]](), dict[str, dict[str, str]]()
-    text, within, size = list[str](), set[str](), 0
+    text, within, size, unfinished = list[str](), set[str](), 0, 0
+
+    def check(length: int) -> None:
+        if length > LONGEST_LINE:
+            raise RecordingError(path, f"holds a text of more than {LONGEST_LINE} characters", part)
 
     def start(name: str, attributes: dict[str, str]) -> None:
-        nonlocal size
+        nonlocal size, unfinished
+        unfinished = 0
         name = name.rpartition(":")[2]
         within.add(name)
         if name in names:
@@ -154,12 +159,12 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
             size = 0
 
     def add(data: str) -> None:
-        nonlocal size
+        nonlocal size, unfinished
+        unfinished = 0
         if not within.isdisjoint(VALUES) and "rPh" not in within:
             text.append(data)
             size += len(data)
-            if size > LONGEST_LINE:
-                raise RecordingError(path, f"holds a text of more than {LONGEST_LINE} characters", part)
+            check(size)
 
     def end(name: str) -> None:
         name = name.rpartition(":")[2]
@@ -174,7 +179,9 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
     parser.StartDoctypeDeclHandler, parser.buffer_text = reject, True
     with open_member(path, part) as file:
         while data := file.read(CHUNK):
+            unfinished += len(data)
             parser.Parse(data)
+            check(unfinished)  # the parser keeps a tag, with all its attributes, until its end
             yield from found
             found.clear()
         parser.Parse(b"", True)
