@@ -98,7 +98,9 @@ HOSTILE: dict[str, Callable[[Path], Path]] = {
     "number.xlsx": lambda path: workbook(path, sheet=['<row r="99999999999"><c r="A99999999999"><v>1</v></c></row>']),
     "blank.xlsx": lambda path: workbook(path, sheet=["<row/>" * (MEGABYTE // 6)] * 100),
     "attributes.xlsx": lambda path: workbook(path, sheet=[ROWS, "<row", *tagged(MEGABYTE), "/>"]),
-    "remark.xlsx": lambda path: workbook(path, sheet=[ROWS, "<!--", *[f"{k:09d}\n" * 100_000 for k in range(19)], "-->"]),
+    "remark.xlsx": lambda path: workbook(
+        path, sheet=[ROWS, "<!--", *[f"{k:09d}\n" * 100_000 for k in range(19)], "-->"]
+    ),
     "texts.xlsx": lambda path: workbook(path, texts=["<sst>", *["<si/>" * 100_000] * 30, "</sst>"]),
     "text.xlsx": lambda path: workbook(path, texts=["<sst><si><t>", *[f"{k:09d}\n" * 100_000 for k in range(19)]]),
     "laughs.xlsx": lambda path: workbook(path, texts=[LAUGHS, "]><sst><si><t>&j;</t></si></sst>"]),
