@@ -24,7 +24,7 @@ from ..unpacking import check_ratio, content_name, open_member, open_unpacked
 from .table import FLOAT_SIZE, MAX_VALUES
 
 MAX_BOOK = 256_000_000
-"""Largest size of a Parquet file, bytes."""
+"""Largest size of a Parquet file, and of a workbook that is compressed, bytes."""
 CHUNK = 65_536
 """Number of bytes of XML that are parsed at once."""
 MAX_TEXTS = 1_000_000
@@ -177,7 +177,7 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
 
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = start, end, add
     parser.StartDoctypeDeclHandler, parser.buffer_text = reject, True
-    with open_member(path, part) as file:
+    with open_member(path, part, _open_book(path)) as file:
         while data := file.read(CHUNK):
             unfinished += len(data)
             parser.Parse(data)
@@ -187,10 +187,18 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
         parser.Parse(b"", True)
 
 
+def _open_book(path: Path) -> BinaryIO:
+    """Return a book opened for reading at any place; one that is compressed is read into memory."""
+    file = open_unpacked(path)
+    if file.seekable():
+        return file
+    with file:
+        return BytesIO(file.read(MAX_BOOK))
+
+
 def _read_parquet(path: Path) -> Iterator[list[Any]]:
     """Yield the names of the columns of a Parquet file, then its rows; a nested column holds no samples."""
-    with open_unpacked(path) as file:
-        stream = file if file.seekable() else BytesIO(file.read(MAX_BOOK))
+    with _open_book(path) as stream:
         size = stream.seek(0, SEEK_END)
         if size >= MAX_BOOK:
             raise RecordingError(path, f"is larger than {MAX_BOOK // 1_000_000} MB")
