@@ -148,3 +148,10 @@ def test_an_insole_that_shows_one_value_for_ever_never_unloads_and_one_that_show
 
 
 # --- any input ---
+
+
+@pytest.mark.parametrize("bits", [24, 29])
+def test_cells_of_a_fine_converter_cost_no_sample(bits: int) -> None:
+    zero, step = 2.0 ** (bits - 1), 2.0 ** (bits - 12)
+    _, others = run_walk(24, lambda _, cells, __: tuple([zero + 0.4 * step * value for value in cells]))
+    assert not of(SampleRejected, others) and of(StrideTaken, others)

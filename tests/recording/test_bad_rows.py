@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from tabled import saved, still
 
 from solepath.recording import (
     RecordingError,
+    TableMapping,
     bad_rows,  # its limits are those of megabytes
     read_packets,
     read_samples,
@@ -160,3 +162,21 @@ def test_a_file_with_more_bad_rows_than_good_ones_is_rejected(tmp_path: Path, na
     columns["acc"][3:14, 0] = np.nan
     with pytest.raises(RecordingError, match="is nan, not a finite number .*; 11 of 20 rows cannot be used"):
         samples_of(saved(tmp_path / name, columns))
+
+
+@pytest.mark.parametrize("fault", ["", "ERR", "-", "nan"])
+@pytest.mark.parametrize("broken", [(1,), (0, 1, 2)])
+def test_a_pressure_cell_without_a_number_costs_neither_the_others_nor_the_inertial_part(
+    tmp_path: Path, fault: str, broken: tuple[int, ...]
+) -> None:
+    path = tmp_path / "left.csv"
+    cells = [fault if k in broken else str(k + 1.0) for k in range(3)]
+    rows = [",".join([f"{0.01 * k:.2f},0,0,9.81,0,0,0", *cells]) for k in range(20)]
+    path.write_text("\n".join(["t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z,c1,c2,c3", *rows, ""]))
+    mapping = TableMapping.parse("t=t,acc=acc_*,gyro=gyro_*,pressure=c*")
+    samples = list(read_samples(path, mapping=mapping))
+    assert len(samples) == 20
+    for sample in samples:
+        assert sample.acc == (0.0, 0.0, 9.81)
+        assert [math.isnan(value) for value in sample.pressure] == [k in broken for k in range(3)]
+        assert all(value == k + 1.0 for k, value in enumerate(sample.pressure) if k not in broken)

@@ -7,14 +7,16 @@ from typing import NamedTuple
 
 from ..events import Defect, Rejection, SampleRejected
 from ..types import Floats, Sample, Vec3
+from ..types.layout import MAX_FULL_SCALE
 from ..types.records import MAX_TIME
 
 ABSURD_ACC = 500.0
 """Limit of each axis of a specific force, m/s^2; no foot sensor measures more."""
 ABSURD_GYRO = 100.0
 """Limit of each axis of an angular rate, rad/s; no foot sensor measures more."""
-ABSURD_PRESSURE = 1e7
-"""Limit of the root of the sum of squares over all cells, and so of each cell, N or counts; no insole measures more."""
+ABSURD_PRESSURE = 10.0 * MAX_FULL_SCALE
+"""Limit of the root of the sum of squares over all cells, N or counts: that of a hundred cells at the largest full
+scale that a layout may declare."""
 SHORTEST_STEP = 1e-6
 """Shortest time from one sample to the next, s: no sensor of a foot sends a million a second.
 

@@ -96,9 +96,11 @@ def open_unpacked(path: Path, member: str = "") -> BinaryIO:
     return BufferedReader(_Unpacked(path, file, PACKED[start][1](file)))
 
 
-def open_member(path: Path, name: str) -> BinaryIO:
-    """Return one file of a .zip or a workbook, opened for reading its bytes; errors are those of `open_unpacked`."""
-    file = open_file(path)
+def open_member(path: Path, name: str, file: BinaryIO | None = None) -> BinaryIO:
+    """Return one file of a .zip or a workbook, opened for reading its bytes; errors are those of `open_unpacked`.
+
+    `file` holds the .zip if `path` holds it compressed."""
+    file = file or open_file(path)
     try:
         archive = ZipFile(file)
         info = archive.getinfo(name)

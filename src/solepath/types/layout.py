@@ -9,6 +9,9 @@ from struct import pack
 from .attrs import field, frozen, limited, limits
 from .records import Floats, Foot
 
+MAX_FULL_SCALE = 1e9
+"""Largest full scale of a cell, N or counts; a converter with 24 bits has 1.7e7."""
+
 
 @frozen
 class Cell:
@@ -39,7 +42,7 @@ class Layout:
     scale: float | None = limited(None, 1e-9, 1e6, "N")
     """Force of one transmitted count, N: 1.0 when the device sends newtons, None when it is unknown, so that loads are
     in counts."""
-    full_scale: float = limited(4095.0, 1e-6, 1e9)
+    full_scale: float = limited(4095.0, 1e-6, MAX_FULL_SCALE)
     """Largest value that a cell can report, in the unit of the samples (N or counts)."""
 
     @cached_property

@@ -83,6 +83,11 @@ def zipped(path: Path) -> Path:
     return path
 
 
+def tagged(count: int) -> Iterable[str]:
+    """Yield so many attributes."""
+    return ("".join(f' a{k}="1"' for k in range(start, start + 1000)) for start in range(0, count, 1000))
+
+
 LAUGHS = '<!DOCTYPE sst [<!ENTITY a "ha">' + "".join(
     f'<!ENTITY {chr(98 + k)} "{f"&{chr(97 + k)};" * 10}">' for k in range(9)
 )
@@ -92,6 +97,10 @@ HOSTILE: dict[str, Callable[[Path], Path]] = {
     "cells.xlsx": lambda path: workbook(path, sheet=(FAR.format(k + 1) for k in range(60_000))),
     "number.xlsx": lambda path: workbook(path, sheet=['<row r="99999999999"><c r="A99999999999"><v>1</v></c></row>']),
     "blank.xlsx": lambda path: workbook(path, sheet=["<row/>" * (MEGABYTE // 6)] * 100),
+    "attributes.xlsx": lambda path: workbook(path, sheet=[ROWS, "<row", *tagged(MEGABYTE), "/>"]),
+    "remark.xlsx": lambda path: workbook(
+        path, sheet=[ROWS, "<!--", *[f"{k:09d}\n" * 100_000 for k in range(19)], "-->"]
+    ),
     "texts.xlsx": lambda path: workbook(path, texts=["<sst>", *["<si/>" * 100_000] * 30, "</sst>"]),
     "text.xlsx": lambda path: workbook(path, texts=["<sst><si><t>", *[f"{k:09d}\n" * 100_000 for k in range(19)]]),
     "laughs.xlsx": lambda path: workbook(path, texts=[LAUGHS, "]><sst><si><t>&j;</t></si></sst>"]),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import bz2
 import gzip
+import lzma
 import re
 import shlex
 import zipfile
@@ -11,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import one_line, run
+from hostile import workbook
 from laid import COLUMNS, LENGTH, NAMES, UNTIMED, distance, table, walked
 
 from solepath.recording import RecordingError, TableMapping, open_source, read_mapping, read_samples
@@ -260,3 +263,15 @@ def test_utf_16_without_its_mark_and_a_mapping_with_one_are_read(tmp_path: Path)
         path.write_bytes(plain.encode(encoding))
         mapping = read_mapping(tmp_path / "lab.toml").replaced(TableMapping.parse(COLUMNS))
         assert len(list(open_source(path, mapping=mapping))) == len(walked())
+
+
+@pytest.mark.parametrize("name", ["left.xlsx.gz", "left.xlsx.bz2", "left.xlsx.xz", "left.xlsx.zip"])
+def test_a_workbook_may_be_compressed(tmp_path: Path, name: str) -> None:
+    book = workbook(tmp_path / "left.xlsx").read_bytes()
+    pack = {"gz": gzip.compress, "bz2": bz2.compress, "xz": lzma.compress}
+    if name.endswith("zip"):
+        with zipfile.ZipFile(tmp_path / name, "w") as archive:
+            archive.writestr("left.xlsx", book)
+    else:
+        (tmp_path / name).write_bytes(pack[name.rpartition(".")[2]](book))
+    assert list(read_samples(tmp_path / name)) == list(read_samples(tmp_path / "left.xlsx"))

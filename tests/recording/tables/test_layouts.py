@@ -45,6 +45,23 @@ def test_separator_decimal_mark_and_lines_before_the_header_are_found(
     assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=MAPPING)))
 
 
+@pytest.mark.parametrize("word", ["-", "ERR", "NA", "", "---"])
+@pytest.mark.parametrize("time", ["0.000", None])
+@pytest.mark.parametrize("count", [1, 2, 5])
+@pytest.mark.parametrize("head", ["", "Labor 7\n\n"])
+@pytest.mark.parametrize("names", [NAMES, []])
+def test_rows_without_values_before_the_first_values_are_not_the_header(
+    tmp_path: Path, word: str, time: str | None, count: int, head: str, names: list[str]
+) -> None:
+    damaged = [word if time is None else time, *[word] * 6]
+    header = [",".join(names)] if names else []
+    numbers = [",".join(map(str, row)) for row in NUMBERS]
+    (tmp_path / "walk.csv").write_text(head + "\n".join([*header, *[",".join(damaged)] * count, *numbers, ""]))
+    by_number = TableMapping({"t": "1", "acc": ["2", "3", "4"], "gyro": ["5", "6", "7"]}, MAPPING.units)
+    mapping = MAPPING if names else by_number
+    assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=mapping, report=lambda _: None)))
+
+
 def test_columns_apart_by_blanks_and_a_line_of_units_are_read(tmp_path: Path) -> None:
     names = [name.replace(" ", "_") for name in NAMES]
     rows = "\n".join("  ".join(f"{v:9.3f}" for v in row) for row in NUMBERS)

@@ -24,7 +24,7 @@ from ..unpacking import check_ratio, content_name, open_member, open_unpacked
 from .table import FLOAT_SIZE, MAX_VALUES
 
 MAX_BOOK = 256_000_000
-"""Largest size of a Parquet file, bytes."""
+"""Largest size of a Parquet file, and of a workbook that is compressed, bytes."""
 CHUNK = 65_536
 """Number of bytes of XML that are parsed at once."""
 MAX_TEXTS = 1_000_000
@@ -142,10 +142,15 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
 
     The text is that of its value, without a formula and without how it is pronounced."""
     parser, found, attributes_of = ParserCreate(), list[tuple[str, dict[str, str], str]](), dict[str, dict[str, str]]()
-    text, within, size = list[str](), set[str](), 0
+    text, within, size, unfinished = list[str](), set[str](), 0, 0
+
+    def check(length: int) -> None:
+        if length > LONGEST_LINE:
+            raise RecordingError(path, f"holds a text of more than {LONGEST_LINE} characters", part)
 
     def start(name: str, attributes: dict[str, str]) -> None:
-        nonlocal size
+        nonlocal size, unfinished
+        unfinished = 0
         name = name.rpartition(":")[2]
         within.add(name)
         if name in names:
@@ -154,12 +159,12 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
             size = 0
 
     def add(data: str) -> None:
-        nonlocal size
+        nonlocal size, unfinished
+        unfinished = 0
         if not within.isdisjoint(VALUES) and "rPh" not in within:
             text.append(data)
             size += len(data)
-            if size > LONGEST_LINE:
-                raise RecordingError(path, f"holds a text of more than {LONGEST_LINE} characters", part)
+            check(size)
 
     def end(name: str) -> None:
         name = name.rpartition(":")[2]
@@ -172,18 +177,28 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
 
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = start, end, add
     parser.StartDoctypeDeclHandler, parser.buffer_text = reject, True
-    with open_member(path, part) as file:
+    with open_member(path, part, _open_book(path)) as file:
         while data := file.read(CHUNK):
+            unfinished += len(data)
             parser.Parse(data)
+            check(unfinished)  # the parser keeps a tag, with all its attributes, until its end
             yield from found
             found.clear()
         parser.Parse(b"", True)
 
 
+def _open_book(path: Path) -> BinaryIO:
+    """Return a book opened for reading at any place; one that is compressed is read into memory."""
+    file = open_unpacked(path)
+    if file.seekable():
+        return file
+    with file:
+        return BytesIO(file.read(MAX_BOOK))
+
+
 def _read_parquet(path: Path) -> Iterator[list[Any]]:
     """Yield the names of the columns of a Parquet file, then its rows; a nested column holds no samples."""
-    with open_unpacked(path) as file:
-        stream = file if file.seekable() else BytesIO(file.read(MAX_BOOK))
+    with _open_book(path) as stream:
         size = stream.seek(0, SEEK_END)
         if size >= MAX_BOOK:
             raise RecordingError(path, f"is larger than {MAX_BOOK // 1_000_000} MB")

@@ -28,9 +28,10 @@ def read_rows(rows: Iterator[Row], found: TableColumns, bad_rows: BadRows) -> li
     """Return the tables of the feet, without the rows that are none of numbers, which `bad_rows` gets.
 
     An incomplete last line is reported and left out. It is not detected if only digits of its last column are missing,
-    because the row is then complete."""
+    because the row is then complete. A pressure cell that is blank or a word is NaN."""
     header = found.header
     columns = {one.index: one.name for table in found.feet for its in table.sources.values() for one in its}
+    cells_of_insoles = {one.index for table in found.feet for one in table.sources.get("pressure", ())}
     datetimes = {table.sources["t"][0].index for table in found.feet if table.units.get("t") == DATETIME}
     values = {index: floats() for index in columns}
     lines, counts = array("q"), floats()
@@ -49,6 +50,9 @@ def read_rows(rows: Iterator[Row], found: TableColumns, bad_rows: BadRows) -> li
                     else:
                         numbers.append(read_datetime(cell) if index in datetimes else read_number(cell, header.decimal))
                 except (ValueError, TypeError):
+                    if index in cells_of_insoles and not row.is_cut:
+                        numbers.append(nan)  # a cell that sends no number costs itself only
+                        continue
                     text = "blank" if is_blank(cell) else f'"{printable(str(cell), 20)}"'
                     kind = "time" if index in datetimes else "number"
                     raise ValueError(f"{name} is {text}, not a {kind}") from None

@@ -269,13 +269,28 @@ def _find_layout(path: Path, head: Sequence[Row], mapping: TableMapping) -> Shee
 
 
 def _find_names(filled: Sequence[tuple[int, list[str]]], start: int) -> int | None:
-    """Return the index of the row with the names above the first row of numbers; None if there is none as wide."""
+    """Return the index of the row with the names above the first row of numbers; None if there is none as wide.
+
+    Rows of a sensor that did not measure yet may be between them."""
     above = start - 1
-    if above > 0 and _is_line_of_units(filled[above][1]):
+    while above > 0 and (
+        _is_line_of_units(filled[above][1])
+        or (
+            _is_damaged(filled[above][1])
+            and max(width_of(texts) for _, texts in filled[:above]) >= width_of(filled[start][1]) - 1
+        )
+    ):
         above -= 1
     width = width_of(filled[above][1]) if above >= 0 else 0
     # rows of an export may lack their last cells, or have a cell more than there are names
-    return above if width > 1 and (width >= width_of(filled[start][1]) - 1 or above == 0) else None
+    if width < 2 or _is_damaged(filled[above][1]):
+        return None
+    return above if width >= width_of(filled[start][1]) - 1 or above == 0 else None
+
+
+def _is_damaged(cells: Sequence[str]) -> bool:
+    """Return whether a row is one of values that were not measured: it starts with a number, or says one word only."""
+    return is_number(cells[0]) or is_datetime(cells[0], ".") or len({*filter(None, cells)}) == 1
 
 
 def _is_line_of_units(cells: Sequence[str]) -> bool:
