@@ -15,7 +15,16 @@ from solepath import Session
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import FULL_SCALE, layout
-from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, Limitation, SampleRejected, StrideTaken
+from solepath.events import (
+    CellFault,
+    CellsFailed,
+    DefectFound,
+    Event,
+    InsoleNeverUnloads,
+    Limitation,
+    SampleRejected,
+    StrideTaken,
+)
 from solepath.foot.pressure.cell_health import enclosed
 from solepath.types import Foot, Sample
 
@@ -148,3 +157,50 @@ def test_an_insole_that_shows_one_value_for_ever_never_unloads_and_one_that_show
 
 
 # --- any input ---
+
+
+BREAKS = {
+    "zero": lambda cells, held: (0.0,) * len(cells),
+    "half the full scale": lambda cells, held: (0.5 * FULL_SCALE,) * len(cells),
+    "full scale": lambda cells, held: (FULL_SCALE,) * len(cells),
+    "the last values": lambda cells, held: held,
+    "noise": lambda cells, held: tuple([20.0 + 0.1 * ((7 * i + int(1000 * held[0])) % 5) for i in range(len(cells))]),
+}
+
+
+@pytest.mark.parametrize("since", [10.0, 10.35, 10.7])
+@pytest.mark.parametrize("kind", BREAKS)
+def test_when_all_cells_fail_at_once_the_inertial_sensor_finds_the_strides(kind: str, since: float) -> None:
+    held: list[tuple[float, ...]] = []
+
+    def broken(t: float, cells: tuple[float, ...], cell_index: int) -> tuple[float | None, ...]:
+        held.append(tuple([20.0 + value for value in cells]))
+        return tuple(BREAKS[kind](cells, held[0]))
+
+    session, events = Session(calibration=calibration_of(24)), list[Event]()
+    for sample in walk(24):
+        if sample.site is LEFT and sample.pressure is not None:
+            raised = tuple([20.0 + value for value in sample.pressure])
+            pressure = raised if sample.t < since else broken(sample.t, sample.pressure, 0)
+            sample = evolve(sample, pressure=pressure)
+        events += session.feed(sample)
+    (failed,) = of(CellsFailed, events)
+    assert (failed.fault, failed.cells, failed.site) == (CellFault.STUCK, tuple(range(24)), LEFT)
+    assert since < failed.t < since + 4.0, "two strides or so"
+    strides, clean_strides = of(StrideTaken, events), clean(24)
+    assert 0 <= len(clean_strides) - len(strides) <= 2, "those before the fault is known"
+    distance = sum(s.length for s in strides)
+    assert distance == pytest.approx(sum(s.length for s in clean_strides), rel=0.02)
+    assert of(DefectFound, events) == []
+
+
+def test_cells_of_which_all_had_failed_are_used_again_when_they_load_again() -> None:
+    events: list[Event] = []
+    session, route = Session(calibration=calibration_of(24)), Route().stand(1.5).walk(50.0, 1.3).stop(1.0)
+    for sample in samples(route, cells=24, rate=50.0):
+        if sample.site is LEFT and 8.0 <= sample.t < 14.0:
+            sample = evolve(sample, pressure=(25.0,) * 24)
+        events += session.feed(sample)
+    assert len(of(CellsFailed, events)) == 1
+    late = [s for s in of(StrideTaken, events) if s.foot is Foot.LEFT and s.t > 30.0]
+    assert late and all(s.features.contact_load is not None for s in late)
