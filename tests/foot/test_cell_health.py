@@ -13,6 +13,7 @@ from walks import LEFT, of, samples
 
 from solepath import Session
 from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate import Walker
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import FULL_SCALE, layout
 from solepath.events import (
@@ -26,7 +27,7 @@ from solepath.events import (
     StrideTaken,
 )
 from solepath.foot.pressure.cell_health import enclosed
-from solepath.types import Foot, Sample
+from solepath.types import Cell, Foot, Layout, Sample
 
 WALK = Route().stand(1.5).walk(20.0, 1.3).stop(1.0)
 COUNTS = (24, 35, 96, 99)
@@ -204,3 +205,19 @@ def test_cells_of_which_all_had_failed_are_used_again_when_they_load_again() -> 
     assert len(of(CellsFailed, events)) == 1
     late = [s for s in of(StrideTaken, events) if s.foot is Foot.LEFT and s.t > 30.0]
     assert late and all(s.features.contact_load is not None for s in late)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.1])
+@pytest.mark.parametrize("dead_cell", [None, 0, 2, 5])
+def test_a_cell_of_a_sparse_sole_that_never_bears_load_is_named_though_it_has_few_neighbours(
+    dead_cell: int | None, noise: float
+) -> None:
+    places = ((0.03, 0.0), (0.07, -0.02), (0.16, -0.03), (0.17, 0.0), (0.17, 0.03), (0.23, -0.02))
+    sole = Layout(1, Foot.LEFT, tuple([Cell(x, y) for x, y in places]), length=0.26)
+    session, events = Session(calibration=Calibration({Foot.LEFT: InsoleCalibration(sole)})), list[Event]()
+    for number, sample in enumerate(Walker(WALK).samples(Foot.LEFT, 50.0, layout=sole)):
+        dead_value = 20.0 + noise * (number % 2)
+        pressure = tuple([dead_value if i == dead_cell else 20.0 + v for i, v in enumerate(sample.pressure or ())])
+        events += session.feed(evolve(sample, pressure=pressure))
+    named = [(event.fault, event.cells) for event in of(CellsFailed, events)]
+    assert named == ([] if dead_cell is None else [(CellFault.DEAD, (dead_cell,))])

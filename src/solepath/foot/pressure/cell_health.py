@@ -222,10 +222,10 @@ class CellWindow:
         )
 
     def _should_load(self, i: int, layout: Layout | None, lively_windows: int) -> bool:
+        if len(self.ranges) <= MOST_PRESSED_CELLS:
+            return True
         if layout is None:
-            if self.ranges[i] == 0.0 and self.has_noise:
-                return True
-            return len(self.ranges) <= MOST_PRESSED_CELLS or lively_windows >= LIVELY_WINDOWS_ALONE
+            return (self.ranges[i] == 0.0 and self.has_noise) or lively_windows >= LIVELY_WINDOWS_ALONE
         is_enclosed, any_neighbours = enclosed(layout, i, self.find_lively())
         return is_enclosed or (lively_windows >= LIVELY_WINDOWS and any_neighbours)
 
