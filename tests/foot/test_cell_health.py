@@ -13,11 +13,21 @@ from walks import LEFT, of, samples
 
 from solepath import Session
 from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate import Walker
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import FULL_SCALE, layout
-from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, Limitation, SampleRejected, StrideTaken
+from solepath.events import (
+    CellFault,
+    CellsFailed,
+    DefectFound,
+    Event,
+    InsoleNeverUnloads,
+    Limitation,
+    SampleRejected,
+    StrideTaken,
+)
 from solepath.foot.pressure.cell_health import enclosed
-from solepath.types import Foot, Sample
+from solepath.types import Cell, Foot, Layout, Sample
 
 WALK = Route().stand(1.5).walk(20.0, 1.3).stop(1.0)
 COUNTS = (24, 35, 96, 99)
@@ -155,3 +165,66 @@ def test_cells_of_a_fine_converter_cost_no_sample(bits: int) -> None:
     zero, step = 2.0 ** (bits - 1), 2.0 ** (bits - 12)
     _, others = run_walk(24, lambda _, cells, __: tuple([zero + 0.4 * step * value for value in cells]))
     assert not of(SampleRejected, others) and of(StrideTaken, others)
+
+
+BREAKS = {
+    "zero": lambda cells, held: (0.0,) * len(cells),
+    "half the full scale": lambda cells, held: (0.5 * FULL_SCALE,) * len(cells),
+    "full scale": lambda cells, held: (FULL_SCALE,) * len(cells),
+    "the last values": lambda cells, held: held,
+    "noise": lambda cells, held: tuple([20.0 + 0.1 * ((7 * i + int(1000 * held[0])) % 5) for i in range(len(cells))]),
+}
+
+
+@pytest.mark.parametrize("since", [10.0, 10.35, 10.7])
+@pytest.mark.parametrize("kind", BREAKS)
+def test_when_all_cells_fail_at_once_the_inertial_sensor_finds_the_strides(kind: str, since: float) -> None:
+    held: list[tuple[float, ...]] = []
+
+    def broken(t: float, cells: tuple[float, ...], cell_index: int) -> tuple[float | None, ...]:
+        held.append(tuple([20.0 + value for value in cells]))
+        return tuple(BREAKS[kind](cells, held[0]))
+
+    session, events = Session(calibration=calibration_of(24)), list[Event]()
+    for sample in walk(24):
+        if sample.site is LEFT and sample.pressure is not None:
+            raised = tuple([20.0 + value for value in sample.pressure])
+            pressure = raised if sample.t < since else broken(sample.t, sample.pressure, 0)
+            sample = evolve(sample, pressure=pressure)
+        events += session.feed(sample)
+    (failed,) = of(CellsFailed, events)
+    assert (failed.fault, failed.cells, failed.site) == (CellFault.STUCK, tuple(range(24)), LEFT)
+    assert since < failed.t < since + 4.0, "two strides or so"
+    strides, clean_strides = of(StrideTaken, events), clean(24)
+    assert 0 <= len(clean_strides) - len(strides) <= 2, "those before the fault is known"
+    distance = sum(s.length for s in strides)
+    assert distance == pytest.approx(sum(s.length for s in clean_strides), rel=0.02)
+    assert of(DefectFound, events) == []
+
+
+def test_cells_of_which_all_had_failed_are_used_again_when_they_load_again() -> None:
+    events: list[Event] = []
+    session, route = Session(calibration=calibration_of(24)), Route().stand(1.5).walk(50.0, 1.3).stop(1.0)
+    for sample in samples(route, cells=24, rate=50.0):
+        if sample.site is LEFT and 8.0 <= sample.t < 14.0:
+            sample = evolve(sample, pressure=(25.0,) * 24)
+        events += session.feed(sample)
+    assert len(of(CellsFailed, events)) == 1
+    late = [s for s in of(StrideTaken, events) if s.foot is Foot.LEFT and s.t > 30.0]
+    assert late and all(s.features.contact_load is not None for s in late)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.1])
+@pytest.mark.parametrize("dead_cell", [None, 0, 2, 5])
+def test_a_cell_of_a_sparse_sole_that_never_bears_load_is_named_though_it_has_few_neighbours(
+    dead_cell: int | None, noise: float
+) -> None:
+    places = ((0.03, 0.0), (0.07, -0.02), (0.16, -0.03), (0.17, 0.0), (0.17, 0.03), (0.23, -0.02))
+    sole = Layout(1, Foot.LEFT, tuple([Cell(x, y) for x, y in places]), length=0.26)
+    session, events = Session(calibration=Calibration({Foot.LEFT: InsoleCalibration(sole)})), list[Event]()
+    for number, sample in enumerate(Walker(WALK).samples(Foot.LEFT, 50.0, layout=sole)):
+        dead_value = 20.0 + noise * (number % 2)
+        pressure = tuple([dead_value if i == dead_cell else 20.0 + v for i, v in enumerate(sample.pressure or ())])
+        events += session.feed(evolve(sample, pressure=pressure))
+    named = [(event.fault, event.cells) for event in of(CellsFailed, events)]
+    assert named == ([] if dead_cell is None else [(CellFault.DEAD, (dead_cell,))])

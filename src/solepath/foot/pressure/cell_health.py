@@ -3,6 +3,8 @@
 Cells are judged over windows of walking, each of which contains SWINGS_OF_WINDOW swings of the foot.
 
 - DEAD, STUCK and SATURATED are reported when two windows in a row show the fault (`CellWindow`).
+- STUCK is reported of all cells when two swings in a row, which the gyroscope shows, neither unload nor load them. From
+  the first of the two on there is no load, so that the inertial sensor alone finds the strides.
 - MISSING is reported when for MISSING_TIME the cell gives no number. This needs no swings.
 
 `usable` returns 0 for failed cells, so load, areas and centre of pressure work without them. A cell that loads again in
@@ -56,6 +58,12 @@ LOADED_SHARE = 0.3
 """Lowest load in N above which an insole does not unload, as a share of its highest load."""
 LOADED_SHARE_IN_COUNTS = 0.9
 """Value of LOADED_SHARE for loads in counts, whose zero is unknown."""
+UNCHANGED_SHARE = 0.05
+"""Largest range of the sum of the cells in a swing that they do not show.
+
+It is a share of the range of the last 8 to 10 s. A contact is seen at 5 % of the load."""
+UNCHANGED_SWINGS = 2
+"""Number of swings in a row that the cells do not show after which all have failed; in one, the foot may hang."""
 LEAST_VARIATION = 0.01
 """Largest range of cells that show no load at all, as a share of the highest value."""
 
@@ -148,7 +156,7 @@ class CellWindow:
     ranges: list[float]
     """Range of each cell: highest minus lowest value, unit of the samples."""
     working: list[int]
-    """Indices of the cells that have not failed."""
+    """Indices of the cells that have not failed, or of all cells if all have failed: they may load again."""
     largest_range: float
     """Largest range of any working cell, unit of the samples."""
     highest: float
@@ -158,7 +166,7 @@ class CellWindow:
     def from_span(cls, span: CellSpan, excluded: list[int]) -> CellWindow:
         """Return the window of a span; `excluded` holds the indices of the failed cells."""
         ranges = [high - low for low, high in zip(span.lows, span.highs, strict=True)]
-        working = [i for i in range(len(ranges)) if i not in excluded]
+        working = [i for i in range(len(ranges)) if i not in excluded] or list(range(len(ranges)))
         largest_range = max([ranges[i] for i in working], default=0.0)
         highest = max([span.highs[i] for i in working], default=0.0)
         return cls(span.lows, ranges, working, largest_range, highest)
@@ -214,10 +222,10 @@ class CellWindow:
         )
 
     def _should_load(self, i: int, layout: Layout | None, lively_windows: int) -> bool:
+        if len(self.ranges) <= MOST_PRESSED_CELLS:
+            return True
         if layout is None:
-            if self.ranges[i] == 0.0 and self.has_noise:
-                return True
-            return len(self.ranges) <= MOST_PRESSED_CELLS or lively_windows >= LIVELY_WINDOWS_ALONE
+            return (self.ranges[i] == 0.0 and self.has_noise) or lively_windows >= LIVELY_WINDOWS_ALONE
         is_enclosed, any_neighbours = enclosed(layout, i, self.find_lively())
         return is_enclosed or (lively_windows >= LIVELY_WINDOWS and any_neighbours)
 
@@ -242,6 +250,10 @@ class CellHealth:
     """Number of swings in the current window."""
     swing_start: float | None = None
     """Start of the last swing, s; None before any."""
+    swing: tuple[float, float] | None = None
+    """Lowest and highest sum of the cells since `swing_start`; None before any, and once they have changed with it."""
+    unchanged_swings: int = 0
+    """Number of swings in a row that the cells do not show."""
     airborne: bool = False
     """The foot was in the air in the last sample without an angular rate."""
     suspected: dict[CellFault, list[int]] = field(factory=dict)
@@ -269,7 +281,7 @@ class CellHealth:
 
     def reset(self) -> None:
         """Discard the current window, because times restart; failed cells stay failed."""
-        self.checked_at = self.window_start = self.swing_start = None
+        self.checked_at = self.window_start = self.swing_start = self.swing = None
         self.span, self.swings, self.non_numeric, self.wrong_count = CellSpan(), 0, [], None
 
     def update(
@@ -281,12 +293,14 @@ class CellHealth:
         gyro: Vec3 | None = None,
         layout: Layout | None = None,
         in_air: Floats = (),
+        load_range: float = 0.0,
     ) -> list[Event]:
         """Return the events of one sample at `t`, s, with raw `cells`.
 
         `cells` is () for a sample of an inertial sensor that sends separately from the cells. `phase` is that of the
-        foot, `gyro` is in rad/s, `layout` comes from the device or a calibration, and
-        `in_air` is the value of each cell in swing, as far as it is known."""
+        foot, `gyro` is in rad/s, `layout` comes from the device or a calibration,
+        `in_air` is the value of each cell in swing, as far as it is known, and `load_range` is the range of the sum of
+        the cells in the last 8 to 10 s, 0 while the load is unknown."""
         events: list[Event] = []
         if layout is not None and self.count != len(layout.cells):
             self._set_count(len(layout.cells))
@@ -315,6 +329,8 @@ class CellHealth:
             swing_starts = x * x + y * y + z * z >= LEAST_SWING_RATE * LEAST_SWING_RATE and not (
                 self.swing_start is not None and 0.0 <= t - self.swing_start < LEAST_SWING_INTERVAL
             )
+            if self.swing is not None or swing_starts:
+                self._watch_swing(t, known_at, add_up(cells), UNCHANGED_SHARE * load_range, swing_starts, events)
             if swing_starts:
                 self.swing_start = t
         if swing_starts:
@@ -335,12 +351,31 @@ class CellHealth:
         result is () when no cell can be used."""
         if len(cells) != self.count:
             return ()
-        if len(self.non_numeric) == self.count:
+        if len({*self.excluded, *[i for i, _ in self.non_numeric]}) == self.count:
             return ()
         usable_cells = list(cells)
         for i in [*self.excluded, *[i for i, _ in self.non_numeric]]:
             usable_cells[i] = unloaded[i] if i < len(unloaded) else 0.0
         return tuple(usable_cells)
+
+    def _watch_swing(
+        self, t: float, known_at: float, total: float, least: float, swing_starts: bool, events: list[Event]
+    ) -> None:
+        """Look whether the `total` of the cells changes by `least` between the push-off of a swing and its landing."""
+        if swing_starts:
+            if self.swing is not None and least > 0.0:
+                self.unchanged_swings += 1
+                if self.unchanged_swings == UNCHANGED_SWINGS:
+                    working = tuple([i for i in range(self.count) if i not in self.excluded])
+                    if working:
+                        self._fail(t, known_at, CellFault.STUCK, working, events)
+                    self.window_start, self.lively_windows = None, [0] * self.count  # what was before shows no recovery
+            self.swing = total, total
+        elif self.swing is not None:
+            low, high = self.swing
+            self.swing = min(low, total), max(high, total)
+            if self.swing[1] - self.swing[0] > least:
+                self.swing, self.unchanged_swings = None, 0
 
     def _accept_count(self, t: float, known_at: float, count: int, layout: Layout | None, events: list[Event]) -> bool:
         """Return whether samples with `count` cells, a new number, are used from now on."""
@@ -400,7 +435,7 @@ class CellHealth:
             self.loaded_windows = 0
         faults = window.find_faults(layout, self.lively_windows, in_air)
         for fault, cells in faults.items():
-            new_cells = tuple([i for i in cells if i in self.suspected.get(fault, [])])
+            new_cells = tuple([i for i in cells if i in self.suspected.get(fault, []) and i not in self.excluded])
             if new_cells:
                 self._fail(t, known_at, fault, new_cells, events)
         self.suspected = faults
@@ -409,11 +444,13 @@ class CellHealth:
     def _count_constant(
         self, t: float, known_at: float, window_start: float, window: CellWindow, events: list[Event]
     ) -> None:
+        if len(self.excluded) == self.count:
+            return
         if window.highest > 0.0:
             self._count_loaded(t, known_at, window_start, events)
             return
         self.constant_windows += 1
-        if self.constant_windows == 2 and window.working:
+        if self.constant_windows == 2:
             self._fail(t, known_at, CellFault.DEAD, tuple(window.working), events)
 
     def _fail(self, t: float, known_at: float, fault: CellFault, cells: tuple[int, ...], events: list[Event]) -> None:

@@ -165,7 +165,7 @@ class InsoleLoads:
         last_range = self.total.high - self.total.low if self.load_risen else 0.0
         jumps = self.jumps
         if jumps.burst is not None or abs(total - jumps.total) > LEAST_STEP * last_range > 0.0:
-            if jumps.is_burst(t, total, cells, last_range):
+            if jumps.is_burst(t, total, cells, last_range, self.total.low):
                 if jumps.bursts > 1:
                     self.trouble = BURST
                 return None
@@ -447,13 +447,16 @@ class Sole:
         if self.insole.inverted:
             pressure = tuple([None if value is None else -value for value in pressure])
         in_air = self.insole.unloaded.sure_cells
-        events += self.health.update(t, known_at, pressure, phase, sample.gyro, known_layout, in_air)
-        health = self.health
+        health, total = self.health, self.insole.total
+        load_range = total.high - total.low if self.insole.load_risen else 0.0
+        events += health.update(t, known_at, pressure, phase, sample.gyro, known_layout, in_air, load_range)
         has_unusable_cells = health.excluded or health.non_numeric or len(pressure) != health.count
         cells = health.usable(pressure, self.insole.tare) if has_unusable_cells else pressure
         if not cells:
             return None
         self.had_cells = True
+        if health.unchanged_swings:
+            return None
         layout = self.insole.layout
         if self.layout_estimated and layout is not None and len(layout.cells) != len(cells):
             self.layout_estimated, self.highest = False, 0.0  # it was estimated for another insole

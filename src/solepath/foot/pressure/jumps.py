@@ -13,7 +13,9 @@ SHORT_INTERVAL = 0.025
 LEAST_BURST = 0.3
 """Smallest change of the sum of the cells with which a burst begins, as a share of the range of the last 8 to 10 s."""
 LONGEST_BURST = 0.5
-"""Longest burst, s: cells that show one value for longer show it for good (cell_health.py)."""
+"""Longest burst, s: cells that show one value for longer show it for good (cell_health.py).
+
+If it is the value of all cells, and not that of a foot in the air, they show no load for as long as it lasts."""
 LEAST_STEP = 0.04
 """Smallest step of the sum of the cells, as a share of that range: a smaller one hides neither contact nor toe-off."""
 STEP_TOLERANCE = 0.25
@@ -39,14 +41,18 @@ class Jumps:
     bursts: int = 0
     """Number of bursts so far."""
 
-    def is_burst(self, t: float, total: float, cells: Floats, load_range: float) -> bool:
+    def is_burst(self, t: float, total: float, cells: Floats, load_range: float, lowest: float) -> bool:
         """Return whether the cells of a sample show a burst, so that this sample must not be used.
 
-        `total` is their sum and `load_range` its range in the last 8 to 10 s. Call this and then `find_step` for a
-        sample whose sum differs by LEAST_STEP or more from that of the sample before, and keep what the others show."""
+        `total` is their sum, `load_range` its range in the last 8 to 10 s, and `lowest` the lower end of it.
+        Call this and then `find_step` for a sample whose sum differs by LEAST_STEP or more from that of the sample
+        before, and keep what the others show."""
         count, burst = len(cells), self.burst
         if burst is not None:
-            if 2 * cells.count(burst) >= count and 0.0 <= t - self.burst_t < LONGEST_BURST:
+            same = cells.count(burst)
+            is_short = 0.0 <= t - self.burst_t < LONGEST_BURST
+            unlike_swing = abs(total - lowest) > LEAST_STEP * load_range
+            if (is_short and 2 * same >= count) or (same == count and unlike_swing):
                 self.t = t
                 return True
             self.burst = None
