@@ -4,7 +4,8 @@ Cells are judged over windows of walking, each of which contains SWINGS_OF_WINDO
 
 - DEAD, STUCK and SATURATED are reported when two windows in a row show the fault (`CellWindow`).
 - STUCK is reported of all cells when two swings in a row, which the gyroscope shows, neither unload nor load them. From
-  the first of the two on there is no load, so that the inertial sensor alone finds the strides.
+  the first of the two on there is no load, so that the inertial sensor alone finds the strides. Cells that are
+  calibrated in newtons are not watched for it.
 - MISSING is reported when for MISSING_TIME the cell gives no number. This needs no swings.
 
 `usable` returns 0 for failed cells, so load, areas and centre of pressure work without them. A cell that loads again in

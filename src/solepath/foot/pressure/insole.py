@@ -448,7 +448,9 @@ class Sole:
             pressure = tuple([None if value is None else -value for value in pressure])
         in_air = self.insole.unloaded.sure_cells
         health, total = self.health, self.insole.total
-        load_range = total.high - total.low if self.insole.load_risen else 0.0
+        # the range is that of values as they are sent, which calibrated newtons are not
+        as_sent = self.insole.in_newtons or self.insole.settings.newtons is None
+        load_range = total.high - total.low if self.insole.load_risen and as_sent else 0.0
         events += health.update(t, known_at, pressure, phase, sample.gyro, known_layout, in_air, load_range)
         has_unusable_cells = health.excluded or health.non_numeric or len(pressure) != health.count
         cells = health.usable(pressure, self.insole.tare) if has_unusable_cells else pressure
