@@ -13,7 +13,7 @@ import pytest
 from attrs import evolve
 from walks import of
 
-from solepath import Foot, HeelStrike, Limitation, Sample, Session, StrideTaken, ToeOff
+from solepath import Foot, HeelStrike, Limitation, Sample, Session, Site, StrideTaken, ToeOff
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.insoles import layout
 from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads
@@ -214,7 +214,7 @@ def test_a_wearer_who_stands_and_sways_takes_no_step_whatever_the_cells_show(zer
     for k in range(6000):
         sway = [0.98 * one + random.gauss(0.0, 0.02) for one in sway]
         counts = tuple([clipped(2500.0 + 400.0 * (1.0 + one)) - zero for one in sway])
-        events += session.feed(Sample(0.01 * k, WALKER.samples(Foot.LEFT, 100.0)[0].site, pressure=counts))
+        events += session.feed(Sample(0.01 * k, Site.LEFT_FOOT, pressure=counts))
     assert of(HeelStrike | ToeOff, events) == [] and named(events) == []
 
 

@@ -74,7 +74,8 @@ below the strides of patients who shuffle."""
 MOST_SHAKING = 3.0
 """Largest standard deviation of the specific force in the rest of a stride that speaks for a walk, m/s^2.
 
-Of 99 in 100 strides of recordings it is smaller, of emulated skates 5 (2 to 7). With `GRAVITY_RATES` it counts less."""
+It is smaller in 99 of 100 strides of recordings, and 5 (2 to 7) in those of emulated skates. It counts less and less
+between the `GRAVITY_RATES`, because a runner pushes off in this rest."""
 MOST_MISSING = 0.1
 """Largest share of missing samples of a stride that can be evidence against a foot that carries, if none is a flaw."""
 MOST_WAITING = 4

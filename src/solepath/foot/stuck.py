@@ -87,9 +87,10 @@ class Stuck:
             if not same_acc:  # nearly always
                 self.held = False
                 if self.still < MOST_STILL or not self.turned:
-                    turns = hypot(*gyro) > MOVING
-                    self.turned = self.turned or turns
-                    self.still += not turns and self.still < MOST_STILL
+                    if hypot(*gyro) > MOVING:
+                        self.turned = True
+                    else:
+                        self.still = min(self.still + 1, MOST_STILL)
                 return None
         rate = hypot(*gyro)
         if rate < MOVING and same_acc and same_gyro:

@@ -179,7 +179,8 @@ class StreamLink(DeviceLink):
         return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
 
     def _make_samples(self, driver: Driver, data: bytes, reading: Reading, arrival: float) -> Output:
-        axis, run, other_slope, number, packets = driver.axis, self.packet_run, 0.0, 0, 0
+        axis, run, other_slope = driver.axis, self.packet_run, 0.0
+        position: PacketPosition | None = None
         is_first = run.clock is None
         rate = self.rate if reading.rate is None else reading.rate
         checksum = crc32(data)
@@ -191,13 +192,11 @@ class StreamLink(DeviceLink):
             sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss, data)
         elif axis is TimeAxis.TICKS:
             position = self._locate_by_ticks(driver, reading, rate, checksum)
-            number, packets = position.sequence, position.sequence_difference
             sample_times = self.packet_run.accept(position, driver.tick_rate, arrival)
             self._set_rate(rate)
             self._correct_rate(driver, reading, position)
         else:
             position = self._locate_by_count(driver, reading, rate, arrival, checksum)
-            number, packets = position.sequence, position.sequence_difference
             sample_times = self.packet_run.accept(
                 position,
                 rate * TICKS_PER_SAMPLE,
@@ -206,17 +205,16 @@ class StreamLink(DeviceLink):
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
-            if self.pace is None or is_first or sample_times.restarted is not None:
-                self.pace, self.late_arrival = Clock(rate * TICKS_PER_SAMPLE, window_length=PACE_WINDOW), None
-            other_slope = 0.0 if reading.rate is not None else self._find_other_slope(self.pace, arrival)
-            if other_slope < 0.0 and arrival - self.pace.origin > PACE_TIME:  # a mean with the rate before it
-                self.pace, other_slope = Clock(rate * TICKS_PER_SAMPLE, window_length=PACE_WINDOW), 0.0
+            if reading.rate is None:
+                other_slope = self._find_other_slope(rate, arrival, is_first or sample_times.restarted is not None)
+        number = 0 if position is None else position.sequence
         kept = min(REMEMBERED_PACKETS, driver.sequence or 1)
         self.recent = [*self.recent[-kept + 1 :], (number, checksum)] if kept > 1 else [(number, checksum)]
         out: Output = [*sample_times.make_events(self.site, arrival)]
-        if driver.sequence and reading.sequence is not None:
-            count = len(reading.samples)
-            what = self.numbering.accept(int(reading.sequence), driver.sequence, count, packets, is_first)
+        if position is not None and driver.sequence and reading.sequence is not None:
+            what = self.numbering.accept(
+                int(reading.sequence), driver.sequence, position.samples, position.sequence_difference, is_first
+            )
             out += [Limitation(t=arrival, site=self.site, what=what)] if what else []
         if self.periodic is not None:
             out += self.periodic.report_rate(len(reading.samples), self.site, arrival)
@@ -294,17 +292,26 @@ class StreamLink(DeviceLink):
         )
         return (run.sequence + packets) % modulus, modulus
 
-    def _find_other_slope(self, pace: Clock, arrival: float) -> float:
+    def _find_other_slope(self, rate: float, arrival: float, restarts: bool) -> float:
         """Return the slope of the newest arrivals minus 1 if the rate is surely another one; else 0."""
-        run = self.packet_run
+        run, pace = self.packet_run, self.pace
+        if pace is None or restarts:
+            self.late_arrival = None
+            pace = self.pace = Clock(rate * TICKS_PER_SAMPLE, window_length=PACE_WINDOW)
         ticks = run.ticks + run.packet_ticks - run.interval
         if run.clock is not None and arrival - run.clock.fit_time(ticks) > LARGE_ERROR:
             self.late_arrival = arrival
         pace.observe(ticks, arrival)
         while arrival - pace.origin - (pace.windows[0][0] + pace.windows[0][1]) > PACE_TIME and len(pace.windows) > 1:
             del pace.windows[0]
-        catches_up = self.late_arrival is not None and arrival - self.late_arrival <= PACE_TIME
-        return 0.0 if pace.other_slope < 0.0 and catches_up else pace.other_slope
+        if pace.other_slope >= 0.0:
+            return pace.other_slope
+        if self.late_arrival is not None and arrival - self.late_arrival <= PACE_TIME:
+            return 0.0  # packets catch up
+        if arrival - pace.origin > PACE_TIME:  # the slope is a mean with that of the rate before
+            self.pace = Clock(rate * TICKS_PER_SAMPLE, window_length=PACE_WINDOW)
+            return 0.0
+        return pace.other_slope
 
     def _has_stopped(self, driver: Driver, arrival: float) -> bool:
         """Return whether a packet is so late that the device must have stopped counting before it."""

@@ -5,6 +5,7 @@ elevator". Seeds from `FIRST_TRAINING_SEED` to 999 are for training. Scored walk
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from functools import partial
 from math import pi
 
@@ -15,6 +16,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import MPU6050
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.emulate.wearers.curves import Rng
 from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.emulate.wearers.walker import Walker
@@ -26,6 +28,8 @@ RATE = 20.0
 """Sampling rate, Hz (section IV: "we sample the accelerometer and gyroscope with 20 Hz")."""
 FIRST_TRAINING_SEED = 101
 
+Addition = Callable[[Route, Rng], Route]
+"""Function that adds a part of a house to a route."""
 REPEATS = 2
 """Number of times that each of stairs up, stairs down, elevator up and elevator down is in a route."""
 
@@ -36,12 +40,8 @@ def draw_route(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
     wearer, _ = random_wearer(rng)
     route = Route(speed=float(rng.uniform(0.9, 1.5))).stand(_uniform(rng, 3.0, 8.0))
     levels = [partial(add, up=up) for add in (_add_stairs, _add_elevator) for up in (True, False)]
-    additions = [*levels * REPEATS, _add_corridor, _add_corridor, _add_corridor, *[_add_jog] * jogging]
-    for k in rng.permutation(len(additions)):
-        route = additions[k](route, rng)
-        if rng.uniform() < 0.6:
-            route = route.stand(_uniform(rng, 3.0, 10.0))
-    return route.stand(4.0), wearer
+    additions: list[Addition] = [*levels * REPEATS, _add_corridor, _add_corridor, _add_corridor, *[_add_jog] * jogging]
+    return _in_any_order(route, additions, (3.0, 10.0), rng), wearer
 
 
 def walker(seed: int, *, jogging: bool = False) -> Walker:
@@ -56,11 +56,7 @@ def other_ways(seed: int) -> Walker:
     wearer, _ = random_wearer(rng)
     additions = [*[_add_ramp] * 4, *[_add_steps] * 2, _add_corridor]
     route = Route(speed=float(rng.uniform(0.8, 1.5))).stand(_uniform(rng, 3.0, 8.0))
-    for k in rng.permutation(len(additions)):
-        route = additions[k](route, rng)
-        if rng.uniform() < 0.6:
-            route = route.stand(_uniform(rng, 2.0, 6.0))
-    return Walker(route.stand(4.0), wearer, seed)
+    return Walker(_in_any_order(route, additions, (2.0, 6.0), rng), wearer, seed)
 
 
 def walk(seed: int, *, jogging: bool = False) -> EmulatedWalk:
@@ -70,26 +66,35 @@ def walk(seed: int, *, jogging: bool = False) -> EmulatedWalk:
     return emulate(route, wearer=wearer, devices={SITE_OF_FOOT[foot]: evolve(tag) for foot in Foot}, seed=seed)
 
 
-def _uniform(rng: np.random.Generator, low: float, high: float) -> float:
+def _in_any_order(route: Route, additions: Sequence[Addition], rests: tuple[float, float], rng: Rng) -> Route:
+    """Return the route with the additions in a random order, most of which rests, s, follow."""
+    for k in rng.permutation(len(additions)):
+        route = additions[k](route, rng)
+        if rng.uniform() < 0.6:
+            route = route.stand(_uniform(rng, *rests))
+    return route.stand(4.0)
+
+
+def _uniform(rng: Rng, low: float, high: float) -> float:
     return float(rng.uniform(low, high))
 
 
-def _add_corridor(route: Route, rng: np.random.Generator) -> Route:
+def _add_corridor(route: Route, rng: Rng) -> Route:
     corner = pi / 2.0 if rng.uniform() < 0.5 else -pi / 2.0
     return route.walk(_uniform(rng, 8.0, 20.0)).turn(corner, _uniform(rng, 0.0, 1.5)).walk(_uniform(rng, 6.0, 15.0))
 
 
-def _add_jog(route: Route, rng: np.random.Generator) -> Route:
+def _add_jog(route: Route, rng: Rng) -> Route:
     return route.stand(2.0).jog(_uniform(rng, 25.0, 40.0), _uniform(rng, 2.3, 3.2)).stand(2.0)
 
 
-def _add_ramp(route: Route, rng: np.random.Generator) -> Route:
+def _add_ramp(route: Route, rng: Rng) -> Route:
     """Add a ramp up or down of 1 in 20 to 1 in 8, as in front of and in buildings."""
     slope = _uniform(rng, 1.0 / 20.0, 1.0 / 8.0) * float(rng.choice([-1.0, 1.0]))
     return route.walk(_uniform(rng, 2.0, 6.0)).walk(_uniform(rng, 8.0, 20.0), slope=slope).walk(_uniform(rng, 2.0, 6.0))
 
 
-def _add_steps(route: Route, rng: np.random.Generator) -> Route:
+def _add_steps(route: Route, rng: Rng) -> Route:
     """Add some steps backwards, some to either side, and turns on the spot."""
     route = route.stand(1.0).walk(_uniform(rng, 3.0, 8.0), direction=pi).stand(1.0)
     for side in (0.5 * pi, -0.5 * pi):
@@ -97,7 +102,7 @@ def _add_steps(route: Route, rng: np.random.Generator) -> Route:
     return route.turn(pi).stand(1.0).turn(-pi)
 
 
-def _add_stairs(route: Route, rng: np.random.Generator, up: bool) -> Route:
+def _add_stairs(route: Route, rng: Rng, up: bool) -> Route:
     """Add two flights and the landing between them, from corridor to corridor."""
     rise, going = _uniform(rng, 0.14, 0.18), _uniform(rng, 0.27, 0.32)
     for flight in range(2):
@@ -108,7 +113,7 @@ def _add_stairs(route: Route, rng: np.random.Generator, up: bool) -> Route:
     return route.walk(_uniform(rng, 3.0, 6.0))
 
 
-def _add_elevator(route: Route, rng: np.random.Generator, up: bool) -> Route:
+def _add_elevator(route: Route, rng: Rng, up: bool) -> Route:
     """Add an elevator ride: in, turn round, up or down one to four storeys, and out."""
     height = 3.4 * float(rng.integers(1, 5))
     entered = route.walk(_uniform(rng, 3.0, 6.0)).turn(pi)

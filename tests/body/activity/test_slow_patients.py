@@ -1,4 +1,6 @@
-"""Recorded patients who walk slowly, with pauses: from the first to the last stride they walk."""
+"""Recorded patients who walk slowly, with pauses, walk from the first to the last stride; riders and sitters do not.
+
+What tells strides from other motions, and the curves of activities, were learnt from some of these recordings, too."""
 
 from __future__ import annotations
 

@@ -118,7 +118,7 @@ class Strides:
         times[type(event).__name__] = event.t
 
     def add_block(self, t: float, block: ActivityBlock) -> None:
-        """Add half a second of a foot, from `t`, s; a force that does not change is that of a sensor that is stuck."""
+        """Add half a second of a foot, from `t`, s, if it moves in it as in a run, turns or is shaken."""
         fast = block.gyro_mean_square > RUNNING_RATE * RUNNING_RATE
         if fast and block.force > RUNNING_FORCE and block.variance > MOVING_VARIANCE:
             self.runs.append(t)

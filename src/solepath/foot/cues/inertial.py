@@ -313,10 +313,13 @@ class InertialCues:
         if learnt is None:
             self.axis = newest
             return True
-        if (cosine := dot(learnt, newest)) < SAME_AXIS_COSINE:
+        cosine = dot(learnt, newest)
+        if cosine < SAME_AXIS_COSINE:
             # a single turn about another axis is no push-off; several in a row mean that the sensor was turned
-            self.other_axis_push_offs += not (self.turned_back and cosine < -SAME_AXIS_COSINE)
-            self.turned_back = cosine < -SAME_AXIS_COSINE
+            turns_back = cosine < -SAME_AXIS_COSINE
+            if not (turns_back and self.turned_back):
+                self.other_axis_push_offs += 1
+            self.turned_back = turns_back
             if self.other_axis_push_offs < OTHER_AXIS_PUSH_OFFS:
                 return False
             learnt = newest
