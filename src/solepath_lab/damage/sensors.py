@@ -28,7 +28,7 @@ from solepath.types import SITE_OF_FOOT, Foot, Sample, Vec3
 from solepath.types.vector import GRAVITY
 from solepath.validate.alignment import Floats
 
-from ..measures.alarms import KNOWN, NOT_ON_FEET, alarms
+from ..measures.alarms import KNOWN, NOT_ON_FEET, NOT_WALKING, alarms
 from ..processes import run_jobs
 from ..tables import markdown
 
@@ -172,7 +172,7 @@ def examine(piece: WalkingFoot) -> DefectOutcome | None:
         return None
     whole = tuple(_reported(samples, piece.foot))
     walks = [all([stride.walked for _, stride in strides[i + 1 : i + 3]]) for i in range(len(strides) - 2)]
-    if True not in walks:
+    if True not in walks or piece.path.parent.name in NOT_WALKING:
         return DefectOutcome(piece, whole)
     known_at, first_stride = strides[walks.index(True)]
     start = known_at - first_stride.duration

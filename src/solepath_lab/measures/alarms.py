@@ -21,6 +21,8 @@ values that are repeated (smart_insole_35), and a left foot whose strides close 
 reversed, and then badly (felius)."""
 NOT_ON_FEET = ("sevivi_hops",)
 """Data sets of sensors that are on no foot."""
+NOT_WALKING = ("hugadb_daily",)
+"""Data sets in which nobody walks: people cycle, drive and sit."""
 ANYWHERE = {Defect.NO_GRAVITY, Defect.ACC_UNIT, Defect.GYRO_UNIT, Defect.WRONG_SCALE, Defect.TIME_UNIT}
 """Defects that would be wrong of a sensor anywhere; others are said of feet, and a sensor on no foot may deserve it."""
 

@@ -89,6 +89,17 @@ def test_strides_whose_peaks_are_within_a_small_range_are_right() -> None:
     assert len(slow) >= 5 and set(slow) == {()}
 
 
+@pytest.mark.parametrize("speed", [1.0, 1.3, 1.6])
+@pytest.mark.parametrize("limit", [14.0, 16.0, 2.0 * GRAVITY])
+def test_cut_off_peaks_neither_hide_wrong_times_nor_look_like_them(limit: float, speed: float) -> None:
+    walk = Walker(Route().stand(1.5).walk(26.0, speed).stop(1.0), seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
+    cut = [vectors(acc=clipped(limit))(sample) for sample in walk]
+    assert [event.defect for event in run(cut)[0]] == [Defect.CLIPPED]
+    for factor, rate in ((1.5, "higher"), (1.0 / 1.5, "lower")):
+        found, _ = run([evolve(sample, t=factor * sample.t, known_at=None) for sample in cut])
+        assert f"at a {rate} rate" in found[-1].what
+
+
 def test_a_runner_in_g_is_in_g_and_not_in_another_range() -> None:
     jog = Walker(Route().jog(60.0, 2.8).stop(2.0), seed=102).samples(Foot.LEFT, 100.0, LSM6DSOX)
     found, _ = run([IN_G(sample) for sample in jog])

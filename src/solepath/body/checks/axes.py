@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise, permutations, product
-from math import dist, fsum, hypot, log, pi, prod, sqrt
+from math import dist, fsum, hypot, inf, log, pi, prod, sqrt
 from typing import Final
 
 from ...events import Defect
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, IDENTITY, ZERO, add, from_rotation_vector, multiply
+from ...types.vector import GRAVITY, IDENTITY, ZERO, add, dot, from_rotation_vector, multiply
 from .stances import FORCE, NO_MOTION, TICK, TURN, Axes, ClosedStride, Finding
 
 # Closure of the velocity of a stride, for each way in which the gyroscope's axes can be mounted.
@@ -44,20 +44,33 @@ WRONG_BY: Final = (1.5, 2.0, 4.0, 8.0)
 500, 1000 and 2000 degrees/s), and one of a wrong rate."""
 SCALES: Final = (*[1.0 / factor for factor in WRONG_BY], *WRONG_BY)
 """Factors of the turn that are tried too."""
-LESSER_TURN, GREATER_TURN, NO_TURN = len(AXES), len(AXES) + len(WRONG_BY), len(AXES) + len(SCALES)
-"""Indices of the first residuals with a lesser and with a greater turn, and of that of a gyroscope that reads nothing.
+NO_TURN = len(AXES) + len(SCALES)
+"""Index of the residual of a gyroscope that reads nothing: what the turns have to explain. The others are measured by
+it."""
+NO_ENDS: Final = (inf,) * 6
+"""Ends of the range of an accelerometer that cuts nothing off, m/s^2.
 
-The latter is what the turns have to explain; the others are measured by it."""
+They are the upper and the lower end of x, then of y, then of z."""
+CUT_SHARE, MOST_CUT = 0.9, 10.0
+"""Share of an end from which on the mean of an interval is cut off, and the most that it may lack, m/s^2.
+
+At ends of 2 g (hugadb) the median over the strides of a recording is 0 to 10; what is larger would explain wrong times
+too."""
 LEAST_RESIDUAL, LEAST_SHARE = 0.05, 0.1
 """Residual, m/s^2, and share of that without any turn, which are added to each residual.
 
 A nearly perfect closure does not count without limit then, and one that is good enough for this walker is none."""
 
 
-def closure_residuals(stride: ClosedStride) -> list[float]:
+Rows = list[list[float]]
+"""Rows 3 i + j over k of M_ijk / T."""
+
+
+def closure_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS) -> list[float]:
     """Return the residual for each of AXES, SCALES and for NO_TURN, m/s^2.
 
-    It is the worse one of the two ends of the stride, |S / T - g u|."""
+    It is the worse one of the two ends of the stride, |S / T - g u + m d|. Peaks that are cut off at `ends` lack an
+    impulse of unknown size m in known directions at known instants, which are turned and integrated to d."""
     first, last = hypot(*stride.first), hypot(*stride.last)
     g = 0.5 * (first + last)
     ups = [[g / first * x for x in stride.first], [g / last * x for x in stride.last]]
@@ -67,35 +80,55 @@ def closure_residuals(stride: ClosedStride) -> list[float]:
         turns.append(add(before, half))
         before = half
     durations, _, _, _, *forces = zip(*stride.intervals, strict=True)
-    scale = FORCE * TICK / stride.duration
-    shares = [[scale * duration * force for duration, force in zip(durations, axis, strict=True)] for axis in forces]
-    proper, improper, *scaled = [_ends(turns, factor, shares, ups) for factor in (1.0, -1.0, *SCALES, 0.0)]
+    parts = [TICK * duration / stride.duration for duration in durations]
+    shares = [[FORCE * part * force for part, force in zip(parts, axis, strict=True)] for axis in forces]
+    cut = [
+        [
+            part * ((FORCE * force > CUT_SHARE * upper) - (-FORCE * force > CUT_SHARE * lower))
+            for part, force in zip(parts, axis, strict=True)
+        ]
+        for axis, upper, lower in zip(forces, ends[::2], ends[1::2], strict=True)
+        if min(ends) < inf
+    ]
+    proper, improper, *scaled = [_close(turns, factor, shares, cut, ups) for factor in (1.0, -1.0, *SCALES, 0.0)]
     residuals = [
         _residual(order, signs, proper if (order in ROTATIONS) == (prod(signs) > 0.0) else improper)
         for order in ORDERS
         for signs in SIGNS
     ]
-    return residuals + [_residual(ORDERS[0], SIGNS[0], ends) for ends in scaled]
+    return residuals + [_residual(ORDERS[0], SIGNS[0], closed) for closed in scaled]
 
 
-def _ends(
-    vectors: list[Vec3], factor: float, shares: list[list[float]], ups: list[list[float]]
-) -> list[list[list[float]]]:
-    """Return what is left of M / T without gravity, for each end of the stride: rows 3 i + j over k, m/s^2.
+def _close(
+    vectors: list[Vec3], factor: float, shares: list[list[float]], cut: list[list[float]], ups: list[list[float]]
+) -> tuple[Rows | None, Rows, Rows]:
+    """Return M / T of what is cut off, None without it, and for each end of the stride M / T without gravity, m/s^2.
 
     `vectors`, rad, times `factor` turn from one middle of an interval to the next, `shares` are the parts that the
-    intervals have in each axis of the mean specific force, m/s^2, and `ups` is gravity at both ends."""
+    intervals have in each axis of the mean specific force, m/s^2, `cut` those of 1 m/s^2 more where it is cut off, and
+    `ups` is gravity at both ends."""
     attitude, turns = IDENTITY, []
     for vector in vectors:
         attitude = multiply(attitude, from_rotation_vector(add(ZERO, vector, factor)))
         turns.append(_turn(attitude))
-    # products of vectors by their distance, because that loop runs in C: c s = (c c + s s - |c - s|^2) / 2
-    columns = [(column, hypot(*column) ** 2) for column in zip(*turns[:-1], strict=True)]
-    axes = [(share, hypot(*share) ** 2) for share in shares]
-    sums = [[0.5 * (cc + ss - dist(column, share) ** 2) for share, ss in axes] for column, cc in columns]
-    return [
+    columns = [*zip(*turns[:-1], strict=True)]
+    sums = _products(columns, shares)
+    first, last = [
         [[x - r * u for x, u in zip(row, up, strict=True)] for row, r in zip(sums, turn, strict=True)]
         for turn, up in zip((UNTURNED, turns[-1]), ups, strict=True)
+    ]
+    return _products(columns, cut) if any(map(any, cut)) else None, first, last
+
+
+def _products(columns: list[tuple[float, ...]], axes: list[list[float]]) -> Rows:
+    """Return the products of each of `columns` with each of `axes`.
+
+    They are computed by the distance of the vectors, because that loop runs in C: 2 c s = c c + s s - |c - s|^2."""
+    squares = [hypot(*axis) ** 2 for axis in axes]
+    return [
+        [0.5 * (cc + ss - dist(column, axis) ** 2) for axis, ss in zip(axes, squares, strict=True)]
+        for column in columns
+        for cc in [hypot(*column) ** 2]
     ]
 
 
@@ -108,17 +141,25 @@ def _turn(attitude: Quat) -> Turn:
     return 1.0 - yy - zz, xy - wz, xz + wy, xy + wz, 1.0 - xx - zz, yz - wx, xz - wy, yz + wx, 1.0 - xx - yy
 
 
-def _residual(order: Order, signs: Signs, ends: list[list[list[float]]]) -> float:
-    """Return the worse of the residuals |S / T - g u| of the two ends, m/s^2, in the gyroscope's frame."""
-    (p, q, r), (a, b, c) = order, signs
+def _residual(order: Order, signs: Signs, closed: tuple[Rows | None, Rows, Rows]) -> float:
+    """Return the worse of the residuals |S / T - g u + m d| of the two ends, m/s^2, in the gyroscope's frame."""
+    cut, *ends = closed
+    missing = ZERO if cut is None else _mounted(order, signs, cut)
+    length = hypot(*missing)
     largest = 0.0
     for rows in ends:
-        square = 0.0
-        for i in (0, 3, 6):
-            force = a * rows[i + p][0] + b * rows[i + q][1] + c * rows[i + r][2]
-            square += force * force
-        largest = max(largest, square)
-    return sqrt(largest)
+        force = _mounted(order, signs, rows)
+        if length > 0.0:
+            force = add(force, missing, max(0.0, min(MOST_CUT, -dot(force, missing) / length**2)))
+        largest = max(largest, hypot(*force))
+    return largest
+
+
+def _mounted(order: Order, signs: Signs, rows: Rows) -> Vec3:
+    """Return the sums over j and k with the gyroscope's axes in this order, with these signs."""
+    (p, q, r), (a, b, c) = order, signs
+    x, y, z = [a * rows[i + p][0] + b * rows[i + q][1] + c * rows[i + r][2] for i in (0, 3, 6)]
+    return x, y, z
 
 
 SHORTEST_STRIDE, LONGEST_STRIDE = 0.2, 6.5
@@ -137,10 +178,8 @@ CLOSING = 0.75
 """Mean ratio of the residual to that without any turn up to which strides close.
 
 It is the part of a stride's turn that the gyroscope leaves unexplained, so it does not depend on the pace: 0.04 to 0.3
-in recordings, up to 0.54 where the specific force clips, about 0.55 with a gyroscope or a rate that is wrong by a
+in recordings, up to 0.45 where the specific force clips, about 0.55 with a gyroscope or a rate that is wrong by a
 factor of 1.5, and 1 with one that is wrong by a factor of 2 and more."""
-CLIPPED_CLOSING = 0.6
-"""The same ratio where peaks of the specific force are cut off, up to which a lesser turn is no explanation."""
 CONTRADICTION = (
     "the gyroscope and the accelerometer do not describe the same motion: check the axes, units and ranges of both, the"
     " times, and that both are fixed to the same rigid part of the shoe"
@@ -165,8 +204,8 @@ LATEST_REPORT = 8.0
 """Time after the start of the first stride after which wrong axes are reported, with or without the right ones, s.
 
 On 380 recordings of a foot, 8 and 16 s raise the same alarms; 6 s and 4 s raise one and three more."""
-UNCERTAIN_FACTOR = 2.0
-"""Factor of the evidence that is needed when strides close badly for another reason, a rate below 40 Hz.
+LARGEST_FACTOR = 2.0
+"""Largest factor of the evidence that is needed when strides close badly for another reason, a rate below 40 Hz.
 
 With one sample in four of 191 recordings, which leaves no filter before it, 12 raise alarms with a factor of 1, and 2
 with 2; of damaged ones, 96 and 83 in 100 are found, and 96 if the four are averaged."""
@@ -186,19 +225,18 @@ class AxesCheck:
     """Time at which the first stride began, s."""
     settled: bool = False
     """Flag: no more strides are needed."""
-    uncertain: bool = False
-    """Flag: samples are few, or repeat values, so that also right axes close badly."""
-    clipped: bool = False
-    """Flag: the accelerometer often cuts off peaks, so that right axes close badly, and another scale closes better."""
+    factor: float = 1.0
+    """Factor of the evidence that is needed: 1, and up to `LARGEST_FACTOR` if samples are few, or repeat values, so that
+    also right axes close badly."""
 
-    def add(self, t: float, stride: ClosedStride) -> Finding | None:
+    def add(self, t: float, stride: ClosedStride, ends: Sequence[float] = NO_ENDS) -> Finding | None:
         """Add a stride that is known at `t`, s; return that the axes are wrong, once it is time to report this.
 
-        It is returned again when a correction is known."""
+        Peaks of the specific force are cut off at `ends`. It is returned again when a correction is known."""
         deviation = max([abs(hypot(*force) / GRAVITY - 1.0) for force in (stride.first, stride.last)])
         if not SHORTEST_STRIDE < stride.duration < LONGEST_STRIDE or deviation > LARGEST_DEVIATION:
             return None
-        residuals = closure_residuals(stride)
+        residuals = closure_residuals(stride, ends)
         least = LEAST_RESIDUAL + LEAST_SHARE * residuals[NO_TURN]
         logs = [log(residual + least) for residual in residuals]
         if not self.strides:
@@ -210,39 +248,31 @@ class AxesCheck:
         self.evidence = [a + b for a, b in zip(self.evidence, ratios, strict=True)]
         enough = self.strides >= SETTLED_STRIDES
         if not self.wrong:
-            closes = self.uncertain or self.clipped or self._closes(0)
-            fits = self.strides >= LEAST_STRIDES and min(self._explanations[1:]) > self.needed
+            closes = self.factor > 1.0 or self._closes(0)
+            fits = self.strides >= LEAST_STRIDES and min(self.evidence[1:]) > self.needed
             self.settled = (fits and (closes or enough)) or self.strides >= MOST_STRIDES
             return Finding(Defect.CONTRADICTION, CONTRADICTION) if enough and not closes else None
         self.settled = (enough and self._best is not None) or self.strides >= MOST_STRIDES
         return self.finding if self.settled or t - self.started_at > LATEST_REPORT else None
 
-    def _closes(self, best: int, limit: float = CLOSING) -> bool:
+    def _closes(self, best: int) -> bool:
         """Return whether the strides close with one of the axes or scales."""
-        return self.residuals[best] - self.residuals[NO_TURN] <= self.strides * log(limit)
-
-    @property
-    def _explanations(self) -> list[float]:
-        """The evidence for what may explain strides that close badly; clipped peaks do that as a lesser turn does."""
-        if not (self.clipped and self._closes(0, CLIPPED_CLOSING)):
-            return self.evidence
-        return self.evidence[:LESSER_TURN] + [0.0] * len(WRONG_BY) + self.evidence[GREATER_TURN:]
+        return self.residuals[best] - self.residuals[NO_TURN] <= self.strides * log(CLOSING)
 
     @property
     def wrong(self) -> bool:
         """Return whether other axes, or another scale, fit clearly better than the axes as they are."""
-        return self.strides >= LEAST_STRIDES and min(self._explanations) < -self.needed
+        return self.strides >= LEAST_STRIDES and min(self.evidence) < -self.needed
 
     @property
     def needed(self) -> float:
         """The evidence that decides between two kinds of axes after this number of strides."""
-        evidence = LEAST_EVIDENCE + EVIDENCE_PER_STRIDE * self.strides
-        return UNCERTAIN_FACTOR * evidence if self.uncertain else evidence
+        return self.factor * (LEAST_EVIDENCE + EVIDENCE_PER_STRIDE * self.strides)
 
     @property
     def finding(self) -> Finding:
         """The finding of axes that are `wrong`; other axes explain that only if the strides close with them."""
-        best = self.evidence.index(min(self._explanations))
+        best = self.evidence.index(min(self.evidence))
         if not self._closes(best):
             return Finding(Defect.CONTRADICTION, CONTRADICTION)
         if best < len(AXES):
@@ -257,7 +287,7 @@ class AxesCheck:
     @property
     def _best(self) -> int | None:
         """The number of the axes or the scale that fits best; None if others fit about as well."""
-        best, second = sorted(self._explanations)[:2]
+        best, second = sorted(self.evidence)[:2]
         return self.evidence.index(best) if second - best > DISTINCT_EVIDENCE else None
 
 

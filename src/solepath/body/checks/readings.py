@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import dist, fsum, log2
+from math import dist, fsum, inf, log2
 from operator import and_, eq, sub
 from typing import NamedTuple
 
@@ -69,6 +69,8 @@ class ChannelEnd:
     """Number of blocks with samples at `largest`."""
     first: int = 0
     """Number of samples before those of which `samples` are counted."""
+    cut_at: float = 0.0
+    """Value at which peaks were seen to be cut off, m/s^2 or rad/s; 0 before."""
 
 
 @define
@@ -79,8 +81,16 @@ class RangeCheck:
     """Ends of the ranges: upper and lower end of x, then of y, then of z."""
     samples: int = 0
     """Number of samples so far."""
-    cuts_off: bool = False
-    """Flag: peaks are cut off."""
+
+    @property
+    def cut_at(self) -> list[float]:
+        """The ends at which peaks are cut off, m/s^2 or rad/s; infinite where none are."""
+        return [end.cut_at or inf for end in self.ends]
+
+    @property
+    def cuts_off(self) -> bool:
+        """Return whether peaks are cut off."""
+        return min(self.cut_at) < inf
 
     def add(self, kind: RangeKind, values: Sequence[Vec3], extremes: Extremes) -> Finding | None:
         """Add a block of samples with its `find_extremes`; return an end of the range that cuts off peaks, if any."""
@@ -93,7 +103,6 @@ class RangeCheck:
         self.samples += len(values)
         if found is None:
             return None
-        self.cuts_off = True
         share = found.samples / (self.samples - found.first)
         if self.samples - found.first > RECENT_SAMPLES:
             found.samples, found.first = found.samples // 2, (found.first + self.samples) // 2
@@ -111,7 +120,10 @@ class RangeCheck:
         end.blocks += 1
         end.samples += at_end.count(True)
         end.pairs += [*map(and_, at_end, at_end[1:])].count(True)
-        return end.blocks >= LEAST_BLOCKS and end.pairs >= LEAST_PAIRS
+        is_end = end.blocks >= LEAST_BLOCKS and end.pairs >= LEAST_PAIRS
+        if is_end:
+            end.cut_at = end.largest
+        return is_end
 
 
 # Checks of the times of samples, and of sensors that repeat their values.

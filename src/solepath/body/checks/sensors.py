@@ -10,7 +10,7 @@ from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import define, field, state, stateful
 from ..part import Inputs, Outputs, Part, PartOutput
-from .axes import AxesCheck, BandwidthCheck
+from .axes import LARGEST_FACTOR, AxesCheck, BandwidthCheck
 from .readings import (
     ACCELEROMETER,
     GYROSCOPE,
@@ -185,15 +185,16 @@ def _examine(check: SensorCheck, gyro_bias: Vec3) -> list[Finding | None]:
         return findings
     axes, is_slow = check.axes, interval > LONGEST_INTERVAL
     cuts_off = check.gyro_range.cuts_off or not OF_FORCE.isdisjoint(check.reported)
-    axes.uncertain = is_slow or Defect.REPEATED in check.reported
-    axes.clipped = Defect.CLIPPED in check.reported and Defect.CLIPPED not in check.mild
+    # the error of an integral grows with the square of the interval
+    factor = LARGEST_FACTOR if Defect.REPEATED in check.reported else (interval / LONGEST_INTERVAL) ** 2
+    axes.factor = max(1.0, min(LARGEST_FACTOR, factor))
     for t, stride in check.stances.add(check.rows, gyro_bias):
         if stride.in_a_row:
             findings.append(check.gravity.add_stance(stride.last, stride.motion))
         if stride.walked:  # what names a repair needs somebody who walks
             findings += [
                 None if is_slow else check.bandwidth.add(stride),
-                None if axes.settled or cuts_off else axes.add(t, stride),
+                None if axes.settled or cuts_off else axes.add(t, stride, check.acc_range.cut_at),
             ]
     if (axes.settled or cuts_off) and check.gravity.knows_stances and (is_slow or check.bandwidth.judged):
         # what was learnt is reported, and the state of a session stays small
