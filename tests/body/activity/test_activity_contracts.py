@@ -67,9 +67,9 @@ def test_each_feature_has_a_curve_for_each_motion_with_and_without_a_gyroscope()
 
 def test_a_value_that_nobody_has_learnt_says_no_more_than_the_last_one_that_somebody_has() -> None:
     for name, curve in load_released_model().gyroscope.items():
-        none = (0.0,) * len(MOTIONS)
         for value, odds in [(-1e9, curve.odds[0]), (1e9, curve.odds[-1]), *zip(curve.values, curve.odds, strict=True)]:
-            assert curve.added_to(none, value) == pytest.approx(odds), name
+            before, after, share = curve.between(value)
+            assert (before if share < 0.5 else after) == odds and share in (0.0, 1.0), name
 
 
 def test_a_foot_without_a_gyroscope_is_judged_by_its_accelerometer_alone() -> None:

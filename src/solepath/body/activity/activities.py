@@ -129,7 +129,7 @@ class Activities(ActivityPart):
         for event in events:
             if isinstance(event, DefectFound):
                 self._leave_out(event)
-        if view is not None and self._is_left_out(view.foot):
+        if self.spoilt and view is not None and self._is_left_out(view.foot):
             return outputs
         if view is not None and (self.origin is not None or view.sample.acc is not None):
             sample, t, side = view.sample, view.t, self.feet[view.foot]

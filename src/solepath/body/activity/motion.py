@@ -12,7 +12,7 @@ from __future__ import annotations
 from bisect import bisect
 from collections.abc import Sequence
 from functools import cache, cached_property, lru_cache
-from math import exp, log
+from math import exp, fsum, log
 from typing import Any
 
 from ...foot.bearing import RISE_ERROR, RISE_ERROR_SHARE, TREADS_RISE
@@ -83,18 +83,15 @@ class Curve:
     odds: tuple[Row, ...]
     """Parts of the logarithms of the odds of `MOTIONS` at each point."""
 
-    def added_to(self, sums: Sequence[float], value: float) -> list[float]:
-        """Return the sums with the part of the logarithm of the odds of each motion at this value of the feature."""
+    def between(self, value: float) -> tuple[Row, Row, float]:
+        """Return the odds at the points before and after this value of the feature, and the share of the latter."""
         values, odds = self.values, self.odds
         after = bisect(values, value)
         if 0 < after < len(values):
             low = values[after - 1]
-            share = (value - low) / (values[after] - low)
-            rest = 1.0 - share
-            return [
-                total + rest * a + share * b for total, a, b in zip(sums, odds[after - 1], odds[after], strict=True)
-            ]
-        return [total + a for total, a in zip(sums, odds[max(0, after - 1)], strict=True)]
+            return odds[after - 1], odds[after], (value - low) / (values[after] - low)
+        end = odds[after and -1]
+        return end, end, 0.0
 
 
 Curves = dict[str, Curve]
@@ -189,14 +186,19 @@ def motion_votes(model: MotionModel, feet: Sequence[BlockFeatures | None]) -> Fl
 
 def log_probabilities(curves: Curves, values: Row) -> list[float]:
     """Return the natural logarithm of the probability of each of `MOTIONS`; `values` are those of the curves."""
-    sums = [0.0] * len(MOTIONS)
+    still = walking = running = up = down = other = 0.0
     for curve, value in zip(curves.values(), values, strict=True):
-        sums = curve.added_to(sums, value)
+        (a, b, c, d, e, f), (p, q, r, s, t, u), share = curve.between(value)
+        rest = 1.0 - share
+        still += rest * a + share * p
+        walking += rest * b + share * q
+        running += rest * c + share * r
+        up += rest * d + share * s
+        down += rest * e + share * t
+        other += rest * f + share * u
+    sums = (still, walking, running, up, down, other)
     highest = max(sums)
-    total = 0.0
-    for value in sums:
-        total += exp(value - highest)
-    total = highest + log(total)
+    total = highest + log(fsum([exp(value - highest) for value in sums]))
     return [value - total for value in sums]
 
 

@@ -226,8 +226,8 @@ class AxesCheck:
     settled: bool = False
     """Flag: no more strides are needed."""
     factor: float = 1.0
-    """Factor of the evidence that is needed: 1, and up to `LARGEST_FACTOR` if samples are few, or repeat values, so that
-    also right axes close badly."""
+    """Factor of the evidence that is needed: more than 1 if samples are few, or repeat values, so that also right axes
+    close badly."""
 
     def add(self, t: float, stride: ClosedStride, ends: Sequence[float] = NO_ENDS) -> Finding | None:
         """Add a stride that is known at `t`, s; return that the axes are wrong, once it is time to report this.
