@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from functools import cache
 
-import pytest
 from views import fed
 
 from solepath.body.activity.activities import Activities

@@ -53,6 +53,13 @@ def test_a_slow_walker_is_slow_and_not_smoothed_away(speed: float) -> None:
     assert run(walk)[0] == []
 
 
+@pytest.mark.parametrize("seed", [301, 302, 304, 5])
+def test_a_slow_runner_is_neither_smoothed_away_nor_on_other_axes(seed: int) -> None:
+    route = Route().stand(3.0).jog(30.0, 2.0).stand(3.0).jog(30.0, 2.0).stop(4.0)
+    for foot in Foot:
+        assert run(Walker(route, seed=seed).samples(foot, 100.0, LSM6DSOX))[0] == []
+
+
 @pytest.mark.parametrize("count", [3, 4])
 def test_a_sensor_of_25_to_33_samples_a_second_has_axes_and_gravity_too(count: int, data_dir: Path) -> None:
     walk = [s for s in read_samples(data_dir / "gaitmap_examples" / "walk_4x10m_ic.npz") if s.site is Site.LEFT_FOOT]
