@@ -32,7 +32,7 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def tracked(recording: Path) -> tuple[str, Path]:
     """Return the output of all options together, and the folder of their files."""
     out, report = recording.parent / "out", recording.parent / "walk.html"
-    options = ["--outcomes", "--six-minute-walk", "--timed-up-and-go", "1,14", "--reference", "72,female,162,68"]
+    options = ["--outcomes", "--test", "tug=1,14", "--reference", "72,female,162,68"]
     result = run("track", recording, *options, "--out", out, "--report", report)
     assert (result.returncode, result.stderr) == (0, "")
     return result.stdout, out
@@ -60,24 +60,26 @@ def test_the_files_hold_the_outcomes_of_the_events(tracked: tuple[str, Path], re
         [one.value, one.low, one.high, one.strides, one.needed], abs=1e-6
     )
     total = outcomes["timed up and go", "duration"]
-    assert (total["value"], total["reference"], total["reference_high"]) == ("13.000000", "9.200000", "10.200000")
-    assert outcomes["six-minute walk", "distance"]["reference"] == ""  # the recording ends before the six minutes do
+    assert (total["value"], total["mean_of_group"], total["mean_high"]) == ("13.000000", "9.200000", "10.200000")
+    assert (total["predicted"], total["lower_limit_of_normal"], total["smallest_change"]) == ("", "", "3.500000")
 
 
 def test_the_text_names_what_was_measured_and_what_it_is_not(tracked: tuple[str, Path]) -> None:
     text, _ = tracked
-    assert "the recording ends before the six minutes do" in text
     assert "sitting to standing cannot be seen from a foot" in text
     assert re.search("^bout +start s +.* steps/min +length m +speed m/s$", text, re.MULTILINE)
     assert LABEL in text and "not outcomes of its validated pipeline" in LABEL
-    assert re.search(r"^total time +13\.00 +s +9\.20 \(8\.20 to 10\.20\)$", text, re.MULTILINE)
+    assert re.search(r"^total time +13\.00 +s +9\.20 \(141 %\) +8\.20 to 10\.20$", text, re.MULTILINE)
     assert "Bohannon 2006" in text and "Bohannon and Andrews 2011" in text
 
 
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--timed-up-and-go", "4,3"], "is not START,STOP"),
+        (["--test", "tug=4,3"], "is not six-minute, six-minute=START, tug=START,STOP or walk"),
+        (["--test", "tug"], "is not six-minute"),
+        (["--test", "walk=3"], "is not six-minute"),
+        (["--test-before", "3"], "--test-before goes with --test and --compare"),
         (["--outcomes", "--reference", "72,male,1.7,70"], "is not AGE,SEX"),
         (["--reference", "72,male"], "--reference goes with"),
     ],
@@ -92,7 +94,7 @@ def test_references_are_those_of_their_tables_and_formulas() -> None:
     # 7.57 * 175 - 5.02 * 60 - 1.76 * 80 - 309 = 1324.75 - 301.2 - 140.8 - 309 = 573.75; less 153 = 420.75
     for person, value, low in ((woman, 436.94, 297.94), (man, 573.75, 420.75)):
         one = six_minute_reference(person)
-        assert one is not None and (one.value, one.low) == pytest.approx((value, low))
+        assert one is not None and (one.value, one.lower_limit) == pytest.approx((value, low))
     for unknown in (Person(72.0, Sex.FEMALE), Person(39.0, Sex.MALE, 1.75, 80.0)):
         assert six_minute_reference(unknown) is None
     times = [up_and_go_reference(Person(age, Sex.MALE)) for age in (59.0, 60.0, 69.9, 70.0, 99.0, 100.0)]
@@ -114,9 +116,9 @@ def test_the_page_of_documents_runs_and_names_the_columns() -> None:
 @pytest.mark.soak
 def test_marks_that_are_not_within_the_recording_give_no_outcome(recording: Path, tmp_path: Path) -> None:
     files = ("--out", tmp_path / "out", "--report", tmp_path / "walk.html")
-    result = run("track", recording, "--timed-up-and-go", "3,1000", *files)
+    result = run("track", recording, "--test", "tug=3,1000", *files)
     assert result.returncode == 0
-    sentence = "There is no timed up and go. The recording is from 0.0 to "
+    sentence = "There is no outcome of the test. The recording is from 0.0 to "
     assert sentence in result.stdout and "3 and 1000 s is not within it." in result.stdout
     assert "total time" not in result.stdout and sentence in (tmp_path / "walk.html").read_text()
     assert rows_of(tmp_path / "out" / "outcomes.csv") == []

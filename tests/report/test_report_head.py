@@ -128,13 +128,13 @@ def test_the_quality_is_good_look_at_or_do_not_use() -> None:
     assert "Quality: do not use before it is checked" in [one.text for one in page.all("h2")]
 
 
-def test_two_walks_are_compared_with_signs_and_with_the_variation_of_the_strides() -> None:
+def test_two_walks_are_compared_with_signs_and_with_the_smallest_change_that_matters() -> None:
     before = report_of(events_of("slow"), when="2026-10-01 08:00 UTC")
     page = shown(report_of(events_of("walk"), before=before))
     rows = {row.first("th").text: [cell.text for cell in row.all("td")] for row in page.named("comparison").all("tr")}
-    old, new, change, spread, words = rows["speed, m/s"]
+    old, new, change, smallest, words = rows["speed, m/s"]
     assert float(new) - float(old) == pytest.approx(float(change.split()[0]), abs=0.011) and change.startswith("+0.")
-    assert words == "yes" and 0.0 < float(spread) < float(change.split()[0])
-    assert rows["asymmetry, %"][-1] == "no"
+    assert words == "yes" and 0.0 < float(smallest) < float(change.split()[0])
+    assert rows["asymmetry, %"][-2:] == ["-", "-"]
     assert "Before (walk.jsonl, 1 October 2026, 08:00 UTC): Walked 25 m" in page.text
     assert {"Track before", "Track after"} <= {one.first("strong").text for one in page.all("figcaption")}

@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import re
+from math import pi
 from pathlib import Path
 
 import pytest
 from browsers import Browser, window
+from commands import run
 from measures import axe_faults
+from pages import read_page
+from recordings import recorded
 from reported_walks import events_of, pressed_events, report_of
 from soak import longer, soaked
+from walks import insoles
 
+from solepath.emulate.routes.route import Route
+from solepath.show.outcomes.references import Person, Sex, six_minute_reference
 from solepath.show.report import Report, ReportDetails
 from solepath.show.report.bands import Band
 
@@ -76,3 +83,25 @@ async def test_on_a_screen_nothing_is_cut_no_letter_is_small_and_axe_finds_no_vi
             await view.tab.set_viewport_size({"width": width, "height": 900})
             assert [one for script in (CUT, SMALL) for one in await view.tab.evaluate(script)] == [], width
         assert not view.complaints and len(view.requests) == 1
+
+
+@pytest.mark.long
+async def test_six_whole_minutes_with_the_walk_before_have_two_pages_and_their_prediction(
+    chromium: Browser, tmp_path: Path
+) -> None:
+    walks = []
+    for seed, speed in ((5, 1.2), (6, 1.1)):
+        route = Route().stand(2.0)
+        for _ in range(33):
+            route = route.walk(12.0, speed).turn(pi, radius=0.5)
+        walks.append(recorded(tmp_path / f"walk_{seed}.jsonl", insoles(route.stop(2.0), seed=seed).packets))
+    options = ("--test", "six-minute", "--compare", walks[1], "--reference", "72,female,162,68")
+    assert run("track", walks[0], *options, "--report", tmp_path / "r.html").returncode == 0
+    reference = six_minute_reference(Person(72.0, Sex.FEMALE, 1.62, 68.0))
+    result = read_page(tmp_path / "r.html").first("main").all("p")[0].text
+    assert reference is not None and f"of the predicted {reference.value:.1f} m (lower limit" in result
+    async with window(chromium, (tmp_path / "r.html").as_uri(), width=PAPER_WIDTH) as view:
+        pdf = await view.tab.pdf(prefer_css_page_size=True, print_background=True)
+        assert len(PAGE.findall(pdf)) == 2
+        await view.tab.emulate_media(media="print")
+        assert await view.tab.evaluate(CUT) == []

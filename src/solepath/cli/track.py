@@ -27,7 +27,7 @@ from .common.inputs import (
     source_of,
     undo_clocks,
 )
-from .common.outcomes import add_outcomes, has_outcomes, outcomes_of
+from .common.outcomes import add_outcomes, has_outcomes, outcomes_before, outcomes_of
 from .common.own_devices import drivers_of
 from .common.parser import command, option
 from .common.report import DETAILS, add_report, report_of
@@ -60,7 +60,7 @@ def run(options: Namespace) -> int:
     is_one = len(recipes) == 1
     if not is_one:
         _check_comparison(options, recipes)
-    outcomes = outcomes_of(options)
+    outcomes, of_before = outcomes_of(options), outcomes_before(options)
     if options.report is None:
         reject_options(options, (*DETAILS, "compare"), "goes with --report")
     outputs = _outputs(options, recipes)
@@ -91,7 +91,10 @@ def run(options: Namespace) -> int:
         earlier = source_of(options.compare, feet_of(options), mapping_of(options))
         check_pressure(recipes[0], earlier, drivers)
         before = report_of(options, earlier, recipe=recipes[0].name, before=None)
-        _run([Results(new_session(recipes[0]), "", contents=before, kinds=kinds)], recording := Recording(earlier))
+        _run(
+            [Results(new_session(recipes[0]), "", contents=before, outcomes=of_before, kinds=kinds)],
+            recording := Recording(earlier),
+        )
         if recording.failure is not None:
             raise recording.failure
     recording = Recording(source)

@@ -83,7 +83,7 @@ def test_samples_rate_and_losses_are_those_of_whatever_the_device_measures(senso
 
 def test_outcomes_of_cells_alone_have_no_turns_and_no_distance(tmp_path: Path) -> None:
     driver, walk = sole(tmp_path, *SENSORS["cells at known places"])
-    done = run("track", walk, "--driver", driver, "--out", tmp_path / "out", "--outcomes", "--six-minute-walk")
+    done = run("track", walk, "--driver", driver, "--out", tmp_path / "out", "--outcomes", "--test", "six-minute")
     assert "Walked an unknown distance" in done.stdout and "turns about" not in done.stdout
     (bout,) = csv.DictReader((tmp_path / "out" / "bouts.csv").open())
     assert (bout["turns"], bout["stride_length_m"], bout["strides"]) == ("", "", "16")

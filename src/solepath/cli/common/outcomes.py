@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from argparse import ArgumentTypeError, Namespace
-from functools import partial
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...recording import printable
-from .failure import Failure, finite, parse_span
+from .failure import Failure, finite
 from .parser import option, together
 
 if TYPE_CHECKING:
@@ -17,11 +17,15 @@ if TYPE_CHECKING:
 
 MAX_AGE, HEIGHTS, WEIGHTS = 120.0, (50.0, 250.0), (10.0, 400.0)
 """Oldest age, years, and the heights, cm, and weights, kg, that --reference takes; others are slips of the pen."""
+TWO_MARKS = 2
+"""Number of marks of a timed up and go."""
+MARKS = {"six-minute": (0, 1), "tug": (TWO_MARKS,), "walk": (0,)}
+"""Numbers of marks that each test may have."""
 
 
 def has_outcomes(options: Namespace) -> bool:
     """Return whether any outcome was requested, so that there are bouts.csv and outcomes.csv."""
-    return bool(options.outcomes) or options.six_minute_walk is not False or options.timed_up_and_go is not None
+    return bool(options.outcomes) or options.test is not None
 
 
 def outcomes_of(options: Namespace) -> OutcomeRequest | None:
@@ -33,17 +37,29 @@ def outcomes_of(options: Namespace) -> OutcomeRequest | None:
         raise Failure("--reference with a file of bands goes with --report")
     if not has_outcomes(options):
         if people and options.report is None:
-            raise Failure("--reference goes with --report, --outcomes, --six-minute-walk or --timed-up-and-go")
+            raise Failure("--reference goes with --report, --outcomes or --test")
         return None
-    from ...show.outcomes.clinic import OutcomeRequest
+    return _request(options, () if options.test is None else options.test[1])
 
-    return OutcomeRequest(
-        outcomes=options.outcomes,
-        six_minutes=options.six_minute_walk is not False,
-        six_minutes_start=None if options.six_minute_walk is False else options.six_minute_walk,
-        up_and_go=options.timed_up_and_go,
-        person=person_of(options),
-    )
+
+def outcomes_before(options: Namespace) -> OutcomeRequest | None:
+    """Return the same outcomes of the recording of --compare, with its own marks; raise Failure when they are wrong."""
+    marks = options.test_before or ()
+    allowed = () if options.test is None or options.compare is None else MARKS[options.test[0]]
+    if marks and not allowed:
+        raise Failure("--test-before goes with --test and --compare")
+    if allowed and len(marks) not in allowed:
+        if not marks:
+            raise Failure("--test tug with --compare needs --test-before START,STOP: the marks in the recording before")
+        raise Failure("--test-before has the marks that its test may have: START of six-minute, START,STOP of tug")
+    return _request(options, marks) if has_outcomes(options) else None
+
+
+def _request(options: Namespace, marks: tuple[float, ...]) -> OutcomeRequest:
+    from ...show.outcomes.clinic import OutcomeRequest, WalkTest
+
+    test = None if options.test is None else WalkTest(options.test[0])
+    return OutcomeRequest(outcomes=options.outcomes, test=test, marks=marks, person=person_of(options))
 
 
 def band_files_of(options: Namespace) -> list[Path]:
@@ -56,13 +72,30 @@ def person_of(options: Namespace) -> Person | None:
     return next((one for one in options.reference if not isinstance(one, Path)), None)
 
 
-def _start(text: str) -> float:
-    """Parse the time of --six-minute-walk; argparse gives it whatever follows, which may be the recording."""
-    try:
-        return finite(text)
-    except ValueError:
-        what = f"{text!r} is no time in s; the recording stands before this option"
-        raise ArgumentTypeError(what) from None
+def _test(text: str) -> tuple[str, tuple[float, ...]]:
+    """Parse --test: the name of a test, and the marks of an observer."""
+    name, _, marks = text.partition("=")
+    with suppress(ValueError):
+        times = _marks(marks)
+        if len(times) in MARKS.get(name, ()):
+            return name, times
+    raise ArgumentTypeError(f"{printable(text, 80)} is not six-minute, six-minute=START, tug=START,STOP or walk")
+
+
+def _marks(text: str) -> tuple[float, ...]:
+    """Parse the marks of an observer, s: none, a start, or a start and a later stop."""
+    times = tuple([finite(time) for time in text.split(",")]) if text else ()
+    if len(times) > TWO_MARKS or list(times) != sorted(set(times)):
+        raise ValueError
+    return times
+
+
+def _marks_before(text: str) -> tuple[float, ...]:
+    """Parse --test-before."""
+    with suppress(ValueError):
+        if times := _marks(text):
+            return times
+    raise ArgumentTypeError(f"{printable(text, 80)} is not START or START,STOP, as in 12.5,24.1")
 
 
 def _reference(text: str) -> Person | Path:
@@ -91,18 +124,17 @@ add_outcomes = together(
         "bouts.csv and outcomes.csv",
     ),
     option(
-        "--six-minute-walk",
-        metavar="START",
-        nargs="?",
-        type=_start,
-        default=False,
-        help="the six-minute walk from this time of the recording's clock, s (default: from the first step)",
+        "--test",
+        metavar="NAME[=MARKS]",
+        type=_test,
+        help="the test that was ordered: six-minute, from its first step, or six-minute=START; tug=START,STOP, the "
+        "timed up and go; walk, at the usual pace; marks are s of the recording's clock. Its result comes first",
     ),
     option(
-        "--timed-up-and-go",
-        metavar="START,STOP",
-        type=partial(parse_span, "START,STOP"),
-        help="the timed up and go between two times that an observer marked, s of the recording's clock",
+        "--test-before",
+        metavar="MARKS",
+        type=_marks_before,
+        help="the marks of the test in the recording of --compare: START, or START,STOP",
     ),
     option(
         "--reference",
@@ -114,4 +146,4 @@ add_outcomes = together(
         "six-minute walk; or, in the report, with the bands of a .json or .csv file; may be given for each",
     ),
 )
-"""--outcomes, --six-minute-walk, --timed-up-and-go and --reference."""
+"""--outcomes, --test, --test-before and --reference."""

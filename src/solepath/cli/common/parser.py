@@ -34,7 +34,7 @@ OPTION_GROUPS = {
         "--mapping",
     ),
     "the report": ("--title", "track --subject", "--date", "track --device", "--compare"),
-    "clinical outcomes": ("--outcomes", "--six-minute-walk", "--timed-up-and-go", "--reference"),
+    "clinical outcomes": ("--outcomes", "--test", "--test-before", "--reference"),
     "sensors": ("--left", "--right", "--at", "--profile", "--pair", "--via", "--live"),
     "what is written": ("--out", "--record", "--report", "--json", "--figure", "--resume", "--force"),
     "page": ("--view", "--no-browser", "--speed", "--terminal"),

@@ -1,6 +1,6 @@
 r"""Computes the outcomes that were requested of a walk, and puts them into sentences and tables.
 
-    request = OutcomeRequest(outcomes=True)
+    request = OutcomeRequest(test=WalkTest.SIX_MINUTE)
     print("\n".join(request.results(walk).lines()))
 
 The report (show/report/sections/clinical.py) and the files (files.py) show the same results."""
@@ -12,24 +12,30 @@ from collections.abc import Sequence
 from attrs import define, field, frozen
 
 from ...events import Event
-from ...types import Foot
+from ...types import Foot, ValueEnum
 from ...walk.walk import Walk
 from ..tables.table import number, table
+from .answer import answer
 from .bouts import WalkingBout, walking_bouts
 from .mobility import implausible, mobility_outcomes
 from .references import Person
 from .rows import (
+    MINUTE_NAME,
     MOBILITY,
     OF_STRIDES,
+    REFERENCE_HEADERS,
     SIX_MINUTE_WALK,
     UP_AND_GO,
+    WALK,
     OutcomeRow,
     mobility_rows,
     six_minute_rows,
+    steady_speed_row,
     stride_rows,
     up_and_go_rows,
+    walk_rows,
 )
-from .walk_tests import SixMinuteWalk, six_minute_walk, timed_up_and_go
+from .walk_tests import SixMinuteWalk, six_minute_walk, timed_up_and_go, whole_walk
 
 LABEL = (
     "Walking bouts and mobility outcomes are from foot-worn sensors, with the rules and limits of Mobilise-D (Kluge et "
@@ -42,12 +48,16 @@ SIX_MINUTE_NOTE = (
 UP_AND_GO_NOTE = (
     "The total is the time between the two marks. It is not divided: sitting to standing cannot be seen from a foot."
 )
+WALK_NOTE = "Speed is of steady strides; distance and steps are of the whole recording."
 NEEDED = (
     "Needed: strides for an interval of 20 % of a variability, or of 2 percentage points of an asymmetry, to each side."
 )
 SENSORS = (
     "The intervals are of the strides: sensors whose scales differ by 1 % make lengths and speeds differ by as much."
 )
+MOST_NEEDED = 25
+"""Number of times as many strides as there are that an outcome may need; then its interval is five times as wide as it
+should be, and it is left out (chosen by hand)."""
 TOO_FEW = "There are too few steady strides for variability and asymmetry: four of a foot are needed."
 NO_BOUT = "No walking bout: none has four strides without a break of more than 3 s."
 NO_WALK = "No walking bout was found, so that there is no six-minute walk."
@@ -60,6 +70,14 @@ MAX_BOUTS = 12
 """Largest number of bouts that the text names one by one; bouts.csv has all of them."""
 
 Span = tuple[float, float]
+
+
+class WalkTest(ValueEnum):
+    """A walk test that can be ordered."""
+
+    SIX_MINUTE = "six-minute"
+    UP_AND_GO = "tug"
+    WALK = "walk"
 
 
 @frozen
@@ -100,36 +118,50 @@ class ClinicalResults:
     """Rows of all outcomes, in the order of outcomes.csv."""
     sections: list[OutcomeSection] = field(factory=list)
     """A section for each request."""
+    result: OutcomeRow | str | None = None
+    """Result of the test that was ordered, or why there is none; None without a test."""
 
     def lines(self) -> list[str]:
-        """Return the outcomes as plain text."""
-        return [line for section in self.sections for line in section.lines()]
+        """Return the outcomes as plain text, that of the test first."""
+        first = [] if self.result is None else ["", *self.answer()]
+        return [*first, *[line for section in self.sections for line in section.lines()]]
+
+    def answer(self, before: ClinicalResults | None = None) -> list[str]:
+        """Return the result of the test that was ordered in sentences, with the change from the one `before`."""
+        if self.result is None or isinstance(self.result, str):
+            return [self.result] if self.result else []
+        earlier = None if before is None else before.result
+        if isinstance(earlier, str):
+            return [*answer(self.result, None), f"Before: {earlier}"]
+        return answer(self.result, earlier)
 
     def table(self, caption: str, part: str) -> OutcomeTable:
-        """Return the table of a part, with a column for references if there are any."""
-        header, cells = ["outcome", "value", "unit", "reference"], [row.cells for row in self.part(part)]
-        if not any([row[-1] for row in cells]):
-            header, cells = header[:-1], [row[:-1] for row in cells]
-        return OutcomeTable(caption, header, cells)
+        """Return the table of a part, with a column for each kind of reference that there is."""
+        header, cells = ["outcome", "value", "unit", *REFERENCE_HEADERS], [row.cells for row in self.part(part)]
+        used = [i for i in range(len(header)) if i < 3 or any([row[i] for row in cells])]
+        return OutcomeTable(caption, [header[i] for i in used], [[row[i] for i in used] for row in cells])
 
     def part(self, part: str) -> list[OutcomeRow]:
-        """Return the rows of a part whose values are known."""
-        return [row for row in self.rows if row.part == part and row.value is not None]
+        """Return the rows of a part whose values are known, without those that a sentence has."""
+        return [
+            row
+            for row in self.rows
+            if row.part == part and row.value is not None and not row.name.startswith(MINUTE_NAME)
+        ]
 
     def sources(self, part: str) -> list[str]:
         """Return sentences on the references of a part, with their sources."""
-        known = [(row.label, row.reference) for row in self.part(part) if row.reference is not None]
-        return [f"Reference of {label}: {one.words} ({one.source})." for label, one in known]
+        rows = self.part(part)
+        known = [(f"Reference of {row.label}", row.reference) for row in rows]
+        changes = [(f"Smallest change of {row.label} that matters", row.smallest_change) for row in rows]
+        return [f"{label}: {one.words} ({one.source})." for label, one in [*known, *changes] if one is not None]
 
     def add_test(self, part: str, sentences: list[str], note: str) -> None:
         """Add the section of a walk test, whose rows there are already."""
         title = part.capitalize()
         notes = [note, *self.sources(part)]
+        self.result = self.rows[0]
         self.sections.append(OutcomeSection(title, sentences, [self.table(title, part)], notes))
-
-    def add_failure(self, part: str, sentence: str) -> None:
-        """Add the section of a walk test of which there is no outcome, with the reason."""
-        self.sections.append(OutcomeSection(part.capitalize(), [sentence]))
 
 
 @frozen
@@ -138,12 +170,12 @@ class OutcomeRequest:
 
     outcomes: bool = False
     """True for bouts, mobility outcomes, variability and asymmetry."""
-    six_minutes: bool = False
-    """True for the six-minute walk."""
-    six_minutes_start: float | None = None
-    """Time at which the six minutes start, s; None for the first step."""
-    up_and_go: tuple[float, float] | None = None
-    """Times at which an observer marked start and stop of a timed up and go, s."""
+    test: WalkTest | None = None
+    """The walk test that was ordered."""
+    marks: tuple[float, ...] = ()
+    """Times that an observer marked, s: the start of a six-minute walk, or start and stop of a timed up and go.
+
+    Without a start the six minutes begin with the first step."""
     person: Person | None = None
     """Person for whom references are given."""
 
@@ -153,32 +185,36 @@ class OutcomeRequest:
         for foot in Foot:
             events += [*walk.cycles[foot], *walk.strides[foot]]
         results = ClinicalResults(walking_bouts(events))
-        if self.six_minutes:
-            self._add_six_minutes(results, events, walk.event_span)
-        if self.up_and_go is not None:
-            if fault := _find_fault(walk.event_span, self.up_and_go):
-                results.add_failure(UP_AND_GO, f"There is no timed up and go. {fault}")
-            else:
-                test = timed_up_and_go(events, *self.up_and_go)
-                results.rows += up_and_go_rows(test, self.person)
-                results.add_test(UP_AND_GO, [] if test.steps else [NO_STEP], UP_AND_GO_NOTE)
+        if self.test is not None:
+            self._add_test(self.test, results, events, walk.event_span)
         if self.outcomes:
             self._add_outcomes(results, events)
         return results
 
-    def _add_six_minutes(self, results: ClinicalResults, events: list[Event], span: Span | None) -> None:
-        start = self.six_minutes_start
-        if fault := _find_fault(span, [] if start is None else [start]):
-            results.add_failure(SIX_MINUTE_WALK, f"There is no six-minute walk. {fault}")
-        elif (walk := six_minute_walk(events, start, span and span[1])) is None:
-            results.add_failure(SIX_MINUTE_WALK, NO_WALK)
+    def _add_test(self, test: WalkTest, results: ClinicalResults, events: list[Event], span: Span | None) -> None:
+        if fault := _find_fault(span, self.marks):
+            results.result = f"There is no outcome of the test. {fault}"
+        elif test is WalkTest.WALK:
+            steps, distance = whole_walk(events)
+            results.rows += walk_rows(events, steps, distance, self.person)
+            results.add_test(WALK, [], WALK_NOTE)
+        elif test is WalkTest.UP_AND_GO:
+            start, stop = self.marks
+            timed = timed_up_and_go(events, start, stop)
+            results.rows += up_and_go_rows(timed, self.person)
+            results.add_test(UP_AND_GO, [] if timed.steps else [NO_STEP], UP_AND_GO_NOTE)
+        elif (walk := six_minute_walk(events, min(self.marks, default=None), span and span[1])) is None:
+            results.result = NO_WALK
         else:
             results.rows += six_minute_rows(walk, self.person)
             results.add_test(SIX_MINUTE_WALK, [six_minute_sentence(walk)], SIX_MINUTE_NOTE)
 
     def _add_outcomes(self, results: ClinicalResults, events: list[Event]) -> None:
         bouts = results.bouts
-        results.rows += [*mobility_rows(mobility_outcomes(bouts)), *stride_rows(events, self.person)]
+        results.rows += [*mobility_rows(mobility_outcomes(bouts)), steady_speed_row(events, self.person)]
+        estimates = stride_rows(events)
+        vague = [row for row in estimates if (one := row.interval) and one.needed > MOST_NEEDED * one.strides]
+        results.rows += [row for row in estimates if row not in vague]
         tables = [
             OutcomeTable("Walking bouts", BOUT_HEADER, [bout_row(bout) for bout in bouts[:MAX_BOUTS]]),
             results.table("Mobility outcomes", MOBILITY),
@@ -188,6 +224,9 @@ class OutcomeRequest:
             tables.append(OutcomeTable(f"{part.capitalize()} of steady strides", INTERVAL_HEADER, rows))
         more = len(bouts) - MAX_BOUTS
         notes = [f"The first {MAX_BOUTS} bouts are shown; there are {more} more."] if more > 0 else []
+        if vague:
+            left_out = ", ".join([f"{row.part} of {row.label}" for row in vague])
+            notes.append(f"Left out, because {MOST_NEEDED} times as many strides would not be enough: {left_out}.")
         notes += [NEEDED, SENSORS] if any([results.part(part) for part in OF_STRIDES]) else [TOO_FEW]
         notes += results.sources(MOBILITY)
         sentences = [LABEL, *([] if bouts else [NO_BOUT])]
@@ -207,7 +246,9 @@ def six_minute_sentence(walk: SixMinuteWalk) -> str:
     distance = "an unknown distance" if walk.distance is None else f"{walk.distance:.1f} m"
     duration = "six minutes" if walk.complete else f"{walk.duration:.1f} s"
     end = "" if walk.complete else ": the recording ends before the six minutes do"
-    return f"Walked {distance} in {duration}, from {walk.t_start:.1f} s on the recording's clock{end}."
+    minutes = ", ".join([f"{metres:.0f}" for metres in walk.minutes])
+    each = f" Each minute: {minutes} m." if minutes else ""
+    return f"Walked {distance} in {duration}, from {walk.t_start:.1f} s on the recording's clock{end}.{each}"
 
 
 def bout_row(bout: WalkingBout) -> list[str]:

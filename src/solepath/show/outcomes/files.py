@@ -18,8 +18,8 @@ BOUT_COLUMNS = (
 )  # fmt: skip
 """Columns of bouts.csv; `implausible` names the means that are out of their limits and count in no outcome."""
 OUTCOME_COLUMNS = (
-    "part", "outcome", "value", "unit", "low", "high", "strides", "needed", "reference", "reference_low",
-    "reference_high", "source",
+    "part", "outcome", "value", "unit", "low", "high", "strides", "needed", "predicted", "lower_limit_of_normal",
+    "mean_of_group", "mean_low", "mean_high", "source", "smallest_change", "smallest_change_source",
 )  # fmt: skip
 """Columns of outcomes.csv; `low` and `high` are the ends of a 95 % confidence interval, shares have no unit."""
 Cell = str | int | float | None
@@ -59,7 +59,12 @@ def _bout_cells(bout: WalkingBout) -> list[Cell]:
 
 
 def _outcome_cells(row: OutcomeRow) -> list[Cell]:
-    one, band, empty = row.interval, row.reference, ("",) * 4
-    ends: Sequence[Cell] = empty if one is None else (one.low, one.high, one.strides, one.needed)
-    reference: Sequence[Cell] = empty if band is None else (band.value, band.low, band.high, band.source)
-    return [row.part, row.name, row.value, row.unit, *ends, *reference]
+    one, reference, change = row.interval, row.reference, row.smallest_change
+    ends: list[Cell] = [None] * 4 if one is None else [one.low, one.high, one.strides, one.needed]
+    known: list[Cell] = [None] * 6
+    if reference is not None and reference.predicted:
+        known = [reference.value, reference.lower_limit, None, None, None, reference.source]
+    elif reference is not None:
+        known = [None, None, reference.value, *(reference.interval or (None, None)), reference.source]
+    matters: list[Cell] = [None] * 2 if change is None else [change.value, change.source]
+    return [row.part, row.name, row.value, row.unit, *ends, *known, *matters]

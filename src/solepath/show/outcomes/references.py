@@ -1,7 +1,7 @@
-"""Published reference values of healthy people for comparison, each with its source; none is a limit of what is normal.
+"""Published values for comparison, each with its source: of healthy people, and changes that matter to patients.
 
 Only numbers of the sources stand here. A mean, and an interval of a mean, say where the average of a group is, not
-where most of its members are; `Reference.words` says which it is."""
+where most of its members are; the lower limit of normal is below nearly all of them. No column has both."""
 
 from __future__ import annotations
 
@@ -34,17 +34,51 @@ class Person:
 
 @frozen(kw_only=True)
 class Reference:
-    """A published value for people like this one, in the unit of the outcome."""
+    """A published value for people like this one, in the unit of the outcome: a prediction, or the mean of a group."""
 
     value: float
-    low: float | None = None
-    """Lower end of the band, or the lower limit of normal; None when the source gives none."""
-    high: float | None = None
-    """Upper end of the band; None when the source gives none."""
+    lower_limit: float | None = None
+    """Lower limit of normal of a prediction; None of a mean."""
+    interval: tuple[float, float] | None = None
+    """95 % confidence interval of a mean; None when the source gives none."""
     words: str
-    """Short description of the value and its band, such as "mean of healthy women aged 70 to 79"."""
+    """Short description of the value, such as "mean of healthy women aged 70 to 79"."""
     source: str
     """Publication of the value."""
+
+    @property
+    def predicted(self) -> bool:
+        """True if the value was predicted for this person, False if it is the mean of a group."""
+        return self.lower_limit is not None
+
+
+@frozen(kw_only=True)
+class SmallestChange:
+    """The smallest change of an outcome that matters, in its unit."""
+
+    value: float
+    words: str
+    """Whose change it is, and by what it was found."""
+    source: str
+
+    def reached_by(self, change: float) -> bool:
+        """Return whether a change, in the same unit, is as large, up or down."""
+        return abs(change) >= self.value
+
+
+SIX_MINUTE_CHANGE = SmallestChange(
+    value=30.0,
+    words="adults with chronic lung disease, by what they notice",
+    source="Holland et al. 2014, Eur. Respir. J. 44",
+)
+UP_AND_GO_CHANGE = SmallestChange(
+    value=3.5,
+    words="people with Parkinson's disease, beyond the error of two tests",
+    source="Huang et al. 2011, Phys. Ther. 91",
+)
+WALKING_SPEED_CHANGE = SmallestChange(
+    value=0.1, words="older people, a substantial change", source="Perera et al. 2006, J. Am. Geriatr. Soc. 54"
+)
 
 
 WALKING_SPEEDS = {
@@ -71,23 +105,22 @@ def _of_group(groups: Sequence[Sequence[float]], age: float, people: str, words:
     if not known:
         return None
     first, value, *ends = known[-1]
-    low, high = ends or (None, None)
+    interval = (ends[0], ends[1]) if ends else None
     group = f"mean of healthy {people} aged {first:.0f} to {99 if first >= 80 else first + 9:.0f}"
-    return Reference(value=value, low=low, high=high, words=f"{group}, {words}", source=source)
+    return Reference(value=value, interval=interval, words=f"{group}{words}", source=source)
 
 
 def walking_speed_reference(person: Person) -> Reference | None:
     """Return the mean usual walking speed, m/s, of people of this age and sex; None below 20 and above 99 years."""
     people = "men" if person.sex is Sex.MALE else "women"
-    return _of_group(WALKING_SPEEDS[person.sex], person.age, people, "usual pace", SPEED_SOURCE)
+    return _of_group(WALKING_SPEEDS[person.sex], person.age, people, ", at their usual pace", SPEED_SOURCE)
 
 
 def up_and_go_reference(person: Person) -> Reference | None:
     """Return the mean timed up and go, s, of people of this age; None below 60 and above 99 years.
 
     The source calls a person slower than the upper end of the interval worse than average."""
-    words = "with the 95 % interval of the mean"
-    return _of_group(UP_AND_GO_TIMES, person.age, "people", words, UP_AND_GO_SOURCE)
+    return _of_group(UP_AND_GO_TIMES, person.age, "people", "", UP_AND_GO_SOURCE)
 
 
 def six_minute_reference(person: Person) -> Reference | None:
@@ -101,5 +134,5 @@ def six_minute_reference(person: Person) -> Reference | None:
         value = 7.57 * height - 5.02 * person.age - 1.76 * person.weight - 309.0
     else:
         value = 2.11 * height - 2.29 * person.weight - 5.78 * person.age + 667.0
-    words = "predicted from age, sex, height and weight, with the lower limit of normal"
-    return Reference(value=value, low=value - LOWER_LIMITS[person.sex], words=words, source=SIX_MINUTE_SOURCE)
+    words, lower_limit = "predicted from age, sex, height and weight", value - LOWER_LIMITS[person.sex]
+    return Reference(value=value, lower_limit=lower_limit, words=words, source=SIX_MINUTE_SOURCE)

@@ -10,11 +10,21 @@ from ...body.gait.means import GaitMeans
 from ...events import Event, GaitCycleMeasured
 from ...walk.walk import UNLIMITED_STRIDES
 from .mobility import MobilityOutcomes, unit_of
-from .references import Person, Reference, six_minute_reference, up_and_go_reference, walking_speed_reference
+from .references import (
+    SIX_MINUTE_CHANGE,
+    UP_AND_GO_CHANGE,
+    WALKING_SPEED_CHANGE,
+    Person,
+    Reference,
+    SmallestChange,
+    six_minute_reference,
+    up_and_go_reference,
+    walking_speed_reference,
+)
 from .spread import VARIABLE, IntervalEstimate, asymmetry, variability
 from .walk_tests import SixMinuteWalk, TimedUpAndGo
 
-SIX_MINUTE_WALK, UP_AND_GO, MOBILITY = "six-minute walk", "timed up and go", "mobility"
+SIX_MINUTE_WALK, UP_AND_GO, WALK, MOBILITY = "six-minute walk", "timed up and go", "walk", "mobility"
 OF_STRIDES = VARIABILITY, ASYMMETRY = "variability", "asymmetry"
 """Parts with an interval, of steady strides."""
 LABELS = {
@@ -25,10 +35,15 @@ LABELS = {
     "var": ", CV",
 }  # fmt: skip
 """Words for the parts of the names of mobility outcomes."""
+MINUTE_NAME = "distance_minute_"
+"""Beginning of the names of the distances of each minute, which a sentence has in place of the table."""
 DIGITS = {"s": 2, "m": 2, "m/s": 2, "1/min": 1}
 """Digits after the point in tables by unit; a share is shown in percent with one digit."""
 LARGE = 100.0
 """Size from which one digit is enough."""
+
+REFERENCE_HEADERS = ["predicted", "lower limit of normal", "mean of a group", "95 % interval of that mean"]
+"""Columns of references; a lower limit of normal and the interval of a mean are never in one."""
 
 NamedValue = tuple[str, str, str, float | int | None]
 """Name, label, unit and value of an outcome."""
@@ -48,19 +63,28 @@ class OutcomeRow:
     value: float | int | None
     interval: IntervalEstimate | None = None
     reference: Reference | None = None
+    smallest_change: SmallestChange | None = None
+    """The smallest change that matters; None where no publication gives one."""
 
     def shown(self, value: float | int | None) -> str:
         """Return a value of this outcome as a table shows it, without the unit."""
         if value is None or (not self.unit and isinstance(value, int)):
             return "-" if value is None else str(value)
-        digits = DIGITS[self.unit] if self.unit and abs(value) < LARGE else 1
-        return f"{value if self.unit else 100.0 * value:z.{digits}f}"
+        return f"{value if self.unit else 100.0 * value:z.{self.digits(value)}f}"
+
+    def digits(self, value: float) -> int:
+        """Return the number of digits after the point with which a table shows a value of this outcome."""
+        return DIGITS[self.unit] if self.unit and abs(value) < LARGE else 1
 
     @property
     def cells(self) -> list[str]:
-        """Cells of a table: label, value, unit, which is % for a share, and reference."""
-        unit = self.unit or ("" if isinstance(self.value, int) else "%")
-        return [self.label, self.shown(self.value), unit, self.reference_text]
+        """Cells of a table: label, value, unit, which is % for a share, and those of `REFERENCE_HEADERS`."""
+        return [self.label, self.shown(self.value), self.shown_unit, *self.reference_cells]
+
+    @property
+    def shown_unit(self) -> str:
+        """Unit in tables: % for a share."""
+        return self.unit or ("" if isinstance(self.value, int) else "%")
 
     @property
     def interval_cells(self) -> list[str]:
@@ -74,13 +98,23 @@ class OutcomeRow:
         return [self.label, self.shown(self.value), *known]
 
     @property
-    def reference_text(self) -> str:
-        """Reference value and its band as a table shows them; "" without one."""
-        if (one := self.reference) is None:
-            return ""
-        band = "" if one.low is None else f" (from {self.shown(one.low)})"
-        band = band if one.high is None else f" ({self.shown(one.low)} to {self.shown(one.high)})"
-        return self.shown(one.value) + band
+    def reference_cells(self) -> list[str]:
+        """Cells of `REFERENCE_HEADERS`; empty where the reference has no such value."""
+        cells = [""] * len(REFERENCE_HEADERS)
+        if (one := self.reference) is not None:
+            shown = f"{self.shown(one.value)} ({self.share_of_reference})"
+            if one.lower_limit is not None:
+                cells[:2] = [shown, self.shown(one.lower_limit)]
+            else:
+                interval = "" if one.interval is None else " to ".join([self.shown(end) for end in one.interval])
+                cells[2:] = [shown, interval]
+        return cells
+
+    @property
+    def share_of_reference(self) -> str:
+        """The value in percent of the reference, such as "74 %"; "" without one."""
+        one, value = self.reference, self.value
+        return "" if one is None or value is None else f"{100.0 * value / one.value:.0f} %"
 
 
 def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeRow]:
@@ -93,14 +127,14 @@ def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeR
         ("speed", "distance / duration", "m/s", walk.speed),
         ("cadence", "steps / duration", "1/min", walk.cadence),
         ("steps", "steps", "", walk.steps),
-        *[(f"distance_minute_{k}", f"distance in minute {k}", "m", d) for k, d in enumerate(walk.minutes, start=1)],
+        *[(f"{MINUTE_NAME}{k}", f"distance in minute {k}", "m", d) for k, d in enumerate(walk.minutes, start=1)],
         ("distance_index", "change from minute 1 to 6", "", walk.distance_index),
         ("stops", "stops of more than 3 s", "", walk.stops),
         ("stopped_time", "time of these stops", "s", walk.stopped_time),
         ("about_turns", "turns about", "", walk.about_turns),
         ("degraded", "degraded strides", "", walk.degraded),
     ]  # fmt: skip
-    return _rows(SIX_MINUTE_WALK, values, reference)
+    return _rows(SIX_MINUTE_WALK, values, reference, SIX_MINUTE_CHANGE)
 
 
 def up_and_go_rows(test: TimedUpAndGo, person: Person | None) -> list[OutcomeRow]:
@@ -111,13 +145,26 @@ def up_and_go_rows(test: TimedUpAndGo, person: Person | None) -> list[OutcomeRow
         ("steps", "steps", "", test.steps),
         ("distance", "distance", "m", test.distance),
     ]
-    return _rows(UP_AND_GO, values, None if person is None else up_and_go_reference(person))
+    return _rows(UP_AND_GO, values, None if person is None else up_and_go_reference(person), UP_AND_GO_CHANGE)
 
 
-def _rows(part: str, values: Sequence[NamedValue], reference: Reference | None) -> list[OutcomeRow]:
-    """Return the rows of a walk test; the reference is that of the first one, the result of the test."""
+def walk_rows(events: Sequence[Event], steps: int, distance: float | None, person: Person | None) -> list[OutcomeRow]:
+    """Return the rows of a walk at the usual pace, whose result is the speed of steady strides."""
+    speed = steady_speed_row(events, person)
+    values: list[NamedValue] = [
+        ("speed", "speed of steady strides", speed.unit, speed.value),
+        ("distance", "distance", "m", distance),
+        ("steps", "steps", "", steps),
+    ]
+    return _rows(WALK, values, speed.reference, WALKING_SPEED_CHANGE)
+
+
+def _rows(
+    part: str, values: Sequence[NamedValue], reference: Reference | None, change: SmallestChange
+) -> list[OutcomeRow]:
+    """Return the rows of a walk test; reference and change are of the first one, the result of the test."""
     first, *others = [OutcomeRow(part, *value) for value in values]
-    return [evolve(first, reference=reference), *others]
+    return [evolve(first, reference=reference, smallest_change=change), *others]
 
 
 def mobility_rows(outcomes: MobilityOutcomes) -> list[OutcomeRow]:
@@ -130,8 +177,8 @@ def mobility_rows(outcomes: MobilityOutcomes) -> list[OutcomeRow]:
     return rows
 
 
-def stride_rows(events: Sequence[Event], person: Person | None) -> list[OutcomeRow]:
-    """Return the mean speed of steady strides as the gait table has it, and variability and asymmetry (VARIABLE)."""
+def steady_speed_row(events: Sequence[Event], person: Person | None) -> OutcomeRow:
+    """Return the mean speed of steady strides as the gait table has it."""
     means = GaitMeans()
     for event in events:
         if isinstance(event, GaitCycleMeasured):
@@ -139,8 +186,12 @@ def stride_rows(events: Sequence[Event], person: Person | None) -> list[OutcomeR
     walking = means.of(False)
     speed = None if walking is None or walking.both.speed is None else walking.both.speed.mean
     reference = None if person is None else walking_speed_reference(person)
-    label = "speed of steady strides, mean"
-    rows = [OutcomeRow(MOBILITY, "steady_speed", label, "m/s", speed, reference=reference)]
+    return OutcomeRow(MOBILITY, "steady_speed", "speed of steady strides, mean", "m/s", speed, reference=reference)
+
+
+def stride_rows(events: Sequence[Event]) -> list[OutcomeRow]:
+    """Return variability and asymmetry of steady strides (VARIABLE)."""
+    rows: list[OutcomeRow] = []
     for part, estimate in ((VARIABILITY, variability), (ASYMMETRY, asymmetry)):
         for name in VARIABLE:
             one = estimate(events, name)

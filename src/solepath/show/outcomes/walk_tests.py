@@ -7,7 +7,7 @@ with the share of its swing that lies in the time of the test."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from math import fsum
+from math import fsum, inf
 from typing import NamedTuple
 
 from attrs import frozen
@@ -145,6 +145,11 @@ def timed_up_and_go(events: Sequence[Event], start: float, stop: float) -> Timed
     walked = max([swing.landed for swing in within]) - min([swing.lifted for swing in within]) if within else None
     steps, distances = _count_steps(events, start, stop), _foot_distances(swings, start, stop)
     return TimedUpAndGo(start, stop, steps, walked, mean_of(distances.values()))
+
+
+def whole_walk(events: Sequence[Event]) -> tuple[int, float | None]:
+    """Return the number of initial contacts of a recording, and the distance, m: the mean of the feet's distances."""
+    return _count_steps(events, -inf, inf), mean_of(_foot_distances(_swings(events), -inf, inf).values())
 
 
 def _count_steps(events: Iterable[Event], start: float, stop: float) -> int:

@@ -26,6 +26,7 @@ p, ul { margin: .5rem 0; max-width: 52rem; }
 ul { padding-left: 1.2rem; }
 .note, .caution { color: var(--soft); font-size: .875rem; }
 .headline { font-size: 1.3rem; line-height: 1.4; margin: 1rem 0 .4rem; }
+.beside { margin: 0 0 .4rem; }
 .warning { color: var(--stop); font-weight: 600; margin: 0; }
 .warning.look { color: var(--warn); }
 dl { margin: .5rem 0; } dd { margin: 0; }

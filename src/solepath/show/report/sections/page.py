@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element
 
 from ....recording import printable
@@ -23,8 +24,20 @@ from .headline import headline
 from .key_figures import key_figures
 from .quality import STOP, judgements, overall, quality_box, warning
 
+if TYPE_CHECKING:
+    from ...outcomes.clinic import ClinicalResults
+
 NO_PLACE = "Where on the floor plan the wearer was is not known."
 NO_TRACK = "There is no track: no foot with a motion sensor took two strides."
+TITLES = {"six-minute": "Six-minute walk", "tug": "Timed up and go", "walk": "Walk"}
+"""What a test is called in the title."""
+CONCERNING = {
+    "six-minute": ("samples", "plausibility", "wearing"), "tug": ("samples", "plausibility", "wearing"),
+    "walk": ("gait cycles", "samples", "plausibility", "wearing"),
+}  # fmt: skip
+"""Parts of the quality that concern the result of a test.
+
+The distance and the time of a test need neither steady strides nor clocks that agree."""
 FOUND = {
     "Cannot be right": (Concern.DATA,),
     "Missing or wrong": (Concern.WEAR, Concern.LINK, Concern.STRIDES),
@@ -36,11 +49,15 @@ FOUND = {
 def page_of(report: ReportContent) -> Element:
     """Return the page of a report as an <html> element."""
     facts, walk = facts_of(report), report.walk
-    title = title_of(report.details, report.when, facts.kind)
+    outcomes = None if report.outcomes is None else report.outcomes.results(walk)
+    test = None if report.outcomes is None else report.outcomes.test
+    title = title_of(report.details, report.when, facts.kind if test is None else TITLES[test.value])
     html, main = skeleton(title)
     add_heading(main, title, report)
-    add(main, "<p class='headline'>{}</p>", headline(facts))
-    judged = judgements(facts)
+    if test is not None and outcomes is not None:
+        add(main, "<p class='headline'>{}</p>", " ".join(outcomes.answer(_outcomes_before(report))))
+    add(main, "<p class='{}'>{}</p>", "headline" if test is None else "beside", headline(facts))
+    judged = judgements(facts, None if test is None else CONCERNING[test.value])
     if words := warning(judged):
         stops = any([one.verdict is STOP for one in judged])
         add(main, "<p class='{}'>{}</p>", "warning" if stops else "warning look", words)
@@ -51,18 +68,18 @@ def page_of(report: ReportContent) -> Element:
     if len(report.track) >= 2 or report.plan is not None:
         _ways(section(main, "track-part", "Where the wearer went"), report)
     if walk.event_span is not None:
-        _course(section(main, "course", "Course of the recording"), report, facts)
+        _course(section(main, "course", "Course of the recording"), report, facts, activities=test is None)
     has_strides = any([cycles.count for cycles in walk.cycles.values()])
     details = add(main, "<div class='{}'/>", "second-page" if has_strides and report.before is None else "")
     if report.before is not None:
-        comparison(details, report.before, report, facts)
-    if report.outcomes is not None:
+        comparison(details, report.before, report, facts, tracks=test is None)
+    if outcomes is not None:
         from .clinical import clinical_sections
 
-        clinical_sections(details, report.outcomes.results(walk))
+        clinical_sections(details, outcomes)
     if has_strides:
-        _gait(section(details, "gait", "Gait"), report, facts)
-    if any([sole.samples for sole in walk.soles.values()]):
+        _gait(section(details, "gait", "Gait"), report, facts, figures=test is None)
+    if test is None and any([sole.samples for sole in walk.soles.values()]):
         figures = add(section(details, "pressure", "Pressure"), "<div class='figures soles'/>")
         pressure_figures(figures, walk.soles)
     if walk.links:
@@ -72,6 +89,12 @@ def page_of(report: ReportContent) -> Element:
         definitions(parent, facts.means, difference=bool(facts.difference_words))
     add_making(section(details, "making", "How this report was made"), _making(report))
     return html
+
+
+def _outcomes_before(report: ReportContent) -> ClinicalResults | None:
+    """Return the outcomes of the walk before; None without one."""
+    before = report.before
+    return None if before is None or before.outcomes is None else before.outcomes.results(before.walk)
 
 
 def _ways(parent: Element, report: ReportContent) -> None:
@@ -85,19 +108,21 @@ def _ways(parent: Element, report: ReportContent) -> None:
         paragraph(figures, NO_TRACK)
 
 
-def _gait(parent: Element, report: ReportContent, facts: Facts) -> None:
+def _gait(parent: Element, report: ReportContent, facts: Facts, *, figures: bool) -> None:
     for means in facts.means:
         gait_table(parent, means)
-    figures = add(parent, "<div class='figures'/>")
-    stride_figures(figures, [one for cycles in report.walk.cycles.values() for one in cycles], report.clock)
+    if figures:
+        drawn = add(parent, "<div class='figures'/>")
+        stride_figures(drawn, [one for cycles in report.walk.cycles.values() for one in cycles], report.clock)
 
 
-def _course(parent: Element, report: ReportContent, facts: Facts) -> None:
-    """Add the course of the recording: its sentences, and the activities."""
+def _course(parent: Element, report: ReportContent, facts: Facts, *, activities: bool) -> None:
+    """Add the course of the recording: its sentences, and a drawing of the `activities` unless those of a test."""
     walk, clock = report.walk, report.clock
     figures = add(parent, "<div class='figures'/>")
     sentences(figures, overview(walk, facts.duration, clock.end))
-    activity_figure(figures, walk.timeline.spans(clock.end), clock)
+    if activities:
+        activity_figure(figures, walk.timeline.spans(clock.end), clock)
     if walk.placed.count:
         track_figure(figures, report, wide=False)
     space_figure(figures, report.track)

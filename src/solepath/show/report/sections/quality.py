@@ -4,11 +4,11 @@ Limits without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from enum import Enum
 from xml.etree.ElementTree import Element
 
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ....events import Defect
 from ....types import SITE_OF_FOOT, Foot
@@ -48,8 +48,10 @@ class Judgement:
     """Concern to check before the figures are used; "" if the part is good."""
 
 
-def judgements(facts: Facts) -> list[Judgement]:
-    """Return the judgement of each part that there is anything to say about."""
+def judgements(facts: Facts, concerning: Collection[str] | None = None) -> list[Judgement]:
+    """Return the judgement of each part that there is anything to say about.
+
+    Of a test, `concerning` names the parts that concern its result; what there is to say about others is a note."""
     if not facts.report.walk.known_feet:
         return []
     found = {
@@ -60,7 +62,9 @@ def judgements(facts: Facts) -> list[Judgement]:
         "wearing": _wear(facts),
         "calibration": _calibration(facts),
     }
-    return [Judgement(part, *one) for part, one in found.items() if one is not None]
+    notes = [part for part in found if concerning is not None and part not in concerning]
+    judged = [Judgement(part, *one) for part, one in found.items() if one is not None]
+    return [evolve(one, verdict=NOTE) if one.part in notes and one.verdict in (LOOK, STOP) else one for one in judged]
 
 
 def overall(parts: Sequence[Judgement]) -> str:
