@@ -47,6 +47,26 @@ def test_run_json_report_storage_file_and_dataset_name_the_same_recipe_and_input
         }
 
 
+def test_the_words_of_run_json_give_the_same_events_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    walk = tmp_path / "here" / "left.csv"
+    walk.parent.mkdir()
+    text = (
+        table(tmp_path / "table.csv").read_text().replace("acc_x", "AX").replace("acc_y", "AY").replace("acc_z", "AZ")
+    )
+    walk.write_text(text)
+    columns = "t=t,acc=AX,AY,AZ,gyro=gyro_x,gyro_y,gyro_z"
+    out = tmp_path / "there" / "out"
+    out.parent.mkdir()
+    done = run("track", walk, "--recipe", "shoe-sensing", "--columns", columns, "--out", out)
+    assert done.returncode == 0, done.stderr
+    words = json.loads((out / "run.json").read_text())["command_line"]
+    assert words[:2] == ["track", "left.csv"] and str(tmp_path) not in " ".join(words)
+    monkeypatch.chdir(walk.parent)
+    again = run(*words)
+    assert again.returncode == 0, again.stderr
+    assert (walk.parent / "out" / "events.jsonl").read_bytes() == (out / "events.jsonl").read_bytes()
+
+
 def test_files_of_one_name_are_told_apart_by_their_folders(tmp_path: Path) -> None:
     files = [table(tmp_path / folder / "walk.csv") for folder in ("a", "b")]
     assert [one["name"] for one in provenance(inputs=files)["inputs"]] == ["a/walk.csv", "b/walk.csv"]

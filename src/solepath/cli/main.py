@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+from argparse import Namespace
 from collections.abc import Callable, Sequence
 from importlib.machinery import ExtensionFileLoader
 from importlib.util import find_spec
@@ -91,7 +92,7 @@ def run(arguments: Sequence[str] | None) -> int:
     top = parser()
     if COMPLETING in os.environ:
         completion.complete(top)
-    options = top.parse_args(words)
+    options = top.parse_args(words, Namespace(words=words))
     if options.version:
         from importlib.metadata import version
 

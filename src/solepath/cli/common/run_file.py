@@ -1,9 +1,9 @@
 """run.json, which says how the files beside it came about, and what is wrong with the recording.
 
 It is JSON: {"solepath": version, "recipe": name, "recipe_sha256", "inputs": [{"name", "sha256"}], "options": {...},
-"sites": {"left_foot": {"samples", "missing", "missing_s", "missing_share", "absent_s"}}, "findings": [{"code", "site",
-"text"}]}. walk/links.py defines the figures of a site, show/findings.py the findings; the site of one about both feet
-or the whole session is ""."""
+"command_line": [...], "sites": {"left_foot": {"samples", "missing", "missing_s", "missing_share", "absent_s"}},
+"findings": [{"code", "site", "text"}]}. walk/links.py defines the figures of a site, show/findings.py the findings; the
+site of one about both feet or the whole session is ""."""
 
 from __future__ import annotations
 
@@ -21,13 +21,21 @@ from ...walk.links import LinkLedger
 from ...walk.walk import Walk
 from .files import WRITTEN, files_read
 
-WITHOUT_EFFECT = {*WRITTEN, "command", "force", "view", "no_browser", "speed"}
+WITHOUT_EFFECT = {*WRITTEN, "command", "words", "force", "view", "no_browser", "speed"}
 """Options that say where results are written and shown, which do not depend on them."""
 
 
 def made_by(recipe: Recipe, options: argparse.Namespace) -> dict[str, Any]:
     """Return how results of a command came about: `provenance` of its recipe, the files it reads and its options."""
-    return provenance(recipe, files_read(options), _given(options))
+    made = provenance(recipe, files_read(options), _given(options))
+    return made | {"command_line": _command_line(options)}
+
+
+def _command_line(options: argparse.Namespace) -> list[str]:
+    """Return the words of the command, with which it can be run again; files have their names alone."""
+    values = [one for value in vars(options).values() for one in (value if isinstance(value, list) else [value])]
+    names = {str(one): one.name for one in values if isinstance(one, Path)}
+    return [names.get(word, word) for word in getattr(options, "words", [])]
 
 
 def write_run(path: Path, recipe: Recipe, walk: Walk, options: argparse.Namespace) -> None:
