@@ -18,7 +18,8 @@ for package in ("pandas", "polars", "pyarrow"):
 def test_the_lines_of_the_page_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     recorded(tmp_path / "walk.jsonl", insoles(Route().stand(2).walk(10).stop(2)).packets)
-    (cycles, samples, arrow), names = run_page("docs/frames.md")
+    (cycles, merged, samples, arrow), names = run_page("docs/frames.md")
+    assert merged.split() == ["default", "m/s"]
     assert cycles.rstrip().endswith(" s") and "left" in cycles
     assert "gyro_y" in samples and len(names["samples"]) > 500
     assert "{b'unit': b's'}" in arrow and "GaitCycleMeasured" in arrow
