@@ -48,6 +48,27 @@ SMALL = """() => {
 }"""
 """Script that returns the texts with letters of less than 12 px."""
 
+OVERLAPPING = """() => {
+  const found = [];
+  for (const svg of document.querySelectorAll("svg")) {
+    const frame = svg.getBoundingClientRect();
+    const words = [...svg.querySelectorAll("text")].filter((one) => one.getClientRects().length);
+    words.forEach((one, k) => {
+      const a = one.getBoundingClientRect();
+      if (a.left < frame.left - 1 || a.right > frame.right + 1 || a.top < frame.top - 1 || a.bottom > frame.bottom + 1)
+        found.push(`${one.textContent} is cut`);
+      for (const other of words.slice(0, k)) {
+        const b = other.getBoundingClientRect();
+        const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+        const down = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+        if (across > 1 && down > 3) found.push(`${one.textContent} is over ${other.textContent}`);
+      }
+    });
+  }
+  return found;
+}"""
+"""Script that returns the words of drawings that reach out of them, or into other words."""
+
 
 def made(name: str) -> Report:
     if name == "cells":
@@ -67,7 +88,7 @@ async def test_a_report_ends_on_two_pages_of_paper_or_on_one_without_gait_and_no
         pdf = await view.tab.pdf(prefer_css_page_size=True, print_background=True)
         assert len(PAGE.findall(pdf)) == length
         await view.tab.emulate_media(media="print")
-        assert await view.tab.evaluate(CUT) == []
+        assert [one for script in (CUT, OVERLAPPING) for one in await view.tab.evaluate(script)] == []
 
 
 @pytest.mark.parametrize("dark", [*soaked(False), *longer(True)])
@@ -81,7 +102,7 @@ async def test_on_a_screen_nothing_is_cut_no_letter_is_small_and_axe_finds_no_vi
         assert await axe_faults(view) == []
         for width in (360, 700, 1000, 1400):
             await view.tab.set_viewport_size({"width": width, "height": 900})
-            assert [one for script in (CUT, SMALL) for one in await view.tab.evaluate(script)] == [], width
+            assert [one for script in (CUT, SMALL, OVERLAPPING) for one in await view.tab.evaluate(script)] == [], width
         assert not view.complaints and len(view.requests) == 1
 
 

@@ -11,10 +11,12 @@ from ....types import Foot
 from ...tables.svg import AxisScale, Point, Ticks, add, line, ticks
 from ..markup import WIDTH, figure
 
-LEFT, RIGHT, TOP, BOTTOM = 46.0, 12.0, 26.0, 40.0
+LEFT, RIGHT, TOP, BOTTOM = 46.0, 18.0, 30.0, 40.0
 """Left, right, top and bottom margins of a chart, px."""
-HEIGHT = 190.0
+HEIGHT = 194.0
 """Height of a chart, px."""
+HEAD = 16.0
+"""Baseline of the words above a chart, px: below the top of letters of 19 px, which paper has."""
 MARGIN_SHARE = 0.06
 """Margin at each end of an axis, as a share of its range."""
 FOOT_MARKS = {Foot.LEFT: "h0", Foot.RIGHT: "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"}
@@ -68,7 +70,7 @@ class Chart:
         chart = cls(svg, AxisScale(*x, LEFT, WIDTH - RIGHT), AxisScale(*y, HEIGHT - BOTTOM, TOP))
         grid(svg, chart.x, chart.y, ticks(*x, 6), ticks(*y, 5))
         write(svg, 0.5 * (LEFT + WIDTH - RIGHT), HEIGHT - 5.0, labels[0], "label")
-        write(svg, 2.0, 12.0, labels[1], "label", "start")
+        write(svg, 2.0, HEAD, labels[1], "label", "start")
         return chart
 
     def curves(self, curves: Mapping[Foot, Sequence[Point]]) -> None:
@@ -81,5 +83,5 @@ class Chart:
         """Draw the mark of each foot, or another shape, above the chart, at its right end."""
         for k, foot in enumerate(reversed(feet)):
             x = 390.0 - 66.0 * k
-            write(self.svg, x, 12.0, foot.value, "tick", "end")
-            add(self.svg, MARK, x - 36.0, 8.0, shape or FOOT_MARKS[foot], kind, foot.value)
+            write(self.svg, x, HEAD, foot.value, "tick", "end")
+            add(self.svg, MARK, x - 36.0, HEAD - 4.0, shape or FOOT_MARKS[foot], kind, foot.value)

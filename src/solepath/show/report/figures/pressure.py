@@ -15,7 +15,7 @@ from ....types import Foot, Layout
 from ....walk.soles import STATIONS, SoleLoads
 from ...tables.svg import View, add, colour_bar, line, shade
 from ..markup import figure, paragraph, whole_sentences
-from .axes import MARGIN_SHARE, PATH, Chart, write
+from .axes import HEAD, MARGIN_SHARE, PATH, Chart, write
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
 """Colours from no load to the highest; a higher load is darker, also on a black-and-white printer."""
@@ -84,7 +84,7 @@ def _map(parent: Element, name: str, title: str, drawn: Drawn, loads: Loads, *, 
         middle = 110.0 if foot is Foot.LEFT else 290.0
         top = SOLE_TOP + 0.5 * (SOLE_HEIGHT - view.height)
         view = evolve(view, left=middle - 0.5 * view.width, top=top)
-        write(svg, middle, 14.0, foot.value, "label")
+        write(svg, middle, HEAD, foot.value, "label")
         for cell, load in zip(layout.cells, loads[foot], strict=True):
             disc = "<circle cx='{}' cy='{}' r='{}' fill='{}' class='cells'/>"
             add(svg, disc, *view.at((-cell.y, cell.x)), r * view.scale, shade(SHADES, load / (highest or 1.0)))
@@ -115,7 +115,7 @@ def _forces(parent: Element, soles: Mapping[Foot, SoleLoads]) -> None:
         texts.append(f"{foot}: at most {max(forces):.0f} {sole.unit}")
     highest = max([force for curve in curves.values() for _, force in curve])
     y = 0.0, (1.0 + MARGIN_SHARE) * max(highest, 1.0)
-    labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {_unit(soles.values())}")
+    labels = ("% of stance, heel-strike to toe-off", f"sum of the cells, {_unit(soles.values())}")
     note = f"Contacts: {', '.join([f'{foot} {sole.contacts}' for foot, sole in soles.items()])}."
     what = f"{'; '.join(texts)}."
     Chart.of(parent, "force", "Mean force over a contact", what, (0.0, 100.0), y, labels, note).curves(curves)

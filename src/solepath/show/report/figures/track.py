@@ -25,6 +25,8 @@ MARGIN_SHARE, MIN_MARGIN = 0.06, 0.4
 """Margin around the track: as a share of its larger extent, and the least, m."""
 MIN_HEIGHT = 118.0
 """Least height of the track on its drawing, px."""
+LABEL_WIDTH, LABEL_HEIGHT = 54.0, 20.0
+"""Least distance of the middles of two labels, across or up, px: the largest letters are 17 px high, on paper."""
 TOP, LEFT, RIGHT, BOTTOM = 16.0, 40.0, 8.0, 38.0
 """Margins of the drawing of a track, px."""
 
@@ -59,29 +61,29 @@ def _draw(parent: Element, name: str, title: str, report: ReportContent, width: 
     grid(svg, x, y, *square_ticks((x.low, x.high), (y.low, y.high))[:2])
     write(svg, 0.5 * (x.start + x.end), y.start + 33.0, "x and y, m", "label")
     add(svg, PATH, line(map(view.at, way)), "way")
-    _times(svg, report, view)
-    mark_end(svg, view.at(way[0]), "start", -8.0, width)
-    mark_end(svg, view.at(way[-1]), "end", 17.0, width)
+    start = mark_end(svg, view.at(way[0]), "start", -8.0, width)
+    end = mark_end(svg, view.at(way[-1]), "end", 17.0, width)
+    _times(svg, report, view, [start, end])
     return svg
 
 
-def mark_end(svg: Element, point: Point, word: str, offset: float, width: float = WIDTH) -> None:
-    """Draw the start or the end of a track with its name."""
+def mark_end(svg: Element, point: Point, word: str, offset: float, width: float = WIDTH) -> Point:
+    """Draw the start or the end of a track with its name; return where the middle of the name is."""
     x, y = point
     add(svg, "<circle cx='{}' cy='{}' r='4.5' class='{}'/>", x, y, word)
     at_edge = x > 0.85 * width
     write(svg, x + (-8.0 if at_edge else 8.0), y + offset, word, "halo strong", "end" if at_edge else "start")
+    return x + (-26.0 if at_edge else 26.0), y + offset
 
 
-def _times(svg: Element, report: ReportContent, view: View) -> None:
-    """Write up to seven times along the track, without those that would overlap."""
-    labelled: list[Point] = []
+def _times(svg: Element, report: ReportContent, view: View, labelled: list[Point]) -> None:
+    """Write up to seven times along the track, without those that would overlap each other or what is labelled."""
     times = [(report.clock.axis_value(event.t), event.position[:2]) for event in report.track]
     for value, words in ticks(times[0][0], times[-1][0], 7).items():
         _, nearest = min(times, key=lambda one: abs(one[0] - value))
         x, y = view.at(nearest)
-        if all([abs(x - a) > 44.0 or abs(y - b) > 18.0 for a, b in labelled]):
-            labelled.append((x, y))
+        if all([abs(x - a) > LABEL_WIDTH or abs(y - 6.0 - b) > LABEL_HEIGHT for a, b in labelled]):
+            labelled.append((x, y - 6.0))
             add(svg, "<circle cx='{}' cy='{}' r='2.4' class='time'/>", x, y)
             write(svg, x, y - 6.0, f"{words} {report.clock.unit}", "halo tick")
 
