@@ -83,6 +83,16 @@ def _reference(text: str) -> Person | Path:
     raise ArgumentTypeError(f"{printable(text, 80)} is not AGE,SEX[,CM,KG], as in 72,female,162,68")
 
 
+add_six_minute_walk = option(
+    "--six-minute-walk",
+    metavar="START",
+    nargs="?",
+    type=_start,
+    default=False,
+    help="the six-minute walk from this time of the recording's clock, s (default: from the first step)",
+)
+"""--six-minute-walk."""
+
 add_outcomes = together(
     option(
         "--outcomes",
@@ -90,14 +100,7 @@ add_outcomes = together(
         help="walking bouts and mobility outcomes by the rules of Mobilise-D, variability, asymmetry; with --out also "
         "bouts.csv and outcomes.csv",
     ),
-    option(
-        "--six-minute-walk",
-        metavar="START",
-        nargs="?",
-        type=_start,
-        default=False,
-        help="the six-minute walk from this time of the recording's clock, s (default: from the first step)",
-    ),
+    add_six_minute_walk,
     option(
         "--timed-up-and-go",
         metavar="START,STOP",

@@ -21,7 +21,7 @@ from ...walk.links import LinkLedger
 from ...walk.walk import Walk
 from .files import WRITTEN, files_read
 
-WITHOUT_EFFECT = {*WRITTEN, "command", "force", "view", "no_browser", "speed"}
+WITHOUT_EFFECT = {*WRITTEN, "command", "force", "view", "no_browser", "speed", "processes"}
 """Options that say where results are written and shown, which do not depend on them."""
 
 
