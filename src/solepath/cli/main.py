@@ -1,6 +1,6 @@
 """`solepath`: parses the command line, runs the command and reports its errors.
 
-Exit status: 0 for success; 1 if a check found something (`check`, `batch`, `validate`, `fleet-demo`, `convert --validate`);
+Exit status: 0 for success; 1 if a check found something (`check`, `batch`, `validate`, `fleet-demo`, `convert`);
 2 for an error in the command line or a file, with one line on stderr; 130 if interrupted before all input was used.
 """
 

@@ -62,5 +62,8 @@ def read_text_table(path: Path) -> TextTable:
         raise RecordingError(path, "is empty; its first line has the names of the columns")
     if twice := [name for name in known if known.count(name) > 1]:
         raise RecordingError(path, f"has two columns with the name {printable(twice[0])}")
+    if long := next((k for k, row in enumerate(rows, 1) if any(row[len(names) :])), None):
+        what = "has more cells than there are names; a text with the separator in it needs quotes"
+        raise RecordingError(path, what, f"row {long} below the names")
     by_name = [dict(zip(names, [*row, *[""] * len(names)], strict=False)) for row in rows]
     return TextTable(path, tuple(known), tuple([{name: row[name] for name in known} for row in by_name]))

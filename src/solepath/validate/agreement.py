@@ -19,6 +19,7 @@ from typing import TypeVar
 from attrs import field, frozen
 
 from ..events import Event, GaitCycleMeasured
+from ..show.outcomes.bouts import mean_of
 from ..show.outcomes.clinic import OutcomeRequest
 from ..show.outcomes.rows import MOBILITY
 from ..show.output import CYCLE_FIELDS, cycle_value
@@ -256,7 +257,7 @@ class _Pairing:
 
     def _figure(self, row: TrueRow, name: str) -> float | None:
         if name == DISTANCE:
-            return None if self.walk.fused is None else self.walk.fused.distance
+            return mean_of([self.walk.feet[foot].distance for foot in self._feet(row) if foot in self.walk.feet])
         if name not in CYCLE_FIELDS:
             outcomes = OutcomeRequest(outcomes=True).results(self.walk).part(MOBILITY)
             return next((one.value for one in outcomes if one.name == name), None)
@@ -266,8 +267,7 @@ class _Pairing:
         else:
             span, tolerance = [(row.t_start, row.t_end)], TOLERANCE if self.tolerance is None else self.tolerance
             cycles = [one for one in cycles if all([is_covered(t, span, tolerance) for t in (one.t_start, one.t)])]
-        values = [value for cycle in cycles if (value := cycle_value(cycle, name)) is not None]
-        return fmean(values) if values else None
+        return mean_of([cycle_value(cycle, name) for cycle in cycles])
 
     def _feet(self, row: TrueRow) -> Sequence[Foot]:
         return [*Foot] if row.foot is None else [row.foot]
@@ -290,7 +290,7 @@ def row_of(parameter: str, found: Sequence[Pair], by: str = "", group: str = "")
         by=by,
         group=group,
         n=len(values),
-        bias=fmean(differences) if values else None,
+        bias=mean_of(differences),
         sd=stdev(differences) if len(values) > 1 else None,
         icc=icc,
         icc_lower=lower,

@@ -51,7 +51,7 @@ FIGURES = {
 }
 """Columns of gait_cycles.csv that a truth may have, by themselves and by their names in gaitmap and mobgap."""
 DISTANCE = "distance_m"
-"""Parameter of a walk that is no column of gait_cycles.csv and no mobility outcome: the way that both feet went."""
+"""Parameter of a walk that is no column of gait_cycles.csv and no mobility outcome: the mean of the feet's."""
 PARAMETERS = {*FIGURES.values(), *[one.name for one in fields(MobilityOutcomes)], DISTANCE}
 """Parameters of a walk."""
 PARAMETER_KINDS = f"there are columns of gait_cycles.csv, mobility outcomes such as ws_30_avg, and {DISTANCE}"
