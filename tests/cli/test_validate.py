@@ -104,11 +104,11 @@ def test_events_are_matched_within_the_tolerance_and_what_one_side_has_alone_is_
     times = [t for t in true if t not in true[3:6]] + [early, late]
     truth = read_truth(table(tmp_path / "t.csv", "foot,event,t_s", [("left", "HS", t) for t in times]))
     (row,) = compare_walks(truth, {"S01": events}).rows
-    assert (row.parameter, row.missed, row.extra, row.icc) == ("heel_strike_s", 1, 2, None)
+    assert (row.parameter, row.not_found, row.extra, row.icc) == ("heel_strike_s", 1, 2, None)
     assert row.n == len(times) - 1 and row.f1 == pytest.approx(2 * row.n / (2 * row.n + 3))
     assert gone not in times
     (wide,) = compare_walks(truth, {"S01": events}, tolerance=0.28).rows
-    assert (wide.missed, wide.extra) == (0, 1)
+    assert (wide.not_found, wide.extra) == (0, 1)
 
 
 def test_a_clock_that_is_apart_is_named_and_an_offset_repairs_it(tmp_path: Path, recorded: list[Path]) -> None:
@@ -166,7 +166,7 @@ def test_a_stride_between_middles_of_stance_is_compared_with_the_cycle_of_its_co
     path = table(tmp_path / "s.csv", "s_id,foot,start,end,pre_ic,ic,min_vel", rows)
     found = {row.parameter: row for row in compare_walks(read_truth(path, rate=RATE), {"S01": events}).rows}
     assert found["heel_strike_s"].n == len(ics), "a contact of two strides counts once"
-    assert (found["stride_time_s"].n, found["stride_time_s"].missed) == (len(rows), 0)
+    assert (found["stride_time_s"].n, found["stride_time_s"].not_found) == (len(rows), 0)
     assert abs(found["stride_time_s"].bias) < 0.005
 
 

@@ -93,7 +93,7 @@ class AgreementRow:
     icc_lower: float | None
     icc_upper: float | None
     """Ends of its 95 % confidence interval."""
-    missed: int
+    not_found: int
     """Number of values that only the truth has."""
     extra: int
     """Number of values that only solepath has, within the time that the truth covers."""
@@ -111,7 +111,7 @@ class AgreementRow:
     def f1(self) -> float | None:
         """Return F1, 2 x matched / (true + found)."""
         matched = 2 * (self.n + self.degraded)
-        total = matched + self.missed + self.extra
+        total = matched + self.not_found + self.extra
         return matched / total if total else None
 
 
@@ -295,7 +295,7 @@ def row_of(parameter: str, found: Sequence[Pair], by: str = "", group: str = "")
         icc=icc,
         icc_lower=lower,
         icc_upper=upper,
-        missed=len([pair for pair in found if pair.found is None]),
+        not_found=len([pair for pair in found if pair.found is None]),
         extra=len([pair for pair in found if pair.true is None]),
         degraded=len([pair for pair in found if pair.degraded and None not in (pair.true, pair.found)]),
     )

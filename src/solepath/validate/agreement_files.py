@@ -18,13 +18,13 @@ from ..types import Foot
 from .agreement import AgreementRow, Pair, WalkComparison
 
 AGREEMENT_COLUMNS = (
-    "parameter", "n", "bias", "lower", "upper", "icc", "icc_lower", "icc_upper", "sd", "missed", "extra", "degraded",
+    "parameter", "n", "bias", "lower", "upper", "icc", "icc_lower", "icc_upper", "sd", "not_found", "extra", "degraded",
     "f1",
 )  # fmt: skip
 GROUP_COLUMNS = ("by", "group", *AGREEMENT_COLUMNS)
 PAIR_COLUMNS = ("recording", "foot", "parameter", "true", "found", "degraded")
 """Columns of pairs.csv; the groups of the truth follow."""
-HEADER = ["parameter", "pairs", "bias", "95 % limits", "ICC(2,1)", "missed", "extra", "degraded", "F1"]
+HEADER = ["parameter", "pairs", "bias", "95 % limits", "ICC(2,1)", "not found", "extra", "degraded", "F1"]
 UNITS = {
     "_m_per_s": "m/s", "_steps_per_min": "steps/min", "_s": "s", "_m": "m", "_deg": "deg", "_share": "of the cycle",
 }  # fmt: skip
@@ -39,7 +39,7 @@ DEFINITIONS = (
         "intraclass correlation, two-way random effects, absolute agreement, single measurement (Shrout & Fleiss 1979, "
         "Psychol. Bull. 86; ICC(A,1) of McGraw & Wong 1996, Psychol. Methods 1), by pingouin.",
     ),
-    ("Missed", "only in the truth."),
+    ("Not found", "only in the truth."),
     ("Extra", "only found by solepath, within the time that the truth covers."),
     ("Degraded", "matched, but solepath says that the stride is wrong: in no figure."),
     ("F1", "2 x matched / (true + found)."),
@@ -59,7 +59,7 @@ def agreement_cells(rows: Iterable[AgreementRow]) -> list[list[str]]:
             "-" if row.bias is None else f"{row.bias:+z.3f}",
             "-" if row.limits is None else "{:+z.3f} to {:+z.3f}".format(*row.limits),
             number(row.icc, 3),
-            *map(str, (row.missed, row.extra, row.degraded)),
+            *map(str, (row.not_found, row.extra, row.degraded)),
             number(row.f1, 3),
         ]
         for row in rows
@@ -83,7 +83,7 @@ def agreement_writers(comparison: WalkComparison, made_by: Mapping[str, Any]) ->
 def _row_cells(row: AgreementRow) -> list[Cell]:
     lower, upper = row.limits or (None, None)
     figures = (row.bias, lower, upper, row.icc, row.icc_lower, row.icc_upper, row.sd)
-    return [row.parameter, row.n, *figures, row.missed, row.extra, row.degraded, row.f1]
+    return [row.parameter, row.n, *figures, row.not_found, row.extra, row.degraded, row.f1]
 
 
 def _pair_cells(pair: Pair) -> list[Cell]:
