@@ -26,9 +26,16 @@ PAIR_COLUMNS = ("recording", "foot", "parameter", "true", "found", "degraded")
 """Columns of pairs.csv; the groups of the truth follow."""
 HEADER = ["parameter", "pairs", "bias", "95 % limits", "ICC(2,1)", "not found", "extra", "degraded", "F1"]
 UNITS = {
-    "_m_per_s": "m/s", "_steps_per_min": "steps/min", "_s": "s", "_m": "m", "_deg": "deg", "_share": "of the cycle",
-}  # fmt: skip
-"""Units of parameters, by the ends of their names."""
+    "_m_per_s": ("m/s", "cm/s", 100.0),
+    "_steps_per_min": ("steps/min", "steps/min", 1.0),
+    "_s": ("s", "ms", 1000.0),
+    "_m": ("m", "cm", 100.0),
+    "_deg": ("deg", "deg", 1.0),
+    "": ("of 1", "%", 100.0),
+}
+"""Unit of a parameter by the end of its name, that of its differences in a picture, and what they are multiplied by."""
+TABLE_KIND = "numbers comparison"
+"""Classes of a table: on a phone its columns have the widths of a comparison."""
 LEAST_RANGE = 1e-3
 """Least range of an axis, in the unit of its parameter; chosen by hand."""
 DEFINITIONS = (
@@ -98,7 +105,7 @@ def _page(comparison: WalkComparison, made_by: Mapping[str, Any]) -> Element:
     add(main, "<header><h1>Agreement with a reference system</h1></header>")
     add(main, "<p class='headline'>{}, compared with what was measured</p>", counted(len(walks), "recording"))
     part = section(main, "agreement", "Agreement")
-    table(part, "solepath minus truth", HEADER, agreement_cells(comparison.rows))
+    table(part, "solepath minus truth", HEADER, agreement_cells(comparison.rows), TABLE_KIND)
     notes(part, [INDEPENDENT])
     figures = add(section(main, "pictures", "Bland-Altman pictures"), "<div class='figures'/>")
     for row, pairs in zip(comparison.rows, comparison.by_parameter().values(), strict=True):
@@ -106,7 +113,13 @@ def _page(comparison: WalkComparison, made_by: Mapping[str, Any]) -> Element:
             _bland_altman(figures, row, pairs)
     if comparison.group_rows:
         part = section(main, "groups", "Groups")
-        table(part, "By foot, by other columns of the truth, and means", HEADER, agreement_cells(comparison.group_rows))
+        table(
+            part,
+            "By foot, by other columns of the truth, and means",
+            HEADER,
+            agreement_cells(comparison.group_rows),
+            TABLE_KIND,
+        )
     terms(section(main, "definitions", "Definitions and sources"), DEFINITIONS, "definitions")
     facts = making_facts(made_by.get("recipe", ""), made_by["solepath"], made_by)
     add_making(section(main, "making", "How this page was made"), facts)
@@ -115,28 +128,27 @@ def _page(comparison: WalkComparison, made_by: Mapping[str, Any]) -> Element:
 
 def _bland_altman(parent: Element, row: AgreementRow, pairs: Sequence[Pair]) -> None:
     """Draw the differences over the means of both values, or over the time of an event, with bias and limits."""
-    bias, limits = row.bias or 0.0, row.limits or (0.0, 0.0)
-    values = [(pair.foot or Foot.LEFT, *pair.values) for pair in pairs if pair.values is not None]
-    points = [(foot, true if pairs[0].is_event else 0.5 * (true + found), found - true) for foot, true, found in values]
-    unit = next((unit for end, unit in UNITS.items() if row.parameter.endswith(end)), "")
-    name = row.parameter.removesuffix(f"_{unit}").replace("_", " ")
-    figures = (
-        f"bias {bias:+z.3f} {unit}, 95 % limits {limits[0]:+z.3f} to {limits[1]:+z.3f} {unit}, {counted(row.n, 'pair')}"
-    )
+    end, (unit, small, factor) = next(one for one in UNITS.items() if row.parameter.endswith(one[0]))
+    name = row.parameter.removesuffix(end).replace("_", " ")
+    bias, lower, upper = [factor * value for value in (row.bias or 0.0, *(row.limits or (0.0, 0.0)))]
+    found = [(pair.foot or Foot.LEFT, *pair.values) for pair in pairs if pair.values is not None]
+    is_event = pairs[0].is_event
+    points = [(foot, a if is_event else 0.5 * (a + b), factor * (b - a)) for foot, a, b in found]
+    figures = f"bias {bias:+z.1f}, limits {lower:+z.1f} to {upper:+z.1f} {small}, {counted(row.n, 'pair')}"
     chart = Chart.of(
         parent,
         f"agreement-{row.parameter}",
         f"Agreement of {name}",
         f"Differences of {name}: {figures}.",
         padded_range([x for _, x, _ in points], LEAST_RANGE),
-        padded_range([0.0, *limits, *[y for _, _, y in points]], LEAST_RANGE),
-        (f"{'time of the truth' if pairs[0].is_event else 'mean of both'}, {unit}", f"solepath - truth, {unit}"),
+        padded_range([0.0, lower, upper, *[y for _, _, y in points]], LEAST_RANGE),
+        (f"{'time of the truth' if is_event else 'mean of both'}, {unit}", f"solepath - truth, {small}"),
         figures,
         "Solid line: bias. Dashed lines: 95 % limits of agreement.",
     )
     chart.svg.set("class", "dense" if len(points) > MAX_SINGLE_MARKS else "")
     for foot, x, y in points:
         add(chart.svg, MARK, chart.x(x), chart.y(y), FOOT_MARKS[foot], "mark", foot.value)
-    for y, kind in ((bias, "way"), *[(limit, "flight") for limit in limits]):
+    for y, kind in ((bias, "way"), (lower, "flight"), (upper, "flight")):
         add(chart.svg, PATH, [f"M{chart.x.start} {chart.y(y):.1f}H{chart.x.end}"], kind)
     chart.legend([foot for foot in Foot if foot in {pair.foot for pair in pairs}])
