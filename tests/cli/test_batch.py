@@ -136,11 +136,12 @@ def test_parquet_has_the_same_values_with_numbers_as_numbers_and_names_as_texts(
 def test_a_table_that_is_no_study_gets_one_line(tmp_path: Path) -> None:
     path, out = tmp_path / "study.csv", tmp_path / "out"
     for text, said in (
-        ("name\nP1.csv\n", "has no column file"),
+        ("name\nP1.csv\n", "line 1: needs one column file"),
         ("file,foot\nP1.csv,left\n", "has a column foot, as the results have"),
-        ("file,file\nP1.csv,left\n", "two columns with the name file"),
-        ("file,condition\nP1.csv,with, a dog\n", "row 1 below the names: has more cells than there are names"),
-        ("", "is empty"),
+        ("file,file\nP1.csv,left\n", "line 1: needs one column file"),
+        ("file,condition\nP1.csv,with, a dog\n", "line 2: 3 values, and the header has 2"),
+        ("", "line 1: needs one column file"),
+        ("file,condition\n", "has no line below the names"),
     ):
         path.write_text(text)
         assert said in run_failing("batch", path, "--out", out)

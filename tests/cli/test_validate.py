@@ -18,7 +18,8 @@ from commands import rows_in, run, run_failing
 from truths import RATE, both_feet, contacts, samples_file, strides, table, walker
 
 from solepath import Foot, Session
-from solepath.recording import RecordingError, read_samples
+from solepath.recording import read_samples
+from solepath.recording.text_table import TableError
 from solepath.validate import NoMatch, Pair, WalkComparison, compare_walks, read_truth
 
 WALK = walker()
@@ -127,7 +128,7 @@ def test_parameters_of_a_walk_are_those_of_the_gait_table_and_of_mobility(tmp_pa
     assert found.keys() == {"speed_m_per_s", "walkdur_all_sum", "distance_m"}, "what was not measured is left out"
     for name in ("speed_m_per_s", "distance_m"):
         assert abs(found[name].bias) < 0.05 * {"speed_m_per_s": 1.3, "distance_m": 12.0}[name]
-    with pytest.raises(RecordingError, match="there is no parameter pace"):
+    with pytest.raises(TableError, match="there is no parameter pace"):
         read_truth(table(tmp_path / "t.csv", "parameter,value", [("pace", 1.0)]))
 
 
@@ -141,7 +142,7 @@ def test_lists_of_gaitmap_and_mobgap_count_samples(tmp_path: Path, events: list)
         )
     ]
     path = table(tmp_path / "strides.csv", "s_id,sensor,start,end,ic,stride_length", of_gaitmap)
-    with pytest.raises(RecordingError, match="how many are there in a second.*--truth-rate"):
+    with pytest.raises(TableError, match="its times count samples.*--truth-rate"):
         read_truth(path)
     found = {row.parameter: row for row in compare_walks(read_truth(path, rate=RATE), {"S01": events}).rows}
     assert found.keys() == {"heel_strike_s", "stride_time_s", "stride_length_m"}
@@ -199,11 +200,11 @@ def test_strides_that_are_degraded_count_as_found_and_are_in_no_figure() -> None
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("", "is empty"),
-        ("a,b\n1,2\n", "its columns are none of a truth"),
+        ("", "line 1: needs one column at least"),
+        ("a,b\n1,2\n", "the columns are none of a truth"),
         ("foot,event,t_s\nleft,Jump,1\n", "there is no event Jump"),
         ("foot,event,t_s\nmiddle,HS,1\n", "a foot is left or right, not middle"),
-        ("foot,event,t_s\nleft,HS,soon\n", "row 1 below the names: t_s is no number: soon"),
+        ("foot,event,t_s\nleft,HS,soon\n", "line 2: t_s is 'soon', not a number that is finite"),
         ("recording,event,t_s\nS99,HS,1\n", "the truth's recordings (S99) are none of S01"),
     ],
 )

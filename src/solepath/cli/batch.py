@@ -21,7 +21,7 @@ from typing import Any
 
 from attrs import frozen
 
-from ..recording import RecordingError, printable
+from ..recording import printable
 from ..saving.lock import locked
 from . import track
 from .common.failure import Failure, note, require
@@ -79,16 +79,16 @@ class Study:
 
 def run(options: Namespace) -> int:
     """Run the recordings that are not done, and write the tables; return 1 if a recording failed, else 0."""
-    from ..recording.text_table import read_text_table
+    from ..recording.text_table import read_rows
     from ..show.tables.progress import progress_bar
     from .common.loop import stop_signals_raise
 
     if options.parquet:
         require("--parquet needs", "tables", "pyarrow")
-    table, recipe = read_text_table(options.table), recipes_of(options)[0]
-    outputs = _outputs(options, table.path, table.columns)
-    named = [[one.strip() for one in row["file"].split(";") if one.strip()] for row in table.rows]
-    of_rows = [_as_track(options, [table.path.parent / name for name in names]) for names in named]
+    rows, recipe = [row.cells for row in read_rows(options.table, ("file",))], recipes_of(options)[0]
+    outputs = _outputs(options, rows)
+    named = [[one.strip() for one in row["file"].split(";") if one.strip()] for row in rows]
+    of_rows = [_as_track(options, [options.table.parent / name for name in names]) for names in named]
     options.files = [*dict.fromkeys([file for one in of_rows for file in one.files])]
     check_outputs(options, [*outputs.values()])
     parts = options.out / RECORDINGS
@@ -112,7 +112,7 @@ def run(options: Namespace) -> int:
                 progress=lambda done, _: show(len(jobs) - len(new) + done),
             )
             reasons = {one.out: reason for one, reason in zip(new, found, strict=True) if reason}
-            study = Study(table.rows, [one.out for one in of_rows], reasons)
+            study = Study(rows, [one.out for one in of_rows], reasons)
             _write(options, study, outputs, made_by(recipe, options))
     except BlockingIOError:
         raise Failure(f"{options.out}: another batch is writing into it") from None
@@ -122,7 +122,7 @@ def run(options: Namespace) -> int:
     for *_, reason in study.failed[:MAX_SENTENCES]:
         note(reason)
     counts = f"{len(study.done)} done ({len(new)} run now), {len(study.failed)} failed"
-    print(f"{len(table.rows)} recordings: {counts}; written to {printable(str(options.out))}")
+    print(f"{len(rows)} recordings: {counts}; written to {printable(str(options.out))}")
     return FAILED_STATUS if study.failed else 0
 
 
@@ -161,13 +161,13 @@ def _tables() -> dict[str, Sequence[str]]:
     return {STRIDES_FILE: STRIDE_COLUMNS, GAIT_CYCLES_FILE: CYCLE_COLUMNS, BOUTS_FILE: BOUT_COLUMNS}
 
 
-def _outputs(options: Namespace, path: Path, own: Sequence[str]) -> dict[str, OutputFile]:
-    """Return the files by the names that they have as .csv; raise RecordingError for a column that cannot be there."""
+def _outputs(options: Namespace, rows: Sequence[Mapping[str, str]]) -> dict[str, OutputFile]:
+    """Return the files by the names that they have as .csv; raise Failure for a study that cannot be run."""
+    if not rows:
+        raise Failure(f"{options.table}: has no line below the names")
     taken = {column for columns in _tables().values() for column in columns} | {*TEXTS}
-    if "file" not in own:
-        raise RecordingError(path, "has no column file, with the file of each recording")
-    if common := taken.intersection(own):
-        raise RecordingError(path, f"has a column {min(common)}, as the results have: give it another name")
+    if common := taken.intersection(rows[0]):
+        raise Failure(f"{options.table}: has a column {min(common)}, as the results have: give it another name")
     ends = {name: ",".join(columns) for name, columns in _tables().items()}
     ends |= {"outcomes.csv": "walkdur_all_sum_s", "failures.csv": "reason"}
     kinds = {name: Kind(rb"\A[^\n]*," + re.escape(end.encode()) + rb"[,\n]") for name, end in ends.items()}
@@ -190,7 +190,7 @@ def _write(options: Namespace, study: Study, outputs: Mapping[str, OutputFile], 
 
         outputs[name].replace(to)
 
-    own = [*study.rows[0]] if study.rows else ["file"]
+    own = [*study.rows[0]]
     for name, columns in _tables().items():
         write(name, columns, study.joined(name))
     outcomes = [(row, _outcomes(folder)) for row, folder in study.done]

@@ -15,9 +15,9 @@ from pathlib import Path
 
 from attrs import evolve, fields, frozen
 
-from ..recording import RecordingError, printable
+from ..recording import printable
 from ..recording.mapping.words import foot_of_text
-from ..recording.text_table import MISSING, TextTable, read_text_table
+from ..recording.text_table import TableError, TableRow, read_rows
 from ..recording.unpacking import content_name
 from ..show.outcomes.mobility import MobilityOutcomes
 from ..show.output import CYCLE_FIELDS
@@ -106,15 +106,13 @@ class TrueRow:
 
 
 def read_truth(path: Path | str, *, rate: float | None = None, offset: float = 0.0) -> list[TrueRow]:
-    """Return the rows of a truth; raise RecordingError, naming what is missing, for a table that is none.
+    """Return the rows of a truth; raise TableError, naming what is missing, for a table that is none.
 
     `rate` is the number of samples a second that lists of gaitmap and mobgap count in, `offset` what is added to all
     times, s."""
-    table = read_text_table(Path(path))
-    reader = _Reader(table, rate, offset)
-    rows = [row for one in table.rows for row in reader.rows(one)]
+    rows = [one for row in read_rows(path, ()) for one in _Reader(row, rate, offset).rows()]
     if not rows:
-        raise RecordingError(table.path, "has no row with a value")
+        raise TableError(f"{path}: has no row with a value")
     return rows
 
 
@@ -134,52 +132,55 @@ def foot_named(path: Path | str) -> Foot | None:
 
 @frozen
 class _Reader:
-    table: TextTable
+    """Reads one row of a table."""
+
+    row: TableRow
     rate: float | None
     offset: float
 
-    def rows(self, row: dict[str, str]) -> Iterator[TrueRow]:
-        """Yield what a row of the table says."""
-        columns, of_row = {*self.table.columns}, self._of_row(row)
+    def rows(self) -> Iterator[TrueRow]:
+        """Yield what the row says."""
+        columns, of_row = self.row.cells.keys(), self._of_row()
         # the duration of a bout is none of its strides
-        named = columns & FIGURES.keys() - ({"duration_s"} if "wb_id" in columns else set())
-        known = {FIGURES[name]: self._number(row, name) for name in self.table.columns if name in named}
-        figures = {name: value for name, value in known.items() if value is not None}
+        named = [name for name in columns if name in FIGURES and not (name == "duration_s" and "wb_id" in columns)]
+        figures = {FIGURES[name]: value for name in named if (value := self._number(name)) is not None}
         if {"event", "t_s"} <= columns:
-            if (t := self._number(row, "t_s")) is not None:
-                yield evolve(of_row, event=self._event(row["event"]), t_end=t)
+            yield from self._event(of_row, self.row.cells["event"], "t_s")
         elif {"parameter", "value"} <= columns:
-            if (value := self._number(row, "value")) is not None:
-                name = FIGURES.get(row["parameter"], row["parameter"])
-                if name not in PARAMETERS:
-                    what = f"there is no parameter {printable(name, 40)}; {PARAMETER_KINDS}"
-                    raise RecordingError(self.table.path, what)
-                values = {name: value}
-                yield self._part(of_row, row, ("t_start_s", "t_end_s"), values)
+            if (value := self._number("value")) is not None:
+                yield self._part(of_row, ("t_start_s", "t_end_s"), {self._parameter(): value})
         elif {"t_start_s", "t_end_s"} <= columns:
-            yield from self._stride(of_row, self._number(row, "t_start_s"), self._number(row, "t_end_s"), figures)
+            yield from self._stride(of_row, self._number("t_start_s"), self._number("t_end_s"), figures)
         elif {"start", "end"} <= columns or "ic" in columns:
-            yield from self._in_samples(of_row, row, figures)
+            yield from self._in_samples(of_row, figures)
         else:
-            raise RecordingError(self.table.path, f"its columns are none of a truth; known are {SHAPES}")
+            raise TableError(f"{self.row.where}: the columns are none of a truth; known are {SHAPES}")
 
-    def _in_samples(self, of_row: TrueRow, row: dict[str, str], figures: dict[str, float]) -> Iterator[TrueRow]:
+    def _in_samples(self, of_row: TrueRow, figures: dict[str, float]) -> Iterator[TrueRow]:
         """Yield what a row of gaitmap or mobgap says, whose times are numbers of samples."""
         if of_row.rate is None:
-            what = "counts samples: how many are there in a second?"
-            raise RecordingError(self.table.path, what, repair="--truth-rate HZ, or a column sampling_rate_hz")
-        if "wb_id" in row and "start" in row:
-            yield self._part(of_row, row, ("start", "end"), figures)
+            what = "its times count samples; how many there are in a second says --truth-rate, or a column sampling_rate_hz"
+            raise TableError(f"{self.row.where}: {what}")
+        if {"wb_id", "start"} <= self.row.cells.keys():
+            yield self._part(of_row, ("start", "end"), figures)
             return
         for column, event in EVENT_COLUMNS.items():
-            if (t := self._number(row, column)) is not None:
-                yield evolve(of_row, event=event, t_end=t)
-        if "start" in row:
-            t_start, t_end = [self._number(row, name) for name in ("start", "end")]
-            if (ic := self._number(row, "ic")) is not None and ic != t_start:
-                # a stride of gaitmap between other events than contacts ends, as a gait cycle, with the contact in it
-                t_start, t_end = self._number(row, "pre_ic"), ic
-            yield from self._stride(of_row, t_start, t_end, figures)
+            yield from self._event(of_row, event, column)
+        t_start, t_end = self._number("start"), self._number("end")
+        ic = None if t_start is None else self._number("ic")
+        if ic is not None and ic != t_start:
+            # a stride of gaitmap between other events than contacts ends, as a gait cycle, with the contact in it
+            t_start, t_end = self._number("pre_ic"), ic
+        yield from self._stride(of_row, t_start, t_end, figures)
+
+    def _event(self, of_row: TrueRow, name: str, column: str) -> Iterator[TrueRow]:
+        key = re.sub(r"[\s_-]", "", name).lower()
+        kind = next((event for event, names in EVENT_NAMES.items() if key in names.split()), None)
+        if kind is None:
+            what = f"there is no event {printable(name, 40)}; there are HeelStrike, FootFlat, HeelOff and ToeOff"
+            raise TableError(f"{self.row.where}: {what}")
+        if (t := self._number(column)) is not None:
+            yield evolve(of_row, event=kind, t_end=t)
 
     def _stride(
         self, of_row: TrueRow, t_start: float | None, t_end: float | None, figures: dict[str, float]
@@ -188,38 +189,34 @@ class _Reader:
             time = {} if t_start is None else {"stride_time_s": (t_end - t_start) / (of_row.rate or 1.0)}
             yield evolve(of_row, kind=Kind.STRIDE, t_start=t_start, t_end=t_end, values=time | figures)
 
-    def _part(
-        self, of_row: TrueRow, row: dict[str, str], columns: tuple[str, str], values: dict[str, float]
-    ) -> TrueRow:
+    def _part(self, of_row: TrueRow, columns: tuple[str, str], values: dict[str, float]) -> TrueRow:
         """Return the figures of the walk, or of the part of it between the times in two columns."""
-        t_start, t_end = [self._number(row, name) for name in columns]
-        if t_start is None or t_end is None:
-            return evolve(of_row, kind=Kind.WALK, values=values)
-        return evolve(of_row, kind=Kind.WALK, t_start=t_start, t_end=t_end, values=values)
+        t_start, t_end = map(self._number, columns)
+        span = {} if t_start is None or t_end is None else {"t_start": t_start, "t_end": t_end}
+        return evolve(of_row, kind=Kind.WALK, values=values, **span)
 
-    def _of_row(self, row: dict[str, str]) -> TrueRow:
+    def _parameter(self) -> str:
+        given = self.row.cells["parameter"]
+        if (name := FIGURES.get(given, given)) in PARAMETERS:
+            return name
+        raise TableError(f"{self.row.where}: there is no parameter {printable(name, 40)}; {PARAMETER_KINDS}")
+
+    def _of_row(self) -> TrueRow:
         """Return what the row says besides its times and figures."""
-        foot = next((text for name in FOOT_COLUMNS if (text := row.get(name))), "")
+        cells = self.row.cells
+        foot = next((cells[name] for name in FOOT_COLUMNS if self.row.has(name)), "both")
         found = foot_of_text(foot)
-        if foot and found is None and foot.lower() not in ("both", *MISSING):
-            raise RecordingError(self.table.path, f"a foot is left or right, not {printable(foot, 40)}")
-        in_samples = {"t_s", "t_end_s", "value"}.isdisjoint(row)
+        if found is None and foot.lower() != "both":
+            raise TableError(f"{self.row.where}: a foot is left or right, not {printable(foot, 40)}")
+        in_samples = {"t_s", "t_end_s", "value"}.isdisjoint(cells)
         return TrueRow(
             Kind.EVENT,
-            row.get("recording", ""),
+            cells.get("recording", ""),
             found,
-            {name: value for name, value in row.items() if name not in OWN},
-            rate=self._number(row, "sampling_rate_hz") or self.rate if in_samples else None,
-            offset=self.offset + (self._number(row, "offset_s") or 0.0),
+            {name: value for name, value in cells.items() if name not in OWN},
+            rate=self._number("sampling_rate_hz") or self.rate if in_samples else None,
+            offset=self.offset + (self._number("offset_s") or 0.0),
         )
 
-    def _event(self, name: str) -> str:
-        key = re.sub(r"[\s_-]", "", name).lower()
-        found = next((event for event, names in EVENT_NAMES.items() if key in names.split()), None)
-        if found is None:
-            what = f"there is no event {printable(name, 40)}; there are HeelStrike, FootFlat, HeelOff and ToeOff"
-            raise RecordingError(self.table.path, what)
-        return found
-
-    def _number(self, row: dict[str, str], column: str) -> float | None:
-        return self.table.number(row, column)
+    def _number(self, column: str) -> float | None:
+        return self.row.number(column) if self.row.has(column) else None
