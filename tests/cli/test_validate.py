@@ -20,9 +20,23 @@ from truths import RATE, both_feet, contacts, samples_file, strides, table, walk
 from solepath import Foot, Session
 from solepath.recording import read_samples
 from solepath.recording.text_table import TableError
-from solepath.validate import NoMatch, Pair, WalkComparison, compare_walks, read_truth
+from solepath.validate import NoMatch, WalkComparison, compare_walks, read_truth
 
 WALK = walker()
+
+
+def pair(true: float, found: float, degraded: bool = False) -> dict[str, object]:
+    return {"recording": "a", "foot": "left", "parameter": "x_m", "true": true, "found": found, "degraded": degraded}
+
+
+def only(comparison: WalkComparison):
+    """Return the agreement of the only parameter."""
+    (row,) = comparison.agreement.itertuples()
+    return row
+
+
+def by_parameter(comparison: WalkComparison) -> dict:
+    return {row.parameter: row for row in comparison.agreement.itertuples()}
 
 
 def stride_truth(path: Path, name: str = "S01", who=WALK, shift: float = 0.0) -> Path:
@@ -44,11 +58,10 @@ def events(recorded: list[Path]) -> list:
 def test_bias_limits_and_icc_are_those_that_one_computes_by_hand_and_that_pingouin_gives() -> None:
     """Ratings of six targets by two judges: the first two columns of the example of Shrout & Fleiss 1979, table 2."""
     true, found = [9.0, 6.0, 8.0, 7.0, 10.0, 6.0], [2.0, 1.0, 4.0, 1.0, 5.0, 2.0]
-    comparison = WalkComparison([Pair("a", Foot.LEFT, {}, "x_m", a, b) for a, b in zip(true, found, strict=True)])
-    (row,) = comparison.rows
+    row = only(WalkComparison.of([pair(a, b) for a, b in zip(true, found, strict=True)]))
     differences = np.subtract(found, true)
     assert (row.n, row.bias, row.sd) == (6, pytest.approx(-31 / 6), pytest.approx(differences.std(ddof=1)))
-    assert row.limits == pytest.approx((row.bias - 1.96 * row.sd, row.bias + 1.96 * row.sd))
+    assert (row.lower, row.upper) == pytest.approx((row.bias - 1.96 * row.sd, row.bias + 1.96 * row.sd))
     # mean squares between targets, between judges and of the rest, and ICC(2,1) of the paper
     ratings = np.array([true, found]).T
     grand, (n, k) = ratings.mean(), ratings.shape
@@ -104,11 +117,11 @@ def test_events_are_matched_within_the_tolerance_and_what_one_side_has_alone_is_
     early, late, gone = true[3] - 0.24, true[4] - 0.26, true[5]
     times = [t for t in true if t not in true[3:6]] + [early, late]
     truth = read_truth(table(tmp_path / "t.csv", "foot,event,t_s", [("left", "HS", t) for t in times]))
-    (row,) = compare_walks(truth, {"S01": events}).rows
+    row = only(compare_walks(truth, {"S01": events}))
     assert (row.parameter, row.not_found, row.extra, row.icc) == ("heel_strike_s", 1, 2, None)
     assert row.n == len(times) - 1 and row.f1 == pytest.approx(2 * row.n / (2 * row.n + 3))
     assert gone not in times
-    (wide,) = compare_walks(truth, {"S01": events}, tolerance=0.28).rows
+    wide = only(compare_walks(truth, {"S01": events}, tolerance=0.28))
     assert (wide.not_found, wide.extra) == (0, 1)
 
 
@@ -124,7 +137,7 @@ def test_a_clock_that_is_apart_is_named_and_an_offset_repairs_it(tmp_path: Path,
 def test_parameters_of_a_walk_are_those_of_the_gait_table_and_of_mobility(tmp_path: Path, events: list) -> None:
     rows = [("speed_m_per_s", 1.3), ("walkdur_all_sum", 9.0), ("distance_m", 12.0), ("stride_length_m", "-")]
     truth = read_truth(table(tmp_path / "t.csv", "parameter,value", rows))
-    found = {row.parameter: row for row in compare_walks(truth, {"S01": events}).rows}
+    found = by_parameter(compare_walks(truth, {"S01": events}))
     assert found.keys() == {"speed_m_per_s", "walkdur_all_sum", "distance_m"}, "what was not measured is left out"
     for name in ("speed_m_per_s", "distance_m"):
         assert abs(found[name].bias) < 0.05 * {"speed_m_per_s": 1.3, "distance_m": 12.0}[name]
@@ -144,19 +157,19 @@ def test_lists_of_gaitmap_and_mobgap_count_samples(tmp_path: Path, events: list)
     path = table(tmp_path / "strides.csv", "s_id,sensor,start,end,ic,stride_length", of_gaitmap)
     with pytest.raises(TableError, match="its times count samples.*--truth-rate"):
         read_truth(path)
-    found = {row.parameter: row for row in compare_walks(read_truth(path, rate=RATE), {"S01": events}).rows}
+    found = by_parameter(compare_walks(read_truth(path, rate=RATE), {"S01": events}))
     assert found.keys() == {"heel_strike_s", "stride_time_s", "stride_length_m"}
     assert abs(found["stride_length_m"].bias) < 0.02 and found["stride_time_s"].f1 == 1.0
     contacts_of_mobgap = [(k, ic, foot) for foot in Foot for k, ic in enumerate(by_foot[foot])]
     ics = read_truth(table(tmp_path / "ics.csv", "step_id,ic,lr_label", contacts_of_mobgap), rate=RATE)
-    (strikes,) = compare_walks(ics, {"S01": events}).rows
+    strikes = only(compare_walks(ics, {"S01": events}))
     assert (strikes.n, strikes.f1) == (sum(map(len, by_foot.values())), 1.0)
     first, last = min(map(min, by_foot.values())), max(map(max, by_foot.values()))
     bouts = table(tmp_path / "b.csv", "wb_id,start,end,n_steps,duration_s,cadence_spm,walking_speed_mps",
                   [(1, first, last, 20, 9.0, 110.0, 1.3)])  # fmt: skip
-    rows = compare_walks(read_truth(bouts, rate=RATE), {"S01": events}).rows
-    assert [row.parameter for row in rows] == ["cadence_steps_per_min", "speed_m_per_s"]
-    assert abs(rows[1].bias) < 0.1
+    rows = by_parameter(compare_walks(read_truth(bouts, rate=RATE), {"S01": events}))
+    assert [*rows] == ["cadence_steps_per_min", "speed_m_per_s"]
+    assert abs(rows["speed_m_per_s"].bias) < 0.1
 
 
 def test_a_stride_between_middles_of_stance_is_compared_with_the_cycle_of_its_contacts(
@@ -165,7 +178,7 @@ def test_a_stride_between_middles_of_stance_is_compared_with_the_cycle_of_its_co
     ics = [round(RATE * t) for t in contacts(WALK, Foot.LEFT)]
     rows = [(k, "left", a + 30, b + 30, a, b, a + 30) for k, (a, b) in enumerate(pairwise(ics))]
     path = table(tmp_path / "s.csv", "s_id,foot,start,end,pre_ic,ic,min_vel", rows)
-    found = {row.parameter: row for row in compare_walks(read_truth(path, rate=RATE), {"S01": events}).rows}
+    found = by_parameter(compare_walks(read_truth(path, rate=RATE), {"S01": events}))
     assert found["heel_strike_s"].n == len(ics), "a contact of two strides counts once"
     assert (found["stride_time_s"].n, found["stride_time_s"].not_found) == (len(rows), 0)
     assert abs(found["stride_time_s"].bias) < 0.005
@@ -192,8 +205,7 @@ def test_conditions_and_means_of_recordings_are_groups(tmp_path: Path) -> None:
 
 
 def test_strides_that_are_degraded_count_as_found_and_are_in_no_figure() -> None:
-    pairs = [Pair("a", None, {}, "x_m", 1.0, 1.1), Pair("a", None, {}, "x_m", 1.0, 9.0, degraded=True)]
-    (row,) = WalkComparison(pairs).rows
+    row = only(WalkComparison.of([pair(1.0, 1.1), pair(1.0, 9.0, degraded=True)]))
     assert (row.n, row.bias, row.degraded, row.f1) == (1, pytest.approx(0.1), 1, 1.0)
 
 

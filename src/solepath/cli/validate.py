@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..recording import printable
 from .common.failure import Failure, note, parse_number, parse_positive, require
-from .common.files import REPORT, TRACK_KINDS, Kind, OutputFile, add_force, check_outputs, table_kind, write_json
+from .common.files import REPORT, TRACK_KINDS, Kind, OutputFile, add_force, check_outputs, write_json
 from .common.inputs import Recording, add_calibration, add_heading, calibration_of, recipe_option, recipes_of
 from .common.own_devices import drivers_of
 from .common.parser import command, option
@@ -19,7 +19,7 @@ from .common.sentences import sentences_of
 from .common.tables import source_named, table_options
 
 if TYPE_CHECKING:
-    from ..validate.agreement import Pair
+    from ..validate.agreement import PairCells
     from ..validate.truth_table import TrueRow
 
 FAILED_STATUS = 1
@@ -51,11 +51,12 @@ def run(options: Namespace) -> int:
     reasons = [one for one in results if isinstance(one, str)]
     for reason in reasons:
         note(reason)
-    comparison = WalkComparison([pair for one in results if not isinstance(one, str) for pair in one])
-    if not comparison.pairs:
+    cells = [pair for one in results if not isinstance(one, str) for pair in one]
+    if not cells:
         raise Failure("no recording could be compared")
-    groups = agreement_cells(comparison.group_rows)
-    print(table(HEADER, [*agreement_cells(comparison.rows), *([[], *groups] if groups else [])]))
+    comparison = WalkComparison.of(cells)
+    groups = agreement_cells(comparison.groups)
+    print(table(HEADER, [*agreement_cells(comparison.agreement), *([[], *groups] if groups else [])]))
     if options.out is not None:
         options.out.mkdir(parents=True, exist_ok=True)
         made = made_by(recipes_of(options)[0], options)
@@ -67,12 +68,10 @@ def run(options: Namespace) -> int:
 
 
 def _outputs(options: Namespace) -> dict[str, OutputFile]:
-    from ..validate.agreement_files import AGREEMENT_COLUMNS, GROUP_COLUMNS, PAIR_COLUMNS
-
     kinds = {
-        "agreement.csv": table_kind(AGREEMENT_COLUMNS),
-        "agreement_groups.csv": table_kind(GROUP_COLUMNS),
-        "pairs.csv": Kind(rb"\A" + ",".join(PAIR_COLUMNS).encode()),
+        "agreement.csv": Kind(rb"\Aparameter,n,bias,lower,"),
+        "agreement_groups.csv": Kind(rb"\Aby,group,parameter,n,|\A\n"),
+        "pairs.csv": Kind(rb"\Arecording,foot,parameter,true,"),
         "agreement.html": REPORT,
         "run.json": TRACK_KINDS["run.json"],
     }
@@ -95,7 +94,7 @@ def _recordings(files: Sequence[Path]) -> dict[str, list[Path]]:
     return found
 
 
-def compare(job: Job) -> list[Pair] | str:
+def compare(job: Job) -> list[PairCells] | str:
     """Return the pairs of one recording, or why there are none."""
     from ..link.kinds import make_kinds
     from ..session import Session

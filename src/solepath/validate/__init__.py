@@ -3,11 +3,11 @@
     from solepath.validate import compare_walks, read_truth
     comparison = compare_walks(read_truth("truth.csv"), {"S01": session.feed(samples) + session.finish()})
 
-`comparison.rows` has bias, limits of agreement and ICC of each parameter (agreement.py; extra `validate`)."""
+`comparison.agreement` has bias, limits of agreement and ICC of each parameter (agreement.py; extra `validate`)."""
 
 from __future__ import annotations
 
-from .agreement import AgreementRow, NoMatch, Pair, WalkComparison, compare_walks
+from .agreement import NoMatch, WalkComparison, compare_walks
 from .truth_table import TrueRow, read_truth
 
-__all__ = ["AgreementRow", "NoMatch", "Pair", "TrueRow", "WalkComparison", "compare_walks", "read_truth"]
+__all__ = ["NoMatch", "TrueRow", "WalkComparison", "compare_walks", "read_truth"]

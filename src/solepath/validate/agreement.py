@@ -2,6 +2,7 @@
 
     truth = read_truth("truth.csv")
     comparison = compare_walks(truth, {"S01": session.feed(samples) + session.finish()})
+    print(comparison.agreement)
 
 Bias is the mean of the differences, found minus true. The 95 % limits of agreement are bias +- 1.96 times their
 standard deviation (Bland & Altman 1986, Lancet 327; 1999, Stat. Methods Med. Res. 8). ICC is ICC(2,1) of Shrout &
@@ -12,11 +13,9 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
-from math import isfinite
-from statistics import fmean, stdev
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from attrs import field, frozen
+from attrs import frozen
 
 from ..events import Event, GaitCycleMeasured
 from ..show.outcomes.bouts import mean_of
@@ -25,14 +24,15 @@ from ..show.outcomes.rows import MOBILITY
 from ..show.output import CYCLE_FIELDS, cycle_value
 from ..types import Foot
 from ..types.extras import install_hint
-from ..walk.walk import Walk
+from ..walk.walk import GAIT_EVENTS, Walk
 from .comparison import STRIDE_TOLERANCE
 from .matching import TOLERANCE, is_covered, pairs
 from .truth_table import DISTANCE, Kind, TrueRow, recording_name
 
 Key = TypeVar("Key", bound=Hashable)
 Item = TypeVar("Item")
-Span = tuple[float, float]
+PairCells = dict[str, Any]
+"""A value of the truth and what was found, by the columns of WalkComparison.pairs."""
 LIMIT = 1.96
 """Standard deviations from the bias to a limit of agreement: 95 % of a normal distribution (Bland & Altman 1986)."""
 MIN_PAIRS = 3
@@ -40,102 +40,57 @@ MIN_PAIRS = 3
 MAX_GROUPS = 20
 """Largest number of values of a column by which results are grouped; with more, it is a number or a comment."""
 MEANS = "means of recordings"
-"""Group of the means of each recording, in place of all single values."""
+"""What the rows of the means of each recording are by, in place of a column."""
+EVENT_PARAMETERS = {name: f"{name.replace('-', '_')}_s" for name in GAIT_EVENTS.values()}
+"""Parameters that are times of events, such as heel_strike_s, by their names in GAIT_EVENTS."""
+PAIR_COLUMNS = ["recording", "foot", "parameter", "true", "found", "degraded"]
 
 
 class NoMatch(Exception):
     """Error for a truth that has nothing in common with what was found."""
 
 
-@frozen
-class Pair:
-    """One value of the truth with what was found."""
-
-    recording: str
-    foot: Foot | None
-    groups: Mapping[str, str]
-    """Values of the truth's other columns."""
-    parameter: str
-    """Name, with the unit, as in gait_cycles.csv; of an event its name, as in heel_strike_s, with its time as value."""
-    true: float | None
-    """What was measured; None for what only solepath has."""
-    found: float | None
-    """What solepath has; None for what only the truth has."""
-    is_event: bool = False
-    degraded: bool = False
-    """True for a stride that solepath says is wrong: it is in no figure."""
-
-    @property
-    def values(self) -> Span | None:
-        """Return true and found value; None without both, and for a degraded stride."""
-        if self.true is None or self.found is None or self.degraded:
-            return None
-        return self.true, self.found
-
-
-@frozen
-class AgreementRow:
-    """The agreement of one parameter, of all pairs or of a group of them."""
-
-    parameter: str
-    by: str
-    """Column by which pairs are grouped, "foot" or MEANS; "" for all of them."""
-    group: str
-    """Value in that column."""
-    n: int
-    """Number of pairs."""
-    bias: float | None
-    """Mean of found minus true, in the parameter's unit."""
-    sd: float | None
-    """Standard deviation of the differences."""
-    icc: float | None
-    """ICC(2,1); None of events, and with fewer than MIN_PAIRS pairs."""
-    icc_lower: float | None
-    icc_upper: float | None
-    """Ends of its 95 % confidence interval."""
-    not_found: int
-    """Number of values that only the truth has."""
-    extra: int
-    """Number of values that only solepath has, within the time that the truth covers."""
-    degraded: int
-    """Number of matched values of degraded strides."""
-
-    @property
-    def limits(self) -> Span | None:
-        """Return the 95 % limits of agreement; None with fewer than two pairs."""
-        return (
-            None if self.bias is None or self.sd is None else (self.bias - LIMIT * self.sd, self.bias + LIMIT * self.sd)
-        )
-
-    @property
-    def f1(self) -> float | None:
-        """Return F1, 2 x matched / (true + found)."""
-        matched = 2 * (self.n + self.degraded)
-        total = matched + self.not_found + self.extra
-        return matched / total if total else None
-
-
-@frozen
+@frozen(eq=False)
 class WalkComparison:
-    """All pairs of a truth and the walks that it is of."""
+    """All values of a truth with what was found, as data frames of pandas."""
 
-    pairs: Sequence[Pair]
-    rows: Sequence[AgreementRow] = field(init=False)
-    """One row for each parameter."""
-    group_rows: Sequence[AgreementRow] = field(init=False)
-    """The same by foot, by each column of groups, and of the means of recordings."""
+    pairs: Any
+    """One row for each value: recording, foot, parameter (named as in gait_cycles.csv; of events as in heel_strike_s),
+    true and found value (missing where only the other side has one), `degraded` (a stride that solepath says is wrong:
+    it is in no figure), and the other columns of the truth."""
 
-    @rows.default
-    def _all(self) -> Sequence[AgreementRow]:
-        return [row_of(parameter, found) for parameter, found in self.by_parameter().items()]
+    @classmethod
+    def of(cls, cells: Iterable[PairCells]) -> WalkComparison:
+        """Return the comparison of these pairs."""
+        import pandas
 
-    @group_rows.default
-    def _grouped(self) -> Sequence[AgreementRow]:
-        return [row for parameter, found in self.by_parameter().items() for row in _group_rows(parameter, found)]
+        frame = pandas.DataFrame(cells)
+        return cls(frame.astype({"true": float, "found": float, "degraded": bool}))
 
-    def by_parameter(self) -> dict[str, list[Pair]]:
-        """Return the pairs of each parameter."""
-        return by_key(self.pairs, lambda pair: pair.parameter)
+    @property
+    def agreement(self) -> Any:
+        """One row for each parameter.
+
+        n, bias, limits (lower, upper), ICC with its 95 % confidence interval, standard deviation of the differences
+        (sd), numbers of values that only the truth has (not_found), that only solepath has within the time that the
+        truth covers (extra), and of degraded strides, and F1: 2 x matched / (true + found)."""
+        return _frame([{"parameter": name, **agreement_of(found)} for name, found in self.parts])
+
+    @property
+    def groups(self) -> Any:
+        """The same by foot, by each other column of the truth, and of the means of recordings."""
+        return _frame([row for name, found in self.parts for row in _group_rows(name, found)])
+
+    @property
+    def parts(self) -> Any:
+        """Names of the parameters with their pairs."""
+        return self.pairs.groupby("parameter", sort=False)
+
+
+def _frame(rows: list[PairCells]) -> Any:
+    import pandas
+
+    return pandas.DataFrame(rows)
 
 
 def by_key(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list[Item]]:
@@ -153,24 +108,16 @@ def compare_walks(
 
     `tolerance` is the largest time between what is matched, s; None for 250 ms of events and 400 ms of the ends of
     strides. ImportError without the extra `validate`, NoMatch if nothing in the truth is of these walks."""
-    check_extra()
-    found = {name: Walk.of(events) for name, events in walks.items()}
-    spans = {name: walk.sample_span or walk.event_span for name, walk in found.items()}
-    by_walk = rows_by_walk(truth, [*walks])
-    compared = [
-        pair
-        for name, rows in by_walk.items()
-        for pair in compare_walk(rows, found[name], name, start=(spans[name] or (0.0, 0.0))[0], tolerance=tolerance)
-    ]
-    return WalkComparison(compared)
-
-
-def check_extra() -> None:
-    """Raise ImportError, with what installs it, if the library for the ICC is not there."""
     try:
         import pingouin  # noqa: F401
     except ImportError:
         raise ImportError(f"the ICC needs pingouin: {install_hint('validate')}") from None
+    cells: list[PairCells] = []
+    for name, rows in rows_by_walk(truth, [*walks]).items():
+        walk = Walk.of(walks[name])
+        start, _ = walk.sample_span or walk.event_span or (0.0, 0.0)
+        cells += compare_walk(rows, walk, name, start=start, tolerance=tolerance)
+    return WalkComparison.of(cells)
 
 
 def rows_by_walk(truth: Sequence[TrueRow], names: Sequence[str]) -> dict[str, list[TrueRow]]:
@@ -188,22 +135,19 @@ def rows_by_walk(truth: Sequence[TrueRow], names: Sequence[str]) -> dict[str, li
 
 def compare_walk(
     rows: Sequence[TrueRow], walk: Walk, name: str, *, start: float, tolerance: float | None = None
-) -> list[Pair]:
+) -> list[PairCells]:
     """Return the pairs of one walk, which keeps all, and the rows of its truth; the recording starts at `start` s."""
     pairing = _Pairing(walk, name, tolerance)
     parts = by_key([row.at(start) for row in rows], lambda row: (row.kind, row.event, row.foot))
-    found = [
-        pair
-        for (kind, *_), part in parts.items()
-        for pair in (pairing.figures(part) if kind is Kind.WALK else pairing.matched(part))
-    ]
-    if all([None in (pair.true, pair.found) for pair in found]):
+    makers = {Kind.WALK: pairing.figures}
+    found = [cells for key, part in parts.items() for cells in makers.get(key[0], pairing.matched)(part)]
+    if all([None in (cells["true"], cells["found"]) for cells in found]):
         times = [row.t_end for part in parts.values() for row in part if row.kind is not Kind.WALK]
         raise NoMatch(f"{name}: nothing of the truth matches{_times_apart(times, walk.event_span)}")
     return found
 
 
-def _times_apart(true: Sequence[float], found: Span | None) -> str:
+def _times_apart(true: Sequence[float], found: tuple[float, float] | None) -> str:
     """Return which times truth and recording have; "" if one has none."""
     if not true or found is None:
         return ""
@@ -219,41 +163,35 @@ class _Pairing:
     recording: str
     tolerance: float | None
 
-    def matched(self, rows: Sequence[TrueRow]) -> Iterator[Pair]:
+    def matched(self, rows: Sequence[TrueRow]) -> Iterator[PairCells]:
         """Yield the pairs of events of one kind, or of the figures of strides, of a foot."""
-        first, by_time = rows[0], {row.t_end: row for row in rows}  # a contact may be in two strides of the truth
-        times, is_event = sorted(by_time), first.kind is Kind.EVENT
-        rows, cycles = [by_time[t] for t in times], list[GaitCycleMeasured]()
-        if is_event:
-            found = sorted([t for foot in self._feet(first) for t in self.walk.times[foot][first.event]])
-            tolerance, spans = TOLERANCE, [(times[0], times[-1])]
-        else:
-            cycles = sorted(self._cycles(first), key=lambda cycle: cycle.t)
-            found, tolerance = [cycle.t for cycle in cycles], STRIDE_TOLERANCE
-            spans = [(row.t_end if row.t_start is None else row.t_start, row.t_end) for row in rows]
+        by_time = {row.t_end: row for row in rows}  # a contact may be in two strides of the truth
+        true, event, feet = sorted(by_time), rows[0].event, self._feet(rows[0])
+        cycles = sorted(self._cycles(rows[0]), key=lambda cycle: cycle.t)
+        found, tolerance = [cycle.t for cycle in cycles], STRIDE_TOLERANCE
+        spans = [(row.t_end if row.t_start is None else row.t_start, row.t_end) for row in rows]
+        if event:
+            found = sorted([t for foot in feet for t in self.walk.times[foot][event]])
+            tolerance, spans = TOLERANCE, [(true[0], true[-1])]
         tolerance = tolerance if self.tolerance is None else self.tolerance
-        by_true = dict(pairs(times, found, tolerance))
-        matches: list[tuple[int | None, int | None]] = [(i, by_true.get(i)) for i in range(len(times))]
+        by_true = dict(pairs(true, found, tolerance))
+        matches: list[tuple[float | None, int | None]] = [(t, by_true.get(i)) for i, t in enumerate(true)]
         extra = sorted({*range(len(found))} - {*by_true.values()})
         matches += [(None, j) for j in extra if is_covered(found[j], spans, tolerance)]
-        for i, j in matches:
-            t = None if j is None else found[j]
-            row = rows[i] if i is not None else min(rows, key=lambda row: abs(row.t_end - (t or 0.0)))
-            if is_event:
-                name = f"{row.event.replace('-', '_')}_s"
-                yield self._pair(row, name, None if i is None else row.t_end, t, is_event=True)
-                continue
-            cycle = None if j is None else cycles[j]
-            for name, value in row.values.items():
-                measured = None if cycle is None else cycle_value(cycle, name)
-                is_degraded = cycle is not None and cycle.degraded
-                yield self._pair(row, name, None if i is None else value, measured, degraded=is_degraded)
+        for t, j in matches:
+            at = found[j or 0] if t is None else t
+            row = by_time[min([(abs(one - at), one) for one in true])[1]]
+            values = {EVENT_PARAMETERS[event]: row.t_end} if event else row.values
+            for name, value in values.items():
+                measured = None if j is None else found[j] if event else cycle_value(cycles[j], name)
+                degraded = j is not None and not event and cycles[j].degraded
+                yield self._cells(row, name, None if t is None else value, measured, degraded)
 
-    def figures(self, rows: Sequence[TrueRow]) -> Iterator[Pair]:
+    def figures(self, rows: Sequence[TrueRow]) -> Iterator[PairCells]:
         """Yield the pairs of figures of the walk, or of parts of it."""
         for row in rows:
             for name, value in row.values.items():
-                yield self._pair(row, name, value, self._figure(row, name))
+                yield self._cells(row, name, value, self._figure(row, name))
 
     def _figure(self, row: TrueRow, name: str) -> float | None:
         if name == DISTANCE:
@@ -275,61 +213,58 @@ class _Pairing:
     def _cycles(self, row: TrueRow) -> list[GaitCycleMeasured]:
         return [cycle for foot in self._feet(row) for cycle in self.walk.cycles[foot]]
 
-    def _pair(self, row: TrueRow, parameter: str, true: float | None, found: float | None, **more: bool) -> Pair:
-        return Pair(self.recording, row.foot, row.groups, parameter, true, found, **more)
+    def _cells(
+        self, row: TrueRow, name: str, true: float | None, found: float | None, degraded: bool = False
+    ) -> PairCells:
+        values = (self.recording, row.foot and row.foot.value, name, true, found, degraded)
+        return {**dict(zip(PAIR_COLUMNS, values, strict=True)), **row.groups}
 
 
-def row_of(parameter: str, found: Sequence[Pair], by: str = "", group: str = "") -> AgreementRow:
-    """Return the agreement of the pairs of a parameter."""
-    values = _values(found)
-    differences = [b - a for a, b in values]
-    has_icc = len(values) >= MIN_PAIRS and not found[0].is_event
-    icc, lower, upper = intraclass_correlation(values) if has_icc else (None, None, None)
-    return AgreementRow(
-        parameter=parameter,
-        by=by,
-        group=group,
-        n=len(values),
-        bias=mean_of(differences),
-        sd=stdev(differences) if len(values) > 1 else None,
-        icc=icc,
-        icc_lower=lower,
-        icc_upper=upper,
-        not_found=len([pair for pair in found if pair.found is None]),
-        extra=len([pair for pair in found if pair.true is None]),
-        degraded=len([pair for pair in found if pair.degraded and None not in (pair.true, pair.found)]),
-    )
+def usable(found: Any) -> Any:
+    """Return the pairs that count: with both values, and not of a degraded stride."""
+    return found[~found.degraded].dropna(subset=["true", "found"])
 
 
-def _values(found: Iterable[Pair]) -> list[Span]:
-    return [values for pair in found if (values := pair.values) is not None]
-
-
-def _group_rows(parameter: str, found: Sequence[Pair]) -> Iterator[AgreementRow]:
-    """Yield the agreement by foot, by each other column, and of the means of recordings."""
-    names = dict.fromkeys([name for pair in found for name in pair.groups])
-    named = [("foot", [pair.foot and pair.foot.value for pair in found])]
-    named += [(name, [pair.groups.get(name) for pair in found]) for name in names]
-    for name, groups in named:
-        parts = by_key(zip(groups, found, strict=True), lambda one: one[0] or "")
-        if 1 < len(parts) <= MAX_GROUPS:
-            yield from [row_of(parameter, [pair for _, pair in part], name, group) for group, part in parts.items()]
-    walks = {
-        name: values for name, part in by_key(found, lambda pair: pair.recording).items() if (values := _values(part))
+def agreement_of(found: Any) -> PairCells:
+    """Return the agreement of the pairs of a parameter, by the columns of WalkComparison.agreement."""
+    both = usable(found)
+    differences, n = both.found - both.true, len(both)
+    bias, sd, degraded = differences.mean(), differences.std(), len(found.dropna(subset=["true", "found"])) - n
+    not_found, extra = int(found.found.isna().sum()), int(found.true.isna().sum())
+    has_icc = n >= MIN_PAIRS and found.parameter.iloc[0] not in EVENT_PARAMETERS.values()
+    matched = 2 * (n + degraded)
+    return {
+        "n": n,
+        "bias": bias,
+        "lower": bias - LIMIT * sd,
+        "upper": bias + LIMIT * sd,
+        **(intraclass_correlation(both) if has_icc else dict.fromkeys(("icc", "icc_lower", "icc_upper"))),
+        "sd": sd,
+        "not_found": not_found,
+        "extra": extra,
+        "degraded": degraded,
+        "f1": matched / (matched + not_found + extra),
     }
-    if not found[0].is_event and MIN_PAIRS <= len(walks) < sum(map(len, walks.values())):
-        means = {name: [fmean(one) for one in zip(*values, strict=True)] for name, values in walks.items()}
-        rows = [Pair(name, None, {}, parameter, true, measured) for name, (true, measured) in means.items()]
-        yield row_of(parameter, rows, MEANS)
 
 
-def intraclass_correlation(pairs: Sequence[Span]) -> tuple[float | None, float | None, float | None]:
-    """Return ICC(2,1) of pairs and the ends of its 95 % confidence interval; None for what is not defined."""
-    import pandas
+def _group_rows(parameter: str, found: Any) -> Iterator[PairCells]:
+    """Yield the agreement by foot, by each other column, and of the means of recordings."""
+    for by in ["foot", *[name for name in found.columns if name not in PAIR_COLUMNS]]:
+        parts = [*found.groupby(by, sort=False)]
+        if 1 < len(parts) <= MAX_GROUPS:
+            yield from [{"by": by, "group": of, "parameter": parameter, **agreement_of(part)} for of, part in parts]
+    both = usable(found)
+    means = (
+        both.groupby("recording", as_index=False)[["true", "found"]].mean().assign(parameter=parameter, degraded=False)
+    )
+    if parameter not in EVENT_PARAMETERS.values() and MIN_PAIRS <= len(means) < len(both):
+        yield {"by": MEANS, "group": "", "parameter": parameter, **agreement_of(means)}
+
+
+def intraclass_correlation(both: Any) -> dict[str, float]:
+    """Return ICC(2,1) of the columns true and found, and the ends of its 95 % confidence interval."""
     import pingouin
 
-    n, (true, found) = len(pairs), zip(*pairs, strict=True)
-    frame = pandas.DataFrame({"pair": [*range(n)] * 2, "by": ["true"] * n + ["found"] * n, "value": [*true, *found]})
-    row = pingouin.intraclass_corr(frame, "pair", "by", "value").set_index("Type").loc["ICC(A,1)"]
-    icc, lower, upper = [float(value) if isfinite(value) else None for value in (row["ICC"], *row["CI95"])]
-    return icc, lower, upper
+    ratings = both.reset_index(drop=True).reset_index().melt("index", ["true", "found"])
+    row = pingouin.intraclass_corr(ratings, "index", "variable", "value").set_index("Type").loc["ICC(A,1)"]
+    return dict(zip(("icc", "icc_lower", "icc_upper"), (row["ICC"], *row["CI95"]), strict=True))

@@ -58,7 +58,19 @@ PARAMETER_KINDS = f"there are columns of gait_cycles.csv, mobility outcomes such
 IDS = {"s_id", "wb_id", "gs_id", "gsd_id", "step_id", "ic_id", "n_strides", "n_steps", "n_turns", "min_vel"}
 """Columns of gaitmap and mobgap that are neither compared nor groups."""
 TIMES = {"event", "t_s", "t_start_s", "t_end_s", "start", "end", "sampling_rate_hz", "offset_s"}
-OWN = {"recording", "parameter", "value", *TIMES, *FOOT_COLUMNS, *FIGURES, *EVENT_COLUMNS, *IDS}
+OWN = {
+    "recording",
+    "parameter",
+    "value",
+    "true",
+    "found",
+    "degraded",
+    *TIMES,
+    *FOOT_COLUMNS,
+    *FIGURES,
+    *EVENT_COLUMNS,
+    *IDS,
+}
 """Columns whose meaning is known; all others are groups."""
 SHAPES = (
     "events (foot,event,t_s), strides (foot,t_start_s,t_end_s,stride_length_m), parameters (parameter,value), a stride "
@@ -159,7 +171,7 @@ class _Reader:
     def _in_samples(self, of_row: TrueRow, figures: dict[str, float]) -> Iterator[TrueRow]:
         """Yield what a row of gaitmap or mobgap says, whose times are numbers of samples."""
         if of_row.rate is None:
-            what = "its times count samples; how many there are in a second says --truth-rate, or a column sampling_rate_hz"
+            what = "its times count samples; --truth-rate, or a column sampling_rate_hz, says how many a second"
             raise TableError(f"{self.row.where}: {what}")
         if {"wb_id", "start"} <= self.row.cells.keys():
             yield self._part(of_row, ("start", "end"), figures)
@@ -192,8 +204,9 @@ class _Reader:
     def _part(self, of_row: TrueRow, columns: tuple[str, str], values: dict[str, float]) -> TrueRow:
         """Return the figures of the walk, or of the part of it between the times in two columns."""
         t_start, t_end = map(self._number, columns)
-        span = {} if t_start is None or t_end is None else {"t_start": t_start, "t_end": t_end}
-        return evolve(of_row, kind=Kind.WALK, values=values, **span)
+        if t_start is None or t_end is None:
+            t_start, t_end = None, 0.0
+        return evolve(of_row, kind=Kind.WALK, values=values, t_start=t_start, t_end=t_end)
 
     def _parameter(self) -> str:
         given = self.row.cells["parameter"]
