@@ -19,8 +19,6 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from attrs import frozen
-
 from ..recording import printable
 from ..saving.lock import locked
 from . import track
@@ -44,37 +42,10 @@ UNITS = {"": "", "s": "_s", "m": "_m", "m/s": "_m_per_s", "1/min": "_per_min"}
 """Ends of the columns of outcomes.csv, by unit."""
 TEXTS = ("foot", "flaws", "implausible", "findings", "reason")
 """Columns of words; all others of the results have numbers."""
-
-
-@frozen
-class Study:
-    """The lines of the table of a study, with what became of their recordings."""
-
-    rows: Sequence[Mapping[str, str]]
-    """Cells of each line by column."""
-    folders: Sequence[Path]
-    """Folder of the results of each line."""
-    reasons: Mapping[Path, str]
-    """Why there are no results, by folder."""
-
-    def joined(self, name: str) -> Iterator[list[str]]:
-        """Yield the rows of a table of all recordings, after the cells of the line."""
-        for row, folder in self.done:
-            with (folder / name).open(encoding="utf-8", newline="") as file:
-                for cells in [*csv.reader(file)][1:]:
-                    yield [*row.values(), *cells]
-
-    @property
-    def done(self) -> list[tuple[Mapping[str, str], Path]]:
-        """Lines with results."""
-        pairs = zip(self.rows, self.folders, strict=True)
-        return [(row, folder) for row, folder in pairs if folder not in self.reasons]
-
-    @property
-    def failed(self) -> list[list[str]]:
-        """Cells of the lines without results, with the reasons."""
-        pairs = zip(self.rows, self.folders, strict=True)
-        return [[*row.values(), self.reasons[folder]] for row, folder in pairs if folder in self.reasons]
+MAX_STEM, HASH_LENGTH = 60, 16
+"""Largest number of characters of a file's name, and number of digits of the hash, in the name of a folder."""
+Line = tuple[Mapping[str, str], Path]
+"""Cells of a line of the table, and the folder of its results."""
 
 
 def run(options: Namespace) -> int:
@@ -92,38 +63,36 @@ def run(options: Namespace) -> int:
     options.files = [*dict.fromkeys([file for one in of_rows for file in one.files])]
     check_outputs(options, [*outputs.values()])
     parts = options.out / RECORDINGS
-    jobs: dict[Path, Namespace] = {}
     for one in of_rows:
         digest = sha256(json.dumps(made_by(recipe, one), sort_keys=True).encode()).hexdigest()
-        one.out = parts / f"{one.files[0].stem if one.files else 'none'}-{digest[:16]}"
-        jobs[one.out] = one
+        one.out = parts / f"{one.files[0].stem[:MAX_STEM] if one.files else 'none'}-{digest[:HASH_LENGTH]}"
+    jobs = [*{one.out: one for one in of_rows}.values()]
     parts.mkdir(parents=True, exist_ok=True)
     (parts / ".lock").touch()
     try:
         with stop_signals_raise(), locked(parts / ".lock"), progress_bar(options.table.name, len(jobs)) as show:
             for left in parts.glob(f"{WHOLE_LATER}*"):
                 shutil.rmtree(left)
-            new = [one for folder, one in jobs.items() if not folder.exists()]
-            show(len(jobs) - len(new))
-            found = run_jobs(
-                run_recording,
-                new,
-                processes=options.processes,
-                progress=lambda done, _: show(len(jobs) - len(new) + done),
+            new = [one for one in jobs if not one.out.exists()]
+            before = len(jobs) - len(new)
+            show(before)
+            reasons = run_jobs(
+                run_recording, new, processes=options.processes, progress=lambda done, _: show(before + done)
             )
-            reasons = {one.out: reason for one, reason in zip(new, found, strict=True) if reason}
-            study = Study(rows, [one.out for one in of_rows], reasons)
-            _write(options, study, outputs, made_by(recipe, options))
+            failed = {one.out: reason for one, reason in zip(new, reasons, strict=True) if reason}
+            lines = [(row, one.out) for row, one in zip(rows, of_rows, strict=True)]
+            _write(options, lines, failed, outputs, made_by(recipe, options))
     except BlockingIOError:
         raise Failure(f"{options.out}: another batch is writing into it") from None
     except BrokenProcessPool:
         what = "the system ended a process, perhaps for want of memory"
         raise Failure(f"{what}: the same command goes on from here, with --processes 1 if need be") from None
-    for *_, reason in study.failed[:MAX_SENTENCES]:
+    for reason in [*failed.values()][:MAX_SENTENCES]:
         note(reason)
-    counts = f"{len(study.done)} done ({len(new)} run now), {len(study.failed)} failed"
+    count = len([folder for _, folder in lines if folder in failed])
+    counts = f"{len(rows) - count} done ({len(new)} run now), {count} failed"
     print(f"{len(rows)} recordings: {counts}; written to {printable(str(options.out))}")
-    return FAILED_STATUS if study.failed else 0
+    return FAILED_STATUS if failed else 0
 
 
 def _as_track(options: Namespace, files: list[Path]) -> Namespace:
@@ -178,7 +147,13 @@ def _outputs(options: Namespace, rows: Sequence[Mapping[str, str]]) -> dict[str,
     return outputs | {"run.json": OutputFile(options.out / "run.json", TRACK_KINDS["run.json"])}
 
 
-def _write(options: Namespace, study: Study, outputs: Mapping[str, OutputFile], made: Mapping[str, Any]) -> None:
+def _write(
+    options: Namespace,
+    lines: Sequence[Line],
+    failed: Mapping[Path, str],
+    outputs: Mapping[str, OutputFile],
+    made: Mapping[str, Any],
+) -> None:
     """Write all tables, and how they came about."""
     from ..show.output import write_table
 
@@ -190,15 +165,23 @@ def _write(options: Namespace, study: Study, outputs: Mapping[str, OutputFile], 
 
         outputs[name].replace(to)
 
-    own = [*study.rows[0]]
+    own, done = [*lines[0][0]], [line for line in lines if line[1] not in failed]
     for name, columns in _tables().items():
-        write(name, columns, study.joined(name))
-    outcomes = [(row, _outcomes(folder)) for row, folder in study.done]
+        write(name, columns, _joined(done, name))
+    outcomes = [(row, _outcomes(folder)) for row, folder in done]
     named = [*dict.fromkeys([column for _, values in outcomes for column in values])] or ["walkdur_all_sum_s"]
     write("outcomes.csv", named, [[*row.values(), *map(values.get, named)] for row, values in outcomes])
-    write("failures.csv", ["reason"], study.failed)
-    counts = {"recordings": len(study.rows), "failed": len(study.failed)}
-    write_json(outputs["run.json"], {**made, **counts})
+    left_out = [[*row.values(), failed[folder]] for row, folder in lines if folder in failed]
+    write("failures.csv", ["reason"], left_out)
+    write_json(outputs["run.json"], {**made, "recordings": len(lines), "failed": len(left_out)})
+
+
+def _joined(lines: Iterable[Line], name: str) -> Iterator[list[str]]:
+    """Yield the rows of a table of all recordings, after the cells of their lines."""
+    for row, folder in lines:
+        with (folder / name).open(encoding="utf-8", newline="") as file:
+            for cells in [*csv.reader(file)][1:]:
+                yield [*row.values(), *cells]
 
 
 def _outcomes(folder: Path) -> dict[str, str]:
