@@ -184,6 +184,17 @@ def test_a_stride_between_middles_of_stance_is_compared_with_the_cycle_of_its_co
     assert abs(found["stride_time_s"].bias) < 0.005
 
 
+def test_what_lies_between_the_passes_of_a_walkway_is_not_extra_and_a_stride_cut_in_two_is(
+    tmp_path: Path, events: list
+) -> None:
+    known = [one for number, one in enumerate(strides(WALK, Foot.LEFT)) if number not in (0, 3, 4)]
+    rows = [("left", a, b) for a, b, _ in known]
+    (start, _), (_, end) = rows[0][1:], rows[1][1:]
+    truth = read_truth(table(tmp_path / "t.csv", "foot,t_start_s,t_end_s", [("left", start, end), *rows[2:]]))
+    row = only(compare_walks(truth, {"S01": events}))
+    assert (row.n, row.not_found, row.extra) == (len(rows) - 1, 0, 1)
+
+
 def test_conditions_and_means_of_recordings_are_groups(tmp_path: Path) -> None:
     rows, files = [], []
     for number, condition in enumerate(("slow", "fast", "fast"), 1):

@@ -166,18 +166,18 @@ class _Pairing:
     def matched(self, rows: Sequence[TrueRow]) -> Iterator[PairCells]:
         """Yield the pairs of events of one kind, or of the figures of strides, of a foot."""
         by_time = {row.t_end: row for row in rows}  # a contact may be in two strides of the truth
-        true, event, feet = sorted(by_time), rows[0].event, self._feet(rows[0])
+        true, event = sorted(by_time), rows[0].event
+        tolerance = self.tolerance or (TOLERANCE if event else STRIDE_TOLERANCE)
         cycles = sorted(self._cycles(rows[0]), key=lambda cycle: cycle.t)
-        found, tolerance = [cycle.t for cycle in cycles], STRIDE_TOLERANCE
+        found, middles = [one.t for one in cycles], [0.5 * (one.t_start + one.t) for one in cycles]
         spans = [(row.t_end if row.t_start is None else row.t_start, row.t_end) for row in rows]
         if event:
-            found = sorted([t for foot in feet for t in self.walk.times[foot][event]])
-            tolerance, spans = TOLERANCE, [(true[0], true[-1])]
-        tolerance = tolerance if self.tolerance is None else self.tolerance
+            found = middles = sorted([t for foot in self._feet(rows[0]) for t in self.walk.times[foot][event]])
+            spans = [(true[0] - tolerance, true[-1] + tolerance)]
         by_true = dict(pairs(true, found, tolerance))
         matches: list[tuple[float | None, int | None]] = [(t, by_true.get(i)) for i, t in enumerate(true)]
         extra = sorted({*range(len(found))} - {*by_true.values()})
-        matches += [(None, j) for j in extra if is_covered(found[j], spans, tolerance)]
+        matches += [(None, j) for j in extra if is_covered(middles[j], spans, 0.0)]
         for t, j in matches:
             at = found[j or 0] if t is None else t
             row = by_time[min([(abs(one - at), one) for one in true])[1]]
@@ -203,7 +203,7 @@ class _Pairing:
         if row.t_start is None:
             cycles = [cycle for cycle in cycles if cycle.steady]
         else:
-            span, tolerance = [(row.t_start, row.t_end)], TOLERANCE if self.tolerance is None else self.tolerance
+            span, tolerance = [(row.t_start, row.t_end)], self.tolerance or TOLERANCE
             cycles = [one for one in cycles if all([is_covered(t, span, tolerance) for t in (one.t_start, one.t)])]
         return mean_of([cycle_value(cycle, name) for cycle in cycles])
 
