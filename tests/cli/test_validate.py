@@ -134,6 +134,15 @@ def test_a_clock_that_is_apart_is_named_and_an_offset_repairs_it(tmp_path: Path,
     assert mended.returncode == 0 and " 0.00" not in mended.stdout.splitlines()[2]
 
 
+def test_a_truth_of_the_other_foot_is_named(tmp_path: Path) -> None:
+    path = samples_file(tmp_path / "walk.csv", WALK, Foot.LEFT)
+    truth = table(tmp_path / "truth.csv", "foot,event,t_s", [("left", "HS", t) for t in contacts(WALK, Foot.LEFT)])
+    done = run("validate", truth, path)
+    assert "it is of the left foot, the recording of the right one; --foot says otherwise" in done.stderr
+    mended = run("validate", truth, path, "--foot", "left", "--out", tmp_path / "out")
+    assert mended.returncode == 0 and rows_in(tmp_path / "out" / "agreement_groups.csv") == []
+
+
 def test_parameters_of_a_walk_are_those_of_the_gait_table_and_of_mobility(tmp_path: Path, events: list) -> None:
     rows = [("speed_m_per_s", 1.3), ("walkdur_all_sum", 9.0), ("distance_m", 12.0), ("stride_length_m", "-")]
     truth = read_truth(table(tmp_path / "t.csv", "parameter,value", rows))

@@ -70,7 +70,7 @@ def run(options: Namespace) -> int:
 def _outputs(options: Namespace) -> dict[str, OutputFile]:
     kinds = {
         "agreement.csv": Kind(rb"\Aparameter,n,bias,lower,"),
-        "agreement_groups.csv": Kind(rb"\Aby,group,parameter,n,|\A\n"),
+        "agreement_groups.csv": Kind(rb"\Aby,group,parameter,n,"),
         "pairs.csv": Kind(rb"\Arecording,foot,parameter,true,"),
         "agreement.html": REPORT,
         "run.json": TRACK_KINDS["run.json"],

@@ -62,10 +62,7 @@ class WalkComparison:
     @classmethod
     def of(cls, cells: Iterable[PairCells]) -> WalkComparison:
         """Return the comparison of these pairs."""
-        import pandas
-
-        frame = pandas.DataFrame(cells)
-        return cls(frame.astype({"true": float, "found": float, "degraded": bool}))
+        return cls(_frame(cells).astype({"true": float, "found": float, "degraded": bool}))
 
     @property
     def agreement(self) -> Any:
@@ -79,7 +76,8 @@ class WalkComparison:
     @property
     def groups(self) -> Any:
         """The same by foot, by each other column of the truth, and of the means of recordings."""
-        return _frame([row for name, found in self.parts for row in _group_rows(name, found)])
+        columns = ["by", "group", *self.agreement.columns]
+        return _frame([row for name, found in self.parts for row in _group_rows(name, found)], columns)
 
     @property
     def parts(self) -> Any:
@@ -87,10 +85,10 @@ class WalkComparison:
         return self.pairs.groupby("parameter", sort=False)
 
 
-def _frame(rows: list[PairCells]) -> Any:
+def _frame(rows: Iterable[PairCells], columns: Sequence[str] | None = None) -> Any:
     import pandas
 
-    return pandas.DataFrame(rows)
+    return pandas.DataFrame(rows, columns=columns)
 
 
 def by_key(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list[Item]]:
@@ -142,17 +140,22 @@ def compare_walk(
     makers = {Kind.WALK: pairing.figures}
     found = [cells for key, part in parts.items() for cells in makers.get(key[0], pairing.matched)(part)]
     if all([None in (cells["true"], cells["found"]) for cells in found]):
-        times = [row.t_end for part in parts.values() for row in part if row.kind is not Kind.WALK]
-        raise NoMatch(f"{name}: nothing of the truth matches{_times_apart(times, walk.event_span)}")
+        raise NoMatch(
+            f"{name}: nothing of the truth matches{_why([one for part in parts.values() for one in part], walk)}"
+        )
     return found
 
 
-def _times_apart(true: Sequence[float], found: tuple[float, float] | None) -> str:
-    """Return which times truth and recording have; "" if one has none."""
-    if not true or found is None:
+def _why(rows: Sequence[TrueRow], walk: Walk) -> str:
+    """Return that truth and recording are of different feet, or which times they have; "" if one has none."""
+    true, found = {row.foot for row in rows}, {*walk.known_feet}
+    if None not in true and found and not true & found:
+        return f": it is of the {min(true)} foot, the recording of the {min(found)} one; --foot says otherwise"
+    times = [row.t_end for row in rows if row.kind is not Kind.WALK]
+    if not times or walk.event_span is None:
         return ""
-    spans = f"its times are {min(true):.1f} to {max(true):.1f} s, the recording's {found[0]:.1f} to {found[1]:.1f} s"
-    return f": {spans}; --offset, or a column offset_s, is added to those of the truth"
+    here, there = [f"{start:.1f} to {end:.1f} s" for start, end in ((min(times), max(times)), walk.event_span)]
+    return f": its times are {here}, the recording's {there}; --offset, or a column offset_s, is added to the truth's"
 
 
 @frozen
