@@ -98,6 +98,7 @@ def compare(job: Job) -> list[PairCells] | str:
     """Return the pairs of one recording, or why there are none."""
     from ..link.kinds import make_kinds
     from ..session import Session
+    from ..show.findings import findings
     from ..validate.agreement import compare_walk
     from ..walk.walk import Walk
 
@@ -113,6 +114,9 @@ def compare(job: Job) -> list[PairCells] | str:
         if recording.failure is not None:
             raise recording.failure
         walk.take(None, session.finish())
+        for one in findings(walk):
+            if one.act:
+                note(f"{printable(name)}: {one.text}")
         return compare_walk(rows, walk, name, start=start or 0.0, tolerance=options.tolerance)
     except Exception as error:
         if not (sentences := sentences_of(error)):

@@ -150,7 +150,8 @@ def _why(rows: Sequence[TrueRow], walk: Walk) -> str:
     """Return that truth and recording are of different feet, or which times they have; "" if one has none."""
     true, found = {row.foot for row in rows}, {*walk.known_feet}
     if None not in true and found and not true & found:
-        return f": it is of the {min(true)} foot, the recording of the {min(found)} one; --foot says otherwise"
+        [theirs], [ours] = true, found
+        return f": it is of the {theirs} foot, the recording of the {ours} one; --foot says otherwise"
     times = [row.t_end for row in rows if row.kind is not Kind.WALK]
     if not times or walk.event_span is None:
         return ""
