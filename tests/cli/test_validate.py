@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
 from statistics import fmean, stdev
+from typing import Any
 
 import numpy as np
 import pandas
@@ -23,6 +25,8 @@ from solepath.recording.text_table import TableError
 from solepath.validate import NoMatch, WalkComparison, compare_walks, read_truth
 
 WALK = walker()
+Evaluated = Callable[[str, str], Any]
+"""Function from a data set and a recipe to the laboratory's result."""
 
 
 def pair(true: float, found: float, degraded: bool = False) -> dict[str, object]:
@@ -266,3 +270,26 @@ def test_nothing_in_common_is_an_error_in_python_too(tmp_path: Path, events: lis
     truth = read_truth(table(tmp_path / "t.csv", "event,t_s", [("HS", 900.0)]))
     with pytest.raises(NoMatch, match="its times are 900.0 to 900.0 s"):
         compare_walks(truth, {"S01": events})
+
+
+@pytest.mark.long
+def test_recorded_walks_have_the_scores_of_the_laboratory(data_dir: Path, evaluated: Evaluated, tmp_path: Path) -> None:
+    """The labels of the 60 walks of ipol_10m_uturn as a table that somebody would write."""
+    files = sorted((data_dir / "ipol_10m_uturn").glob("*.npz"))
+    if not files:
+        pytest.skip(f"no ipol_10m_uturn in {data_dir}")
+    rows = []
+    for file in files:
+        with np.load(file) as read:
+            for foot in Foot:
+                for toe_off, contact in read[f"gt_{foot}"]:
+                    rows += [(file.stem, foot, "TO", toe_off), (file.stem, foot, "HS", contact)]
+    truth = table(tmp_path / "truth.csv", "recording,foot,event,t_s", rows)
+    assert run("validate", truth, *files, "--out", tmp_path / "out").returncode == 0
+    scores = evaluated("ipol_10m_uturn", "default").summaries[0].together
+    found = {row["parameter"]: row for row in rows_in(tmp_path / "out" / "agreement.csv")}
+    for name in ("heel_strike", "toe_off"):
+        row = found[f"{name}_s"]
+        assert int(row["n"]) + int(row["not_found"]) == scores[f"{name}_true"]
+        assert int(row["n"]) + int(row["extra"]) == scores[f"{name}_found"]
+        assert float(row["f1"]) == pytest.approx(scores[f"{name}_f1"], abs=1e-6)
