@@ -215,10 +215,10 @@ def test_conditions_and_means_of_recordings_are_groups(tmp_path: Path) -> None:
         files.append(samples_file(tmp_path / f"P{number}_right.csv", who, Foot.RIGHT))
         rows += [(f"P{number}", f"{a:.4f}".replace(".", ","), f"{b:.4f}".replace(".", ","), condition)
                  for a, b, _ in strides(who, Foot.RIGHT)]  # fmt: skip
-    truth = table(tmp_path / "truth.csv", "\ufeffrecording,t_start_s,t_end_s,condition", rows, separator=";")
+    truth = table(tmp_path / "truth.csv", "\ufeffrecording,t_start_s,t_end_s,phase", rows, separator=";")
     done = run("validate", truth, *files, "--out", tmp_path / "out")
     groups = {(row["by"], row["group"]): row for row in rows_in(tmp_path / "out" / "agreement_groups.csv")}
-    assert groups.keys() == {("condition", "slow"), ("condition", "fast"), ("means of recordings", "")}, done.stderr
+    assert groups.keys() == {("phase", "slow"), ("phase", "fast"), ("means of recordings", "")}, done.stderr
     assert groups["means of recordings", ""]["n"] == "3"
     pairs = [row for row in rows_in(tmp_path / "out" / "pairs.csv") if row["found"] and row["true"]]
     means = [

@@ -97,24 +97,23 @@ class TrueRow:
     foot: Foot | None
     groups: Mapping[str, str]
     """Values of all other columns."""
+    from_start: bool
+    """True if times are since the start of the recording; else they are on its clock."""
     t_start: float | None = None
-    """Start of a stride, or of a part of a walk, on the truth's clock, s, or samples; None if it is not known."""
+    """Start of a stride, or of a part of a walk, s; None if it is not known."""
     t_end: float = 0.0
-    """Its end, or the time of an event."""
+    """Its end, or the time of an event, s."""
     event: str = ""
     """Kind of an event, by its name in walk.GAIT_EVENTS."""
     values: Mapping[str, float] = {}
     """Figures by their names in gait_cycles.csv, with their units there."""
-    rate: float | None = None
-    """Samples a second, if times are numbers of samples since the start of the recording."""
-    offset: float = 0.0
-    """What is added to its times, s."""
 
     def at(self, start: float) -> TrueRow:
-        """Return the row with times in s on the clock of the recording, which starts at `start` s."""
-        rate, offset = (1.0, self.offset) if self.rate is None else (self.rate, self.offset + start)
-        t_start = None if self.t_start is None else self.t_start / rate + offset
-        return evolve(self, t_start=t_start, t_end=self.t_end / rate + offset, rate=None, offset=0.0)
+        """Return the row with times on the clock of the recording, which starts at `start` s."""
+        if not self.from_start:
+            return self
+        t_start = None if self.t_start is None else self.t_start + start
+        return evolve(self, t_start=t_start, t_end=self.t_end + start, from_start=False)
 
 
 def read_truth(path: Path | str, *, rate: float | None = None, offset: float = 0.0) -> list[TrueRow]:
@@ -157,12 +156,13 @@ class _Reader:
         named = [name for name in columns if name in FIGURES and not (name == "duration_s" and "wb_id" in columns)]
         figures = {FIGURES[name]: value for name in named if (value := self._number(name)) is not None}
         if {"event", "t_s"} <= columns:
-            yield from self._event(of_row, self.row.cells["event"], "t_s")
+            yield from self._event(of_row, self.row.cells["event"], self._time("t_s"))
         elif {"parameter", "value"} <= columns:
             if (value := self._number("value")) is not None:
-                yield self._part(of_row, ("t_start_s", "t_end_s"), {self._parameter(): value})
+                span = self._time("t_start_s"), self._time("t_end_s")
+                yield self._part(of_row, *span, {self._parameter(): value})
         elif {"t_start_s", "t_end_s"} <= columns:
-            yield from self._stride(of_row, self._number("t_start_s"), self._number("t_end_s"), figures)
+            yield from self._stride(of_row, self._time("t_start_s"), self._time("t_end_s"), figures)
         elif {"start", "end"} <= columns or "ic" in columns:
             yield from self._in_samples(of_row, figures)
         else:
@@ -170,42 +170,41 @@ class _Reader:
 
     def _in_samples(self, of_row: TrueRow, figures: dict[str, float]) -> Iterator[TrueRow]:
         """Yield what a row of gaitmap or mobgap says, whose times are numbers of samples."""
-        if of_row.rate is None:
+        if (rate := self._number("sampling_rate_hz") or self.rate) is None:
             what = "its times count samples; --truth-rate, or a column sampling_rate_hz, says how many a second"
             raise TableError(f"{self.row.where}: {what}")
-        if {"wb_id", "start"} <= self.row.cells.keys():
-            yield self._part(of_row, ("start", "end"), figures)
+        times = {name: self._time(name, rate) for name in ("start", "end", *EVENT_COLUMNS)}
+        t_start, t_end, ic = times["start"], times["end"], times["ic"]
+        if "wb_id" in self.row.cells:
+            yield self._part(of_row, t_start, t_end, figures)
             return
         for column, event in EVENT_COLUMNS.items():
-            yield from self._event(of_row, event, column)
-        t_start, t_end = self._number("start"), self._number("end")
-        ic = None if t_start is None else self._number("ic")
-        if ic is not None and ic != t_start:
+            yield from self._event(of_row, event, times[column])
+        if None not in (t_start, ic) and ic != t_start:
             # a stride of gaitmap between other events than contacts ends, as a gait cycle, with the contact in it
-            t_start, t_end = self._number("pre_ic"), ic
+            t_start, t_end = times["pre_ic"], ic
         yield from self._stride(of_row, t_start, t_end, figures)
 
-    def _event(self, of_row: TrueRow, name: str, column: str) -> Iterator[TrueRow]:
+    def _event(self, of_row: TrueRow, name: str, t: float | None) -> Iterator[TrueRow]:
         key = re.sub(r"[\s_-]", "", name).lower()
         kind = next((event for event, names in EVENT_NAMES.items() if key in names.split()), None)
         if kind is None:
             what = f"there is no event {printable(name, 40)}; there are HeelStrike, FootFlat, HeelOff and ToeOff"
             raise TableError(f"{self.row.where}: {what}")
-        if (t := self._number(column)) is not None:
+        if t is not None:
             yield evolve(of_row, event=kind, t_end=t)
 
     def _stride(
         self, of_row: TrueRow, t_start: float | None, t_end: float | None, figures: dict[str, float]
     ) -> Iterator[TrueRow]:
         if t_end is not None:
-            time = {} if t_start is None else {"stride_time_s": (t_end - t_start) / (of_row.rate or 1.0)}
+            time = {} if t_start is None else {"stride_time_s": t_end - t_start}
             yield evolve(of_row, kind=Kind.STRIDE, t_start=t_start, t_end=t_end, values=time | figures)
 
-    def _part(self, of_row: TrueRow, columns: tuple[str, str], values: dict[str, float]) -> TrueRow:
-        """Return the figures of the walk, or of the part of it between the times in two columns."""
-        t_start, t_end = map(self._number, columns)
+    def _part(self, of_row: TrueRow, t_start: float | None, t_end: float | None, values: dict[str, float]) -> TrueRow:
+        """Return the figures of the walk, or of the part of it between two times."""
         if t_start is None or t_end is None:
-            t_start, t_end = None, 0.0
+            return evolve(of_row, kind=Kind.WALK, values=values)
         return evolve(of_row, kind=Kind.WALK, values=values, t_start=t_start, t_end=t_end)
 
     def _parameter(self) -> str:
@@ -221,15 +220,14 @@ class _Reader:
         found = foot_of_text(foot)
         if found is None and foot.lower() != "both":
             raise TableError(f"{self.row.where}: a foot is left or right, not {printable(foot, 40)}")
-        in_samples = {"t_s", "t_end_s", "value"}.isdisjoint(cells)
-        return TrueRow(
-            Kind.EVENT,
-            cells.get("recording", ""),
-            found,
-            {name: value for name, value in cells.items() if name not in OWN},
-            rate=self._number("sampling_rate_hz") or self.rate if in_samples else None,
-            offset=self.offset + (self._number("offset_s") or 0.0),
-        )
+        groups = {name: value for name, value in cells.items() if name not in OWN}
+        from_start = {"t_s", "t_end_s"}.isdisjoint(cells)
+        return TrueRow(Kind.EVENT, cells.get("recording", ""), found, groups, from_start)
+
+    def _time(self, column: str, rate: float = 1.0) -> float | None:
+        """Return the time in a column, s, `rate` numbers of it a second."""
+        value = self._number(column)
+        return None if value is None else value / rate + self.offset + (self._number("offset_s") or 0.0)
 
     def _number(self, column: str) -> float | None:
         return self.row.number(column) if self.row.has(column) else None
