@@ -34,9 +34,7 @@ EVENT_COLUMNS = {"pre_ic": "heel-strike", "ic": "heel-strike", "tc": "toe-off"}
 """Columns of gaitmap and mobgap with samples of events; min_vel, the middle of stance, is no event here."""
 FOOT_COLUMNS = ("foot", "lr_label", "side", "sensor")
 FIGURES = {
-    **{
-        column: column for column in CYCLE_FIELDS if re.search("^(?!t_).*_(s|m|deg|share|per_s|per_min)$|phase", column)
-    },
+    **{column: column for column in CYCLE_FIELDS if re.search("^(?!t_).*_(s|m|deg|share|min)$", column)},
     "stride_length": "stride_length_m",
     "stride_time": "stride_time_s",
     "gait_velocity": "speed_m_per_s",
