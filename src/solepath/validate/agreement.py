@@ -183,8 +183,7 @@ class _Pairing:
         extra = sorted({*range(len(found))} - {*by_true.values()})
         matches += [(None, j) for j in extra if is_covered(middles[j], spans, 0.0)]
         for t, j in matches:
-            at = found[j or 0] if t is None else t
-            row = by_time[min([(abs(one - at), one) for one in true])[1]]
+            row = by_time[_nearest(true, found[j or 0]) if t is None else t]
             values = {EVENT_PARAMETERS[event]: row.t_end} if event else row.values
             for name, value in values.items():
                 measured = None if j is None else found[j] if event else cycle_value(cycles[j], name)
@@ -222,6 +221,10 @@ class _Pairing:
     ) -> PairCells:
         values = (self.recording, row.foot and row.foot.value, name, true, found, degraded)
         return {**dict(zip(PAIR_COLUMNS, values, strict=True)), **row.groups}
+
+
+def _nearest(times: Sequence[float], t: float) -> float:
+    return min(times, key=lambda one: abs(one - t))
 
 
 def usable(found: Any) -> Any:
