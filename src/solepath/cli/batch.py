@@ -42,6 +42,8 @@ UNITS = {"": "", "s": "_s", "m": "_m", "m/s": "_m_per_s", "1/min": "_per_min"}
 """Ends of the columns of outcomes.csv, by unit."""
 TEXTS = ("foot", "flaws", "implausible", "findings", "reason")
 """Columns of words; all others of the results have numbers."""
+OWN_TABLE = Kind(rb"\A[^\n]*\bfile\b[^\n]*,(flaws|steady|implausible|findings|reason)\n")
+"""A table of a study: columns of one's own, then those of the results, with the last column of each table."""
 MAX_STEM, HASH_LENGTH = 60, 16
 """Largest number of characters of a file's name, and number of digits of the hash, in the name of a folder."""
 Line = tuple[Mapping[str, str], Path]
@@ -52,6 +54,7 @@ def run(options: Namespace) -> int:
     """Run the recordings that are not done, and write the tables; return 1 if a recording failed, else 0."""
     from ..recording.text_table import read_rows
     from ..show.tables.progress import progress_bar
+    from ..show.tables.table import counted
     from .common.loop import stop_signals_raise
 
     if options.parquet:
@@ -91,7 +94,7 @@ def run(options: Namespace) -> int:
         note(reason)
     count = len([folder for _, folder in lines if folder in failed])
     counts = f"{len(rows) - count} done ({len(new)} run now), {count} failed"
-    print(f"{len(rows)} recordings: {counts}; written to {printable(str(options.out))}")
+    print(f"{counted(len(rows), 'recording')}: {counts}; written to {printable(str(options.out))}")
     return FAILED_STATUS if failed else 0
 
 
@@ -137,13 +140,9 @@ def _outputs(options: Namespace, rows: Sequence[Mapping[str, str]]) -> dict[str,
     taken = {column for columns in _tables().values() for column in columns} | {*TEXTS}
     if common := taken.intersection(rows[0]):
         raise Failure(f"{options.table}: has a column {min(common)}, as the results have: give it another name")
-    ends = {name: ",".join(columns) for name, columns in _tables().items()}
-    ends |= {"outcomes.csv": "walkdur_all_sum_s", "failures.csv": "reason"}
-    kinds = {name: Kind(rb"\A[^\n]*," + re.escape(end.encode()) + rb"[,\n]") for name, end in ends.items()}
-    suffix = ".csv"
-    if options.parquet:
-        suffix, kinds = ".parquet", dict.fromkeys(kinds, Kind(rb"\APAR1"))
-    outputs = {name: OutputFile((options.out / name).with_suffix(suffix), kind) for name, kind in kinds.items()}
+    suffix, kind = (".parquet", Kind(rb"\APAR1")) if options.parquet else (".csv", OWN_TABLE)
+    names = [*_tables(), "outcomes.csv", "failures.csv"]
+    outputs = {name: OutputFile((options.out / name).with_suffix(suffix), kind) for name in names}
     return outputs | {"run.json": OutputFile(options.out / "run.json", TRACK_KINDS["run.json"])}
 
 
@@ -169,7 +168,7 @@ def _write(
     for name, columns in _tables().items():
         write(name, columns, _joined(done, name))
     outcomes = [(row, _outcomes(folder)) for row, folder in done]
-    named = [*dict.fromkeys([column for _, values in outcomes for column in values])] or ["walkdur_all_sum_s"]
+    named = [*dict.fromkeys([column for _, values in outcomes for column in values])] or ["findings"]
     write("outcomes.csv", named, [[*row.values(), *map(values.get, named)] for row, values in outcomes])
     left_out = [[*row.values(), failed[folder]] for row, folder in lines if folder in failed]
     write("failures.csv", ["reason"], left_out)
