@@ -9,8 +9,11 @@ what one foot does from lying flat on the floor to lying flat again. Needs `pip 
 
 import subprocess
 import sys
+from collections.abc import Mapping
+from itertools import pairwise
 from math import degrees, radians
 from pathlib import Path
+from typing import Any
 
 from solepath import Foot, Session, StrideTaken, to_frame
 from solepath.recording import RecordingError, TableMapping, read_samples
@@ -34,7 +37,19 @@ def lab_files(folder: Path) -> list[Path]:
             rows.append(";".join([f"{1000 * sample.t:.0f}", *[f"{value:.4f}" for value in values]]))
         paths.append(folder / f"S01_{foot.value}.csv")
         paths[-1].write_text("\n".join(rows) + "\n")
+    write_truth(folder, walker.truth().feet)
     return paths
+
+
+def write_truth(folder: Path, feet: Mapping[Foot, Any]) -> None:
+    """Write what a walkway would have measured, every stride from contact to contact, and the list of a study."""
+    rows = ["recording,foot,t_start_s,t_end_s,stride_length_m"]
+    for foot, walked in feet.items():
+        for start, end in pairwise(walked.heel_strikes):
+            length = next(one.length for one in walked.strides if start < one.t_end and one.t_start < end < one.t_end)
+            rows.append(f"S01,{foot.value},{start:.3f},{end:.3f},{length:.3f}")
+    (folder / "truth.csv").write_text("\n".join(rows) + "\n")
+    (folder / "study.csv").write_text("file,participant,condition\nS01_left.csv;S01_right.csv,S01,usual pace\n")
 
 
 folder = Path(sys.argv[1])

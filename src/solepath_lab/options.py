@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from solepath.cli.common.failure import parse_count, parse_whole_number
 from solepath.cli.common.parser import Option, option
+from solepath.cli.common.processes import add_processes
 
 
 def seeds(count: int, first: int, counted: str = "walks", may_be_none: bool = False) -> Option:
@@ -33,12 +33,6 @@ def only(what: str = "data set") -> Option:
 
 FOLDER = option("dir", metavar="DIR", type=Path, help="the recorded data")
 ONLY = only()
-PROCESSES = option(
-    "--processes",
-    metavar="N",
-    type=parse_count,
-    default=os.cpu_count() or 1,
-    help="jobs at a time (default: one for each processor)",
-)
+PROCESSES = add_processes
 EVERY = option("--every", metavar="N", type=parse_count, default=1, help="one in N of them (default: all)")
 JSON = option("--json", metavar="FILE", type=Path, help="write the figures as JSON too")

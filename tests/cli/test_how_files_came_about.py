@@ -62,7 +62,7 @@ def test_the_words_of_run_json_give_the_same_events_again(tmp_path: Path, monkey
     words = json.loads((out / "run.json").read_text())["command_line"]
     assert words[:2] == ["track", "left.csv"] and str(tmp_path) not in " ".join(words)
     monkeypatch.chdir(walk.parent)
-    again = run(*words)
+    again = run(*words, "--out", "out")
     assert again.returncode == 0, again.stderr
     assert (walk.parent / "out" / "events.jsonl").read_bytes() == (out / "events.jsonl").read_bytes()
 

@@ -51,7 +51,11 @@ def test_tables_of_a_lab_become_frames_and_a_report(here: Path, monkeypatch: pyt
     runpy.run_path(str(EXAMPLES / "researcher.py"), run_name="__main__")
     typed("docs/researcher.md", "track")
     typed("docs/researcher.md", "check")
-    _, names = run_page("docs/researcher.md")
+    typed("docs/researcher.md", "validate")
+    typed("docs/researcher.md", "batch")
+    assert (here / "lab" / "agreement" / "agreement.html").exists() and (here / "lab/results/outcomes.csv").exists()
+    (*_, agreement), names = run_page("docs/researcher.md")
+    assert agreement.splitlines()[1].split()[:2] == ["stride_time_s", "37"]
     assert set(names["steady"].foot) == {"left", "right"} and len(names["steady"]) > 20
     first = names["strides"].groupby("foot").t_start.min()
     assert (first < 1.0).all(), "the first stride contains the standing, as the page says"

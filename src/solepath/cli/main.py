@@ -1,6 +1,6 @@
 """`solepath`: parses the command line, runs the command and reports its errors.
 
-Exit status: 0 for success; 1 if a check found something (`check`, `fleet-demo`, `convert --validate`);
+Exit status: 0 for success; 1 if a check found something (`check`, `batch`, `validate`, `fleet-demo`, `convert`);
 2 for an error in the command line or a file, with one line on stderr; 130 if interrupted before all input was used.
 """
 
@@ -13,21 +13,20 @@ from collections.abc import Callable, Sequence
 from importlib.machinery import ExtensionFileLoader
 from importlib.util import find_spec
 
-from ..recording import RecordingError
-from ..types.extras import install_hint
-from . import check, completion, convert, demo, fleet_demo, track, web
+from . import batch, check, completion, convert, demo, fleet_demo, track, validate, web
 from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
 from .common.failure import Failure, note
-from .common.os_errors import file_error_text, in_words
-from .common.own_devices import own_fault
 from .common.parser import Parser
+from .common.sentences import sentences_of
 from .completion import COMPLETING
 
 COMMANDS = (
     demo,
     track,
     check,
+    batch,
+    validate,
     scan,
     live,
     emulate,
@@ -40,7 +39,7 @@ COMMANDS = (
 
 GROUPS = (
     ("with your sensors", ("scan", "live", "record", "calibrate")),
-    ("with recordings", ("track", "check", "convert")),
+    ("with recordings", ("track", "check", "batch", "validate", "convert")),
     ("without sensors", ("demo", "emulate", "web", "fleet-demo")),
     ("this shell", ("completion",)),
 )
@@ -53,10 +52,6 @@ first steps:
   solepath track walk.csv      see how somebody walked, from your recording
   solepath live                see how you walk, with sensors on your feet"""
 """Three commands for a newcomer, with which the help starts."""
-
-
-OURS = ("solepath", "solepath_lab")
-"""Packages whose errors are sentences for a person."""
 
 
 class _TopParser(Parser):
@@ -122,26 +117,17 @@ def guarded(run: Callable[[Sequence[str] | None], int], arguments: Sequence[str]
         status = run(arguments)
         sys.stdout.flush()
         return status
-    except RecordingError as error:
-        for problem in error.problems:
-            note(in_words(problem))
-    except ModuleNotFoundError as error:
-        if error.name != "numpy":
-            raise
-        note(f"this needs numpy: {install_hint('arrays')}")
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
         # the other end of the pipe was closed; without this line Python would report that again when it closes stdout
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except OSError as error:
-        note(file_error_text(error) if error.filename else f"the output cannot be written: {file_error_text(error)}")
     except Exception as error:
-        is_sentence = type(error).__module__.partition(".")[0] in OURS
-        if (fault := in_words(error) if is_sentence else own_fault(error)) is None:
+        if not (sentences := sentences_of(error)):
             raise
-        note(fault)
+        for sentence in sentences:
+            note(sentence)
     return 2
 
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 import csv
 import json
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from math import atan2, degrees, remainder, tau
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 from attrs import define, field
 
@@ -65,6 +65,8 @@ DEFECT = Flaw.DEFECT.name.lower()
 """Flaw in strides.csv of the strides of a foot whose data cannot be right."""
 FORMULA = re.compile(r"\s*[=+\-@]")
 """Start of a text that programs for tables run as a formula."""
+Cell = str | int | float | None
+"""What a cell of a table may hold; None is left empty."""
 MIN_DIRECTED_STRIDE = 0.3
 """Shortest stride that shows in which direction the wearer walks, m; chosen by hand."""
 
@@ -73,6 +75,15 @@ def table_writer(file: TextIO) -> Callable[[Iterable[object]], object]:
     """Return what writes a row of a .csv, with an apostrophe before a name that programs would run as a formula."""
     write = csv.writer(file, lineterminator="\n").writerow
     return lambda row: write([_plain(cell) if isinstance(cell, str) else cell for cell in row])
+
+
+def write_table(path: Path, columns: Sequence[str], rows: Iterable[Iterable[Cell]]) -> None:
+    """Write a whole .csv, with six digits after the point of a float; raise OSError when it cannot be written."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        write = table_writer(file)
+        write(columns)
+        for row in rows:
+            write([f"{cell:.6f}" if isinstance(cell, float) else cell for cell in row])
 
 
 def _plain(text: str) -> str:
@@ -93,13 +104,18 @@ def _stride_row(event: StrideTaken) -> list[object]:
     return [event.foot, repr(event.t_start), repr(event.t_end), *before, int(event.degraded), *after, flaws]
 
 
+def cycle_value(event: GaitCycleMeasured, column: str) -> Any:
+    """Return what gait_cycles.csv has of a gait cycle in a column, an angle in degrees; None for what is not known."""
+    value = getattr(event, CYCLE_FIELDS[column])
+    return degrees(value) if column.endswith("_deg") and value is not None else value
+
+
 def _cycle_row(event: GaitCycleMeasured) -> list[object]:
     """Return the row of a gait cycle; a value that is not known is left empty."""
     row = []
-    for column, name in CYCLE_FIELDS.items():
-        value = getattr(event, name)
+    for column in CYCLE_FIELDS:
+        value = cycle_value(event, column)
         if isinstance(value, float):
-            value = degrees(value) if column.endswith("_deg") else value
             value = repr(value) if column.startswith("t_") else f"{value:.6f}"
         row.append(int(value) if isinstance(value, bool) else value)
     return row

@@ -94,11 +94,16 @@ def match(
     truth = sorted(true)
     if windows is None:
         windows = [(truth[0], truth[-1])] if truth else []
-    inside = sorted(t for t in found if any(a - TOLERANCE <= t <= b + TOLERANCE for a, b in windows))
+    inside = sorted(t for t in found if is_covered(t, windows))
     matched = pairs(truth, inside, TOLERANCE)
     offsets = tuple(inside[j] - truth[i] for i, j in matched)
     middle = float(np.median(offsets)) if offsets else 0.0
     return Matching(len(truth), len(inside), offsets, tuple(offset - middle for offset in offsets))
+
+
+def is_covered(t: float, windows: Iterable[tuple[float, float]], tolerance: float = TOLERANCE) -> bool:
+    """Return whether a time, s, is in a labelled span, or at most `tolerance` outside of it."""
+    return any(start - tolerance <= t <= end + tolerance for start, end in windows)
 
 
 def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> list[tuple[int, int]]:

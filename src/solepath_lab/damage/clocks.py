@@ -22,10 +22,10 @@ import numpy as np
 from attrs import evolve, frozen
 
 from solepath.body.checks.foot_clocks import FootClocks
+from solepath.cli.common.processes import run_jobs
 from solepath.events import DefectFound, GaitEvent, HeelStrike, StrideTaken
 from solepath.types import OTHER, Foot
 
-from ..processes import run_jobs
 from ..tables import markdown
 from .clock_walks import KNOWN_APART, PAUSE, ClockJob, ClockWalk, FootEvent, error_between, foot_of, read_walk
 

@@ -21,6 +21,7 @@ from statistics import median
 import numpy as np
 from attrs import evolve, frozen
 
+from solepath.cli.common.processes import run_jobs
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -33,7 +34,6 @@ from solepath.validate.alignment import Floats, align, distances
 
 from ..emulated.heading import middle
 from ..measures.consistency import HELD
-from ..processes import run_jobs
 from ..tables import markdown
 
 DATA_SETS = ("hugadb", "tripod_treadmill", "felius_2min_walk")

@@ -21,13 +21,13 @@ import numpy as np
 
 from solepath import Sample, Session, StrideTaken
 from solepath.cli.common.failure import Failure
+from solepath.cli.common.processes import run_jobs
 from solepath.recording.samples import load_samples
 from solepath.validate.alignment import Floats, at_times
 
 from ..evaluate.jobs import find_data_sets, recordings
 from ..evaluate.run import Arrays, truth_of
 from ..measures.strides import END_TOLERANCE
-from ..processes import run_jobs
 from ..tables import markdown
 
 DATA_SETS = ("pyshoe_vicon", "gumushane_surveyed")

@@ -20,6 +20,7 @@ import numpy as np
 from attrs import frozen
 
 from solepath.body.checks.stances import StanceFinder
+from solepath.cli.common.processes import run_jobs
 from solepath.events import Defect, DefectFound
 from solepath.recording import RecordingError
 from solepath.recording.samples import load_samples
@@ -29,7 +30,6 @@ from solepath.types.vector import GRAVITY
 from solepath.validate.alignment import Floats
 
 from ..measures.alarms import KNOWN, NOT_ON_FEET, NOT_WALKING, alarms
-from ..processes import run_jobs
 from ..tables import markdown
 
 MS = 1e3

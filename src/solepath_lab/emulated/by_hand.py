@@ -31,6 +31,7 @@ from solepath.cli.calibrate.by_hand.pauses import Floats
 from solepath.cli.calibrate.by_hand.sensor import fit_sensors, sensor_calibration
 from solepath.cli.common.inputs import recipe_option
 from solepath.cli.common.parser import option
+from solepath.cli.common.processes import run_jobs
 from solepath.emulate.radio import Radio
 from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
@@ -42,7 +43,6 @@ from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 
 from ..options import seeds
-from ..processes import run_jobs
 from ..tables import markdown
 from .handling import CLUMSY, STEADY, Clumsiness, Handling
 from .heading import follow, heading_figures

@@ -19,6 +19,7 @@ import numpy as np
 from attrs import astuple, evolve, field, frozen
 
 from solepath import recipes
+from solepath.cli.common.processes import run_jobs
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
 from solepath.emulate.routes.ways import BuildingWalk, wandering
@@ -37,7 +38,6 @@ from solepath.walk.walk import Walk
 
 from ..evaluate.activity import score_rides, score_windows
 from ..measures.confusion import ActivityScore
-from ..processes import run_jobs
 from ..tables import markdown
 from ..train.emulated import RATE, draw_route
 

@@ -24,6 +24,7 @@ from attrs import frozen
 
 from solepath.cli.common.failure import parse_number
 from solepath.cli.common.parser import option
+from solepath.cli.common.processes import run_jobs
 from solepath.emulate.sensors.magnetic_field import UNDISTURBED
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.curves import Array, Rng
@@ -39,7 +40,6 @@ from solepath.walk.walk import Walk
 
 from ..measures.not_walking import NotWalking
 from ..options import PROCESSES, only, seeds
-from ..processes import run_jobs
 from ..tables import markdown
 from . import not_on_feet, on_the_spot, on_wheels
 from .on_the_spot import Posing

@@ -9,12 +9,12 @@ from pathlib import Path
 from attrs import frozen
 
 from solepath.calibration import Calibration
+from solepath.cli.common.processes import Progress, run_jobs
 from solepath.recipes import Recipe
 from solepath.recording import RecordingError
 
 from ..descriptions import read_description
 from ..measures.score import Scored
-from ..processes import Progress, run_jobs
 from .datasets import DATASETS, EMULATED, DataSet
 from .learning import TrainingSource, part_for, train_parts, training_sources
 from .report import Result

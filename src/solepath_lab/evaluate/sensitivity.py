@@ -22,6 +22,7 @@ import attrs
 from attrs import evolve, frozen
 
 from solepath.calibration import Calibration
+from solepath.cli.common.processes import run_jobs
 from solepath.foot import settings
 from solepath.foot.cues import inertial
 from solepath.foot.navigate.error_state import ErrorStateFilter
@@ -30,7 +31,6 @@ from solepath.foot.stance.cycle import Cycle
 from solepath.recipes import DEFAULT, Recipe
 
 from ..measures.score import Scored
-from ..processes import run_jobs
 from ..tables.columns import SCALES
 from .ablation import SENSITIVITY_COLUMNS, Column
 from .jobs import EvaluationJob, find_data_sets, recordings

@@ -8,7 +8,8 @@ from typing import TypeVar
 
 from attrs import define, field
 
-from ..processes import run_jobs
+from solepath.cli.common.processes import run_jobs
+
 from .done_jobs import DoneJobs
 
 Job = TypeVar("Job")

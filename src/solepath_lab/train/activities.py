@@ -40,6 +40,7 @@ from solepath.body.activity.foot_blocks import (
     force_features_of,
 )
 from solepath.body.activity.motion import MotionModel, block_force, log_probabilities
+from solepath.cli.common.processes import run_jobs
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
@@ -59,7 +60,6 @@ from solepath.types.vector import TIME_EPSILON
 
 from ..emulated import other_motions, slow_walkers
 from ..evaluate.not_walking import MOTIONS
-from ..processes import run_jobs
 from ..tables import markdown
 from . import emulated
 from .activities_course import FootEvidence, LabelledCourse, chances, shifts

@@ -24,6 +24,7 @@ from attrs import evolve, frozen
 from numpy.typing import NDArray
 
 from solepath import recipes
+from solepath.cli.common.processes import run_jobs
 from solepath.events import StrideTaken
 from solepath.foot import bearing
 from solepath.recording import RecordingError
@@ -38,7 +39,6 @@ from ..descriptions import read_description
 from ..emulated import other_motions, slow_walkers
 from ..evaluate.not_walking import MOTIONS
 from ..measures.alarms import NOT_ON_FEET
-from ..processes import run_jobs
 from .hugadb import EIGHT_TIMES, LABELS, with_true_rates
 
 Floats = NDArray[np.float64]

@@ -60,7 +60,8 @@ class Kind:
         return not content or self.mark is not None and re.search(self.mark, content, re.DOTALL) is not None
 
 
-def _table(columns: Sequence[str]) -> Kind:
+def table_kind(columns: Sequence[str]) -> Kind:
+    """Return the kind of a .csv with these columns."""
     return Kind(rb"\A" + re.escape(",".join(columns).encode()) + rb"\r?\n")
 
 
@@ -73,12 +74,12 @@ CALIBRATION = Kind(b"")
 """A calibration, which is read, checked and completed: what is none stays as it is."""
 TRACK_KINDS = {
     EVENTS_FILE: Kind(rb'\A\{"event": "[A-Z]\w*", "t": [^\s,"]+, "known_at": '),
-    TRACK_FILE: _table(TRACK_COLUMNS),
-    STRIDES_FILE: _table(STRIDE_COLUMNS),
-    GAIT_CYCLES_FILE: _table(CYCLE_COLUMNS),
+    TRACK_FILE: table_kind(TRACK_COLUMNS),
+    STRIDES_FILE: table_kind(STRIDE_COLUMNS),
+    GAIT_CYCLES_FILE: table_kind(CYCLE_COLUMNS),
     RUN_FILE: Kind(rb'\A\{\n "solepath": "[^"\n]*",\n "recipe": "'),
 }
-PLACE_KINDS = {PLACES_FILE: _table(PLACE_COLUMNS)}
+PLACE_KINDS = {PLACES_FILE: table_kind(PLACE_COLUMNS)}
 PLAN_KINDS = {PLAN_FILE: Kind(rb"""\A<\?xml [^\n]*\n<svg [^\n>]*id="solepath-plan\"""")}
 
 
@@ -132,7 +133,7 @@ def files_of_track(out: Path | None, *, places: bool, plan: bool = False, outcom
     if outcomes:
         from ...show.outcomes.files import BOUT_COLUMNS, BOUTS_FILE, OUTCOME_COLUMNS, OUTCOMES_FILE
 
-        kinds |= {BOUTS_FILE: _table(BOUT_COLUMNS), OUTCOMES_FILE: _table(OUTCOME_COLUMNS)}
+        kinds |= {BOUTS_FILE: table_kind(BOUT_COLUMNS), OUTCOMES_FILE: table_kind(OUTCOME_COLUMNS)}
     return [OutputFile(out / name, kind) for name, kind in kinds.items()]
 
 

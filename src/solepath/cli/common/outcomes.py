@@ -116,6 +116,15 @@ def _reference(text: str) -> Person | Path:
     raise ArgumentTypeError(f"{printable(text, 80)} is not AGE,SEX[,CM,KG], as in 72,female,162,68")
 
 
+add_test = option(
+    "--test",
+    metavar="NAME[=MARKS]",
+    type=_test,
+    help="the test that was ordered: six-minute, from its first step, or six-minute=START; tug=START,STOP, the timed "
+    "up and go; walk, at the usual pace; marks are s of the recording's clock. Its result comes first",
+)
+"""--test."""
+
 add_outcomes = together(
     option(
         "--outcomes",
@@ -123,13 +132,7 @@ add_outcomes = together(
         help="walking bouts and mobility outcomes by the rules of Mobilise-D, variability, asymmetry; with --out also "
         "bouts.csv and outcomes.csv",
     ),
-    option(
-        "--test",
-        metavar="NAME[=MARKS]",
-        type=_test,
-        help="the test that was ordered: six-minute, from its first step, or six-minute=START; tug=START,STOP, the "
-        "timed up and go; walk, at the usual pace; marks are s of the recording's clock. Its result comes first",
-    ),
+    add_test,
     option(
         "--test-before",
         metavar="MARKS",

@@ -21,7 +21,7 @@ from ...walk.links import LinkLedger
 from ...walk.walk import Walk
 from .files import WRITTEN, files_read
 
-WITHOUT_EFFECT = {*WRITTEN, "command", "words", "force", "view", "no_browser", "speed"}
+WITHOUT_EFFECT = {*WRITTEN, "command", "words", "force", "view", "no_browser", "speed", "processes"}
 """Options that say where results are written and shown, which do not depend on them."""
 
 
@@ -32,10 +32,19 @@ def made_by(recipe: Recipe, options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _command_line(options: argparse.Namespace) -> list[str]:
-    """Return the words of the command, with which it can be run again; files have their names alone."""
+    """Return the words of the command, with which it can be run again; files have their names alone.
+
+    Options without effect on the results are left out, each with its value if it has one."""
+    given = {f"--{name.replace('_', '-')}": getattr(options, name, None) for name in WITHOUT_EFFECT}
     values = [one for value in vars(options).values() for one in (value if isinstance(value, list) else [value])]
     names = {str(one): one.name for one in values if isinstance(one, Path)}
-    return [names.get(word, word) for word in getattr(options, "words", [])]
+    words, skips = list[str](), False
+    for word in getattr(options, "words", ()):
+        option, _, value = word.partition("=")
+        if option not in given and not skips:
+            words.append(names.get(word, word))
+        skips = option in given and not value and given[option] is not True
+    return words
 
 
 def write_run(path: Path, recipe: Recipe, walk: Walk, options: argparse.Namespace) -> None:

@@ -24,49 +24,6 @@ MAPPING_OPTIONS = ("columns", "units", "scale", "rows", "mapping", "format", "ra
 """Options from which a mapping is made."""
 
 
-def table_options(metavar: str = "FILE") -> Option:
-    """Return FILE... under this name, and the options for tables of samples and for own devices."""
-    return together(
-        add_own_devices,
-        option(
-            "files",
-            metavar=metavar,
-            type=Path,
-            nargs="+",
-            help="the recording; of samples, one file or those of both feet or of several sensors (docs/tables.md)",
-        ),
-        option(
-            "--foot",
-            metavar="FOOT[,FOOT...]",
-            type=parse_feet,
-            help="left or right: whose the samples of one foot are (default: by the name of the file, else right); of "
-            "other recordings, the foot to use; for several files, that of each in their order",
-        ),
-        option(
-            "--columns",
-            metavar="NAMES",
-            help="names of columns, as in t=Time,acc=AX,AY,-AZ,gyro=GX,GY,-GZ; - turns a sign",
-        ),
-        option("--units", metavar="UNITS", help="units that are not SI, as in g,deg/s,ms"),
-        option(
-            "--scale",
-            metavar="SCALES",
-            help="counts per g and per degree/s of raw values, as in acc=2048,gyro=16.4 (also t: per s)",
-        ),
-        option(
-            "--rows",
-            metavar="COLUMN=VALUE",
-            action="append",
-            help="the rows that count, as in device=3 where a file has several; may be given again",
-        ),
-        option("--rate", metavar="HZ", type=parse_positive, help="samples a second, in place of a column of times"),
-        option(
-            "--format", metavar="NAME", choices=FORMATS, help="name of a known format that has lost its first lines"
-        ),
-        option("--mapping", metavar="FILE", type=Path, help="all of this from a TOML file"),
-    )
-
-
 def source_named(options: Namespace, own: Iterable[Driver] = (), report: Report = note) -> Source:
     """Open the recording of FILE... as the options of tables and --foot say; the errors are those of `source_of`."""
     return source_of(options.files, feet_of(options), mapping_of(options), own, report)
@@ -86,6 +43,49 @@ def parse_feet(text: str) -> tuple[Foot, ...]:
         return tuple(Foot(word.strip().lower()) for word in text.split(","))
     except ValueError:
         raise ArgumentTypeError(f"{text[:80]!r}: each foot is left or right, with commas between them") from None
+
+
+def table_options(metavar: str = "FILE") -> Option:
+    """Return FILE... under this name, and the options for tables of samples and for own devices."""
+    files = option(
+        "files",
+        metavar=metavar,
+        type=Path,
+        nargs="+",
+        help="the recording; of samples, one file or those of both feet or of several sensors (docs/tables.md)",
+    )
+    return together(files, mapping_options)
+
+
+mapping_options = together(
+    add_own_devices,
+    option(
+        "--foot",
+        metavar="FOOT[,FOOT...]",
+        type=parse_feet,
+        help="left or right: whose the samples of one foot are (default: by the name of the file, else right); of "
+        "other recordings, the foot to use; for several files, that of each in their order",
+    ),
+    option(
+        "--columns", metavar="NAMES", help="names of columns, as in t=Time,acc=AX,AY,-AZ,gyro=GX,GY,-GZ; - turns a sign"
+    ),
+    option("--units", metavar="UNITS", help="units that are not SI, as in g,deg/s,ms"),
+    option(
+        "--scale",
+        metavar="SCALES",
+        help="counts per g and per degree/s of raw values, as in acc=2048,gyro=16.4 (also t: per s)",
+    ),
+    option(
+        "--rows",
+        metavar="COLUMN=VALUE",
+        action="append",
+        help="the rows that count, as in device=3 where a file has several; may be given again",
+    ),
+    option("--rate", metavar="HZ", type=parse_positive, help="samples a second, in place of a column of times"),
+    option("--format", metavar="NAME", choices=FORMATS, help="name of a known format that has lost its first lines"),
+    option("--mapping", metavar="FILE", type=Path, help="all of this from a TOML file"),
+)
+"""The options for tables of samples and for own devices."""
 
 
 def feet_of(options: Namespace) -> Foot | tuple[Foot, ...] | None:

@@ -25,11 +25,11 @@ from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.stance.cycle import Cycle
 from ...recipes import Recipe, usual_parts
 from ...recording.decoded import DecodedRecording
+from ...recording.text_table import read_rows
 from ...session import Session
 from ...types import Foot, Vec2, WalkingMode
 from ...types.attrs import evolve, frozen
 from ...types.vector import wrap_angle
-from ..tables import read_rows
 from .modes import Modes
 from .settings import ModesSettings
 from .touchdown import PressureTouchdown

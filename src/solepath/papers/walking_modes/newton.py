@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from ...calibration import CalibrationError, Newtons
+from ...recording.text_table import read_rows
 from ...types.attrs import frozen
-from ..tables import read_rows
 
 LOWEST_FORCE = 5.0
 """Least force that the paper's insole records, N."""

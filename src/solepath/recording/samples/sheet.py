@@ -166,13 +166,13 @@ def open_sheet(path: Path, mapping: TableMapping) -> Iterator[tuple[SheetLayout,
         yield _find_start(path, rows, mapping)
         return
     file = open_unpacked(path)
-    encoding = _encoding_of(file.peek(2))  # type: ignore[attr-defined]
+    encoding = encoding_of(file.peek(2))  # type: ignore[attr-defined]
     # bytes that are no text become part of a column's name or of a number, where they are reported
     with TextIOWrapper(file, encoding=encoding, errors="replace") as text:
         yield _find_start(path, _read_text(path, text), mapping)
 
 
-def _encoding_of(start: bytes) -> str:
+def encoding_of(start: bytes) -> str:
     """Return the encoding of a text file by its first bytes: those of UTF-16, else UTF-8, else that of Windows."""
     if start[:2] in UTF_16:
         return "utf-16"

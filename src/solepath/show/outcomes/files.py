@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from ..output import table_writer
+from ..output import Cell, write_table
 from .bouts import WalkingBout
 from .clinic import ClinicalResults
 from .mobility import implausible
@@ -22,25 +21,16 @@ OUTCOME_COLUMNS = (
     "mean_of_group", "mean_low", "mean_high", "source", "smallest_change", "smallest_change_source",
 )  # fmt: skip
 """Columns of outcomes.csv; `low` and `high` are the ends of a 95 % confidence interval, shares have no unit."""
-Cell = str | int | float | None
 
 
 def write_bouts(results: ClinicalResults, path: Path) -> None:
     """Write bouts.csv; raise OSError when it cannot be written."""
-    _write(path, BOUT_COLUMNS, map(_bout_cells, results.bouts))
+    write_table(path, BOUT_COLUMNS, map(_bout_cells, results.bouts))
 
 
 def write_outcomes(results: ClinicalResults, path: Path) -> None:
     """Write outcomes.csv; raise OSError when it cannot be written."""
-    _write(path, OUTCOME_COLUMNS, map(_outcome_cells, results.rows))
-
-
-def _write(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> None:
-    with path.open("w", encoding="utf-8", newline="") as file:
-        write = table_writer(file)
-        write(columns)
-        for row in rows:
-            write([f"{cell:.6f}" if isinstance(cell, float) else cell for cell in row])
+    write_table(path, OUTCOME_COLUMNS, map(_outcome_cells, results.rows))
 
 
 def _bout_cells(bout: WalkingBout) -> list[Cell]:

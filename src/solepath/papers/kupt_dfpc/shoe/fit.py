@@ -24,10 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....calibration import Calibration, CalibrationError, ShoeGeometry
+from ....recording.text_table import read_rows
 from ....saving.files import write_whole
 from ....types import Floats
 from ....types.attrs import frozen
-from ...tables import read_rows
 
 COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")
 """Names of the columns that a file must have."""

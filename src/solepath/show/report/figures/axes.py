@@ -84,4 +84,4 @@ class Chart:
         for k, foot in enumerate(reversed(feet)):
             x = 390.0 - 66.0 * k
             write(self.svg, x, HEAD, foot.value, "tick", "end")
-            add(self.svg, MARK, x - 36.0, HEAD - 4.0, shape or FOOT_MARKS[foot], kind, foot.value)
+            add(self.svg, MARK, x - 41.0, HEAD - 4.0, shape or FOOT_MARKS[foot], kind, foot.value)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
 from datetime import date
+from typing import Any
 from xml.etree.ElementTree import Element
 
+from ....recording import printable
 from ...tables.svg import add
 from ..content import ReportContent, ReportDetails
 from ..markup import terms
@@ -48,6 +51,19 @@ def add_heading(main: Element, title: str, report: ReportContent) -> None:
     terms(
         header, [("Subject", details.subject.strip()), ("Date", shown_day), ("Device", details.device.strip())], "facts"
     )
+
+
+def making_facts(recipe: str, version: str, made_by: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Return recipe and inputs with their hashes, and the version; `made_by` is as `provenance` says it."""
+    return [
+        ("Recipe", _hashed(recipe, made_by.get("recipe_sha256"))),
+        *[("Input", _hashed(one["name"], one["sha256"])) for one in made_by.get("inputs", ())],
+        ("Made by", f"solepath {version}".rstrip()),
+    ]
+
+
+def _hashed(name: str, sha256: str | None) -> str:
+    return printable(name) if sha256 is None else f"{printable(name)}, SHA-256 {sha256}"
 
 
 def add_making(parent: Element, facts: list[tuple[str, str]]) -> None:

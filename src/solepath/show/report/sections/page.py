@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element
 
-from ....recording import printable
 from ...findings import Concern, texts
 from ...tables.svg import add
 from ..content import ReportContent
@@ -19,7 +18,7 @@ from ..words import LINK_HEADER, link_rows, overview, sensors
 from .comparison import comparison
 from .facts import Facts, facts_of
 from .gait_table import definitions, gait_table
-from .heading import add_heading, add_making, title_of
+from .heading import add_heading, add_making, making_facts, title_of
 from .headline import headline
 from .key_figures import key_figures
 from .quality import STOP, judgements, overall, quality_box, warning
@@ -147,11 +146,5 @@ def _making(report: ReportContent) -> list[tuple[str, str]]:
         ("Recording", ", ".join(filter(None, [report.source, times]))),
         ("Start", report.when),
         ("Sensors", sensors(report.walk)),
-        ("Recipe", _hashed(report.recipe, report.made_by.get("recipe_sha256"))),
-        *[("Input", _hashed(one["name"], one["sha256"])) for one in report.made_by.get("inputs", ())],
-        ("Made by", f"solepath {report.version}".rstrip()),
+        *making_facts(report.recipe, report.version, report.made_by),
     ]
-
-
-def _hashed(name: str, sha256: str | None) -> str:
-    return printable(name) if sha256 is None else f"{printable(name)}, SHA-256 {sha256}"
