@@ -228,7 +228,7 @@ class Strides:
                 otherwise = Activity.UNKNOWN if in_vehicle else segment.activity
                 for t, until, supported in _cut(segment.t, end, walked):
                     if supported:
-                        _append(agreed, segment, t, self._gait(t, until), CERTAINTY)
+                        _append(agreed, segment, t, self.gait(t, until), CERTAINTY)
                         continue
                     for first, _, moves in _cut(t, until, self._long_motions(runs)):
                         _append(agreed, segment, first, Activity.UNKNOWN if moves else otherwise, probability)
@@ -251,7 +251,7 @@ class Strides:
             before = t
         return parts or [(start, False)]
 
-    def _gait(self, start: float, end: float) -> Activity:
+    def gait(self, start: float, end: float) -> Activity:
         """Return the gait from `start` to `end`, s, by the slopes of the strides."""
         spans = [span for span in self.spans if span.start < end and span.end > start]
         if not spans:
