@@ -47,11 +47,11 @@ that a hand puts down elsewhere have 0.4 to 1.1 in half of what looks like strid
 LEAST_LENGTH, LEAST_FORCE_RANGE, LEAST_SWING = 0.03, 0.3, 0.02
 """Smallest length, m, range of the specific force, m/s^2, and swing, s, whose logarithm counts."""
 
-OFFSET = 2.7
+OFFSET = 2.2
 """Evidence of a stride whose features are all 0, a logarithm of a likelihood ratio.
 
 The weights and the offset are a logistic regression over strides of recordings and of made motions, which
-`solepath-lab train bearing` prints. The offset is 1.25 above the fitted one, because the sum over strides decides."""
+`solepath-lab train bearing` prints. The offset is 0.75 above the fitted one, because the sum over strides decides."""
 WEIGHTS = (-2.9, 1.3, -1.3, -2.4, -0.84, -0.95, -1.1, -5.8, -14.0, -1.1, -2.7)
 """Weight of each of `features`."""
 

@@ -151,7 +151,7 @@ class Activities(ActivityPart):
             if events:
                 side.add_events(events, view.position[2])
                 for event in events:
-                    self.report.strides.add_event(event)
+                    self.report.strides.add_event(event, view.attitude)
                     if isinstance(event, StrideTaken):
                         outputs += self._add_stride(event, floor(block_number))
         return outputs
