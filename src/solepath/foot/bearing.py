@@ -29,8 +29,8 @@ SWING_TIMES = (0.2, 1.2)
 """Times of a swing that walkers and runners have, from the fastest to patients, s."""
 USUAL_SWING = 0.4
 """Time of a swing of which toe-off or heel-strike is not known, s."""
-NO_REST = 0.5
-"""Distance from gravity that stands for the force of a foot that did not rest, m/s^2."""
+MOST_OFF_GRAVITY = 4.0
+"""Largest distance of the force at rest from gravity that counts, m/s^2; it stands for a foot that did not rest."""
 TREADS_RISE = 0.34
 """Rise of a stride over two treads, m: risers of 0.14 to 0.20 m (Approved Document K of the Building Regulations 2010
 allows 0.15 to 0.22 m)."""
@@ -52,7 +52,7 @@ OFFSET = 2.2
 
 The weights and the offset are a logistic regression over strides of recordings and of made motions, which
 `solepath-lab train bearing` prints. The offset is 0.75 above the fitted one, because the sum over strides decides."""
-WEIGHTS = (-2.9, 1.3, -1.3, -2.4, -0.84, -0.95, -1.1, -5.8, -14.0, -1.1, -2.7)
+WEIGHTS = (-2.6, 1.3, -1.3, -2.3, -0.82, -0.97, -1.1, -5.7, -14.0, -1.0, -2.8)
 """Weight of each of `features`."""
 
 MOST_FOR, MOST_AGAINST = 3.0, -3.0
@@ -94,7 +94,9 @@ def features(stride: StrideTaken, previous: StrideTaken | None) -> tuple[float, 
     far the foot goes; the time of the swing beyond usual ones; the speed beyond that of a walk; the tilt beyond a usual
     one; and the change of length and of swing since the stride before."""
     measured, length, swing = stride.features, max(stride.length, LEAST_LENGTH), _swing(stride)
-    off_gravity = NO_REST if measured.rest_force is None else min(4.0, abs(measured.rest_force - GRAVITY))
+    off_gravity = MOST_OFF_GRAVITY
+    if measured.rest_force is not None:
+        off_gravity = min(off_gravity, abs(measured.rest_force - GRAVITY))
     ratio = measured.peak_speed * (USUAL_SWING if swing is None else swing) / max(length, 0.05) / USUAL_SPEED_RATIO
     rise = abs(stride.height_change if measured.rise is None else measured.rise)
     off_floor = min(rise, abs(rise - TREADS_RISE)) / (RISE_ERROR + RISE_ERROR_SHARE * stride.length)
