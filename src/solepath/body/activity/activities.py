@@ -150,6 +150,8 @@ class Activities(ActivityPart):
                 side.add(acc, sample.gyro, view.velocity if view.levelled else None)
             if events:
                 side.add_events(events, view.position[2])
+                if view.after is not None:
+                    self.report.strides.carrying[view.foot] = not view.after.carries_nobody
                 for event in events:
                     self.report.strides.add_event(event, view.attitude)
                     if isinstance(event, StrideTaken):

@@ -86,6 +86,8 @@ class Strides:
     """Direction of up in the sensor of each foot at its newest foot-flat."""
     tilted: list[tuple[float, float]] = field(factory=list)
     """Times at which a foot was lifted and came to lie otherwise than before, s."""
+    carrying: dict[Foot, bool] = field(factory=dict)
+    """Whether each foot may carry its walker."""
     forces: list[tuple[float, bool]] = field(factory=list)
     """Times of half seconds at rest, s, and whether the force on the feet leans in them."""
     runs: list[float] = field(factory=list)
@@ -127,9 +129,12 @@ class Strides:
         times[type(event).__name__] = event.t
 
     def add_block(self, t: float, block: ActivityBlock) -> None:
-        """Add half a second of a foot, from `t`, s, if it moves in it as in a run, turns or is shaken."""
+        """Add half a second of a foot, from `t`, s, if it moves in it as in a run, turns or is shaken.
+
+        Nobody runs on a foot that is known not to carry; that of a runner without strides is not."""
         fast = block.gyro_mean_square > RUNNING_RATE * RUNNING_RATE
-        if fast and block.force > RUNNING_FORCE and block.variance > MOVING_VARIANCE:
+        may_run = fast and all(self.carrying.values())
+        if may_run and block.force > RUNNING_FORCE and block.variance > MOVING_VARIANCE:
             self.runs.append(t)
         is_restless = block.gyro_mean_square > RESTING_RATE or block.variance > MOVING_VARIANCE
         if is_restless and t not in self.restless[-1:]:
