@@ -151,7 +151,7 @@ class Activities(ActivityPart):
             if events:
                 side.add_events(events, view.position[2])
                 if view.after is not None:
-                    self.report.strides.carrying[view.foot] = not view.after.carries_nobody
+                    self.report.strides.bearing[view.foot] = not view.after.bears_none
                 for event in events:
                     self.report.strides.add_event(event, view.attitude)
                     if isinstance(event, StrideTaken):

@@ -86,7 +86,7 @@ class Strides:
     """Direction of up in the sensor of each foot at its newest foot-flat."""
     tilted: list[tuple[float, float]] = field(factory=list)
     """Times at which a foot was lifted and came to lie otherwise than before, s."""
-    carrying: dict[Foot, bool] = field(factory=dict)
+    bearing: dict[Foot, bool] = field(factory=dict)
     """Whether each foot may carry its walker."""
     forces: list[tuple[float, bool]] = field(factory=list)
     """Times of half seconds at rest, s, and whether the force on the feet leans in them."""
@@ -133,7 +133,7 @@ class Strides:
 
         Nobody runs on a foot that is known not to carry; that of a runner without strides is not."""
         fast = block.gyro_mean_square > RUNNING_RATE * RUNNING_RATE
-        may_run = fast and all(self.carrying.values())
+        may_run = fast and all(self.bearing.values())
         if may_run and block.force > RUNNING_FORCE and block.variance > MOVING_VARIANCE:
             self.runs.append(t)
         is_restless = block.gyro_mean_square > RESTING_RATE or block.variance > MOVING_VARIANCE
