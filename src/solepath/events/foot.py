@@ -82,6 +82,8 @@ class StrideFeatures:
     """Largest minus smallest specific force of the stride, m/s^2."""
     rise: float | None = None
     """Height of the stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
+    tilt: float = 0.0
+    """Angle by which the foot lies tilted at the end against the start, rad, whatever its heading."""
 
 
 LONGEST_HARMLESS_GAP = 0.06

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from math import hypot, sqrt
+from math import acos, hypot, sqrt
 from typing import NamedTuple
 
 from ..events import Flaw, StrideFeatures, StrideTaken
 from ..events.foot import LONGEST_HARMLESS_GAP, is_harmless
 from ..types import Foot, Quat, Vec2, Vec3
 from ..types.attrs import define, field
-from ..types.vector import GRAVITY, IDENTITY, SPLIT, ZERO, heading_turned, sub, to_float32
+from ..types.vector import GRAVITY, IDENTITY, SPLIT, ZERO, dot, heading_turned, rotate_back, sub, to_float32
 from .navigate.corrector import Corrector
+from .navigate.level import UP_VECTOR
 from .rhythm import follow
 from .view import FASTEST_RUN
 from .world import Covariance3, World
@@ -380,8 +381,15 @@ class StrideBuilder:
                 peak_rate=sqrt(self.peak_rate),
                 force_range=sqrt(self.most_force) - sqrt(self.least_force),
                 rise=rise,
+                tilt=_tilt(self.attitude, corrector.attitude),
             ),
         )
+
+
+def _tilt(before: Quat, after: Quat) -> float:
+    """Return the angle between the directions of up in the sensor in two attitudes, rad."""
+    cosine = dot(rotate_back(before, UP_VECTOR), rotate_back(after, UP_VECTOR))
+    return acos(max(-1.0, min(1.0, cosine)))
 
 
 def _length_sigma(displacement: Vec3, covariance: Covariance3, guessed_time: float, creep: float) -> float:

@@ -14,6 +14,7 @@ from ..types.attrs import MADE_AGAIN, evolve, field, state, stateful
 from ..types.records import MAX_TIME
 from ..types.vector import ZERO
 from .attitude import Levelling, Rest, WalkScale
+from .bearing import KNOWN
 from .cues.cues import Cues, TimedCue
 from .gait import FLAT_SPEED, Gait
 from .gap import SHORTEST_FILLED_GAP, NoInfill, find_infill
@@ -121,7 +122,8 @@ class FootTracker:
             takes_shifts = with_covariance and hasattr(corrector, "shift")
             covariance = gait.covariance(corrector) if with_covariance else None
             attitude, bias = gait.stride.attitude, rest.bias_filter.bias
-            after = AfterEvents(attitude, layout, other_t, takes_shifts, covariance, bias, error)
+            nobody = gait.bearing.evidence <= -KNOWN
+            after = AfterEvents(attitude, layout, other_t, takes_shifts, covariance, bias, error, nobody)
         if insole is not None and insole.cells:
             cells, layout = insole.cells, insole.layout
             newtons = insole.settings.newtons is not None or (layout is not None and layout.scale is not None)

@@ -49,6 +49,8 @@ class AfterEvents(NamedTuple):
     """Gyroscope bias by the rests of the foot, and its variances."""
     velocity_error: Vec3
     """Integrated velocity of the foot when it came to stand, world frame, m/s; 0 if it was right or is not known."""
+    bears_none: bool = False
+    """Flag: the foot is known not to carry its walker (bearing.py)."""
 
 
 @define(eq=False)

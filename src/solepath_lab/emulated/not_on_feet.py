@@ -1,14 +1,20 @@
-"""Two sensors that somebody carries elsewhere than on the feet: in the hands, in trouser pockets, on the trunk.
+"""Two sensors that nobody wears on the feet: in the hands, in trouser pockets, on the trunk, on a table, in a bag.
 
 The wearer walks through corridors with halts; pelvis and thighs are those of the emulated body, which has no shocks of
 heel-strikes above the foot. An arm is a rod of 0.55 to 0.65 m from a shoulder 0.45 m above the hips to the sensor. It
 swings ahead with the other foot's heel-strike, by 0.2 to 0.5 rad (Meyns, Bruijn and Duysens 2013, Gait & Posture 38),
 and the wrist turns by 0.3 rad every few seconds (assumed). Each sensor is fixed with any attitude.
 
-Idealised: nothing dangles or slips; trousers move with the thigh; the trunk above the pelvis is rigid."""
+On a table, each sensor is picked up, turned and put down elsewhere, at moments of its own. A bag is shaken in bursts;
+its sensors move with it, and each slips and turns a little by itself. How far and how often is drawn anew every half a
+minute, from ranges that are assumed.
+
+Idealised: nothing dangles or slips but in a bag; trousers move with the thigh; the trunk above the pelvis is rigid; a
+sensor is put down as softly as a limb moves."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import pi
 
 import numpy as np
@@ -20,10 +26,12 @@ from solepath.emulate.wearers.turning import from_rotation_vectors, matrices, ro
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import OTHER, Foot, Site, Vec3
 
-from .courses import Course, Key, Pose, carried
+from .courses import Course, Frames, Key, Motion, Pose, Vibration, carried
 from .heading_walks import wearer_of
-from .on_the_spot import Posing
+from .on_the_spot import LAST_MOVE, Posing, posing
 
+BOUT = (20.0, 40.0)
+"""Shortest and longest time for which sensors are handled or shaken as far and as often, s."""
 THIGHS = {Foot.LEFT: Site.LEFT_THIGH, Foot.RIGHT: Site.RIGHT_THIGH}
 
 
@@ -95,3 +103,62 @@ def _wandering(rng: Rng, duration: float) -> Course:
         keys.append((t, 0.3 * rng.standard_normal()))
         t += rng.uniform(1.0, 4.0)
     return Course.through(*keys)
+
+
+def on_a_table(rng: Rng, duration: float) -> Posing:
+    """Return two sensors on a table that are picked up and put down elsewhere, each by itself.
+
+    A move takes 0.4 to 0.9 s and leads to a place 5 to 35 cm from the middle, where the sensor lies turned by 0.1 to 1
+    rad about each axis, and rests for 0.2 s to 2 s."""
+    return posing({foot: _put_elsewhere(rng, duration) for foot in Foot})
+
+
+def _put_elsewhere(rng: Rng, duration: float) -> Motion:
+    place, turn = {"x": 0.0, "y": 0.0, "z": 0.0}, {"pitch": 0.0, "roll": 0.0, "yaw": 0.0}
+    frames, t = Frames(**place, **turn), rng.uniform(1.0, 5.0)
+    while t < duration - LAST_MOVE:
+        far, turned, longest_rest, end = rng.uniform(0.05, 0.35), rng.uniform(0.1, 1.0), rng.uniform(0.6, 2.0), t
+        end += rng.uniform(*BOUT)
+        while t < min(end, duration - LAST_MOVE):
+            frames.add(t, **place, **turn)
+            t += rng.uniform(0.4, 0.9)
+            place = {name: far * rng.standard_normal() for name in place}
+            turn = {name: turned * rng.standard_normal() for name in turn}
+            frames.add(t, **place, **turn)
+            t += rng.uniform(0.2, longest_rest)
+    return frames.motion()
+
+
+def in_a_bag(rng: Rng, duration: float) -> Posing:
+    """Return two sensors in a bag that is shaken at up to 1 to 3 Hz, by 3 to 30 cm and 0.1 to 0.8 rad about each axis.
+
+    Bursts and pauses last 0.5 to 5 s. Sensors lie in it with any attitude and move in it by a tenth of that."""
+    bag = _shaken(rng, duration, 1.0)
+    inside = {foot: _shaken(rng, duration, 0.1) for foot in Foot}
+    fixed = {foot: _fixed((0.0, rng.uniform(0.02, 0.15) * SIDE_SIGNS[foot], 0.0), rng) for foot in Foot}
+    return lambda foot, t: carried(carried(bag(t), inside[foot](t)), fixed[foot])
+
+
+def _shaken(rng: Rng, duration: float, share: float) -> Callable[[Array], Pose]:
+    """Return the poses of what is shaken in bursts by this share of what a bag is."""
+    t, far, turned = 0.0, list[Key](), list[Key]()
+    while t < duration:
+        end, by, angle = t + rng.uniform(*BOUT), rng.uniform(0.03, 0.3), rng.uniform(0.1, 0.8)
+        while t < end:
+            for keys, value in ((far, by), (turned, angle)):
+                keys.extend([(t, 0.0), (t + 0.5, share * value)])
+            t += 0.5 + rng.uniform(0.0, 4.0)
+            for keys, value in ((far, by), (turned, angle)):
+                keys.extend([(t, share * value), (t + 0.5, 0.0)])
+            t += 0.5 + rng.uniform(0.0, 4.0)
+    sizes = Course.through(*far), Course.through(*turned)
+    fastest = rng.uniform(1.0, 3.0)
+    # the same speed at each frequency
+    vibrations = [Vibration.drawn(lambda f: 0.4 / f**2, 0.3, fastest, rng) for _ in range(6)]
+
+    def pose(t: Array) -> Pose:
+        distance, angle = (size.at(t) for size in sizes)
+        place, turn = ([one.at(t) for one in three] for three in (vibrations[:3], vibrations[3:]))
+        return distance[:, None] * np.stack(place, axis=1), rotation(*[angle * one for one in turn])
+
+    return pose

@@ -94,6 +94,8 @@ MOTIONS = (
     OtherMotion("walking, in the hands", not_on_feet.in_hands, on_foot=False),
     OtherMotion("walking, in the pockets", not_on_feet.in_pockets, on_foot=False),
     OtherMotion("walking, on the trunk", not_on_feet.on_trunk, on_foot=False),
+    OtherMotion("handled, on a table", not_on_feet.on_a_table, on_foot=False),
+    OtherMotion("shaken, in a bag", not_on_feet.in_a_bag, on_foot=False),
 )
 """The motions, in the order of the table."""
 Outcome = tuple[NotWalking, Counter[str]]

@@ -57,7 +57,7 @@ RATES = (100.0, 50.0, 200.0, 20.0)
 """Sampling rates of the emulated wearers, in rotation, Hz."""
 FOLDS = 8
 """Number of parts into which wearers are divided."""
-MARGIN = 1.25
+MARGIN = 0.75
 """What is added to the fitted offset, a logarithm of a likelihood ratio.
 
 It is in the middle of the columns of the tables between which few strides change: below it slow walks are lost, above

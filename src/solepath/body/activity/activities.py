@@ -30,6 +30,7 @@ from .flights import Flights, integrated_rise
 from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, BlockFeatures, FootBlocks
 from .hypotheses import BLOCKS_BEFORE, NO_EVIDENCE, BlockEvidence, Hypotheses, activity_at
 from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
+from .reconcile import GAITS
 
 if TYPE_CHECKING:
     from .pressure_height import PressureHeight
@@ -149,8 +150,10 @@ class Activities(ActivityPart):
                 side.add(acc, sample.gyro, view.velocity if view.levelled else None)
             if events:
                 side.add_events(events, view.position[2])
+                if view.after is not None:
+                    self.report.strides.bearing[view.foot] = not view.after.bears_none
                 for event in events:
-                    self.report.strides.add_event(event)
+                    self.report.strides.add_event(event, view.attitude)
                     if isinstance(event, StrideTaken):
                         outputs += self._add_stride(event, floor(block_number))
         return outputs
@@ -315,6 +318,8 @@ class Activities(ActivityPart):
             stride = self.strides.popleft()
             middle = 0.5 * (max(stride.t_start, stride.t_end - MAX_STRIDE_TIME) + stride.t_end)
             activity = None if best is None else activity_at(best.path, middle, None)
+            if activity not in GAITS:
+                activity = self.report.strides.gait(stride.t_start, stride.t_end)
             known_stride = evolve(stride, known_at=max(known_at, stride.known_at))
             events += self.flights.add_stride(known_stride, STAIR_DIRECTIONS.get(activity, 0))
         return events + self.flights.advance(t, known_at)

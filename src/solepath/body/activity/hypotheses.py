@@ -417,6 +417,9 @@ def _extend_path(
                 ended = ActivitySegment(last.t, last.activity, last.detected_at, t, ride.height_gain(block.after))
                 path = (*path[:-1], ended)
                 ride = ride.end()
+                if state != STAND:
+                    # whoever walks in what seemed a ride was in none, and its pulses were steps
+                    levels = UNKNOWN_LEVELS
             t = max(t + chain.shift[token.state][state], last.t + TIME_EPSILON)
         if state in RIDE_STATES:
             has_first_pulse = state in PULSE_SIGNS and bool(path)
@@ -428,10 +431,9 @@ def _extend_path(
     return path, ride.wait(levels)
 
 
+UNKNOWN_LEVELS: RestLevels = (RestLevel(), RestLevel())
+"""Rest levels of which nothing is known."""
 FIRST_TOKENS = tuple(
-    [
-        Token(state, log(chance), (), ElevatorRide((RestLevel(), RestLevel())))
-        for state, chance in enumerate(FIRST_CHANCES)
-    ]
+    [Token(state, log(chance), (), ElevatorRide(UNKNOWN_LEVELS)) for state, chance in enumerate(FIRST_CHANCES)]
 )
 """A token with an empty path for each state."""

@@ -9,14 +9,15 @@ they seem to stand."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import fsum, inf
+from math import cos, fsum, inf
 
 from ...events import FootFlat, GaitEvent, HeelOff, HeelStrike, StrideTaken, ToeOff
-from ...foot.bearing import LONGEST_WAIT, MOST_WAITING
+from ...foot.bearing import LONGEST_WAIT, MOST_WAITING, USUAL_TILT
+from ...foot.navigate.level import UP_VECTOR
 from ...foot.stride import RESTING_RATE
-from ...types import Activity, Foot
+from ...types import Activity, Foot, Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import TIME_EPSILON
+from ...types.vector import TIME_EPSILON, dot, rotate_back
 from ..gait.cycles import MAX_PHASE_TIME
 from .chain import ELEVATOR_ACTIVITIES
 from .foot_blocks import BLOCK_DURATION, MOVING_VARIANCE, ActivityBlock
@@ -81,6 +82,12 @@ class Strides:
     before it: nobody ran."""
     moved: list[tuple[float, float]] = field(factory=list)
     """Times at which a foot was lifted and came down again, with a stride or without, s."""
+    lying: dict[Foot, Vec3] = field(factory=dict)
+    """Direction of up in the sensor of each foot at its newest foot-flat."""
+    tilted: list[tuple[float, float]] = field(factory=list)
+    """Times at which a foot was lifted and came to lie otherwise than before, s."""
+    bearing: dict[Foot, bool] = field(factory=dict)
+    """Whether each foot may carry its walker."""
     forces: list[tuple[float, bool]] = field(factory=list)
     """Times of half seconds at rest, s, and whether the force on the feet leans in them."""
     runs: list[float] = field(factory=list)
@@ -100,8 +107,8 @@ class Strides:
         self.spans.append(StrideSpan(start, end, slope.up, slope.down))
         self.spans.sort(key=_start)
 
-    def add_event(self, event: object) -> None:
-        """Add an event of a foot: contacts tell a run from a walk, and a foot that is lifted ends a pause."""
+    def add_event(self, event: object, attitude: Quat) -> None:
+        """Add an event of a foot with this attitude: contacts tell a run from a walk, and a lift ends a pause."""
         if not isinstance(event, GaitEvent):
             return
         times = self.newest.setdefault(event.foot, {})
@@ -109,6 +116,10 @@ class Strides:
             lifted = times.get(HeelOff.__name__, event.t)
             if LEAST_LIFT + TIME_EPSILON < event.t - lifted < LONGEST_LIFT + TIME_EPSILON:
                 self.moved.append((lifted, event.t))
+                up = rotate_back(attitude, UP_VECTOR)
+                if dot(up, self.lying.get(event.foot, up)) < cos(USUAL_TILT):
+                    self.tilted.append((lifted, event.t))
+                self.lying[event.foot] = up
         elif isinstance(event, ToeOff):
             swung, contact = times.get(ToeOff.__name__), times.get(HeelStrike.__name__)
             if swung is not None and contact is not None and swung < contact:
@@ -118,9 +129,12 @@ class Strides:
         times[type(event).__name__] = event.t
 
     def add_block(self, t: float, block: ActivityBlock) -> None:
-        """Add half a second of a foot, from `t`, s, if it moves in it as in a run, turns or is shaken."""
+        """Add half a second of a foot, from `t`, s, if it moves in it as in a run, turns or is shaken.
+
+        Nobody runs on a foot that is known not to carry; that of a runner without strides is not."""
         fast = block.gyro_mean_square > RUNNING_RATE * RUNNING_RATE
-        if fast and block.force > RUNNING_FORCE and block.variance > MOVING_VARIANCE:
+        may_run = fast and all(self.bearing.values())
+        if may_run and block.force > RUNNING_FORCE and block.variance > MOVING_VARIANCE:
             self.runs.append(t)
         is_restless = block.gyro_mean_square > RESTING_RATE or block.variance > MOVING_VARIANCE
         if is_restless and t not in self.restless[-1:]:
@@ -131,6 +145,7 @@ class Strides:
         self.spans = [span for span in self.spans if span.end >= until]
         self.cycles = [cycle for cycle in self.cycles if cycle[0] >= until]
         self.moved = [times for times in self.moved if times[1] >= until]
+        self.tilted = [times for times in self.tilted if times[1] >= until]
         self.forces = [force for force in self.forces if force[0] >= until]
         self.runs = [t for t in self.runs if t >= until]
         self.restless = [t for t in self.restless if t >= until]
@@ -162,13 +177,10 @@ class Strides:
         """Return the times, s, in which the feet move outside `gaits` for longer than a pause of one.
 
         Who stands shifts a foot within 2 s (hugadb, slow_gait), and whoever moves their feet for longer taps or swings
-        them."""
-        spans: list[tuple[float, float]] = []
-        for t in self.restless:
-            if all([not start <= t < end for start, end in gaits]):
-                since = spans.pop()[0] if spans and t - spans[-1][1] < TIME_EPSILON else t
-                spans.append((since, t + BLOCK_DURATION))
-        return [span for span in spans if span[1] - span[0] > BOUT_PAUSE + TIME_EPSILON]
+        them. A foot that stands comes back to lie as before; while it does not, a pause is no standing."""
+        blocks = [(t, t + BLOCK_DURATION) for t in self.restless if all([not a <= t < b for a, b in gaits])]
+        spans = [*_joined(blocks, 0.0), *_joined(self.tilted, BOUT_PAUSE)]
+        return _joined([span for span in spans if span[1] - span[0] > BOUT_PAUSE + TIME_EPSILON], 0.0)
 
     def _bouts(self) -> list[tuple[float, float]]:
         """Return the bouts, s: the times of walking with pauses of at most `BOUT_PAUSE`.
@@ -228,7 +240,7 @@ class Strides:
                 otherwise = Activity.UNKNOWN if in_vehicle else segment.activity
                 for t, until, supported in _cut(segment.t, end, walked):
                     if supported:
-                        _append(agreed, segment, t, self._gait(t, until), CERTAINTY)
+                        _append(agreed, segment, t, self.gait(t, until), CERTAINTY)
                         continue
                     for first, _, moves in _cut(t, until, self._long_motions(runs)):
                         _append(agreed, segment, first, Activity.UNKNOWN if moves else otherwise, probability)
@@ -251,7 +263,7 @@ class Strides:
             before = t
         return parts or [(start, False)]
 
-    def _gait(self, start: float, end: float) -> Activity:
+    def gait(self, start: float, end: float) -> Activity:
         """Return the gait from `start` to `end`, s, by the slopes of the strides."""
         spans = [span for span in self.spans if span.start < end and span.end > start]
         if not spans:
@@ -264,6 +276,16 @@ class Strides:
 
 def _start(span: StrideSpan) -> float:
     return span.start
+
+
+def _joined(spans: Sequence[tuple[float, float]], pause: float) -> list[tuple[float, float]]:
+    """Return the spans in order of time, s; those with at most `pause`, s, between them are one."""
+    joined: list[tuple[float, float]] = []
+    for start, end in sorted(spans):
+        if joined and start - joined[-1][1] <= pause + TIME_EPSILON:
+            start, end = joined[-1][0], max(end, joined.pop()[1])
+        joined.append((start, end))
+    return joined
 
 
 def _cut(start: float, end: float, times: Sequence[tuple[float, float]]) -> list[tuple[float, float, bool]]:

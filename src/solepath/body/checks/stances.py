@@ -11,7 +11,6 @@ from math import hypot, inf, sqrt
 from typing import Final, NamedTuple
 
 from ...events import Defect, DefectFound
-from ...foot.bearing import LONGEST_TIME
 from ...foot.stride import RESTING_RATE, RESTING_SHARE
 from ...types import SITE_OF_FOOT, Floats, Foot, Vec3
 from ...types.attrs import define, field
@@ -38,6 +37,8 @@ class Finding(NamedTuple):
 
 INTERVAL = 0.0185
 """Shortest duration of an interval, s: two samples at 100 Hz, four at 200 Hz."""
+LONGEST_TIME = 2.5
+"""Longest time of a stride of which the rest is a share, s; what is longer contains standing."""
 LONGEST_SAMPLE = 0.15
 """Longest time between two samples that is integrated over, s; a stride with a longer one is discarded."""
 HALF_WINDOW = 2
