@@ -215,7 +215,7 @@ class PacketRun:
         clock.observe(self.ticks + packet_ticks - position.interval, arrival)
         times = []
         for j in range(position.samples):
-            times.append(clock.assign_time(self.ticks + j * self.interval))
+            times.append(clock.assign_time(self.ticks + j * self.interval, arrival))
         if last_t is not None and not lost_count and (times[0] - last_t) * rate <= MIN_GAP * self.interval + 1.0:
             last_t = None
         return SampleTimes(times, lost_count, last_t, restarted)

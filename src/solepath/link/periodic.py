@@ -391,7 +391,7 @@ class PeriodicClock:
         self.behind = self.ahead = self.stand_out = self.count = 0.0
 
 
-def other_rate(site: Site, t: float, arriving: str, declared: float) -> Limitation:
-    """Return that other samples arrive, in words, than the number a second that was declared."""
-    what = f"{arriving} arrive, not the {declared:.3g} that were set: sample times go by what arrives"
+def other_rate(site: Site, t: float, arriving: str, declared: float, digits: int = 3) -> Limitation:
+    """Return that others arrive, in words, than the number a second that was declared, which has so many digits."""
+    what = f"{arriving} arrive, not the {declared:.{digits}g} that were set: sample times go by what arrives"
     return Limitation(t=t, site=site, what=what)
