@@ -99,6 +99,7 @@ FAULTS = (
     (CellFault.SATURATED, fault_with_value(FULL_SCALE)),
     (CellFault.MISSING, fault_with_value(nan)),
     (CellFault.MISSING, fault_with_value(None)),
+    (CellFault.MISSING, fault_with_value(-5e12)),
 )
 
 

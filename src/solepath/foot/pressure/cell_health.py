@@ -6,7 +6,7 @@ Cells are judged over windows of walking, each of which contains SWINGS_OF_WINDO
 - STUCK is reported of all cells when two swings in a row, which the gyroscope shows, neither unload nor load them. From
   the first of the two on there is no load, so that the inertial sensor alone finds the strides. Cells that are
   calibrated in newtons are not watched for it.
-- MISSING is reported when for MISSING_TIME the cell gives no number. This needs no swings.
+- MISSING is reported when for MISSING_TIME the cell gives no number, or one that cannot be. This needs no swings.
 
 `usable` returns 0 for failed cells, so load, areas and centre of pressure work without them. A cell that loads again in
 two windows in a row is used again. This is not reported, but another failure of the same cell is. If a sample has a
@@ -23,8 +23,12 @@ from math import atan2, hypot, pi
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads, Limitation
 from ...types import Floats, Layout, Phase, Site, Vec3
 from ...types.attrs import define, field, frozen
-from ..rejection import ABSURD_PRESSURE
+from ...types.layout import MAX_FULL_SCALE
 
+ABSURD_PRESSURE = 10.0 * MAX_FULL_SCALE
+"""Magnitude from which on the value of a cell is none, N or counts: ten times the largest full scale of a layout.
+
+The root of the sum of squares over all cells, which bounds each of them, is compared with it first."""
 CHECK_INTERVAL = 0.0795
 """Interval at which the cells are checked, s; a load under the toes lasts about 0.15 s."""
 LEAST_SWING_RATE, LEAST_SWING_INTERVAL = 3.0, 0.7
