@@ -78,6 +78,11 @@ def test_the_site_and_the_channel_can_be_given(tmp_path):
     assert {(p.site, p.channel) for p in read_packets(out)} == {
         (Site.PELVIS, "receiver/connected"), (Site.PELVIS, "cc2650/movement"),
     }  # fmt: skip
+    for spelling in (TAG.replace(":", "-").lower(), TAG.replace(":", "").lower(), f" {TAG}"):
+        result = convert(
+            path, out, "--force", "--site", f"{spelling}=pelvis", "--handle", f"{spelling}/43=cc2650/movement"
+        )
+        assert result.returncode == 0, spelling
     assert "there is no channel 'cc2650/moment': did you mean cc2650/movement?" in complaint(
         path, out, "--force", "--handle", "0x2b=cc2650/moment"
     )

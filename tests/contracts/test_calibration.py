@@ -70,10 +70,11 @@ def test_a_calibration_is_read_as_it_was_written(tmp_path: Path) -> None:
     [
         ("not json", "is not JSON"),
         ("[]", "is not a calibration"),
-        ('{"format": "solepath-calibration", "version": 2, "calibration": {}}', "version 2"),
-        ('{"format": "solepath-calibration", "version": 1, "calibration": {"insols": {}}}', "no field 'insols'"),
-        ('{"format": "solepath-calibration", "version": 1}', "expected"),
-        *((f'{{"format": "solepath-calibration", "version": 1, "calibration": {text}}}', "bad.json")
+        ('{"format": "solepath-calibration", "version": 3, "calibration": {}}', "version 3"),
+        ('{"format": "solepath-calibration", "version": 1, "calibration": {}}', "version 1.*calibrate again"),
+        ('{"format": "solepath-calibration", "version": 2, "calibration": {"insols": {}}}', "no field 'insols'"),
+        ('{"format": "solepath-calibration", "version": 2}', "expected"),
+        *((f'{{"format": "solepath-calibration", "version": 2, "calibration": {text}}}', "bad.json")
           for text in ("null", '{"insoles": {"middle": {}}}', '{"insoles": []}')),
         ("[" * 100_000, "bad.json"),
         ('{"format": ' * 100_000, "bad.json"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 from math import inf, nan
+from random import Random
 
 import pytest
 from attrs import evolve
@@ -99,6 +100,7 @@ FAULTS = (
     (CellFault.SATURATED, fault_with_value(FULL_SCALE)),
     (CellFault.MISSING, fault_with_value(nan)),
     (CellFault.MISSING, fault_with_value(None)),
+    (CellFault.MISSING, fault_with_value(-5e12)),
 )
 
 
@@ -228,3 +230,14 @@ def test_a_cell_of_a_sparse_sole_that_never_bears_load_is_named_though_it_has_fe
         events += session.feed(evolve(sample, pressure=pressure))
     named = [(event.fault, event.cells) for event in of(CellsFailed, events)]
     assert named == ([] if dead_cell is None else [(CellFault.DEAD, (dead_cell,))])
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_sound_cells_of_which_most_samples_are_lost_have_not_failed(seed: int) -> None:
+    random = Random(seed)
+    heard = [(t, t + random.uniform(0.02, 0.3)) for t in [0.9 * k + random.uniform(0.0, 0.5) for k in range(5, 25)]]
+    session, events = Session(calibration=calibration_of(24)), list[Event]()
+    for sample in walk(24):
+        if sample.t < 4.5 or any(since <= sample.t < until for since, until in heard):
+            events += session.feed(sample)
+    assert of(CellsFailed, events) == []

@@ -15,6 +15,7 @@ from walks import of
 from solepath import (
     Activity,
     ActivityChanged,
+    CellsFailed,
     ClockReset,
     DefectFound,
     Event,
@@ -28,6 +29,7 @@ from solepath import (
 )
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.events import CellFault
 from solepath.link.driver import Driver, Measured, Reading
 from solepath.wire.fields import Fields
 from solepath.wire.receiver import ConnectionFrame, build_connected
@@ -145,7 +147,7 @@ def test_a_device_that_counts_goes_by_the_rate_that_arrives(name: str, declared:
     assert f"not the {declared:g} that were set" in said
 
 
-@pytest.mark.parametrize("every", [(1, 2), (2, 1), *soaked((1, 4), (4, 1))])
+@pytest.mark.parametrize("every", [(1, 2), (4, 1), *soaked((1, 4), (2, 1))])
 def test_a_device_that_only_counts_may_change_its_rate_in_mid_walk(every: tuple[int, int]) -> None:
     before, after = every
     driver = evolve(DRIVERS["16 bits"], profile=evolve(DRIVERS["16 bits"].profile, nominal_rate=RATE / before))
@@ -158,6 +160,8 @@ def test_a_device_that_only_counts_may_change_its_rate_in_mid_walk(every: tuple[
     events += session.finish()
     (said,) = [event for event in of(Limitation, events) if "arrive" in event.what]
     assert f"{RATE / after:.3g} samples a second arrive" in said.what and said.t < 125.0
+    assert of(DefectFound, events) == [] and of(CellsFailed, events) == []
+    assert all(stride.length < 2.0 for stride in of(StrideTaken, events)), "of 1.4 m, also before the rate is known"
     late = [stride.length for stride in of(StrideTaken, events) if stride.t > 128.0]
     assert lost(events) == 0 and len(late) >= 10
     assert fsum(late) / len(late) == pytest.approx(1.4, abs=0.1), "once the rate is known"
@@ -234,3 +238,26 @@ def test_a_silence_is_a_gap_and_nothing_is_known_of_it(
     assert before[-1] is Activity.WALKING and within == [Activity.UNKNOWN] and after[0] is Activity.WALKING
     strides = of(StrideTaken, events)
     assert not [one for one in strides if one.t_start < 130.0 - 0.1 and one.t_end > 130.0 + away + 0.1]
+
+
+@pytest.mark.parametrize("wild", [-5e12, 1e11, float("nan"), float("inf"), 1e300])
+@pytest.mark.parametrize("cells", [(5,), (0, 1, 2, 3, 4, 5)])
+def test_cells_whose_values_cannot_be_cost_these_cells_and_no_stride(wild: float, cells: tuple[int, ...]) -> None:
+    def motion(sent: object, known: object) -> Reading:
+        acc, gyro = tuple([v * ACC for v in sent.acc]), tuple([v * GYRO for v in sent.gyro])  # type: ignore[attr-defined]
+        return Reading((Measured(acc, gyro, tuple(sent.cells)),))  # type: ignore[attr-defined]
+
+    layout = Struct("cells" / Fields("<6d"), "acc" / Fields("<3h"), "gyro" / Fields("<3h"))
+    driver = evolve(board(RATE), formats={"board/motion": layout}, readers={"board/motion": motion})
+    session, events = Session(profiles=[driver]), list[Event]()
+    for k, (t, acc, gyro) in enumerate(counts(40.0)):
+        values = [200.0 + 40.0 * (k % 100 < 60) * one + k % 3 for one in range(6)]
+        sent = [wild if t > 15.0 and one in cells else value for one, value in enumerate(values)]
+        data = driver.write("board/motion", {"cells": sent, "acc": acc, "gyro": gyro})
+        events += session.feed(Packet(100.0 + t + 0.005, SITE, "board/motion", data))
+    events += session.finish()
+    assert not of(PacketRejected, events) and lost(events) == 0
+    strides, distance = plain("no counter")
+    assert len(of(StrideTaken, events)) >= strides - 2 and session.position is not None
+    assert session.position.position[0] == pytest.approx(distance, abs=2.0)
+    assert cells in [event.cells for event in of(CellsFailed, events) if event.fault is CellFault.MISSING]

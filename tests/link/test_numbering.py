@@ -99,3 +99,49 @@ def test_no_number_and_no_count_of_samples_is_an_error(numbers: int) -> None:
             number = 2 * k if steady and k < 40 else random.randrange(65536)
             output = device.send_data(10.0 + 0.02 * k, number, 20_000 * k, count)
             assert all(type(item) in (ClockReset, Limitation, PacketRejected, Sample, SampleGap) for item in output)
+
+
+ROUNDS = [(1, 255, 256), (0, 99, 65536), (1, 1000, 65536), (0, 249, 256), (0, 15, 256), (5, 204, 65536)]
+"""Lowest and highest number of a round, and the number of values that was declared."""
+
+
+@WITH_NUMBERS
+@pytest.mark.parametrize("numbers", ROUNDS)
+def test_where_the_numbers_start_again_is_learnt_from_two_rounds_and_named(
+    name: str, numbers: tuple[int, int, int]
+) -> None:
+    low, high, declared = numbers
+    if name == "coarse" and high < declared // 2:
+        pytest.skip("numbers that go back though a clock does not are taken as damaged")
+    count, output, missing = high - low + 1, list[list[Any]](), 0
+    device, random = toy(evolve(KIND[name], sequence=declared)), Random(1)
+    for k in range(6 * count):
+        if k > 4 * count and random.random() < 0.03:
+            missing += 1
+            continue
+        t, unit = k / RATE, 1000 if name == "coarse" else 1_000_000
+        number = low + (k + count // 2) % count
+        output.append(device.send_data(10.01 + t + 0.003 * random.random(), number, round(unit * t)))
+    (limitation,) = said([item for items in output for item in items])
+    assert f"the number goes from {high} to {low}" in limitation.what
+    assert f"sequence={count} in the Driver" in limitation.what
+    late = [item for items in output[2 * count :] for item in items]
+    assert of(ClockReset, late) == of(PacketRejected, late) == []
+    assert sum(gap.count for gap in of(SampleGap, late)) == pytest.approx(missing, abs=2)
+    assert len(of(Sample, late)) == len(output) - 2 * count
+    early = [item for items in output[: 2 * count] for item in items]
+    assert len(of(SampleGap, early)) + len(of(ClockReset, early)) <= 4
+
+
+@WITH_NUMBERS
+def test_numbers_that_use_their_whole_round_teach_no_other_whatever_gets_lost(name: str) -> None:
+    for seed in range(5):
+        device, random, output, missing = toy(evolve(KIND[name], sequence=256)), Random(seed), list[Any](), 0
+        for k in range(256 * 8):
+            if k > 10 and random.random() < 0.2:
+                missing += 1
+                continue
+            t, unit = k / RATE, 1000 if name == "coarse" else 1_000_000
+            output += device.send_data(10.01 + t + 0.003 * random.random(), k % 256, round(unit * t))
+        assert sum(gap.count for gap in of(SampleGap, output)) == pytest.approx(missing, abs=3)
+        assert of(ClockReset, output) == []

@@ -85,6 +85,8 @@ def test_a_quantity_of_a_sample_has_its_numbers_within_the_largest(name: str) ->
             changed: Any = (*values[:place], number, *values[place + 1 :])
             if name == "air_pressure" and number is None:
                 continue
+            if name == "pressure" and reason in ("absurd value", "not finite"):
+                reason = ""  # it costs the cell
             assert reason_of(of_samples(**{name: changed[0] if name == "air_pressure" else changed})) == reason
     too_many: Any = (0.0,) * (513 if name == "pressure" else 5)
     for wrong in ([*values], "text", too_many, values[:-1] if len(values) > 2 else "x"):

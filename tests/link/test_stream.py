@@ -83,8 +83,7 @@ def test_a_pause_shows_in_a_coarse_clock_and_after_a_long_silence_without_one() 
 def test_ticks_show_that_the_rate_is_another(true_rate: float) -> None:
     device = toy(TICKING)
     output = [device.packet(k, true_rate=true_rate) for k in range(60)]
-    assert len([item for items in output for item in of(SampleGap, items)]) <= 6
-    assert not [item for items in output[8:] for item in of(SampleGap, items)]
+    assert not [item for items in output for item in of(SampleGap, items)]
     assert device.decoder.link is not None and device.decoder.link.rate == pytest.approx(true_rate)
     assert times([item for items in output for item in items]) == pytest.approx(
         [10.0 + k / true_rate for k in range(60)], abs=1e-3

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
-from math import hypot
+from math import ceil, hypot
 from random import Random
+from statistics import median
 
 import pytest
 from decoded import LEFT, cc2650_value
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from uncounted import SITE, Radio, board, follow, sent
 from walks import of
 
@@ -22,6 +25,18 @@ BURSTS = [1, 2, 3, 6]
 def arrivals(true: float, seconds: float, radio: Radio, start: float = 0.0) -> list[tuple[float, bytes]]:
     """Return arrival and content of notifications that all differ, `true` a second."""
     return radio.deliver((start + k / true, b"%d %d" % (start, k)) for k in range(int(seconds * true)))
+
+
+def connection(
+    true: float, seconds: float, interval: float, chance: float = 0.0, delay: float = 0.0, seed: int = 1
+) -> list[tuple[float, bytes]]:
+    """Return what connection events deliver, one each `interval` s; by chance one is late by `delay`, s."""
+    random, newest, event, out = Random(seed), 0.0, 0, []
+    for k in range(int(seconds * true)):
+        if (due := ceil((k / true + 0.005) / interval)) > event:
+            event, newest = due, max(newest, due * interval + delay * (random.random() < chance))
+        out.append((100.0 + newest, b"%d" % k))
+    return out
 
 
 def times_of(clock: PeriodicClock, packets: list[tuple[float, bytes]]) -> tuple[list[float], int]:
@@ -62,6 +77,39 @@ def test_a_rate_that_is_a_little_off_is_followed_within_five_seconds(share: floa
         second = int(true)
         for start in range(5 * second, 19 * second, second):
             assert times[start + second] - times[start] == pytest.approx(second / true, rel=0.02)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    true=st.floats(45.0, 200.0),
+    share=st.floats(0.5, 2.0),
+    interval=st.floats(0.03, 0.1),
+    late=st.sampled_from([(0.0, 0), (0.05, 1), (0.03, 2), (0.1, 1)]),
+    seed=st.integers(0, 99),
+)
+def test_connection_events_that_carry_bursts_and_are_late_lose_nothing_whatever_rate_was_said(
+    true: float, share: float, interval: float, late: tuple[float, int], seed: int
+) -> None:
+    clock, (chance, events) = PeriodicClock(share / true), late
+    times, lost = times_of(clock, connection(true, 30.0, interval, chance, events * interval, seed))
+    assert lost == 0
+    for start in (11.0, 20.0):
+        first, last = int(start * true), int((start + 9.0) * true)
+        assert (times[last] - times[first]) / (last - first) == pytest.approx(1.0 / true, rel=0.03)
+
+
+@pytest.mark.parametrize("interval", [0.03, 0.06])
+@pytest.mark.parametrize("true", [100.0, 200.0])
+@pytest.mark.parametrize("missing", [0.3, 0.6])
+def test_what_a_device_drops_while_the_radio_stalls_is_a_loss_in_bursts_too(
+    true: float, interval: float, missing: float
+) -> None:
+    first = round(12.01 * true)
+    count = round(missing * true)
+    arrived = connection(true, 30.0, interval)
+    times, lost = times_of(PeriodicClock(1.0 / true), arrived[:first] + arrived[first + count :])
+    assert lost == pytest.approx(count, abs=interval * true)
+    assert times[-1] == pytest.approx(arrived[-1][0], abs=interval)
 
 
 @pytest.mark.parametrize("burst", BURSTS)
@@ -127,11 +175,14 @@ WALKS = [  # true rate, rate that was said, burst, share of copies, share of los
 @pytest.mark.parametrize("walk", WALKS, ids=str)
 def test_a_walk_has_its_length_whatever_rate_was_said(walk: tuple[float, float, int, float, float]) -> None:
     true, said, burst, twice, loss = walk
-    session, found, _ = follow(board(said), Radio(burst, twice, loss).deliver(sent(true, 30.0)))
-    assert session.position is not None
-    assert hypot(*session.position.position[:2]) == pytest.approx(30.0, rel=0.04)
-    (rate,) = re.findall(r"([\d.]+) samples a second arrive", " ".join([one.what for one in findings(found)]))
-    assert float(rate) == pytest.approx(true * (1.0 - loss), rel=0.04)
+    lengths = []
+    for seed in (1, 2, 3):
+        session, found, _ = follow(board(said), Radio(burst, twice, loss, seed=seed).deliver(sent(true, 30.0)))
+        assert session.position is not None
+        lengths.append(hypot(*session.position.position[:2]))
+        (rate,) = re.findall(r"([\d.]+) samples a second arrive", " ".join([one.what for one in findings(found)]))
+        assert float(rate) == pytest.approx(true * (1.0 - loss), rel=0.04)
+    assert median(lengths) == pytest.approx(30.0, rel=0.04)
 
 
 @pytest.mark.long

@@ -99,8 +99,10 @@ StanceFinder._restart: counted duration force peak t turn weight
 StanceRhythm.reset: usual_stance usual_swing
 StraightWays.reset: straightness.reset()
 Straightness.reset: direction
-StreamLink.handle_reconnection: last_t newest_arrival off_rate_interval off_rate_packets packet_run* periodic* recent
-StreamLink.restart_clock: off_rate_interval off_rate_packets packet_run* periodic* recent
+StreamLink.handle_reconnection: counted_packets counted_since counted_ticks last_t newest_arrival off_rate_interval
+  off_rate_packets packet_run* periodic* recent reported_rate
+StreamLink.restart_clock: counted_packets counted_ticks off_rate_interval off_rate_packets packet_run* periodic*
+  recent reported_rate
 StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped creep first_pitch flat_pitch flaws
   heel_strike_pitch least_force load_count load_sum longest_rest most_force next_pitch peak_height peak_rate
   peak_speed pitch pitch_high pitch_low pitches rest start stride_rate t_heel_off t_heel_strike t_mid_stance t_pitch

@@ -11,7 +11,8 @@ from ..types.checking import find_fault
 from .records import Calibration, CalibrationError
 
 FORMAT = "solepath-calibration"
-VERSION = 1
+VERSION = 2
+"""Version of the file: in 1, noise was in newtons if the insole had a conversion to them."""
 MAX_FILE_SIZE = 8_000_000
 """Largest accepted size of a file, bytes: a hundred times that of two insoles of a thousand cells."""
 
@@ -42,7 +43,8 @@ def read_calibration(path: Path | str) -> Calibration:
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise CalibrationError(f"{path}: is not a calibration")
     if document.get("version") != VERSION:
-        raise CalibrationError(f"{path}: is of version {document.get('version')!r}; this release reads {VERSION}")
+        found = document.get("version")
+        raise CalibrationError(f"{path}: is of version {found!r}; this release reads {VERSION}: calibrate again")
     try:
         calibration = load(Calibration, document.get("calibration"))
     except SnapshotError as error:

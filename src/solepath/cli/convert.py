@@ -10,8 +10,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from itertools import chain
 from pathlib import Path
+from string import hexdigits
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ..link.setup.config import plain_address
 from ..recording import PacketWriter, RecordingError, printable
 from ..types import Site
 from .common.closest import unknown
@@ -41,6 +43,8 @@ if TYPE_CHECKING:
 
 RECORDING, MCAP, STORAGE = ".jsonl", ".mcap", ".sto"
 TARGETS = f"a recording is converted to {MCAP} or {STORAGE} or, with --subject, into a Motion-BIDS dataset"
+DIGITS_OF_ADDRESS = 12
+"""Number of hexadecimal digits of a Bluetooth address."""
 BIDS_PROGRAM = "from bids_validator_deno import cli; cli()"
 """Program that runs the official validator of BIDS, which the package brings with its own runtime."""
 MAX_ISSUES = 10
@@ -49,12 +53,19 @@ _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
 
 
+def _spelt(address: str) -> str:
+    """Return an address as logs have it, however it was written."""
+    plain = plain_address(address)
+    is_digits = len(plain) == DIGITS_OF_ADDRESS and set(plain) <= set(hexdigits)
+    return ":".join([plain[i : i + 2] for i in range(0, DIGITS_OF_ADDRESS, 2)]) if is_digits else plain
+
+
 def _site(text: str) -> tuple[str, Site]:
     address, equals, name = text.rpartition("=")
     try:
         if not equals:
             raise ValueError
-        return address.upper(), Site(name)
+        return _spelt(address), Site(name)
     except ValueError:
         raise ArgumentTypeError(f"{text!r} is not ADDRESS=SITE") from None
 
@@ -68,7 +79,7 @@ def _handle(text: str) -> tuple[tuple[str, int], str]:
         handle = 0
     if not 0 < handle <= 0xFFFF or not channel:
         raise ArgumentTypeError(f"{text!r} is not [ADDRESS/]HANDLE=CHANNEL")
-    return (device.upper(), handle), channel
+    return (_spelt(device), handle), channel
 
 
 def run(options: Namespace) -> int:

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from math import hypot, inf, isfinite
+from math import inf
 from typing import NamedTuple
 
 from ..events import Defect, Rejection, SampleRejected
-from ..types import Floats, Sample, Vec3
-from ..types.layout import MAX_FULL_SCALE
+from ..types import Sample, Vec3
 from ..types.records import MAX_TIME
 
 ABSURD_ACC = 500.0
 """Limit of each axis of a specific force, m/s^2; no foot sensor measures more."""
 ABSURD_GYRO = 100.0
 """Limit of each axis of an angular rate, rad/s; no foot sensor measures more."""
-ABSURD_PRESSURE = 10.0 * MAX_FULL_SCALE
-"""Limit of the root of the sum of squares over all cells, N or counts: that of a hundred cells at the largest full
-scale that a layout may declare."""
 SHORTEST_STEP = 1e-6
 """Shortest time from one sample to the next, s: no sensor of a foot sends a million a second.
 
@@ -64,16 +60,6 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
         reason := _wrong_vector("acc", acc, ABSURD_ACC) or _wrong_vector("gyro", gyro, ABSURD_GYRO)
     ):
         return reason
-    if sample.pressure:
-        try:
-            size = hypot(*sample.pressure)  # bounds each cell, as a sum does not
-        except (OverflowError, TypeError):
-            size = inf
-        if not size < ABSURD_PRESSURE:
-            size = _size_of_numbers(sample.pressure)
-            if not size < ABSURD_PRESSURE:
-                amount = "hundreds of digits" if size == inf else f"{size:.4g}"
-                return RejectionReason(Rejection.ABSURD, f"pressure of {amount}")
     return None
 
 
@@ -99,14 +85,6 @@ def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> RejectionReas
         text = f"{text}; give it in rad/s"
         return RejectionReason(Rejection.ABSURD, text, Defect.GYRO_UNIT)
     return RejectionReason(Rejection.ABSURD, detail)
-
-
-def _size_of_numbers(cells: Floats) -> float:
-    """Return the root of the sum of squares of the cells that are numbers; cell_health.py handles the others."""
-    try:
-        return hypot(*[value for value in cells if value is not None and isfinite(value)])
-    except OverflowError:  # an int may be too large for a float
-        return inf
 
 
 def wrong_time(sample: Sample) -> RejectionReason | None:

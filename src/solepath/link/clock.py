@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from copy import copy
 from itertools import pairwise
-from math import fsum
+from math import fsum, inf
 
 from ..types.attrs import define, field
 
@@ -140,8 +140,10 @@ class Clock:
             if height < 0.0:
                 self._fit()
 
-    def assign_time(self, ticks: float) -> float:
-        """Return the time of a sample measured at `ticks`, s; call it once per sample, in order of ticks."""
+    def assign_time(self, ticks: float, arrival: float = inf) -> float:
+        """Return the time of a sample measured at `ticks`, s; call it once per sample, in order of ticks.
+
+        It is not later than MAX_EARLY_ARRIVAL after `arrival`, s, however fast the ticks go."""
         x = (ticks - self.first_tick) / self.rate
         fitted = self.origin + self.offset + x * (1.0 + self.drift)
         if self.last_device_time is None:
@@ -153,7 +155,7 @@ class Clock:
             error = fitted - t_unslewed
             max_slew = dx * (MAX_SLEW if -LARGE_ERROR < error < LARGE_ERROR else MAX_FAST_SLEW)
             slew = error * (dx / SLEW_TIME) if dx < SLEW_TIME else error
-            t = t_unslewed + max(-max_slew, min(max_slew, slew))
+            t = min(t_unslewed + max(-max_slew, min(max_slew, slew)), arrival + MAX_EARLY_ARRIVAL)
             if t <= self.last_t:  # the difference is below float resolution, or the ticks stand still
                 t = self.last_t + MIN_INCREMENT
             if not -SETTLED_ERROR <= fitted - t <= SETTLED_ERROR:

@@ -37,6 +37,11 @@ REPEATED_NUMBERS = (
     "the same number comes with several notifications, whose values differ: count every notification in the device, or "
     "give no sequence"
 )
+ROUND_NUMBERS = (
+    "the number goes from {0} to {1}, not through all {2} values that were declared: give sequence={3} in the Driver"
+)
+ON_TIME = 1.5
+"""Time after the newest packet, in packets, within which one that starts the numbers again is the next one."""
 
 
 def signed_difference(difference: int, modulus: int) -> int:
@@ -51,7 +56,10 @@ class Numbering:
 
     A number that goes up by the number of samples in a packet from the first packet on counts samples; by another
     constant step, something else. A number that comes with other values than before does not count every packet. None
-    of them is a loss or a copy of a packet. Each is said once, when `STEADY_NUMBERS` packets have shown it."""
+    of them is a loss or a copy of a packet. Each is said once, when `STEADY_NUMBERS` packets have shown it.
+
+    Numbers that start again from the number from which they did before, on time, have that round, whatever was
+    declared."""
 
     newest: int = 0
     """Number of the newest accepted packet, as sent."""
@@ -59,6 +67,12 @@ class Numbering:
     """Difference of the numbers of two packets in a row, if it is not 1; 0 before the second packet."""
     steps: int = 0
     """Number of differences of one step, until it is known to be constant; -1 once one was no multiple of it."""
+    top: int = -1
+    """Number from which the numbers started again last, as sent; -1 if they went through all values."""
+    bottom: int = 0
+    """Number at which they start, if they have a round of their own."""
+    round: int = 0
+    """Number of packets from `bottom` to `top`, if that is another than was declared; else 0."""
     repeats: int = 0
     """Number of packets that repeated a number, until that is known to be no accident."""
     has_stepped: bool = False
@@ -68,6 +82,10 @@ class Numbering:
         """Return how many packets after the newest one a packet is, and the packets in a round of the counter.
 
         `expected`: that number by the time from one to the other. `is_copy`: it has the values of the newest one."""
+        if self.round and self.bottom <= number <= self.top:
+            modulus = self.round
+        elif number < self.newest == self.top and expected < ON_TIME:
+            return 1, modulus
         difference = signed_difference(number - self.newest, modulus)
         if difference == 0:
             return int(not is_copy), modulus
@@ -83,10 +101,18 @@ class Numbering:
         """Take the number of a packet that was accepted; return what the numbers count, in words, when it is known.
 
         `packets`: how many packets after the newest one it is."""
-        difference, what = signed_difference(number - self.newest, modulus), ""
+        difference, before, what = signed_difference(number - self.newest, self.round or modulus), self.newest, ""
         self.newest = number
         if is_first:
             return what
+        if self.round and not self.bottom <= number <= self.top:
+            self.round = 0
+        step = self.step if self.steps >= STEADY_NUMBERS else 1
+        if number < before and not self.round:
+            count, is_known = before - number + step, before == self.top and packets == 1
+            self.top, self.bottom = (-1 if count == modulus else before), number
+            if is_known and count != modulus:
+                self.round, what = count, ROUND_NUMBERS.format(before, number, modulus, count)
         if difference == 0 and self.repeats < STEADY_NUMBERS:
             self.repeats += 1
             what = REPEATED_NUMBERS if self.repeats == STEADY_NUMBERS else ""
@@ -215,7 +241,7 @@ class PacketRun:
         clock.observe(self.ticks + packet_ticks - position.interval, arrival)
         times = []
         for j in range(position.samples):
-            times.append(clock.assign_time(self.ticks + j * self.interval))
+            times.append(clock.assign_time(self.ticks + j * self.interval, arrival))
         if last_t is not None and not lost_count and (times[0] - last_t) * rate <= MIN_GAP * self.interval + 1.0:
             last_t = None
         return SampleTimes(times, lost_count, last_t, restarted)

@@ -60,17 +60,19 @@ ITEMS = {COUNT: (0, LONGEST_VALUE)}
 class Measured:
     """One sample as its device sent it, sensor frame, SI units; a quantity that it does not have is None."""
 
-    acc: Vec3 | None = None
+    acc: Vec3 | None = field(default=None, metadata=SENSOR_VALUE)
     """Specific force, m/s^2."""
-    gyro: Vec3 | None = None
+    gyro: Vec3 | None = field(default=None, metadata=SENSOR_VALUE)
     """Angular rate, rad/s."""
     pressure: Floats | None = field(default=None, metadata=ITEMS)
-    """Value of each cell, as in types.Sample: N when the device declares a scale, otherwise counts."""
-    quat: Quat | None = None
+    """Value of each cell, as in types.Sample: N when the device declares a scale, otherwise counts.
+
+    A value that cannot be costs that cell only (foot/pressure/cell_health.py)."""
+    quat: Quat | None = field(default=None, metadata=SENSOR_VALUE)
     """Attitude, sensor to world, as a quaternion of any length; all zero when the device does not know it."""
-    mag: Vec3 | None = None
+    mag: Vec3 | None = field(default=None, metadata=SENSOR_VALUE)
     """Magnetic flux density, T."""
-    air_pressure: float | None = None
+    air_pressure: float | None = field(default=None, metadata=SENSOR_VALUE)
     """Air pressure, Pa."""
     saturated: bool = False
     """True when a sensor was at the end of its range."""
@@ -80,7 +82,7 @@ class Measured:
 class Reading:
     """The content of one value of a channel; a field that the value does not hold is None."""
 
-    samples: tuple[Measured, ...] = field(default=(), metadata=ITEMS | SENSOR_VALUE)
+    samples: tuple[Measured, ...] = field(default=(), metadata=ITEMS)
     """Samples at equal time intervals, the oldest first."""
     sequence: int | None = field(default=None, metadata=COUNTER)
     """Sequence number of the notification."""

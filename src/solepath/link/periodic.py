@@ -17,8 +17,9 @@ those of protocol/clock.md, "Devices without counters":
 - A packet that is half a period too early shows that a reported loss was wrong; it does not take a new slot.
 
 A radio may hold packets back for some connection events, up to 40 ms. If the period is shorter, a gap does not show a
-loss: only packets that stay at least two periods, or 40 ms, behind for 0.32 s do, and those that come in bursts only as
-far as a gap stood out. If connection events are a whole number of periods apart, a clock that drifts past them moves
+loss: only packets that stay at least two periods, or 40 ms, behind for 0.32 s do, after 3 s, when the rate is known. In
+bursts, they stay behind the packet before a gap that stood out, and do not fall behind further: those of a slower
+device do. If connection events are a whole number of periods apart, a clock that drifts past them moves
 all packets by one period, so one period is no evidence. A loss of one packet that does not add up to two looks like
 lateness, and the fit corrects it."""
 
@@ -69,12 +70,15 @@ COPY_PERIODS = 0.25
 MEMORY = 1.0 / 16.0
 """Weight of the newest packet in running means and the like."""
 STEADY_SHARE = 0.25
-"""Largest distance from whole periods by which the delay grows from one half of those packets to the other."""
+"""Largest distance from whole periods by which the delay grows from one half of those packets to the other; in bursts,
+largest growth, in lost times."""
 STAND_OUT = 1.75
 """Smallest ratio of a gap to usual ones with which it stands out: lost bursts double it, and memory and jitter shorten
 the usual one by a third."""
-GAP_MEMORY = 1.0 / 32.0
-"""Share of the usual gap that is forgotten with each packet; a burst has up to six."""
+GAP_MEMORY = 1.0 / 16.0
+"""Share of the usual gap that is forgotten with each gap of that length, and less with shorter ones, as in a burst.
+
+With 1/8, fewer losses in bursts are found; with 1/24, a wrong rate is known later."""
 MIN_REGULAR = 0.4
 """Share of gaps of about a period, above which packets come one by one, not in bursts.
 
@@ -120,6 +124,10 @@ class PeriodicClock:
     """Running mean of the packets' lateness, s."""
     slipped_packets: int = 0
     """Number of packets in a row that were behind their slots."""
+    slip_start: float = 0.0
+    """Arrival of the first of those packets, s."""
+    slip_base: float = 0.0
+    """Delay of the packet before those packets, if packets come in bursts, s: their delay is counted from there."""
     slip_delay: float = 0.0
     """Least delay of those packets behind their slots, s; of the second half of those that a loss needs."""
     first_delay: float = 0.0
@@ -193,8 +201,8 @@ class PeriodicClock:
             and (settled or self.revisable_packets > 0)
             or arrival - self.clock.preview_time(self.slot + 1.0) < -(MAX_EARLY_ARRIVAL + period)
         )
-        skipped = 0 if is_early else self._count_lost(gap, delay, period)
-        follows_period = gap < MIN_GAP * period or self._is_regular(self.last_gap, period)
+        skipped = 0 if is_early else self._count_lost(arrival, gap, delay, period)
+        follows_period = period < MAX_RADIO_DELAY or gap < MIN_GAP * period or self._is_regular(self.last_gap, period)
         # after a gap that was none of the period, another one may be the period: what it hides is reported later
         self.unsure = 0 if is_early else self.unsure + (0 if follows_period or skipped == 0 else skipped)
         lost_count = skipped if follows_period else 0
@@ -254,36 +262,48 @@ class PeriodicClock:
         is_early = arrival - self.clock.fit_time(self.slot + 1.0) < -MIN_EARLY_PERIODS * period
         return self.repeats < 0.5 or is_early
 
-    def _count_lost(self, gap: float, delay: float, period: float) -> int:
-        """Return the number of packets lost before a packet that is `delay` s behind its slot, after `gap` s."""
+    def _count_lost(self, now: float, gap: float, delay: float, period: float) -> int:
+        """Return the number of packets lost before one that arrived `now`, `delay` s behind its slot, after `gap` s."""
         gap_is_evidence = period >= MAX_RADIO_DELAY
         shows_loss = gap_is_evidence and gap >= MIN_GAP * max(period, self.mean_gap)
         if self.settled_packets < SETTLED_PACKETS and shows_loss:  # lateness may still be a slow device
-            return round(gap / period) - 1 if delay >= MIN_UNSETTLED_LATE_PERIODS * period else 0
+            is_late = delay >= MIN_UNSETTLED_LATE_PERIODS * period and self.ahead < WRONG_PERIOD_GAPS * period
+            return round(gap / period) - 1 if is_late else 0
         lost_count = floor(delay / period + 1.0 - MIN_LATE_PERIODS)
         is_late = delay >= MIN_LATE_PERIODS * period
-        shows_loss = shows_loss and is_late and delay >= MIN_LATE_JITTERS * self.jitter
-        if shows_loss or not (is_late if gap_is_evidence else delay >= min(MAX_RADIO_DELAY, SLIPPED_PERIODS * period)):
+        if shows_loss and is_late and delay >= MIN_LATE_JITTERS * self.jitter:
             self.slipped_packets = 0
-            return lost_count if shows_loss else 0
+            return lost_count
+        in_bursts, is_new = self.regular < MIN_REGULAR, not gap_is_evidence and now - self.clock.origin < LOOK_AGAIN[-1]
+        must_stand_out = in_bursts or is_new
         if self.slipped_packets == 0:
-            self.slip_delay, self.slip_gap, self.jitter_before_slip = delay, 0.0, self.jitter
+            if (in_bursts and is_new) or (must_stand_out and self._excess(gap, period) < MAX_RADIO_DELAY):
+                return 0
+            self.slip_base = delay - (gap - period) if must_stand_out else 0.0
+            self.slip_start, self.slip_delay, self.slip_gap = now, delay - self.slip_base, 0.0
+            self.jitter_before_slip = self.jitter
+        delay -= self.slip_base
+        if not (is_late if gap_is_evidence else delay >= min(MAX_RADIO_DELAY, SLIPPED_PERIODS * period)):
+            self.slipped_packets = 0
+            return 0
         needed = max(SLIPPED_PACKETS, SLIPPED_DURATION / period)
         if self.slipped_packets < needed / 2.0 <= self.slipped_packets + 1:
             self.first_delay, self.slip_delay = self.slip_delay, delay
         self.slip_gap = max(self.slip_gap, gap)
         self.slip_delay = min(self.slip_delay, delay)
         self.slipped_packets += 1
-        if self.slipped_packets < needed or self.behind - self.stand_out > max(SUSPICIOUS_TIME, MIN_GAP * period):
+        is_short = in_bursts and now - self.slip_start < SLIPPED_DURATION
+        suspicious = max(SUSPICIOUS_TIME, self.usual_gap, MIN_GAP * period)
+        if self.slipped_packets < needed or is_short or self.behind - self.stand_out > suspicious:
             return 0
         self.slipped_packets, self.jitter = 0, self.jitter_before_slip
-        growth = (self.slip_delay - self.first_delay) / period
-        if STEADY_SHARE < growth < 1.0 - STEADY_SHARE or self.slip_gap < MIN_GAP * period:
+        growth, lost_time = self.slip_delay - self.first_delay, min(self.first_delay, self.slip_delay)
+        if must_stand_out:
+            lost_time = (
+                min(lost_time, self._excess(self.slip_gap, period)) if growth <= STEADY_SHARE * lost_time else 0.0
+            )
+        elif STEADY_SHARE < growth / period < 1.0 - STEADY_SHARE or self.slip_gap < MIN_GAP * period:
             return 0  # the delay grows, though not by whole packets, or without a gap: the device is slower
-        lost_time = min(self.first_delay, self.slip_delay)
-        if self.regular < MIN_REGULAR or (not gap_is_evidence and self.slot * period < LOOK_AGAIN[-1]):
-            excess = self._excess(self.slip_gap, period)
-            lost_time = min(lost_time, excess if excess >= MAX_RADIO_DELAY else 0.0)
         return max(0, floor(lost_time / period + 1.0 - MIN_LATE_PERIODS))
 
     def _is_regular(self, gap: float, period: float) -> bool:
@@ -296,7 +316,8 @@ class PeriodicClock:
 
     def _count_period(self, arrival: float, gap: float, period: float, lost_count: int) -> float | None:
         """Return the period as counted when the one in use is wrong, s; None when it may be right."""
-        self.usual_gap, self.widest_gap = self.usual_gap * (1.0 - GAP_MEMORY), self.widest_gap * (1.0 - GAP_MEMORY)
+        kept = 1.0 - GAP_MEMORY * min(1.0, gap / max(self.usual_gap, period))
+        self.usual_gap, self.widest_gap = self.usual_gap * kept, self.widest_gap * kept
         excess = self._excess(self.widest_gap, period)
         self.usual_gap = max(self.usual_gap, min(gap, self.widest_gap))
         self.widest_gap = max(self.widest_gap, gap)
@@ -321,7 +342,8 @@ class PeriodicClock:
         is_due = self.looks < len(LOOK_AGAIN) and elapsed >= coarseness * LOOK_AGAIN[self.looks]
         is_wrong = max(self.ahead, self.behind - self.stand_out) > limit and elapsed >= WRONG_PERIOD_TIME
         fitted = self.period * (1.0 + self.pace.other_slope)
-        if self.pace.other_slope and abs(fitted / period - 1.0) > WRONG_SHARE:
+        lag = self.clock.fit_time(self.slot) - self.clock.last_t
+        if self.pace.other_slope and (abs(fitted / period - 1.0) > WRONG_SHARE or lag > MAX_EARLY_ARRIVAL + period):
             return fitted
         if starts_burst and (is_wrong or is_due):
             counted = (elapsed - self.stand_out) / self.count
@@ -369,7 +391,7 @@ class PeriodicClock:
         self.behind = self.ahead = self.stand_out = self.count = 0.0
 
 
-def other_rate(site: Site, t: float, arriving: str, declared: float) -> Limitation:
-    """Return that other samples arrive, in words, than the number a second that was declared."""
-    what = f"{arriving} arrive, not the {declared:.3g} that were set: sample times go by what arrives"
+def other_rate(site: Site, t: float, arriving: str, declared: float, digits: int = 3) -> Limitation:
+    """Return that others arrive, in words, than the number a second that was declared, which has so many digits."""
+    what = f"{arriving} arrive, not the {declared:.{digits}g} that were set: sample times go by what arrives"
     return Limitation(t=t, site=site, what=what)

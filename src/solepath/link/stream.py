@@ -18,11 +18,11 @@ from ..types.attrs import define, field
 from ..types.vector import unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
-from .clock import LARGE_ERROR, MIN_INCREMENT, Clock
+from .clock import LARGE_ERROR, MAX_DRIFT, MIN_INCREMENT, Clock
 from .counters import MIN_GAP, REMEMBERED_PACKETS, Numbering, PacketPosition, PacketRun, SampleTimes, signed_difference
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
-from .periodic import PeriodicClock, other_rate
+from .periodic import OTHER_RATE, PeriodicClock, other_rate
 
 TICKS_PER_SAMPLE = 100
 """Ticks that stand for one sample of a device that only counts; more than one, as a pause may end between samples."""
@@ -39,6 +39,10 @@ PACE_TIME, PACE_WINDOW = 3.0, 0.1
 rate still fills seven windows."""
 STEADY_PACKETS = 6
 """Number of packets in a row at a steady distance that shows that the rate is wrong."""
+TICKS_TIME, MAX_TICKS_SILENCE = 3.0, 0.5
+"""Time of arrivals without a silence that shows how fast a device's clock goes, s, and shortest such silence, s."""
+USUAL_CLOCKS = (100.0, 1000.0, 1024.0, 4096.0, 8000.0, 8192.0, 1e4, 16384.0, 32768.0, 1e5, 1e6, 1e9)
+"""Ticks a second of clocks that boards have; a count of ticks within MAX_DRIFT of one of them is of this one."""
 RATE_TOLERANCE = 0.2
 """Largest relative deviation of a packet's distance from the predicted one, and of a steady distance from the last."""
 UNUSED_TICKS = "the ticks of this device are not used, because its driver has no tick_rate and tick_modulus"
@@ -67,10 +71,20 @@ class StreamLink(DeviceLink):
     """Arrival of the newest packet that was late by LARGE_ERROR, s: packets that catch up after it show no rate."""
     coarse_ticks: int = 0
     """Device time of the newest packet as sent, ticks, for a device that has sequence numbers as well."""
-    off_rate_packets: int = 0
+    tick_rate: float = 0.0
+    """Ticks a second of the device's clock as they arrive, if they are others than were declared; else 0."""
+    reported_rate: float = 0.0
+    """Rate that was declared or reported last, samples a second; 0 before the first packet."""
+    counted_since: float | None = None
+    """Arrival since which ticks and packets are counted, s."""
+    counted_ticks: int = 0
+    counted_packets: int = 0
+    unsure: int = 0
+    """Number of lost packets that are none if the rate is wrong; they are reported when it proves to be right."""
+    off_rate_packets: int = 1
     """Number of packets in a row at one steady distance that differs from the distance which the rate predicts."""
-    off_rate_interval: float = 1.0
-    """Distance of the newest of those packets, ticks per sample."""
+    off_rate_interval: float = 0.0
+    """Distance of the newest of those packets, ticks; 0 before any."""
     periodic: PeriodicClock | None = None
     newest_arrival: float | None = None
     """Arrival of the newest packet with samples, s."""
@@ -107,7 +121,7 @@ class StreamLink(DeviceLink):
 
     def restart_clock(self) -> None:
         """Restart the clock fit and the times, because the receiver's clock restarted."""
-        self.packet_run.clock, self.newest_arrival, self.last_t = None, None, None
+        self.packet_run.clock, self.newest_arrival, self.last_t, self.counted_since = None, None, None, None
         if self.periodic is not None:
             self.periodic = PeriodicClock(self.periodic.period)
 
@@ -180,6 +194,7 @@ class StreamLink(DeviceLink):
 
     def _make_samples(self, driver: Driver, data: bytes, reading: Reading, arrival: float) -> Output:
         axis, run, other_slope = driver.axis, self.packet_run, 0.0
+        found: Output = []
         position: PacketPosition | None = None
         is_first = run.clock is None
         rate = self.rate if reading.rate is None else reading.rate
@@ -191,10 +206,14 @@ class StreamLink(DeviceLink):
             longest_loss = 0.0 if self.may_be_silent else driver.profile.stale_after
             sample_times = self._time_by_arrival(len(reading.samples), rate, arrival, longest_loss, data)
         elif axis is TimeAxis.TICKS:
+            tick_rate = self.tick_rate or driver.tick_rate
             position = self._locate_by_ticks(driver, reading, rate, checksum)
-            sample_times = self.packet_run.accept(position, driver.tick_rate, arrival)
+            packet_ticks = run.packet_ticks
+            sample_times = run.accept(position, tick_rate, arrival)
             self._set_rate(rate)
-            self._correct_rate(driver, reading, position)
+            if not driver.sequence and reading.interval is None and not is_first:
+                self._correct_rate(tick_rate, position, sample_times, packet_ticks)
+            found = self._judge_ticks(driver, position, arrival)
         else:
             position = self._locate_by_count(driver, reading, rate, arrival, checksum)
             sample_times = self.packet_run.accept(
@@ -221,6 +240,7 @@ class StreamLink(DeviceLink):
         if other_slope:  # the next packet starts a fit at the rate that arrives
             self._set_rate(rate / (1.0 + other_slope))
             out.append(other_rate(self.site, arrival, f"{self.rate:.3g} samples a second", rate))
+        out += found
         if not self.limitation_reported:
             unused = UNUSED_TICKS if reading.ticks is not None and not driver.tick_rate else ""
             out += self.report_limitation("; ".join(filter(None, (driver.limitation, unused))), arrival)
@@ -244,7 +264,7 @@ class StreamLink(DeviceLink):
         run, count = self.packet_run, len(reading.samples)
         if reading.ticks is None or (driver.sequence and reading.sequence is None):
             raise malformed("no device time or no sequence number, which this device has")
-        interval = driver.tick_rate / rate if reading.interval is None else reading.interval
+        interval = (self.tick_rate or driver.tick_rate) / rate if reading.interval is None else reading.interval
         ticks = signed_difference(reading.ticks - run.ticks, driver.tick_modulus)
         if reading.sequence is not None and driver.sequence:
             sequence = int(reading.sequence)
@@ -332,21 +352,58 @@ class StreamLink(DeviceLink):
         is_known = [number == position.sequence and known != checksum for number, known in self.recent]
         return position.packets_after <= 0 and not driver.tick_modulus and any(is_known)
 
-    def _correct_rate(self, driver: Driver, reading: Reading, position: PacketPosition) -> None:
-        if driver.sequence or reading.interval is not None or position.ticks_after <= 0:
+    def _correct_rate(
+        self, tick_rate: float, position: PacketPosition, sample_times: SampleTimes, predicted: float
+    ) -> None:
+        """Correct the rate when packets come at another, steady distance than `predicted`, ticks, and what was lost."""
+        if position.ticks_after <= 0 or sample_times.restarted is not None:
             return
-        distance = position.ticks_after / position.samples
-        if abs(distance - position.interval) <= RATE_TOLERANCE * position.interval + 1.0 / position.samples:
-            self.off_rate_packets = 0
+        distance, lost = float(position.ticks_after), sample_times.lost_count
+        if abs(distance - predicted) <= RATE_TOLERANCE * predicted + 1.0:
+            if self.unsure and sample_times.gap_start is None:
+                sample_times.gap_start = self.last_t
+            sample_times.lost_count, self.off_rate_packets, self.unsure = lost + self.unsure, 0, 0
             return
-        same_distance = (
-            self.off_rate_packets > 0
-            and abs(distance - self.off_rate_interval) <= RATE_TOLERANCE * self.off_rate_interval
-        )
-        self.off_rate_packets, self.off_rate_interval = self.off_rate_packets + 1 if same_distance else 1, distance
+        steady = abs(distance - self.off_rate_interval) <= RATE_TOLERANCE * self.off_rate_interval
+        if self.off_rate_packets > 0 and (steady or self.off_rate_interval == 0.0):
+            sample_times.lost_count, sample_times.gap_start, self.unsure = 0, None, self.unsure + lost
+        self.off_rate_packets = self.off_rate_packets + 1 if steady and self.off_rate_packets > 0 else 1
+        self.off_rate_interval = distance
         if self.off_rate_packets >= STEADY_PACKETS:
-            self.rate, self.off_rate_packets = driver.tick_rate / distance, 0
-            self.packet_run.packet_ticks = float(position.ticks_after)
+            self.rate, self.off_rate_packets, self.unsure = tick_rate * position.samples / distance, 0, 0
+            self.packet_run.packet_ticks = distance
+
+    def _judge_ticks(self, driver: Driver, position: PacketPosition, arrival: float) -> Output:
+        """Return which clock or rate of the device arrives when it is another one than was declared.
+
+        Ticks that are others by the same factor from packet to packet and from arrival to arrival have another unit;
+        packets that catch up, or a clock that was set, do not agree in that."""
+        silence = 0.0 if self.newest_arrival is None else arrival - self.newest_arrival
+        reported = self.reported_rate = self.reported_rate or driver.profile.nominal_rate
+        if self.counted_since is None or position.ticks_after <= 0 or silence > MAX_TICKS_SILENCE:
+            self.counted_since, self.counted_ticks, self.counted_packets = arrival, 0, 0
+            return []
+        self.counted_ticks, self.counted_packets = self.counted_ticks + position.ticks_after, self.counted_packets + 1
+        elapsed = arrival - self.counted_since
+        if elapsed < TICKS_TIME:
+            return []
+        self.counted_since = None
+        declared, nominal = self.tick_rate or driver.tick_rate, driver.profile.nominal_rate
+        counted, arriving = self.counted_ticks / elapsed, self.counted_packets * position.samples / elapsed
+        is_steady = _is_near(position.ticks_after, self.counted_ticks / self.counted_packets, RATE_TOLERANCE)
+        if (
+            is_steady
+            and _is_near(arriving, nominal, RATE_TOLERANCE)
+            and not _is_near(counted, declared, RATE_TOLERANCE)
+        ):
+            near = [clock for clock in USUAL_CLOCKS if _is_near(counted, clock, 0.5 * MAX_DRIFT)]
+            self.tick_rate = min(near, key=lambda clock: abs(counted / clock - 1.0), default=counted)
+            self.rate, self.off_rate_packets = nominal, 1
+            return [other_rate(self.site, arrival, f"{self.tick_rate:.6g} ticks a second", declared, 6)]
+        if _is_near(self.rate, reported, OTHER_RATE) or not _is_near(arriving, self.rate, RATE_TOLERANCE):
+            return []
+        self.reported_rate = self.rate
+        return [other_rate(self.site, arrival, f"{self.rate:.3g} samples a second", reported)]
 
     def _time_by_arrival(
         self, count: int, rate: float, arrival: float, longest_loss: float, data: bytes
@@ -364,3 +421,7 @@ class StreamLink(DeviceLink):
             t = self.last_t + MIN_INCREMENT
         self.last_t = t
         return t
+
+
+def _is_near(value: float, other: float, share: float) -> bool:
+    return abs(value / other - 1.0) <= share

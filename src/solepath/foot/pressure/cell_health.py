@@ -3,10 +3,10 @@
 Cells are judged over windows of walking, each of which contains SWINGS_OF_WINDOW swings of the foot.
 
 - DEAD, STUCK and SATURATED are reported when two windows in a row show the fault (`CellWindow`).
-- STUCK is reported of all cells when two swings in a row, which the gyroscope shows, neither unload nor load them. From
-  the first of the two on there is no load, so that the inertial sensor alone finds the strides. Cells that are
-  calibrated in newtons are not watched for it.
-- MISSING is reported when for MISSING_TIME the cell gives no number. This needs no swings.
+- STUCK is reported of all cells when two swings in a row, which the gyroscope shows, neither unload nor load them, and
+  no missing samples hide that they do. From the first of the two on there is no load, so that the inertial sensor alone
+  finds the strides. Cells that are calibrated in newtons are not watched for it.
+- MISSING is reported when for MISSING_TIME the cell gives no number, or one that cannot be. This needs no swings.
 
 `usable` returns 0 for failed cells, so load, areas and centre of pressure work without them. A cell that loads again in
 two windows in a row is used again. This is not reported, but another failure of the same cell is. If a sample has a
@@ -23,8 +23,12 @@ from math import atan2, hypot, pi
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads, Limitation
 from ...types import Floats, Layout, Phase, Site, Vec3
 from ...types.attrs import define, field, frozen
-from ..rejection import ABSURD_PRESSURE
+from ...types.layout import MAX_FULL_SCALE
 
+ABSURD_PRESSURE = 10.0 * MAX_FULL_SCALE
+"""Magnitude from which on the value of a cell is none, N or counts: ten times the largest full scale of a layout.
+
+The root of the sum of squares over all cells, which bounds each of them, is compared with it first."""
 CHECK_INTERVAL = 0.0795
 """Interval at which the cells are checked, s; a load under the toes lasts about 0.15 s."""
 LEAST_SWING_RATE, LEAST_SWING_INTERVAL = 3.0, 0.7
@@ -65,6 +69,8 @@ UNCHANGED_SHARE = 0.05
 It is a share of the range of the last 8 to 10 s. A contact is seen at 5 % of the load."""
 UNCHANGED_SWINGS = 2
 """Number of swings in a row that the cells do not show after which all have failed; in one, the foot may hang."""
+HIDDEN_TIME = 0.25
+"""Time without samples that may hide what a swing changes, s: a landing and the toe-off before it last as long."""
 LEAST_VARIATION = 0.01
 """Largest range of cells that show no load at all, as a share of the highest value."""
 
@@ -317,6 +323,8 @@ class CellHealth:
             cells = self.usable(cells)
             if not cells:
                 return events
+        if self.checked_at is not None and not 0.0 <= t - self.checked_at < HIDDEN_TIME:
+            self.swing, self.unchanged_swings = None, 0
         if self.checked_at is None or not 0.0 <= t - self.checked_at < CHECK_INTERVAL:
             self.checked_at = t
             if self.window_start is None or not 0.0 <= t - self.window_start < LONGEST_WINDOW:
