@@ -20,6 +20,7 @@ Kinds = Mapping[str, tuple[str, tuple[Option, ...]]]
 """What the help says of each command, or of each kind of one, and its options beside the OPTIONS of its module."""
 COMMANDS: Kinds = {
     "evaluate": ("score recipes on recorded data with a truth, and on emulated walks", ()),
+    "agreement": ("bias and limits of reported times and lengths, on recorded data", (FOLDER, ONLY, PROCESSES)),
     "reproduce": ("walk a paper's experiment again on the emulator", ()),
     "sensitivity": (
         "each number of the default recipe at half and at twice",
@@ -88,11 +89,11 @@ def _modules(group: str) -> dict[str, ModuleType]:
             return {
                 "activities": activities, "bearing": bearing, "turns": turns, "footstep-activity": footstep_activity
             }  # fmt: skip
+    from .evaluate import agreement, sensitivity
     from .evaluate import command as evaluate
-    from .evaluate import sensitivity
     from .reproduce import command as reproduce
 
-    return {"evaluate": evaluate, "reproduce": reproduce, "sensitivity": sensitivity}
+    return {"evaluate": evaluate, "agreement": agreement, "reproduce": reproduce, "sensitivity": sensitivity}
 
 
 def parser(words: Container[str] | None = None) -> Parser:

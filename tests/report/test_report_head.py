@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from attrs import evolve
 from pages import Node, parse_page
+from quoted import PAGES
 from reported_walks import events_of, report_of
 from walks import of
 
@@ -111,6 +112,7 @@ def test_the_quality_is_good_look_at_or_do_not_use() -> None:
     good = quality(shown(report_of(events_of("walk"))))
     assert {part: verdict for part, (verdict, _) in good.items()} == {
         "gait cycles": "good", "samples": "good", "clocks": "good", "plausibility": "good", "calibration": "note",
+        "accuracy": "note",
     }  # fmt: skip
     report = report_of(events_of("walk"), calibrated=True)
     clocks = DefectFound(
@@ -138,3 +140,15 @@ def test_two_walks_are_compared_with_signs_and_with_the_smallest_change_that_mat
     assert rows["asymmetry, %"][-2:] == ["-", "-"]
     assert "Before (walk.jsonl, 1 October 2026, 08:00 UTC): Walked 25 m" in page.text
     assert {"Track before", "Track after"} <= {one.first("strong").text for one in page.all("figcaption")}
+
+
+def test_the_accuracy_beside_the_quality_is_that_of_the_table_of_its_command() -> None:
+    rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in PAGES["docs/accuracy.md"].splitlines()]
+    table = {(row[0], row[1]): row[2:] for row in rows if len(row) == 7}
+    words = quality(shown(report_of(events_of("walk"))))["accuracy"][1]
+    cycles, _, bias, limits, _ = table["`ipol_10m_uturn`", "stance time"]
+    assert f"On {cycles} cycles" in words and f"stance was {bias.removeprefix('-')} shorter" in words
+    assert f"limits {limits}" in words
+    for data, name in (("`ipol_10m_uturn`", "double support"), ("`tripod_treadmill`", "stride length")):
+        _, _, bias, limits, _ = table[data, name]
+        assert bias.strip("-% cm") in words and limits.removesuffix(" %") in words

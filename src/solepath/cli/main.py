@@ -44,7 +44,7 @@ GROUPS = (
     ("this shell", ("completion",)),
 )
 """Commands by their purpose, in the order of the help."""
-LABORATORY = {"damage", "emulated", "evaluate", "reproduce", "sensitivity", "train"}
+LABORATORY = {"agreement", "damage", "emulated", "evaluate", "reproduce", "sensitivity", "train"}
 """Commands of `solepath-lab`, which people may look for here."""
 FIRST = """\
 first steps:

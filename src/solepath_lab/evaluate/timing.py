@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from math import hypot, pi
 from pathlib import Path
 from statistics import fmean, pstdev
 
 import numpy as np
+from attrs import frozen
 
 from solepath.events import HeelStrike, ToeOff
 from solepath.types import Foot, Turn
@@ -21,7 +22,7 @@ from ..measures.legs import leg_errors, turn_times
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, stride_score
 from .insoles import force_sensors, switches
-from .run import Meta, RecordingRun, RunSettings, run, truth_of
+from .run import Arrays, Meta, RecordingRun, RunSettings, run, truth_of
 
 LEG_LENGTH = 10.0
 """Length of a leg in ipol_10m_uturn and gaitmap_examples, m."""
@@ -31,6 +32,80 @@ LONGEST_STRIDE_TIME = 2.5
 """Longest stride time, s. Between heel-strikes further apart the foot stood still, or strides were not labelled."""
 
 
+@frozen
+class Contacts:
+    """True contacts of a foot, s."""
+
+    strikes: list[float]
+    """Heel-strikes; none where the reference has none of this foot."""
+    offs: list[float]
+    """Toe-offs."""
+    lengths: Mapping[float, float] = {}
+    """Lengths of the cycles, m, by the heel-strikes with which they start, where they are known."""
+
+
+FeetContacts = dict[Foot, Contacts]
+
+
+def _labelled(truth: Arrays) -> FeetContacts:
+    """Return the labels of ipol_10m_uturn, by hand."""
+    return {foot: Contacts(*[truth[f"gt_{foot}"][:, i].tolist() for i in (1, 0)]) for foot in Foot}
+
+
+def _on_treadmill(truth: Arrays) -> FeetContacts:
+    """Return the contacts of a light barrier; a length in the file is of the cycle that ends with its heel-strike."""
+    feet = {}
+    for foot, number in ((Foot.LEFT, 0), (Foot.RIGHT, 1)):
+        rows = truth["gt_foot"] == number
+        strikes, lengths = truth["gt_hs_t"][rows], truth["gt_stride_len"][rows].tolist()
+        starts = dict(zip(strikes.tolist(), lengths[1:], strict=False))
+        feet[foot] = Contacts(strikes.tolist(), (strikes + truth["gt_contact_s"][rows]).tolist(), starts)
+    return feet
+
+
+def _switched(truth: Arrays) -> FeetContacts:
+    """Return the contacts of the switches below heel and toes.
+
+    A toe-off is the opening of the toe switch while the heel switch bears no load. A foot whose heel is on the ground
+    does not leave it: so a standing wearer opens the toe switch, whose gyroscopes show no motion."""
+    feet = {}
+    for foot in Foot:
+        t, counts = truth[f"t_{foot}"], truth[f"pressure_{foot}"]
+        strikes = [start for start, _ in switch_contacts(t, counts[:, 1]) or []]
+        ends = [end for _, end in switch_contacts(t, counts[:, 0]) or []]
+        feet[foot] = Contacts(strikes, [end for end in ends if not is_loaded(t, counts[:, 1], end)])
+    return feet
+
+
+def _by_vendor(truth: Arrays) -> FeetContacts:
+    """Return the contacts of the vendor; a length is of the cycle that starts with its heel-strike."""
+    feet = {}
+    for foot in Foot:
+        strikes = truth[f"gt_ic_{foot}"].tolist()
+        lengths = dict(zip(strikes, truth[f"gt_stride_length_{foot}"].tolist(), strict=False))
+        feet[foot] = Contacts(strikes, truth[f"gt_to_{foot}"].tolist(), lengths)
+    return feet
+
+
+def _by_force(truth: Arrays) -> FeetContacts:
+    """Return the contacts by the force below each foot."""
+    spans = {foot: force_contacts(truth["t"], truth[f"pressure_{foot}"].sum(axis=1)) for foot in Foot}
+    return {
+        foot: Contacts([start for start, _ in contacts], [end for _, end in contacts])
+        for foot, contacts in spans.items()
+    }
+
+
+CONTACTS: dict[str, Callable[[Arrays], FeetContacts]] = {
+    "ipol_10m_uturn": _labelled,
+    "tripod_treadmill": _on_treadmill,
+    "marpino_heel_toe": _switched,
+    "moticon_opengo": _by_vendor,
+    "gaitpdb_vgrf": _by_force,
+}
+"""Contacts of both feet in the truth of a data set, by the name of its folder."""
+
+
 def score_swings(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score against labels of every swing, from toe-off to heel-strike, and of the U-turn.
 
@@ -38,34 +113,31 @@ def score_swings(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     are measured for each foot (leg) and for the wearer's position (body_leg). The wearer's position ends where it
     started. A foot does not: at the end the wearer faces the other way, so the feet have exchanged their places."""
     truth, result = truth_of(path), run(path, settings, body=True)
-    swings = {foot: truth[f"gt_{foot.value}"] for foot in result.feet}
-    heel_strikes = {foot: labels[:, 1].tolist() for foot, labels in swings.items()}
+    feet = _labelled(truth)
     t_start, t_end = truth["gt_trial"].tolist()
     times, lengths = [t_start, float(truth["gt_uturn"].mean()), t_end], [LEG_LENGTH, LEG_LENGTH]
     return Scored(
         path.stem,
         figures=_turn_figures(truth["gt_uturn"].tolist(), result) | _closing_figures(result, t_start, t_end),
-        events=_contact_matches(result, heel_strikes, {foot: labels[:, 0].tolist() for foot, labels in swings.items()}),
+        events=_contact_matches(result, feet),
         errors={
             "leg": sum([leg_errors(times, lengths, foot_run) for foot_run in result.feet.values()], Errors()),
             "body_leg": leg_errors(times, lengths, result.body),
-            "stride_time": _stride_time_errors(result, heel_strikes),
+            "stride_time": _stride_time_errors(result, feet),
         },
     )
 
 
-EventTimes = Mapping[Foot, list[float]]
-"""Times of the true heel-strikes, or of the true toe-offs, of each foot that has a truth, s."""
-
-
-def _contact_matches(result: RecordingRun, heel_strikes: EventTimes, toe_offs: EventTimes) -> dict[str, Matching]:
-    strikes = [match(true, result.feet[foot].times[HeelStrike]) for foot, true in heel_strikes.items()]
-    offs = [match(true, result.feet[foot].times[ToeOff]) for foot, true in toe_offs.items()]
+def _contact_matches(result: RecordingRun, feet: FeetContacts) -> dict[str, Matching]:
+    """Return the matches of the contacts that are known of the feet that were run."""
+    known = [(true, result.feet[foot].times) for foot, true in feet.items() if foot in result.feet]
+    strikes = [match(true.strikes, ours[HeelStrike]) for true, ours in known if true.strikes]
+    offs = [match(true.offs, ours[ToeOff]) for true, ours in known if true.offs]
     return {"heel_strike": sum(strikes, Matching()), "toe_off": sum(offs, Matching())}
 
 
-def _stride_time_errors(result: RecordingRun, heel_strikes: EventTimes) -> Errors:
-    found = [(true, result.feet[foot].times[HeelStrike]) for foot, true in heel_strikes.items()]
+def _stride_time_errors(result: RecordingRun, feet: FeetContacts) -> Errors:
+    found = [(true.strikes, result.feet[foot].times[HeelStrike]) for foot, true in feet.items() if foot in result.feet]
     return sum([interval_errors(true, ours, longest=LONGEST_STRIDE_TIME) for true, ours in found], Errors())
 
 
@@ -132,24 +204,21 @@ def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     Relative to the moving belt a standing foot does not move, so the stride lengths can be compared as they are.
     Positions in the laboratory cannot."""
     truth, result = truth_of(path), run(path, settings)
-    strides, heel_strikes, toe_offs = StrideScore(), dict[Foot, list[float]](), dict[Foot, list[float]]()
+    strides, contacts = StrideScore(), _on_treadmill(truth)
     for foot, foot_run in result.feet.items():
         rows = truth["gt_foot"] == (0 if foot is Foot.LEFT else 1)
-        strike_times = truth["gt_hs_t"][rows]
-        heel_strikes[foot] = strike_times.tolist()
-        toe_offs[foot] = (strike_times + truth["gt_contact_s"][rows]).tolist()
         # gt_stride_len[k] is of the stride that ends with heel-strike k; the found one ends at the foot-flat after that
         strides += stride_score(
-            strike_times, truth["gt_stride_len"][rows][:-1], foot_run.stride_lengths, end_tolerance=-TOLERANCE
+            truth["gt_hs_t"][rows], truth["gt_stride_len"][rows][:-1], foot_run.stride_lengths, end_tolerance=-TOLERANCE
         )
-    times = {"stride_time": _stride_time_errors(result, heel_strikes)}
+    times = {"stride_time": _stride_time_errors(result, contacts)}
     figures: Figures = {}
     feet = {foot: _drift_on_belt(one) for foot, one in result.feet.items()}
     for name in ("drift", "drift_stride"):
         known = [drift for one in feet.values() if (drift := one[name]) is not None]
         figures[name] = float(np.mean(known)) if known else None
     figures |= {f"drift_{foot.value}": one["drift"] for foot, one in feet.items()}
-    events = _contact_matches(result, heel_strikes, toe_offs)
+    events = _contact_matches(result, contacts)
     return Scored(path.stem, figures=figures, events=events, strides=strides, errors=times)
 
 
@@ -165,36 +234,24 @@ def _drift_on_belt(run: FootRun) -> Figures:
 def score_switches(path: Path, meta: Meta, settings: RunSettings, pressed: bool = False) -> Scored:
     """Score against the switches and, on a straight walk, against its length.
 
-    A toe-off is the opening of the toe switch while the heel switch bears no load. A foot whose heel is on the ground
-    does not leave it: so a standing wearer opens the toe switch, whose gyroscopes show no motion.
-
     The leg of a foot goes from its first to its last position. The wearer stood at both ends of the walk, but nobody
     recorded how near to the ends of the measured way.
 
     With `pressed`, the session receives the switches as an insole of two cells, otherwise inertial samples only."""
     truth = truth_of(path)
     result = run(path, settings, calibration=switches()) if pressed else run(path, settings, without_pressure=True)
-    heel_strikes, toe_offs, legs = dict[Foot, list[float]](), dict[Foot, list[float]](), Errors()
-    for foot, foot_run in result.feet.items():
-        t, counts = truth[f"t_{foot.value}"], truth[f"pressure_{foot.value}"]
-        if heel := switch_contacts(t, counts[:, 1]):
-            heel_strikes[foot] = [start for start, _ in heel]
-        if toe := switch_contacts(t, counts[:, 0]):
-            toe_offs[foot] = [end for _, end in toe if not is_loaded(t, counts[:, 1], end)]
+    legs = Errors()
+    for foot_run in result.feet.values():
         if "straight_path_m" in meta and len(foot_run.t):
             legs += leg_errors(foot_run.t[[0, -1]], [float(meta["straight_path_m"])], foot_run)
     errors = {"leg": legs} if legs.values else {}
-    return Scored(path.stem, events=_contact_matches(result, heel_strikes, toe_offs), errors=errors)
+    return Scored(path.stem, events=_contact_matches(result, _switched(truth)), errors=errors)
 
 
 def score_force(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score against the force below each foot. The session receives only its eight sensors."""
     truth, result = truth_of(path), run(path, settings, calibration=force_sensors())
-    forces = {foot: truth[f"pressure_{foot.value}"].sum(axis=1) for foot in result.feet}
-    spans = {foot: force_contacts(truth["t"], force) for foot, force in forces.items()}
-    heel_strikes = {foot: [start for start, _ in contacts] for foot, contacts in spans.items()}
-    toe_offs = {foot: [end for _, end in contacts] for foot, contacts in spans.items()}
-    return Scored(path.stem, events=_contact_matches(result, heel_strikes, toe_offs))
+    return Scored(path.stem, events=_contact_matches(result, _by_force(truth)))
 
 
 def score_insoles(path: Path, meta: Meta, settings: RunSettings, pressed: bool = False) -> Scored:
@@ -203,16 +260,15 @@ def score_insoles(path: Path, meta: Meta, settings: RunSettings, pressed: bool =
     With `pressed`, the session receives the pressure too. It has to learn the layout of the cells, which is not
     known."""
     truth, strides, result = truth_of(path), StrideScore(), run(path, settings, without_pressure=not pressed)
-    heel_strikes = {foot: truth[f"gt_ic_{foot.value}"].tolist() for foot in result.feet}
-    toe_offs = {foot: truth[f"gt_to_{foot.value}"].tolist() for foot in result.feet}
+    contacts = _by_vendor(truth)
     for foot, foot_run in result.feet.items():
         # gt_stride_length_*[k] is of the stride that starts with contact k; the found one ends after contact k + 1
         lengths = np.roll(truth[f"gt_stride_length_{foot.value}"], 1)[:-1]
         strides += stride_score(
-            np.array(heel_strikes[foot]), lengths, foot_run.stride_lengths, end_tolerance=-TOLERANCE
+            np.array(contacts[foot].strikes), lengths, foot_run.stride_lengths, end_tolerance=-TOLERANCE
         )
-    times = {"stride_time": _stride_time_errors(result, heel_strikes)}
-    return Scored(path.stem, events=_contact_matches(result, heel_strikes, toe_offs), strides=strides, errors=times)
+    times = {"stride_time": _stride_time_errors(result, contacts)}
+    return Scored(path.stem, events=_contact_matches(result, contacts), strides=strides, errors=times)
 
 
 def score_soles(path: Path, meta: Meta, settings: RunSettings, first: int = 0) -> Scored:
@@ -221,5 +277,5 @@ def score_soles(path: Path, meta: Meta, settings: RunSettings, first: int = 0) -
     The truth is another program's. The contacts before number `first` of the recording, from 0, are left out."""
     truth, result = truth_of(path), run(path, settings, poses=False)
     strikes, offs = (truth[f"gt_{name}_left"].tolist()[first:] for name in ("heel_strike", "toe_off"))
-    events = _contact_matches(result, {Foot.LEFT: strikes}, {Foot.LEFT: offs})
+    events = _contact_matches(result, {Foot.LEFT: Contacts(strikes, offs)})
     return Scored(path.stem, events=events, groups=("all", f"{meta['speed_kmh']} km/h"))
