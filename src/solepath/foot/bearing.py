@@ -67,6 +67,8 @@ A lone step, or one of somebody who crawls, is no bout but moves the foot. Of 35
 (hugadb_daily)."""
 KNOWN, SUREST = 2.0, 5.0
 """Evidence from which on a foot is known to carry its walker, and its largest value."""
+AFTER_PAUSE = 0.4
+"""Largest evidence that is left after a pause: with `MOST_OF_FIRST` of one stride, less than `KNOWN`; chosen by hand."""
 LEAST_PROGRESS = 0.15
 """Length of a stride below which it goes nowhere and speaks for no walk, m, as steps on the spot do; chosen by hand,
 below the strides of patients who shuffle."""
@@ -167,10 +169,12 @@ class Bearing:
         """Add a stride; return the strides that are known now, and those that were none.
 
         `shaking` is the standard deviation of the size of the specific force in its longest rest, m/s^2."""
-        previous = self.previous
+        previous, ended = self.previous, list[StrideTaken]()
         if previous is not None and stride.t_end - previous.t_end > LONGEST_WAIT + TIME_EPSILON:
-            # whoever has walked walks again sooner than they get on a bicycle, but the first stride does not decide
-            previous, self.evidence = None, min(self.evidence, KNOWN - MOST_OF_FIRST)
+            # whoever has walked walks again sooner than they get on a bicycle, but the first stride does not decide,
+            # and what comes after a pause says nothing of what came before it
+            previous, self.evidence = None, min(self.evidence, AFTER_PAUSE)
+            ended, self.waiting = self.waiting, []
         least, most = (-MOST_OF_FIRST, MOST_OF_FIRST) if previous is None else (MOST_AGAINST, MOST_FOR)
         # nobody walks on one foot, but a sensor that fails may hide that the other foot carries
         one = evidence_of(stride, previous) - (KNOWN if self.alone else 0.0)
@@ -186,9 +190,9 @@ class Bearing:
         waiting = [*self.waiting, stride]
         if self.evidence >= KNOWN:
             self.waiting = []
-            return [evolve(each, known_at=stride.known_at) for each in waiting], []
+            return [evolve(each, known_at=stride.known_at) for each in waiting], ended
         is_none = self.evidence <= -KNOWN
         since = stride.t_end - LONGEST_WAIT + TIME_EPSILON
         kept = [] if is_none else [each for each in waiting[-MOST_WAITING:] if each.t_end > since]
         self.waiting = kept
-        return [], waiting[: len(waiting) - len(kept)]
+        return [], [*ended, *waiting[: len(waiting) - len(kept)]]

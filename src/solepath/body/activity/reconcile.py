@@ -251,14 +251,14 @@ class Strides:
 
         Cycles that were walked fill most of the time of both feet around. Single ones show nothing: some detectors find
         few contacts of a runner, and these late."""
-        cycles = sorted([cycle for cycle in self.cycles if start <= cycle[0] < end])
+        cycles = sorted([cycle for cycle in self.cycles if start <= cycle[0] and cycle[0] - cycle[1] < end + NEAR_TIME])
         parts: list[tuple[float, bool]] = []
         before = start
         for t, _, _ in cycles:
             since, until = max(start, t - NEAR_TIME), min(cycles[-1][0], t + NEAR_TIME)
             walked = fsum([duration for other, duration, walks in cycles if walks and since < other <= until])
             walks = walked > 0.5 * len(self.newest) * (until - since)
-            if not parts or walks != parts[-1][1]:
+            if before < end and (not parts or walks != parts[-1][1]):
                 parts.append((before, walks))
             before = t
         return parts or [(start, False)]
