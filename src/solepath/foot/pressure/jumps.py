@@ -19,9 +19,13 @@ If it is the value of all cells, and not that of a foot in the air, they show no
 LEAST_STEP = 0.04
 """Smallest step of the sum of the cells, as a share of that range: a smaller one hides neither contact nor toe-off."""
 STEP_TOLERANCE = 0.25
-"""Largest deviation of the change of one cell from that of all cells in a step, as a share of the latter."""
-LEAST_STEP_CELLS = 3
-"""Smallest number of cells that show a step: two cells rise alike now and then in a step of the wearer, too."""
+"""Largest deviation of the change of one cell from that of the middle one in a step, as a share of the latter."""
+STEP_CELLS = 0.75
+"""Smallest share of the cells that deviate less: the others may be those under which the foot moves, or cut off."""
+LONGEST_STEP = 2
+"""Largest number of samples in a row that a step takes, or that a value is wrong which then returns."""
+MANY_CELLS, SLOW_INTERVAL = 8, 0.045
+"""Number of cells from which on no foot moves so many alike even within that time, s."""
 
 
 @define
@@ -33,7 +37,11 @@ class Jumps:
     total: float = 0.0
     """Sum of the cells of the last sample that was in no burst."""
     cells: Floats = ()
-    """Its cells, if they are few enough to be compared one by one; otherwise empty."""
+    """Cells of the last sample."""
+    before: Floats = ()
+    """Cells of the sample before the jump that lasts; empty outside of one."""
+    held: int = 0
+    """Number of samples of that jump, which are not used."""
     burst: float | None = None
     """The value that the cells of the current burst have; None outside of a burst."""
     burst_t: float = 0.0
@@ -45,7 +53,7 @@ class Jumps:
         """Return whether the cells of a sample show a burst, so that this sample must not be used.
 
         `total` is their sum, `load_range` its range in the last 8 to 10 s, and `lowest` the lower end of it.
-        Call this and then `find_step` for a sample whose sum differs by LEAST_STEP or more from that of the sample
+        Call this, `is_jump` and then `find_step` for a sample whose sum differs by LEAST_STEP or more from that of the sample
         before, and keep what the others show."""
         count, burst = len(cells), self.burst
         if burst is not None:
@@ -70,15 +78,37 @@ class Jumps:
             return True
         return False
 
-    def find_step(self, t: float, total: float, cells: Floats) -> float:
-        """Return by how much all cells have jumped at once; 0 if they have not."""
-        before, count = self.cells, len(cells)
-        if self.t is None or t - self.t > SHORT_INTERVAL or not LEAST_STEP_CELLS <= count == len(before):
+    def is_jump(self, t: float, total: float, cells: Floats, least: float) -> bool:
+        """Return whether the cells move alike to this sample, so that it must not be used: what follows decides.
+
+        `least` is the smallest change of their sum that matters."""
+        count = len(cells)
+        longest = SLOW_INTERVAL if count >= MANY_CELLS else SHORT_INTERVAL
+        if self.t is None or not 2 <= count == len(self.cells) or t - self.t > longest:
+            self.before = ()
+            return False
+        if self.held >= LONGEST_STEP or count * abs(common_change(self.cells, cells)) <= least:
+            return False
+        self.before, self.held = self.before or self.cells, self.held + 1
+        self.t, self.total, self.cells = t, total, cells
+        return True
+
+    def find_step(self, cells: Floats, least: float) -> float:
+        """Return by how much all cells have jumped and then stayed; 0 if they have not."""
+        before, self.before, self.held = self.before, (), 0
+        if not before:
             return 0.0
-        change = total - self.total
-        step = change / count
-        tolerance = STEP_TOLERANCE * abs(step)
-        for value, value_before in zip(cells, before, strict=True):
-            if abs(value - value_before - step) > tolerance:
-                return 0.0
-        return step
+        step = common_change(before, cells)
+        still = STEP_TOLERANCE * abs(step)
+        moving = [0 for a, b in zip(self.cells, cells, strict=True) if abs(b - a) > still]
+        return step if len(cells) * abs(step) > least and len(moving) <= (1.0 - STEP_CELLS) * len(cells) else 0.0
+
+
+def common_change(before: Floats, cells: Floats) -> float:
+    """Return the change of the middle cell if nearly all cells change by about as much; 0 if they do not."""
+    changes = sorted([b - a for a, b in zip(before, cells, strict=True)])
+    count = len(changes)
+    middle = 0.5 * (changes[(count - 1) // 2] + changes[count // 2])
+    tolerance = STEP_TOLERANCE * abs(middle)
+    alike = [0 for change in changes if abs(change - middle) <= tolerance]
+    return middle if len(alike) >= STEP_CELLS * count else 0.0
