@@ -18,9 +18,11 @@ LONGEST_BURST = 0.5
 If it is the value of all cells, and not that of a foot in the air, they show no load for as long as it lasts."""
 LEAST_STEP = 0.04
 """Smallest step of the sum of the cells, as a share of that range: a smaller one hides neither contact nor toe-off."""
+LEAST_STEP_OF_FEW, FEW_CELLS = 0.3, 2
+"""The same of so many cells or fewer, because feet move two cells alike now and then, but not as far at once."""
 STEP_TOLERANCE = 0.25
-"""Largest deviation of the change of one cell from that of the middle one in a step, as a share of the latter."""
-STEP_CELLS = 0.75
+"""Largest deviation of the change of one cell from that of most in a step, as a share of the latter."""
+STEP_CELLS = 0.67
 """Smallest share of the cells that deviate less: the others may be those under which the foot moves, or cut off."""
 LONGEST_STEP = 2
 """Largest number of samples in a row that a step takes, or that a value is wrong which then returns."""
@@ -98,17 +100,25 @@ class Jumps:
         before, self.before, self.held = self.before, (), 0
         if not before:
             return 0.0
-        step = common_change(before, cells)
+        step = common_change(before, self.cells)
         still = STEP_TOLERANCE * abs(step)
         moving = [0 for a, b in zip(self.cells, cells, strict=True) if abs(b - a) > still]
         return step if len(cells) * abs(step) > least and len(moving) <= (1.0 - STEP_CELLS) * len(cells) else 0.0
 
 
+def least_step(cells: Floats) -> float:
+    """Return the smallest step of the sum of so many cells, as a share of the range of the last 8 to 10 s."""
+    return LEAST_STEP_OF_FEW if len(cells) <= FEW_CELLS else LEAST_STEP
+
+
 def common_change(before: Floats, cells: Floats) -> float:
-    """Return the change of the middle cell if nearly all cells change by about as much; 0 if they do not."""
+    """Return by how much most cells have changed alike; 0 if they have not.
+
+    It is the middle of the half of the changes that lie closest together, because loaded cells change by more or less."""
     changes = sorted([b - a for a, b in zip(before, cells, strict=True)])
-    count = len(changes)
-    middle = 0.5 * (changes[(count - 1) // 2] + changes[count // 2])
+    half = len(changes) // 2
+    low, high = min(zip(changes, changes[half:], strict=False), key=lambda ends: ends[1] - ends[0])
+    middle = 0.5 * (low + high)
     tolerance = STEP_TOLERANCE * abs(middle)
     alike = [0 for change in changes if abs(change - middle) <= tolerance]
-    return middle if len(alike) >= STEP_CELLS * count else 0.0
+    return middle if len(alike) >= STEP_CELLS * len(changes) else 0.0
