@@ -207,7 +207,7 @@ def test_cells_that_are_dead_or_fall_under_load_are_named_by_their_numbers(inert
 
 
 UNITS: dict[str, Unit] = {
-    "counts": float, "volts": lambda count: 3.3 * count / FULL, "newtons": lambda count: max(0.0, 0.2 * (count - 100.0)),
+    "counts": float, "volts": lambda count: 3.3 * count / FULL, "newtons": lambda count: max(0.0, 0.2 * count - 20.0),
 }  # fmt: skip
 
 

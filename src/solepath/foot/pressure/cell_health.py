@@ -18,7 +18,7 @@ A cell is "lively" in a window in which it both loads and unloads. The numbers w
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import atan2, hypot, inf, pi
+from math import atan2, hypot, pi
 
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads, Limitation
 from ...types import Floats, Layout, Phase, Site, Vec3
@@ -147,14 +147,14 @@ class CellSpan:
 
     def find_noisy(self) -> list[bool]:
         """Return for each cell whether it changes as much from one sample to the next as in the whole span."""
-        pairs, ranges = max(self.pairs, 1), [high - low for low, high in zip(self.lows, self.highs, strict=True)]
-        changing = [
-            change * change > NOISY_RATIO * (pairs * square - total * total)
-            for change, square, total in zip(self.changes, self.squares, self.sums, strict=True)
-        ]
-        quiet = [cell_range for cell_range, is_changing in zip(ranges, changing, strict=True) if not is_changing]
-        least = LEAST_NOISE * max(quiet, default=inf) * pairs
-        return [is_changing and change > least for is_changing, change in zip(changing, self.changes, strict=True)]
+        pairs, largest, shares = self.pairs, 0.0, list[float]()
+        for change, square, total, low, high in zip(
+            self.changes, self.squares, self.sums, self.lows, self.highs, strict=True
+        ):
+            is_noise = change * change > NOISY_RATIO * (pairs * square - total * total)
+            shares.append(change if is_noise else 0.0)
+            largest = largest if is_noise else max(largest, high - low)
+        return [0.0 < LEAST_NOISE * largest * pairs < change for change in shares]
 
 
 def enclosed(layout: Layout, i: int, loading: list[bool]) -> tuple[bool, bool]:

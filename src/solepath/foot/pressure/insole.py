@@ -28,7 +28,7 @@ from ..limitations import Limitations
 from ..settings import FootSettings, InsoleSettings
 from ..stance.stance import Load
 from .cell_health import CellHealth, add_up
-from .jumps import Jumps, least_step
+from .jumps import LEAST_STEP, LEAST_STEP_OF_TWO, Jumps
 from .unloaded import UnloadedLevel
 
 SPAN_DURATION = 2.0
@@ -162,15 +162,15 @@ class InsoleLoads:
         self.cells = cells
         total = add_up(cells)
         last_range = self.total.high - self.total.low if self.load_risen else 0.0
-        jumps, least = self.jumps, least_step(cells) * last_range
+        jumps, least = self.jumps, (LEAST_STEP if len(cells) > 2 else LEAST_STEP_OF_TWO) * last_range
         if jumps.burst is not None or jumps.before or abs(total - jumps.total) > least > 0.0:
             if jumps.is_burst(t, total, cells, last_range, self.total.low):
                 if jumps.bursts > 1:
                     self.trouble = BURST
                 return None
-            if jumps.is_jump(t, total, cells, least):
+            if jumps.is_jump(t, total, cells, least / len(cells)):
                 return None
-            if step := jumps.find_step(cells, least):
+            if step := jumps.find_step(cells, least / len(cells)):
                 self.trouble = STEP
                 self._shift(step, len(cells))
         jumps.t, jumps.total, jumps.cells = t, total, cells

@@ -16,10 +16,10 @@ LONGEST_BURST = 0.5
 """Longest burst, s: cells that show one value for longer show it for good (cell_health.py).
 
 If it is the value of all cells, and not that of a foot in the air, they show no load for as long as it lasts."""
-LEAST_STEP = 0.04
-"""Smallest step of the sum of the cells, as a share of that range: a smaller one hides neither contact nor toe-off."""
-LEAST_STEP_OF_FEW, FEW_CELLS = 0.3, 2
-"""The same of so many cells or fewer, because feet move two cells alike now and then, but not as far at once."""
+LEAST_STEP, LEAST_STEP_OF_TWO = 0.04, 0.3
+"""Smallest step of the sum of the cells, as a share of that range: a smaller one hides neither contact nor toe-off.
+
+That of two cells is larger, because feet move two cells alike now and then, but not as far at once."""
 STEP_TOLERANCE = 0.25
 """Largest deviation of the change of one cell from that of most in a step, as a share of the latter."""
 STEP_CELLS = 0.67
@@ -55,8 +55,8 @@ class Jumps:
         """Return whether the cells of a sample show a burst, so that this sample must not be used.
 
         `total` is their sum, `load_range` its range in the last 8 to 10 s, and `lowest` the lower end of it.
-        Call this, `is_jump` and then `find_step` for a sample whose sum differs by LEAST_STEP or more from that of the sample
-        before, and keep what the others show."""
+        Call this, `is_jump` and then `find_step` for a sample whose sum differs by LEAST_STEP or more from that of the
+        sample before, and keep what the others show."""
         count, burst = len(cells), self.burst
         if burst is not None:
             same = cells.count(burst)
@@ -83,17 +83,15 @@ class Jumps:
     def is_jump(self, t: float, total: float, cells: Floats, least: float) -> bool:
         """Return whether the cells move alike to this sample, so that it must not be used: what follows decides.
 
-        `least` is the smallest change of their sum that matters."""
-        count = len(cells)
-        longest = SLOW_INTERVAL if count >= MANY_CELLS else SHORT_INTERVAL
-        if self.t is None or not 2 <= count == len(self.cells) or t - self.t > longest:
+        `least` is the smallest change of a cell that matters."""
+        longest = SLOW_INTERVAL if len(cells) >= MANY_CELLS else SHORT_INTERVAL
+        if self.t is None or not 2 <= len(cells) == len(self.cells) or t - self.t > longest:
             self.before = ()
-            return False
-        if self.held >= LONGEST_STEP or count * abs(common_change(self.cells, cells)) <= least:
-            return False
-        self.before, self.held = self.before or self.cells, self.held + 1
-        self.t, self.total, self.cells = t, total, cells
-        return True
+        elif self.held < LONGEST_STEP and abs(common_change(self.cells, cells)) > least:
+            self.before, self.held = self.before or self.cells, self.held + 1
+            self.t, self.total, self.cells = t, total, cells
+            return True
+        return False
 
     def find_step(self, cells: Floats, least: float) -> float:
         """Return by how much all cells have jumped and then stayed; 0 if they have not."""
@@ -101,24 +99,17 @@ class Jumps:
         if not before:
             return 0.0
         step = common_change(before, self.cells)
-        still = STEP_TOLERANCE * abs(step)
-        moving = [0 for a, b in zip(self.cells, cells, strict=True) if abs(b - a) > still]
-        return step if len(cells) * abs(step) > least and len(moving) <= (1.0 - STEP_CELLS) * len(cells) else 0.0
-
-
-def least_step(cells: Floats) -> float:
-    """Return the smallest step of the sum of so many cells, as a share of the range of the last 8 to 10 s."""
-    return LEAST_STEP_OF_FEW if len(cells) <= FEW_CELLS else LEAST_STEP
+        moved = sorted([abs(b - a) for a, b in zip(self.cells, cells, strict=True)])
+        stays = moved[int(STEP_CELLS * (len(moved) - 1))] <= STEP_TOLERANCE * abs(step)
+        return step if stays and abs(step) > least else 0.0
 
 
 def common_change(before: Floats, cells: Floats) -> float:
     """Return by how much most cells have changed alike; 0 if they have not.
 
-    It is the middle of the half of the changes that lie closest together, because loaded cells change by more or less."""
+    It is the middle of the half of the changes that lie closest together: loaded cells change by more or less."""
     changes = sorted([b - a for a, b in zip(before, cells, strict=True)])
-    half = len(changes) // 2
-    low, high = min(zip(changes, changes[half:], strict=False), key=lambda ends: ends[1] - ends[0])
+    low, high = min(zip(changes, changes[len(changes) // 2 :], strict=False), key=lambda ends: ends[1] - ends[0])
     middle = 0.5 * (low + high)
-    tolerance = STEP_TOLERANCE * abs(middle)
-    alike = [0 for change in changes if abs(change - middle) <= tolerance]
+    alike = [change for change in changes if abs(change - middle) <= STEP_TOLERANCE * abs(middle)]
     return middle if len(alike) >= STEP_CELLS * len(changes) else 0.0
