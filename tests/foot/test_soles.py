@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from math import pi, sin
 from pathlib import Path
 from random import Random
 
@@ -26,6 +27,8 @@ FULL = 4095
 WALKER = Walker(Route().stand(2.0).walk(60.0, 1.3).stop(2.0), seed=3)
 Change = Callable[[float, Floats], list[float]]
 """Function of time and counts that returns the changed counts."""
+Unit = Callable[[float], float]
+"""Function of a count that returns what a device with another unit sends."""
 
 
 @cache
@@ -51,22 +54,26 @@ def clipped(value: float) -> float:
     return float(min(FULL, max(0, round(value))))
 
 
-def said(cells: int, level: float, inertial: bool, change: Change | None = None) -> list[Event]:
-    """Return the events of a walk whose counts are changed."""
+def said(
+    cells: int, level: float, inertial: bool, change: Change | None = None, every: int = 1, unit: Unit | None = None
+) -> list[Event]:
+    """Return the events of a walk whose counts are changed, with one in `every` samples, and in another unit."""
     session, events = Session(), list[Event]()
-    for sample in walk(cells, level):
+    for sample in walk(cells, level)[::every]:
         counts = sample.pressure or ()
         if change is not None:
             sample = evolve(sample, pressure=tuple([clipped(value) for value in change(sample.t, counts)]))
+        if unit is not None:
+            sample = evolve(sample, pressure=tuple(map(unit, sample.pressure or ())))
         events += session.feed(sample if inertial else evolve(sample, acc=None, gyro=None))
     return [*events, *session.finish()]
 
 
-def missed(events: list[Event]) -> int:
-    """Return the number of heel-strikes and toe-offs that were missed or invented."""
+def missed(events: list[Event], since: float = 0.0) -> int:
+    """Return the number of heel-strikes and toe-offs from `since` on, s, that were missed or invented."""
     truth, wrong = WALKER.truth().feet[Foot.LEFT], 0
     for kind, true in ((HeelStrike, truth.heel_strikes), (ToeOff, truth.toe_offs)):
-        matching = match(true, [event.t for event in of(kind, events)])
+        matching = match([t for t in true if t > since], [event.t for event in of(kind, events) if event.t > since])
         wrong += matching.n_true + matching.n_found - 2 * len(matching.offsets)
     return wrong
 
@@ -197,6 +204,83 @@ def test_cells_that_are_dead_or_fall_under_load_are_named_by_their_numbers(inert
     for fault, kind in ((dead, CellFault.DEAD), (two_the_other_way, CellFault.INVERTED)):
         (failed,) = of(CellsFailed, said(16, 100.0, inertial, fault))
         assert (failed.fault, failed.cells) == (kind, (1, 14))
+
+
+UNITS: dict[str, Unit] = {
+    "counts": float, "volts": lambda count: 3.3 * count / FULL, "newtons": lambda count: max(0.0, 0.2 * count - 20.0),
+}  # fmt: skip
+
+
+def hum(frequency: float, size: float) -> Callable[[float], float]:
+    return lambda t: 1500.0 + size * sin(2.0 * pi * frequency * t)
+
+
+def white(size: float) -> Callable[[float], float]:
+    return lambda t: Random(round(1000.0 * t)).gauss(1500.0, size)
+
+
+NOISES = {
+    "hum of 50 Hz": hum(50.13, 1000.0), "hum of 60 Hz": hum(60.0, 300.0), "white noise": white(100.0),
+    "more noise": white(600.0), "rail to rail": lambda t: float(FULL * Random(round(1000.0 * t)).randrange(2)),
+}  # fmt: skip
+NOISY_SOLES = [
+    pytest.param(cells, every, noise, unit, marks=[] if (cells, every, noise, unit) in (
+        (2, 1, "hum of 50 Hz", "counts"), (8, 2, "rail to rail", "volts"), (16, 4, "hum of 60 Hz", "newtons"),
+        (16, 1, "white noise", "counts"),
+    ) else [pytest.mark.soak])
+    for cells in (2, 8, 16, 96) for every in (1, 2, 4) for noise in NOISES for unit in UNITS
+    if every == 1 or noise != "hum of 50 Hz"  # at 50 and 25 Hz this hum looks like a slow drift
+]  # fmt: skip
+
+
+@with_and_without
+@pytest.mark.parametrize(("cells", "every", "noise", "unit"), NOISY_SOLES)
+def test_a_cell_that_jumps_from_sample_to_sample_is_named_and_costs_no_contact_from_then_on(
+    cells: int, every: int, noise: str, unit: str, inertial: bool
+) -> None:
+    bad, value = cells // 3, NOISES[noise]
+
+    def open_input(t: float, counts: Floats) -> list[float]:
+        return [value(t) if i == bad else one for i, one in enumerate(counts)]
+
+    events = said(cells, 100.0, inertial, open_input, every, UNITS[unit])
+    (failed,) = [event for event in of(CellsFailed, events) if event.cells == (bad,)]
+    assert failed.fault is CellFault.NOISY and failed.t < 14.0, "two windows of four swings"
+    assert missed(events, failed.t + 2.5) <= (4 if inertial and cells == 2 else 0)
+    assert len(of(CellsFailed, events)) == 1
+
+
+@with_and_without
+def test_a_cell_that_was_noisy_is_used_again_when_it_is_quiet_again(inertial: bool) -> None:
+    def loose(t: float, counts: Floats) -> list[float]:
+        return [NOISES["more noise"](t) if i == 5 and t < 20.0 else one for i, one in enumerate(counts)]
+
+    def and_dead_later(t: float, counts: Floats) -> list[float]:
+        return [100.0 if i == 5 and t > 35.0 else one for i, one in enumerate(loose(t, counts))]
+
+    assert [event.fault for event in of(CellsFailed, said(16, 100.0, inertial, loose))] == [CellFault.NOISY]
+    faults = [event.fault for event in of(CellsFailed, said(8, 100.0, inertial, and_dead_later))]
+    assert faults == [CellFault.NOISY, CellFault.DEAD], "a cell that is used again can fail again"
+
+
+STEPS = [
+    pytest.param(cells, every, by, since, marks=[] if since == 30.3 else [pytest.mark.soak])
+    for cells in (16, 96) for every in (1, 2) for by in (400.0, 900.0, -400.0, -900.0)
+    for since in (30.3, 20.13, 24.86, 35.48)
+]  # fmt: skip
+
+
+@with_and_without
+@pytest.mark.parametrize(("cells", "every", "by", "since"), STEPS)
+def test_a_step_of_all_cells_hides_at_most_the_contacts_of_a_stride(
+    cells: int, every: int, by: float, since: float, inertial: bool
+) -> None:
+    def jump(t: float, counts: Floats) -> list[float]:
+        return [value + by * (t > since) for value in counts]
+
+    events = said(cells, 1000.0, inertial, jump, every)
+    assert missed(events) <= missed(said(cells, 1000.0, inertial, None, every)) + 2
+    assert of(CellsFailed, events) == []
 
 
 def test_a_sole_that_is_wired_the_other_way_round_is_turned_within_five_strides() -> None:

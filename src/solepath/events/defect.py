@@ -115,6 +115,8 @@ class CellFault(Enum):
     """The cell's value stays at the end of its range."""
     INVERTED = "inverted"
     """The cell's value falls under load."""
+    NOISY = "noisy"
+    """The cell's value jumps from sample to sample, as that of an open input or with hum of the mains."""
     MISSING = "missing"
     """The cell's value is not a number."""
 

@@ -101,6 +101,7 @@ CELLS = {
         "falls under load, as if wired the other way round",
         "fall under load, as if wired the other way round",
     ),
+    CellFault.NOISY: ("jumps from sample to sample, as an open input", "jump from sample to sample, as open inputs"),
     CellFault.MISSING: ("sends no number", "send no number"),
 }
 """Words for a fault of one cell, and of several."""

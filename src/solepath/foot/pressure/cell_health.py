@@ -2,7 +2,7 @@
 
 Cells are judged over windows of walking, each of which contains SWINGS_OF_WINDOW swings of the foot.
 
-- DEAD, STUCK and SATURATED are reported when two windows in a row show the fault (`CellWindow`).
+- DEAD, STUCK, SATURATED, INVERTED and NOISY are reported when two windows in a row show the fault (`CellWindow`).
 - STUCK is reported of all cells when two swings in a row, which the gyroscope shows, neither unload nor load them, and
   no missing samples hide that they do. From the first of the two on there is no load, so that the inertial sensor alone
   finds the strides. Cells that are calibrated in newtons are not watched for it.
@@ -31,6 +31,8 @@ ABSURD_PRESSURE = 10.0 * MAX_FULL_SCALE
 The root of the sum of squares over all cells, which bounds each of them, is compared with it first."""
 CHECK_INTERVAL = 0.0795
 """Interval at which the cells are checked, s; a load under the toes lasts about 0.15 s."""
+LONGEST_CHANGE = 0.045
+"""Longest time between a check and the next sample over which a cell is seen to change, s: 25 samples a second."""
 LEAST_SWING_RATE, LEAST_SWING_INTERVAL = 3.0, 0.7
 """Angular rate of a foot in swing, rad/s, and the time for which higher rates then belong to the same swing, s."""
 SHORTEST_WINDOW, LONGEST_WINDOW = 3.0, 30.0
@@ -49,6 +51,14 @@ RAISED_VALUE = 0.1
 """Excess over the median cell in the air above which a value is not that of an unloaded cell.
 
 It is a share of the largest range."""
+NOISY_RATIO = 0.4
+"""Square of the mean change of a cell from one sample to the next, over its variance, above which it shows no load.
+
+White noise has 1.3, an input that is at either end of its range 1, and hum of the mains 1 to 3, unless its period is
+that of the samples. A load changes a cell only a few times a stride: at 25 Hz a cell that one sample in 27 loads has
+0.15 and any other less, at 100 Hz all have less than 0.05."""
+LEAST_NOISE = 0.01
+"""Smallest mean change that is reported, as a share of the largest range of a cell that is not noisy."""
 LIVELY_WINDOWS = 3
 """Number of lively windows in a row after which a cell should load."""
 LIVELY_WINDOWS_ALONE = 8
@@ -103,18 +113,48 @@ class CellSpan:
     """Lowest sum of the cells."""
     high: float = 0.0
     """Highest sum of the cells."""
+    last: Floats = ()
+    """Sample that was added last, until the next one is compared with it."""
+    pairs: int = 0
+    """Number of samples that were compared with the next one."""
+    sums: list[float] = field(factory=list)
+    """For each cell, sum of the values of those samples."""
+    squares: list[float] = field(factory=list)
+    """For each cell, sum of their squares."""
+    changes: list[float] = field(factory=list)
+    """For each cell, sum of the magnitudes of their changes to the next sample."""
 
     def add(self, cells: Floats, excluded: list[int]) -> None:
         """Add one sample; cells with an index in `excluded` do not count in the sum."""
         total = add_up([v for i, v in enumerate(cells) if i not in excluded] if excluded else cells)
+        self.last = cells
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
             self.low = self.high = total
+            self.sums, self.squares, self.changes = [0.0] * len(cells), [0.0] * len(cells), [0.0] * len(cells)
             return
         # takes half the time of map(min, ...), which calls a function for every cell
         self.lows = [low if low < value else value for low, value in zip(self.lows, cells, strict=True)]
         self.highs = [high if high > value else value for high, value in zip(self.highs, cells, strict=True)]
         self.low, self.high = min(self.low, total), max(self.high, total)
+
+    def compare(self, cells: Floats) -> None:
+        """Compare the sample after that of `add` with it."""
+        last, self.last, self.pairs = self.last, (), self.pairs + 1
+        self.sums = [total + v for total, v in zip(self.sums, last, strict=True)]
+        self.squares = [total + v * v for total, v in zip(self.squares, last, strict=True)]
+        self.changes = [total + abs(b - a) for total, a, b in zip(self.changes, last, cells, strict=True)]
+
+    def find_noisy(self) -> list[bool]:
+        """Return for each cell whether it changes as much from one sample to the next as in the whole span."""
+        pairs, largest, shares = self.pairs, 0.0, list[float]()
+        for change, square, total, low, high in zip(
+            self.changes, self.squares, self.sums, self.lows, self.highs, strict=True
+        ):
+            is_noise = change * change > NOISY_RATIO * (pairs * square - total * total)
+            shares.append(change if is_noise else 0.0)
+            largest = largest if is_noise else max(largest, high - low)
+        return [0.0 < LEAST_NOISE * largest * pairs < change for change in shares]
 
 
 def enclosed(layout: Layout, i: int, loading: list[bool]) -> tuple[bool, bool]:
@@ -153,6 +193,7 @@ class CellWindow:
       has at most eight cells, because these are put where the foot presses.
     - STUCK: the cell shows one value, well above that of the other cells in the air.
     - INVERTED: the cell shows its highest values in swing.
+    - NOISY: the cell changes as much from one sample to the next as in the whole window, as an open input does.
     - SATURATED: the cell is at the end of its measuring range, even while the foot is in the air (this needs a layout).
 
     A cell at the rim of the sole or under a high arch may never bear load. A cell there that was dead from the start
@@ -168,6 +209,8 @@ class CellWindow:
     """Largest range of any working cell, unit of the samples."""
     highest: float
     """Highest value of any working cell, unit of the samples."""
+    noisy: list[bool]
+    """For each cell, whether it is noisy."""
 
     @classmethod
     def from_span(cls, span: CellSpan, excluded: list[int]) -> CellWindow:
@@ -176,7 +219,7 @@ class CellWindow:
         working = [i for i in range(len(ranges)) if i not in excluded] or list(range(len(ranges)))
         largest_range = max([ranges[i] for i in working], default=0.0)
         highest = max([span.highs[i] for i in working], default=0.0)
-        return cls(span.lows, ranges, working, largest_range, highest)
+        return cls(span.lows, ranges, working, largest_range, highest, span.find_noisy())
 
     @property
     def varies(self) -> bool:
@@ -189,8 +232,9 @@ class CellWindow:
         return any([0.0 < self.ranges[i] <= SILENT_RANGE * self.largest_range for i in self.working])
 
     def find_lively(self) -> list[bool]:
-        """Return for each cell whether it is lively."""
-        return [r > LIVELY_RANGE * self.largest_range for r in self.ranges]
+        """Return for each cell whether it is lively, and not by noise."""
+        least = LIVELY_RANGE * self.largest_range
+        return [r > least and not is_noisy for r, is_noisy in zip(self.ranges, self.noisy, strict=True)]
 
     def find_faults(
         self, layout: Layout | None, lively_windows: list[int], in_air: Floats
@@ -206,6 +250,8 @@ class CellWindow:
         for i in self.working:
             if full_scale_value is not None and 0.0 < FULL_SCALE_SHARE * full_scale_value <= lows[i]:
                 fault = CellFault.SATURATED
+            elif self.noisy[i]:
+                fault = CellFault.NOISY
             elif i < len(in_air) and self._is_inverted(i, in_air[i]):
                 fault = CellFault.INVERTED
             elif ranges[i] > SILENT_RANGE * largest_range:
@@ -330,6 +376,8 @@ class CellHealth:
             if self.window_start is None or not 0.0 <= t - self.window_start < LONGEST_WINDOW:
                 self.window_start, self.swings, self.span = t, 0, CellSpan()
             self.span.add(cells, self.excluded)
+        elif self.span.last and t - self.checked_at < LONGEST_CHANGE:
+            self.span.compare(cells)
         if gyro is None:
             was_airborne, self.airborne = self.airborne, phase is Phase.SWING
             swing_starts = self.airborne and not was_airborne

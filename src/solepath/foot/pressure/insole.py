@@ -24,12 +24,11 @@ from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Cell, Floats, Foot, Layout, Phase, Sample, Vec2
 from ...types.attrs import define, field, state, stateful
 from ...types.vector import TIME_EPSILON
-from ..cues.cues import MOST_SINGLE_CELLS
 from ..limitations import Limitations
 from ..settings import FootSettings, InsoleSettings
 from ..stance.stance import Load
 from .cell_health import CellHealth, add_up
-from .jumps import LEAST_STEP, Jumps
+from .jumps import LEAST_STEP, LEAST_STEP_OF_TWO, Jumps
 from .unloaded import UnloadedLevel
 
 SPAN_DURATION = 2.0
@@ -163,18 +162,18 @@ class InsoleLoads:
         self.cells = cells
         total = add_up(cells)
         last_range = self.total.high - self.total.low if self.load_risen else 0.0
-        jumps = self.jumps
-        if jumps.burst is not None or abs(total - jumps.total) > LEAST_STEP * last_range > 0.0:
+        jumps, least = self.jumps, (LEAST_STEP if len(cells) > 2 else LEAST_STEP_OF_TWO) * last_range
+        if jumps.burst is not None or jumps.before or abs(total - jumps.total) > least > 0.0:
             if jumps.is_burst(t, total, cells, last_range, self.total.low):
                 if jumps.bursts > 1:
                     self.trouble = BURST
                 return None
-            if step := jumps.find_step(t, total, cells):
+            if jumps.is_jump(t, total, cells, least / len(cells)):
+                return None
+            if step := jumps.find_step(cells, least / len(cells)):
                 self.trouble = STEP
                 self._shift(step, len(cells))
-        jumps.t, jumps.total = t, total
-        if len(cells) <= MOST_SINGLE_CELLS:
-            jumps.cells = cells
+        jumps.t, jumps.total, jumps.cells = t, total, cells
         heel_sum = forefoot_sum = 0.0
         sums = [(self.total, total)]
         has_areas = self.layout is not None and len(cells) == len(self.layout.cells)

@@ -16,12 +16,18 @@ LONGEST_BURST = 0.5
 """Longest burst, s: cells that show one value for longer show it for good (cell_health.py).
 
 If it is the value of all cells, and not that of a foot in the air, they show no load for as long as it lasts."""
-LEAST_STEP = 0.04
-"""Smallest step of the sum of the cells, as a share of that range: a smaller one hides neither contact nor toe-off."""
+LEAST_STEP, LEAST_STEP_OF_TWO = 0.04, 0.3
+"""Smallest step of the sum of the cells, as a share of that range: a smaller one hides neither contact nor toe-off.
+
+That of two cells is larger, because feet move two cells alike now and then, but not as far at once."""
 STEP_TOLERANCE = 0.25
-"""Largest deviation of the change of one cell from that of all cells in a step, as a share of the latter."""
-LEAST_STEP_CELLS = 3
-"""Smallest number of cells that show a step: two cells rise alike now and then in a step of the wearer, too."""
+"""Largest deviation of the change of one cell from that of most in a step, as a share of the latter."""
+STEP_CELLS = 0.67
+"""Smallest share of the cells that deviate less: the others may be those under which the foot moves, or cut off."""
+LONGEST_STEP = 2
+"""Largest number of samples in a row that a step takes, or that a value is wrong which then returns."""
+MANY_CELLS, SLOW_INTERVAL = 8, 0.045
+"""Number of cells from which on no foot moves so many alike even within that time, s."""
 
 
 @define
@@ -33,7 +39,11 @@ class Jumps:
     total: float = 0.0
     """Sum of the cells of the last sample that was in no burst."""
     cells: Floats = ()
-    """Its cells, if they are few enough to be compared one by one; otherwise empty."""
+    """Cells of the last sample."""
+    before: Floats = ()
+    """Cells of the sample before the jump that lasts; empty outside of one."""
+    held: int = 0
+    """Number of samples of that jump, which are not used."""
     burst: float | None = None
     """The value that the cells of the current burst have; None outside of a burst."""
     burst_t: float = 0.0
@@ -45,8 +55,8 @@ class Jumps:
         """Return whether the cells of a sample show a burst, so that this sample must not be used.
 
         `total` is their sum, `load_range` its range in the last 8 to 10 s, and `lowest` the lower end of it.
-        Call this and then `find_step` for a sample whose sum differs by LEAST_STEP or more from that of the sample
-        before, and keep what the others show."""
+        Call this, `is_jump` and then `find_step` for a sample whose sum differs by LEAST_STEP or more from that of the
+        sample before, and keep what the others show."""
         count, burst = len(cells), self.burst
         if burst is not None:
             same = cells.count(burst)
@@ -70,15 +80,36 @@ class Jumps:
             return True
         return False
 
-    def find_step(self, t: float, total: float, cells: Floats) -> float:
-        """Return by how much all cells have jumped at once; 0 if they have not."""
-        before, count = self.cells, len(cells)
-        if self.t is None or t - self.t > SHORT_INTERVAL or not LEAST_STEP_CELLS <= count == len(before):
+    def is_jump(self, t: float, total: float, cells: Floats, least: float) -> bool:
+        """Return whether the cells move alike to this sample, so that it must not be used: what follows decides.
+
+        `least` is the smallest change of a cell that matters."""
+        longest = SLOW_INTERVAL if len(cells) >= MANY_CELLS else SHORT_INTERVAL
+        if self.t is None or not 2 <= len(cells) == len(self.cells) or t - self.t > longest:
+            self.before = ()
+        elif self.held < LONGEST_STEP and abs(common_change(self.cells, cells)) > least:
+            self.before, self.held = self.before or self.cells, self.held + 1
+            self.t, self.total, self.cells = t, total, cells
+            return True
+        return False
+
+    def find_step(self, cells: Floats, least: float) -> float:
+        """Return by how much all cells have jumped and then stayed; 0 if they have not."""
+        before, self.before, self.held = self.before, (), 0
+        if not before:
             return 0.0
-        change = total - self.total
-        step = change / count
-        tolerance = STEP_TOLERANCE * abs(step)
-        for value, value_before in zip(cells, before, strict=True):
-            if abs(value - value_before - step) > tolerance:
-                return 0.0
-        return step
+        step = common_change(before, self.cells)
+        moved = sorted([abs(b - a) for a, b in zip(self.cells, cells, strict=True)])
+        stays = moved[int(STEP_CELLS * (len(moved) - 1))] <= STEP_TOLERANCE * abs(step)
+        return step if stays and abs(step) > least else 0.0
+
+
+def common_change(before: Floats, cells: Floats) -> float:
+    """Return by how much most cells have changed alike; 0 if they have not.
+
+    It is the middle of the half of the changes that lie closest together: loaded cells change by more or less."""
+    changes = sorted([b - a for a, b in zip(before, cells, strict=True)])
+    low, high = min(zip(changes, changes[len(changes) // 2 :], strict=False), key=lambda ends: ends[1] - ends[0])
+    middle = 0.5 * (low + high)
+    alike = [change for change in changes if abs(change - middle) <= STEP_TOLERANCE * abs(middle)]
+    return middle if len(alike) >= STEP_CELLS * len(changes) else 0.0
