@@ -68,7 +68,7 @@ A lone step, or one of somebody who crawls, is no bout but moves the foot. Of 35
 KNOWN, SUREST = 2.0, 5.0
 """Evidence from which on a foot is known to carry its walker, and its largest value."""
 AFTER_PAUSE = 0.4
-"""Largest evidence that is left after a pause: with `MOST_OF_FIRST` of one stride, less than `KNOWN`; chosen by hand."""
+"""Largest evidence that is left after a pause: with `MOST_OF_FIRST` of a stride, less than `KNOWN`; chosen by hand."""
 LEAST_PROGRESS = 0.15
 """Length of a stride below which it goes nowhere and speaks for no walk, m, as steps on the spot do; chosen by hand,
 below the strides of patients who shuffle."""
