@@ -23,6 +23,7 @@ from solepath import Foot, Session
 from solepath.recording import read_samples
 from solepath.recording.text_table import TableError
 from solepath.validate import NoMatch, WalkComparison, compare_walks, read_truth
+from solepath.validate.agreement_files import agreement_cells
 
 WALK = walker()
 Evaluated = Callable[[str, str], Any]
@@ -226,6 +227,13 @@ def test_conditions_and_means_of_recordings_are_groups(tmp_path: Path) -> None:
         for name in ("P1", "P2", "P3")
     ]
     assert float(groups["means of recordings", ""]["sd"]) == pytest.approx(stdev(means), abs=1e-6)
+
+
+@pytest.mark.parametrize("degraded", [False, True])
+def test_one_pair_has_no_limits_and_none_no_bias(degraded: bool) -> None:
+    comparison = WalkComparison.of([pair(1.0, 1.5, degraded)])
+    ((_, _, bias, limits, *_, icc),) = agreement_cells(comparison.agreement)
+    assert (bias, limits, icc) == ("-" if degraded else "+0.500", "-", "-")
 
 
 def test_strides_that_are_degraded_count_as_found_and_are_in_no_figure() -> None:

@@ -16,7 +16,12 @@ from solepath.show.outcomes.references import Reference
 from solepath.show.outcomes.rows import OutcomeRow
 from solepath.show.output import PLACES_FILE, TrackFiles
 
-FORMULAS = ['=HYPERLINK("http://x","y")', "+1+1", "-2+3", "@SUM(A1)", "\t=1+1", " =1+1", "-cmd|' /C calc'!A0", "\r=1"]
+WIDE = "\uff1d\uff0b\uff0d\uff20"
+"""The signs = + - @ in full width, which programs in East Asia take for the same."""
+FORMULAS = [
+    '=HYPERLINK("http://x","y")', "+1+1", "-2+3", "@SUM(A1)", "\t=1+1", " =1+1", "-cmd|' /C calc'!A0", "\r=1",
+    *[f"{sign}1+1" for sign in WIDE],
+]  # fmt: skip
 NAMES = ["Room 1", "-1", "+1", "1e3", "O'Neill", "a=b", ""]
 
 
@@ -39,7 +44,7 @@ def test_the_names_of_a_floor_plan_are_text(tmp_path: Path, name: str) -> None:
     with (tmp_path / PLACES_FILE).open(newline="", encoding="utf-8") as file:
         (row,) = csv.DictReader(file)
     for column in ("level", "room", "door"):
-        assert not re.match(r"\s*[=+\-@\t\r]", row[column]) or is_number(row[column])
+        assert not re.match(rf"\s*[=+\-@\t\r{WIDE}]", row[column]) or is_number(row[column])
     is_control = not name[:1].isprintable()
     assert row["level"].lstrip("'\ufffd") == name.lstrip("\t\r")
     assert row["level"].startswith("'") == (name in FORMULAS and not is_control)
@@ -53,7 +58,7 @@ def test_the_source_of_a_reference_is_text(tmp_path: Path, source: str) -> None:
     with (tmp_path / OUTCOMES_FILE).open(newline="", encoding="utf-8") as file:
         (read,) = csv.DictReader(file)
     assert (
-        not re.match(r"\s*[=+\-@\t\r]", read["source"])
+        not re.match(rf"\s*[=+\-@\t\r{WIDE}]", read["source"])
         and read["source"].endswith(source[1:])
         and read["value"] == "-1.000000"
     )

@@ -63,8 +63,8 @@ PLACE_COLUMNS = (
 )  # fmt: skip
 DEFECT = Flaw.DEFECT.name.lower()
 """Flaw in strides.csv of the strides of a foot whose data cannot be right."""
-FORMULA = re.compile(r"\s*[=+\-@]")
-"""Start of a text that programs for tables run as a formula."""
+FORMULA = re.compile(r"\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
+"""Start of a text that programs for tables run as a formula: = + - @, also in full width."""
 Cell = str | int | float | None
 """What a cell of a table may hold; None is left empty."""
 MIN_DIRECTED_STRIDE = 0.3

@@ -56,13 +56,18 @@ def agreement_cells(frame: Any) -> list[list[str]]:
         [
             " ".join(filter(None, (row["parameter"], row.get("by"), row.get("group")))),
             f"{row['n']}",
-            f"{row['bias']:+z.3f}",
-            f"{row['lower']:+z.3f} to {row['upper']:+z.3f}",
+            _cell(row["bias"], "{:+z.3f}"),
+            _cell(row["lower"], "{:+z.3f} to {:+z.3f}", row["upper"]),
             *[f"{row[name]}" for name in ("not_found", "extra", "degraded")],
-            *["-" if row[name] is None or row[name] != row[name] else f"{row[name]:.3f}" for name in ("f1", "icc")],
+            *[_cell(row[name], "{:.3f}") for name in ("f1", "icc")],
         ]
         for row in frame.to_dict("records")
     ]
+
+
+def _cell(value: float | None, shown: str, *others: float) -> str:
+    """Return a value that is known as text, with others beside it, and "-" for one that is not."""
+    return "-" if value is None or value != value else shown.format(value, *others)
 
 
 def agreement_writers(comparison: WalkComparison, made_by: Mapping[str, Any]) -> dict[str, Callable[[Path], None]]:

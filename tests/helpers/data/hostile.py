@@ -64,6 +64,21 @@ def parquet(path: Path, count: int, names: str) -> Path:
     return path
 
 
+def parquet_of(path: Path, columns: Callable[[], dict[str, list[object]]]) -> Path:
+    """Write a Parquet file of these columns."""
+    import pyarrow
+    from pyarrow.parquet import write_table
+
+    write_table(pyarrow.table(columns()), path, compression="zstd", write_statistics=False)
+    return path
+
+
+def walk_with(count: int, note: list[object]) -> dict[str, list[object]]:
+    """Return columns of so many rows, with notes which nobody asks for."""
+    numbers: dict[str, list[object]] = {name: [0.01 * k for k in range(count)] for name in ("t", "acc_x", "acc_y")}
+    return {**numbers, "acc_z": [9.8] * count, "note": note}
+
+
 def compressed(path: Path, opened: Callable[..., object], start: str) -> Path:
     """Write a table or recording that begins well and unpacks to 50 MB of blank lines."""
     with opened(path, "wb") as file:  # type: ignore[attr-defined]
@@ -107,6 +122,14 @@ HOSTILE: dict[str, Callable[[Path], Path]] = {
     "lying.xlsx": lying,
     "rows.parquet": lambda path: parquet(path, 16, "t acc_x acc_y acc_z gyro_x gyro_y gyro_z"),
     "column.parquet": lambda path: parquet(path, 30, "t"),
+    "columns.parquet": lambda path: parquet_of(path, lambda: {f"c{k}": [1.0] for k in range(10_001)}),
+    "text.parquet": lambda path: parquet_of(path, lambda: {"t": ["x" * MEGABYTE] * 1200}),
+    "note.parquet": lambda path: parquet_of(path, lambda: walk_with(1000, ["x" * MEGABYTE] * 1000)),
+    "notes.parquet": lambda path: parquet_of(
+        path, lambda: walk_with(300, [f"{k}" + "x" * MEGABYTE for k in range(300)])
+    ),
+    "rows.xlsx": lambda path: workbook(path, sheet=(f'<row r="{k + 1}"/>' for k in range(MEGABYTE))),
+    "blanks.xlsx": lambda path: workbook(path, sheet=[ROWS, *["<row> </row>" * 1000] * 1000]),
     "walk.csv.gz": lambda path: compressed(path, gzip.open, "t,acc_x,acc_y,acc_z\n0,0,0,9.8\n"),
     "walk.jsonl.xz": lambda path: compressed(path, lzma.open, '{"format": "solepath-packets", "version": 1}\n'),
     "walk.zip": zipped,

@@ -177,6 +177,32 @@ def test_parquet_is_read_with_either_library(tmp_path: Path, monkeypatch: pytest
     assert_expected(list(read_samples(path, mapping=MAPPING)))
 
 
+@pytest.mark.parametrize("library", LIBRARIES)
+def test_texts_of_parquet_are_times_and_names_as_in_any_table(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, library: str
+) -> None:
+    """Texts that are all different, a few that many rows share, and none in some rows; in groups of 3,000 rows."""
+    pandas = pytest.importorskip("pandas")
+    count = 10_000
+    start = datetime(2026, 3, 1, 9, 30)
+    columns = {
+        "time": [(start + timedelta(milliseconds=10 * k)).isoformat() for k in range(count)],
+        **{name: [value] * count for name, value in zip(NAMES[1:4], (0.5, -0.25, 9.75), strict=True)},
+        "side": pandas.Categorical(["left", None] * (count // 2)),
+        "note": [None, "turned", *[None] * (count - 2)],
+        "raw": [b"\x00"] * count,
+    }
+    path = tmp_path / "walk.parquet"
+    pandas.DataFrame(columns).to_parquet(path, row_group_size=3_000)
+    only(monkeypatch, library)
+    (_, names), (_, first), (_, second), *rest = books.read_book(path)
+    assert first[names.index("side")] == "left" and second[names.index("side")] is None
+    assert first[names.index("note")] is None and second[names.index("note")] == "turned" and len(rest) == count - 2
+    mapping = TableMapping({"t": "time", "acc": NAMES[1:4]})
+    times = [sample.t for sample in read_samples(path, mapping=mapping)]
+    assert times == pytest.approx([0.01 * k for k in range(count)], abs=2e-6)
+
+
 def test_excel_needs_no_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pandas = pytest.importorskip("pandas")
     pytest.importorskip("openpyxl")

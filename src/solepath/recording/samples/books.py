@@ -30,14 +30,23 @@ CHUNK = 65_536
 MAX_TEXTS = 1_000_000
 """Largest number of texts that the cells of a workbook share: a table of samples has its names, and labels."""
 MAX_BLANKS, BLANKS_PER_CELL = 100_000, 20
-"""Largest number of blank cells before others in the rows of a workbook, and how many more for each cell with content:
-a row of one sensor among seven has six times as many."""
+"""Largest number of blank rows, and cells before others, of a workbook, and how many more for each cell with content: a
+row of one sensor among seven has six times as many."""
+BLANK_ROW = re.compile(rb'<row r="\d+"[^<>]*(?:/>|></row>)')
+"""XML of a blank row as Excel writes it for a format, up to its last row: the others have their numbers without it."""
 DATE_STYLES = {*range(14, 23), *range(45, 48)}
 """Numbers of the built-in formats of dates and times (ECMA-376 part 1, 18.8.30)."""
 DAY_0 = (datetime(1899, 12, 30), datetime(1904, 1, 1))
 """Day 0 of a workbook, with which the days from March 1900 on are right, and of one whose days count from 1904."""
-BATCH = 8192
-"""Number of rows of a Parquet file that are unpacked at once."""
+BATCH, BATCH_CELLS = 8192, 500_000
+"""Largest number of rows of a Parquet file that are unpacked at once, and of their cells."""
+MAX_COLUMNS = 10_000
+"""Largest number of columns of a Parquet file: 4,000 pressure cells of two feet take less."""
+FOOTER_END, FOOTER_SIZE = 8, 4
+"""Number of bytes before the end of a Parquet file at which the size of its footer is, and of bytes that it has."""
+MAX_FOOTER = 5_000_000
+"""Largest size of what a Parquet file says of its columns and groups of rows, bytes; in memory it is 16 times as large,
+and 10,000 columns take 2 MB."""
 VALUES = {"v", "t"}
 """Elements with the value of a cell, or the text that cells share."""
 
@@ -84,21 +93,26 @@ def _read_sheet(path: Path) -> Iterator[tuple[int, list[Any]]]:
     sheet = next(parts["/worksheet"][one] for one in ids if one in parts["/worksheet"])
     cells: list[Any] = []
     number = blanks = count = 0
+
+    def check_blanks() -> None:
+        if blanks > MAX_BLANKS + BLANKS_PER_CELL * count:
+            what = f"has {blanks:,} blank rows, and cells before others, so it is no table"
+            raise RecordingError(path, what, f"line {number + 1}")
+
     for name, attributes, text in _elements(path, sheet, "c", "row"):
         if name == "row":
             number = int(attributes.get("r", number + 1))
             if cells:
                 yield number, cells
+            blanks += not cells
+            check_blanks()
             cells = []
             continue
         column = len(cells)
         if (letters := re.match("[A-Z]{1,3}", attributes.get("r", ""))) is not None:
             column = reduce(lambda index, letter: 26 * index + ord(letter) - ord("A") + 1, letters[0], 0) - 1
         blanks, count = blanks + max(column - len(cells), 0), count + 1
-        if blanks > MAX_BLANKS + BLANKS_PER_CELL * count:
-            raise RecordingError(
-                path, f"has {blanks:,} blank cells before others, so it is no table", f"line {number + 1}"
-            )
+        check_blanks()
         cells += [None] * (column - len(cells))
         cells[column:] = [_value(attributes, text, texts, dates, day_0)]
 
@@ -144,10 +158,6 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
     parser, found, attributes_of = ParserCreate(), list[tuple[str, dict[str, str], str]](), dict[str, dict[str, str]]()
     text, within, size, unfinished = list[str](), set[str](), 0, 0
 
-    def check(length: int) -> None:
-        if length > LONGEST_LINE:
-            raise RecordingError(path, f"holds a text of more than {LONGEST_LINE} characters", part)
-
     def start(name: str, attributes: dict[str, str]) -> None:
         nonlocal size, unfinished
         unfinished = 0
@@ -164,7 +174,7 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
         if not within.isdisjoint(VALUES) and "rPh" not in within:
             text.append(data)
             size += len(data)
-            check(size)
+            _check_text(path, size, part)
 
     def end(name: str) -> None:
         name = name.rpartition(":")[2]
@@ -179,12 +189,18 @@ def _elements(path: Path, part: str, *names: str) -> Iterator[tuple[str, dict[st
     parser.StartDoctypeDeclHandler, parser.buffer_text = reject, True
     with open_member(path, part, _open_book(path)) as file:
         while data := file.read(CHUNK):
+            data = BLANK_ROW.sub(b"", data)
             unfinished += len(data)
             parser.Parse(data)
-            check(unfinished)  # the parser keeps a tag, with all its attributes, until its end
+            _check_text(path, unfinished, part)  # the parser keeps a tag, with all its attributes, until its end
             yield from found
             found.clear()
         parser.Parse(b"", True)
+
+
+def _check_text(path: Path, length: int, part: str = "") -> None:
+    if length > LONGEST_LINE:
+        raise RecordingError(path, f"holds a text of more than {LONGEST_LINE} characters", part)
 
 
 def _open_book(path: Path) -> BinaryIO:
@@ -202,36 +218,71 @@ def _read_parquet(path: Path) -> Iterator[list[Any]]:
         size = stream.seek(0, SEEK_END)
         if size >= MAX_BOOK:
             raise RecordingError(path, f"is larger than {MAX_BOOK // 1_000_000} MB")
+        stream.seek(max(size - FOOTER_END, 0))
+        footer = int.from_bytes(stream.read(FOOTER_SIZE), "little")
+        if MAX_FOOTER < footer < size:
+            what = f"needs {footer:,} bytes to list its columns and groups of rows: more than {MAX_FOOTER:,}"
+            raise RecordingError(path, what, repair="write it with fewer columns, or with larger groups of rows")
         stream.seek(0)
         read = _with_pyarrow if find_spec("pyarrow") is not None else _with_polars
-        count, names, batches = read(stream)
+        count, unpacked, names, batches = read(path, stream)
+        if len(names) > MAX_COLUMNS:
+            raise RecordingError(path, f"has {len(names):,} columns: more than {MAX_COLUMNS:,}")
         if count * len(names) > MAX_VALUES:
             raise RecordingError(
                 path, f"holds {count:,} rows of {len(names)} columns: more than {MAX_VALUES:,} numbers"
             )
-        check_ratio(path, count * len(names) * FLOAT_SIZE, size)
+        check_ratio(path, max(count * len(names) * FLOAT_SIZE, unpacked), size)
         yield names
         for batch in batches:
             yield from map(list, batch)
 
 
-def _with_pyarrow(stream: BinaryIO) -> tuple[int, list[str], Iterator[Iterable[Any]]]:
-    """Return the number of rows that the footer of a Parquet file claims, the names of its columns, and its rows."""
-    from pyarrow import parquet, types
-
-    book = parquet.ParquetFile(stream)
-    names = [field.name for field in book.schema_arrow if not types.is_nested(field.type)]
-    batches = book.iter_batches(BATCH, columns=names)
-    rows = (zip(*[column.to_pylist() for column in batch.columns], strict=True) for batch in batches)
-    return book.metadata.num_rows, names, rows
+def _batch_size(names: Sequence[str]) -> int:
+    """Return the number of rows that are unpacked at once."""
+    return max(min(BATCH, BATCH_CELLS // max(len(names), 1)), 1)
 
 
-def _with_polars(stream: BinaryIO) -> tuple[int, list[str], Iterator[Iterable[Any]]]:
-    """Return the same with polars."""
+def _with_pyarrow(path: Path, stream: BinaryIO) -> tuple[int, int, list[str], Iterator[Iterable[Any]]]:
+    """Return the numbers of rows and of unpacked bytes that a Parquet file claims, names of its columns, and its rows.
+
+    A text that many rows share is there once, in the file as in memory."""
+    from pyarrow import compute, parquet, types
+
+    claimed = parquet.read_metadata(stream)
+    paths = [claimed.schema.column(k).path for k in range(claimed.num_columns)]
+    book = parquet.ParquetFile(stream, metadata=claimed, read_dictionary=paths)
+    kinds = book.schema_arrow
+    names = [one.name for one in kinds if not types.is_nested(one.type) and not types.is_fixed_size_binary(one.type)]
+    unpacked = sum(claimed.row_group(k).total_byte_size for k in range(claimed.num_row_groups))
+
+    def cells(column: Any) -> list[Any]:
+        if not types.is_dictionary(column.type):
+            return column.to_pylist()  # type: ignore[no-any-return]
+        shared = column.indices.dictionary_encode()  # a column has texts of other batches, too
+        texts = column.dictionary.take(shared.dictionary)
+        _check_text(path, compute.max(compute.binary_length(texts)).as_py() or 0)
+        known = [*texts.to_pylist(), None]
+        return [known[index] for index in compute.fill_null(shared.indices, len(texts)).to_pylist()]
+
+    batches = book.iter_batches(_batch_size(names), columns=names)
+    rows = (zip(*map(cells, batch.columns), strict=True) for batch in batches)
+    return claimed.num_rows, unpacked, names, rows
+
+
+def _with_polars(path: Path, stream: BinaryIO) -> tuple[int, int, list[str], Iterator[Iterable[Any]]]:
+    """Return the same with polars, which does not tell what a file unpacks to."""
     import polars
 
     lazy = polars.scan_parquet(stream)
     names = [name for name, kind in lazy.collect_schema().items() if not kind.is_nested()]
     count = lazy.select(polars.len()).collect().item()
-    rows = (lazy.select(names).slice(start, BATCH).collect().rows() for start in range(0, count, BATCH))
-    return count, names, rows
+
+    def unpack(start: int) -> Iterator[Any]:
+        frame = lazy.select(names).slice(start, size).collect()
+        for column in frame.select(polars.col(polars.String).str.len_bytes().max()):
+            _check_text(path, column.item() or 0)
+        return frame.iter_rows()
+
+    size = _batch_size(names)
+    return count, 0, names, map(unpack, range(0, count, size))
