@@ -178,6 +178,30 @@ def test_packets_that_catch_up_after_a_silence_are_no_other_rate(speed: float) -
     assert of(Limitation, events) == [] and lost(events) == 0
 
 
+@pytest.mark.parametrize("name", ["no counter", "8 bits", *soaked("16 bits")])
+@pytest.mark.parametrize("apart", [1e-6, 2e-3])
+@pytest.mark.parametrize(("held", "kept"), [(3.0, 1.0), (8.0, 1.0), (25.0, 1.0), (6.0, 0.5)])
+def test_what_a_phone_held_back_was_measured_one_after_another_in_the_silence(
+    name: str, apart: float, held: float, kept: float
+) -> None:
+    driver, events, newest = DRIVERS[name], list[Event](), 0.0
+    session = Session(profiles=[driver])
+    for k, (t, acc, gyro) in enumerate(counts(40.0)):
+        if 12.0 + kept * held <= t < 12.0 + held:
+            continue
+        newest = max(newest + apart, 12.0 + held if 12.0 <= t < 12.0 + held else t)
+        fields = {"number": k % (driver.sequence or 2**32), "ticks": 0, "acc": acc, "gyro": gyro}
+        events += session.feed(Packet(100.005 + newest, SITE, "board/motion", driver.write("board/motion", fields)))
+    events += session.finish()
+    assert of(DefectFound, events) == [] and of(Limitation, events) == []
+    if kept == 1.0:
+        assert of(SampleGap, events) == [] and of(ClockReset, events) == []
+        assert len(of(StrideTaken, events)) >= plain(name)[0] - 1
+    gaps = of(SampleGap, events)  # what came since, as fast as what was held back, is part of it without a count
+    assert fsum(gap.duration for gap in gaps) == pytest.approx((1.0 - kept) * held, abs=0.2)
+    assert all(112.0 + kept * held - 0.05 < gap.t < 113.5 + kept * held for gap in gaps)
+
+
 def test_a_sensor_that_sends_nothing_but_zeros_is_named() -> None:
     _, events = walk(DRIVERS["no counter"], Course(zeros=10**6))
     assert "every value has been 0" in of(DefectFound, events)[0].what

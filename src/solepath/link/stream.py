@@ -19,7 +19,16 @@ from ..types.vector import unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
 from .clock import LARGE_ERROR, MAX_DRIFT, MIN_INCREMENT, Clock
-from .counters import MIN_GAP, REMEMBERED_PACKETS, Numbering, PacketPosition, PacketRun, SampleTimes, signed_difference
+from .counters import (
+    MIN_GAP,
+    REMEMBERED_PACKETS,
+    Backlog,
+    Numbering,
+    PacketPosition,
+    PacketRun,
+    SampleTimes,
+    signed_difference,
+)
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
 from .periodic import OTHER_RATE, PeriodicClock, other_rate
@@ -85,6 +94,8 @@ class StreamLink(DeviceLink):
     """Number of packets in a row at one steady distance that differs from the distance which the rate predicts."""
     off_rate_interval: float = 0.0
     """Distance of the newest of those packets, ticks; 0 before any."""
+    backlog: Backlog = field(factory=Backlog)
+    """Packets whose count goes on after a long silence, until they come at their own pace."""
     periodic: PeriodicClock | None = None
     newest_arrival: float | None = None
     """Arrival of the newest packet with samples, s."""
@@ -122,6 +133,7 @@ class StreamLink(DeviceLink):
     def restart_clock(self) -> None:
         """Restart the clock fit and the times, because the receiver's clock restarted."""
         self.packet_run.clock, self.newest_arrival, self.last_t, self.counted_since = None, None, None, None
+        self.backlog.since = None
         if self.periodic is not None:
             self.periodic = PeriodicClock(self.periodic.period)
 
@@ -129,7 +141,7 @@ class StreamLink(DeviceLink):
         """Take counters that go back in the next packet as restarted: no packet is overtaken across two connections.
 
         Without counters, the slots restart with the next packet."""
-        self.packet_run.after_reconnection = True
+        self.packet_run.after_reconnection, self.backlog.since = True, None
         if self.periodic is not None:
             self.periodic.newest_arrival = None
 
@@ -220,7 +232,7 @@ class StreamLink(DeviceLink):
                 position,
                 rate * TICKS_PER_SAMPLE,
                 arrival,
-                new_fit=self._has_stopped(driver, arrival) or self._is_another(driver, position, checksum),
+                new_fit=self._has_stopped(driver, position, arrival) or self._is_another(driver, position, checksum),
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
@@ -292,6 +304,8 @@ class StreamLink(DeviceLink):
         ticks = (elapsed if device_time is None else device_time) * rate * TICKS_PER_SAMPLE
         sequence, modulus = self._number(driver, int(reading.sequence), count, ticks, checksum)
         difference, packets = run.count_packets(sequence, modulus, ticks)
+        if difference == 1 and device_time is None and elapsed > driver.profile.stale_after:
+            packets = 1  # held back, more likely than a loss of exactly so many rounds
         ticks_after = round(packets * run.packet_ticks)
         if (
             packets >= 1
@@ -333,17 +347,27 @@ class StreamLink(DeviceLink):
             return 0.0
         return pace.other_slope
 
-    def _has_stopped(self, driver: Driver, arrival: float) -> bool:
-        """Return whether a packet is so late that the device must have stopped counting before it."""
+    def _has_stopped(self, driver: Driver, position: PacketPosition, arrival: float) -> bool:
+        """Return whether a packet is so late that the device must have stopped counting before it.
+
+        A phone may have held back packets whose numbers go on. Then they come faster than they were measured."""
         clock, run = self.packet_run.clock, self.packet_run
         if clock is None or self.newest_arrival is None or driver.tick_modulus:
             return False
         silence, delay = arrival - self.newest_arrival, arrival - clock.fit_time(run.ticks + run.packet_ticks)
-        return (
-            delay > MIN_DELAY_AFTER_CONNECTION
-            if run.after_reconnection
-            else silence > LONG_SILENCE and delay > MIN_DELAY_AFTER_SILENCE
-        )
+        if run.after_reconnection:
+            return delay > MIN_DELAY_AFTER_CONNECTION
+        if self.backlog.since is not None:
+            is_over = self.backlog.is_over(arrival, run.packet_ticks / clock.rate)
+            return is_over and delay > MIN_DELAY_AFTER_CONNECTION
+        is_late = silence > LONG_SILENCE and delay > MIN_DELAY_AFTER_SILENCE
+        half_round = 0.5 * driver.sequence * run.packet_ticks / clock.rate
+        may_be_rounds = position.sequence_difference == 1 and silence > max(half_round, driver.profile.stale_after)
+        if not is_late and not (may_be_rounds and delay > MIN_DELAY_AFTER_CONNECTION):
+            return False
+        if position.packets_after > 0:
+            self.backlog.start(arrival)
+        return self.backlog.since is None
 
     def _is_another(self, driver: Driver, position: PacketPosition, checksum: int) -> bool:
         """Return whether a packet has a number of a recent one and other bytes, so that the count started again.
