@@ -147,6 +147,25 @@ def test_a_device_that_counts_goes_by_the_rate_that_arrives(name: str, declared:
     assert f"not the {declared:g} that were set" in said
 
 
+@pytest.mark.parametrize("declared", [50.0, 200.0, *soaked(66.0, 130.0, 400.0)])
+@pytest.mark.parametrize("lose", [0, 37])
+def test_a_device_with_a_number_and_a_fine_clock_goes_by_the_rate_that_arrives(declared: float, lose: int) -> None:
+    driver = counting(1 << 16, 1e6, 1 << 32)
+    driver = evolve(driver, profile=evolve(driver.profile, nominal_rate=declared))
+    session, events, dropped = Session(profiles=[driver]), list[Event](), 0
+    for k, (t, acc, gyro) in enumerate(counts(40.0)):
+        if lose and k % lose == 3:
+            dropped += 1
+            continue
+        data = driver.write("board/motion", {"number": k, "ticks": int(t * 1e6), "acc": acc, "gyro": gyro})
+        events += session.feed(Packet(100.0 + t + 0.005, SITE, "board/motion", data))
+    events += session.finish()
+    (said,) = [event.what for event in of(Limitation, events)]
+    assert f"100 samples a second arrive, not the {declared:g} that were set" in said
+    assert (len(of(SampleGap, events)), lost(events)) == (dropped, dropped) and of(ClockReset, events) == []
+    assert session.position is not None and session.position.position[0] == pytest.approx(40.0, abs=2.0)
+
+
 @pytest.mark.parametrize("every", [(1, 2), (4, 1), *soaked((1, 4), (2, 1))])
 def test_a_device_that_only_counts_may_change_its_rate_in_mid_walk(every: tuple[int, int]) -> None:
     before, after = every

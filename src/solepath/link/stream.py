@@ -3,7 +3,7 @@
 Times come from the best source that the device has, by the rules of protocol/clock.md:
 
 - The device's own time, if its ticks are fine enough. Without sequence numbers, a larger distance between two packets
-  than the rate predicts is a loss; six packets in a row at another, steady distance show that the rate was wrong.
+  than the rate predicts is a loss. Six packets in a row at another, steady distance show that the rate was wrong.
 - Else the device's sequence numbers, which count the samples. If the device also has a coarse time, that time shows
   when counting stopped; otherwise a silence of 5 s does.
 - Else arrivals alone (periodic.py)."""
@@ -223,8 +223,8 @@ class StreamLink(DeviceLink):
             packet_ticks = run.packet_ticks
             sample_times = run.accept(position, tick_rate, arrival)
             self._set_rate(rate)
-            if not driver.sequence and reading.interval is None and not is_first:
-                self._correct_rate(tick_rate, position, sample_times, packet_ticks)
+            if reading.interval is None and not is_first:
+                self._correct_rate(tick_rate, position, sample_times, packet_ticks, driver.sequence > 0)
             found = self._judge_ticks(driver, position, arrival)
         else:
             position = self._locate_by_count(driver, reading, rate, arrival, checksum)
@@ -377,19 +377,22 @@ class StreamLink(DeviceLink):
         return position.packets_after <= 0 and not driver.tick_modulus and any(is_known)
 
     def _correct_rate(
-        self, tick_rate: float, position: PacketPosition, sample_times: SampleTimes, predicted: float
+        self, tick_rate: float, position: PacketPosition, sample_times: SampleTimes, predicted: float, has_number: bool
     ) -> None:
         """Correct the rate when packets come at another, steady distance than `predicted`, ticks, and what was lost."""
         if position.ticks_after <= 0 or sample_times.restarted is not None:
             return
-        distance, lost = float(position.ticks_after), sample_times.lost_count
+        lost = sample_times.lost_count
+        # without a number, another distance may be the rate or a loss; a number tells how many packets it is of
+        distance = position.ticks_after / (position.packets_after if has_number else 1)
         if abs(distance - predicted) <= RATE_TOLERANCE * predicted + 1.0:
             if self.unsure and sample_times.gap_start is None:
                 sample_times.gap_start = self.last_t
             sample_times.lost_count, self.off_rate_packets, self.unsure = lost + self.unsure, 0, 0
             return
         steady = abs(distance - self.off_rate_interval) <= RATE_TOLERANCE * self.off_rate_interval
-        if self.off_rate_packets > 0 and (steady or self.off_rate_interval == 0.0):
+        may_be_rate = self.off_rate_packets > 0 and (steady or self.off_rate_interval == 0.0)
+        if may_be_rate and not (has_number and lost):
             sample_times.lost_count, sample_times.gap_start, self.unsure = 0, None, self.unsure + lost
         self.off_rate_packets = self.off_rate_packets + 1 if steady and self.off_rate_packets > 0 else 1
         self.off_rate_interval = distance
