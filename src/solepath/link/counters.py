@@ -193,7 +193,7 @@ class Backlog:
     packets: int = 0
     """Number of packets after that one."""
 
-    def start(self, arrival: float) -> None:
+    def hold(self, arrival: float) -> None:
         """Take a packet that arrived at `arrival`, s, after a silence, as the first that was held back."""
         self.since, self.packets = arrival, 0
 

@@ -201,7 +201,7 @@ class PeriodicClock:
                 sample_times = self._restart(arrival)
                 self.behind = self.stand_out = self.widest_gap = gap  # what was held back meanwhile may come at once
                 return sample_times
-            self.backlog.start(arrival)
+            self.backlog.hold(arrival)
             return self._follow(arrival, period)
         if self.backlog.since is not None:
             return self._take_held_back(arrival, period)

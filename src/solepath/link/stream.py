@@ -366,7 +366,7 @@ class StreamLink(DeviceLink):
         if not is_late and not (may_be_rounds and delay > MIN_DELAY_AFTER_CONNECTION):
             return False
         if position.packets_after > 0:
-            self.backlog.start(arrival)
+            self.backlog.hold(arrival)
         return self.backlog.since is None
 
     def _is_another(self, driver: Driver, position: PacketPosition, checksum: int) -> bool:
