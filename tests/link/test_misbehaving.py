@@ -147,6 +147,25 @@ def test_a_device_that_counts_goes_by_the_rate_that_arrives(name: str, declared:
     assert f"not the {declared:g} that were set" in said
 
 
+@pytest.mark.parametrize("declared", [50.0, 200.0, *soaked(66.0, 130.0, 400.0)])
+@pytest.mark.parametrize("lose", [0, 37])
+def test_a_device_with_a_number_and_a_fine_clock_goes_by_the_rate_that_arrives(declared: float, lose: int) -> None:
+    driver = counting(1 << 16, 1e6, 1 << 32)
+    driver = evolve(driver, profile=evolve(driver.profile, nominal_rate=declared))
+    session, events, dropped = Session(profiles=[driver]), list[Event](), 0
+    for k, (t, acc, gyro) in enumerate(counts(40.0)):
+        if lose and k % lose == 3:
+            dropped += 1
+            continue
+        data = driver.write("board/motion", {"number": k, "ticks": int(t * 1e6), "acc": acc, "gyro": gyro})
+        events += session.feed(Packet(100.0 + t + 0.005, SITE, "board/motion", data))
+    events += session.finish()
+    (said,) = [event.what for event in of(Limitation, events)]
+    assert f"100 samples a second arrive, not the {declared:g} that were set" in said
+    assert (len(of(SampleGap, events)), lost(events)) == (dropped, dropped) and of(ClockReset, events) == []
+    assert session.position is not None and session.position.position[0] == pytest.approx(40.0, abs=2.0)
+
+
 @pytest.mark.parametrize("every", [(1, 2), (4, 1), *soaked((1, 4), (2, 1))])
 def test_a_device_that_only_counts_may_change_its_rate_in_mid_walk(every: tuple[int, int]) -> None:
     before, after = every
@@ -176,6 +195,30 @@ def test_packets_that_catch_up_after_a_silence_are_no_other_rate(speed: float) -
         sent = max(t, 12.0 + (t - 10.0) / speed) if t >= 10.0 else t
         events += session.feed(Packet(100.005 + sent, SITE, "board/motion", driver.write("board/motion", fields)))
     assert of(Limitation, events) == [] and lost(events) == 0
+
+
+@pytest.mark.parametrize("name", ["no counter", "8 bits", *soaked("16 bits")])
+@pytest.mark.parametrize("apart", [1e-6, 2e-3])
+@pytest.mark.parametrize(("held", "kept"), [(3.0, 1.0), (8.0, 1.0), (25.0, 1.0), (6.0, 0.5)])
+def test_what_a_phone_held_back_was_measured_one_after_another_in_the_silence(
+    name: str, apart: float, held: float, kept: float
+) -> None:
+    driver, events, newest = DRIVERS[name], list[Event](), 0.0
+    session = Session(profiles=[driver])
+    for k, (t, acc, gyro) in enumerate(counts(40.0)):
+        if 12.0 + kept * held <= t < 12.0 + held:
+            continue
+        newest = max(newest + apart, 12.0 + held if 12.0 <= t < 12.0 + held else t)
+        fields = {"number": k % (driver.sequence or 2**32), "ticks": 0, "acc": acc, "gyro": gyro}
+        events += session.feed(Packet(100.005 + newest, SITE, "board/motion", driver.write("board/motion", fields)))
+    events += session.finish()
+    assert of(DefectFound, events) == [] and of(Limitation, events) == []
+    if kept == 1.0:
+        assert of(SampleGap, events) == [] and of(ClockReset, events) == []
+        assert len(of(StrideTaken, events)) >= plain(name)[0] - 1
+    gaps = of(SampleGap, events)  # what came since, as fast as what was held back, is part of it without a count
+    assert fsum(gap.duration for gap in gaps) == pytest.approx((1.0 - kept) * held, abs=0.2)
+    assert all(112.0 + kept * held - 0.05 < gap.t < 113.5 + kept * held for gap in gaps)
 
 
 def test_a_sensor_that_sends_nothing_but_zeros_is_named() -> None:

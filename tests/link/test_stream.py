@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from random import Random
 
 import pytest
@@ -75,7 +76,10 @@ def test_a_pause_shows_in_a_coarse_clock_and_after_a_long_silence_without_one() 
         assert len(of(ClockReset, output)) == resets
         assert (absence.count, absence.duration) == pytest.approx((0, 0.01 + pause), abs=0.02)
         sample_times = times(output)
-        assert sample_times[300] - sample_times[299] == pytest.approx(0.01 + pause, abs=0.02)
+        # a count that goes on may be of packets that were held back, until they come at their own pace
+        steps = [after - before for before, after in pairwise(sample_times)]
+        assert max(steps) == pytest.approx(0.01 + pause, abs=0.02)
+        assert 299 <= steps.index(max(steps)) <= 299 + 5 * resets
         assert sample_times[-1] == pytest.approx(15.99 + pause, abs=0.02)
 
 

@@ -40,6 +40,11 @@ REPEATED_NUMBERS = (
 ROUND_NUMBERS = (
     "the number goes from {0} to {1}, not through all {2} values that were declared: give sequence={3} in the Driver"
 )
+MAX_RADIO_DELAY = 0.04
+"""Largest delay that a radio may cause at any time, s."""
+BACKLOG_PACE = 1.5
+"""Smallest ratio of the pace of packets that were held back to their own, chosen by hand: a radio that has many to
+deliver is several times as fast."""
 ON_TIME = 1.5
 """Time after the newest packet, in packets, within which one that starts the numbers again is the next one."""
 
@@ -175,6 +180,32 @@ class SampleTimes:
             known_at, count = max(arrival, start), self.lost_count
             events.append(SampleGap(t=start, known_at=known_at, site=site, duration=t - start, count=count))
         return events
+
+
+@define
+class Backlog:
+    """Packets that a phone held back during a silence and then delivers faster than they were measured.
+
+    They were measured one after another during the silence. Packets that come at their own pace were not."""
+
+    since: float | None = None
+    """Arrival since which their pace is measured, s; None while nothing was held back."""
+    packets: int = 0
+    """Number of packets after that one."""
+
+    def hold(self, arrival: float) -> None:
+        """Take a packet that arrived at `arrival`, s, after a silence, as the first that was held back."""
+        self.since, self.packets = arrival, 0
+
+    def is_over(self, arrival: float, period: float) -> bool:
+        """Take the next packet; return whether packets arrive at their own pace again, one each `period` s."""
+        elapsed = arrival - (arrival if self.since is None else self.since)
+        self.packets += 1
+        if elapsed <= MAX_RADIO_DELAY:
+            return False
+        is_over = self.packets * period < BACKLOG_PACE * elapsed
+        self.since, self.packets = None if is_over else arrival, 0
+        return is_over
 
 
 @define

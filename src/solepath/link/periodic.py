@@ -33,7 +33,7 @@ from ..types import Site
 from ..types.attrs import define, field
 from ..wire.error import WireError
 from .clock import MAX_DRIFT, MIN_INCREMENT, Clock
-from .counters import MIN_GAP, SampleTimes
+from .counters import MAX_RADIO_DELAY, MIN_GAP, Backlog, SampleTimes
 
 MIN_LATE_PERIODS, MIN_UNSETTLED_LATE_PERIODS = 0.9, 0.75
 """Smallest delay behind its slot at which a packet may belong to a later slot, periods: of a settled and a new fit."""
@@ -49,10 +49,15 @@ SETTLED_PACKETS = 40
 """Number of packets after which the fit is good enough to measure lateness; until then only gaps show a loss."""
 SLIPPED_PACKETS, SLIPPED_DURATION = 8, 0.32
 """Number of packets in a row, and duration (s), that must be behind their slots to show a loss without a gap."""
-MAX_RADIO_DELAY, SLIPPED_PERIODS = 0.04, 2.0
-"""Largest delay that a radio may cause at any time, s; if the period is shorter, a gap does not show a loss.
+SLIPPED_PERIODS = 2.0
+"""Number of periods by which packets that stay behind show a loss if the period is shorter than MAX_RADIO_DELAY.
 
-Then packets that stay behind by this delay do, or by so many periods, if that is less."""
+A gap does not show it then. They also show it if they stay behind by MAX_RADIO_DELAY, if that is less."""
+MAX_HELD_PERIOD = 2.0 * MAX_RADIO_DELAY
+"""Largest period of a device whose packet after a silence may be the first that a phone held back, s.
+
+That packet is placed right after the newest one. If the silence was an absence, it is wrong: one sample in ten a second
+would be a large part of the steps that it shows."""
 WRONG_PERIOD_TIME, WRONG_PERIOD_GAPS = 0.24, 2.5
 """Time by which arrivals get ahead of their slots or fall behind them when the period is wrong, s, above radio jitter;
 for long gaps, in usual gaps."""
@@ -118,6 +123,8 @@ class PeriodicClock:
     """Arrival of the newest packet, s; None before the first, and after a change of period or a new connection."""
     last_t: float | None = None
     """Newest assigned time, s."""
+    backlog: Backlog = field(factory=Backlog)
+    """Packets that came after a silence, until they come at their own pace."""
     catch_up: float = 0.0
     """Time by which assigned times are behind the fit since the period was corrected, s."""
     jitter: float = 0.0
@@ -190,9 +197,14 @@ class PeriodicClock:
         if gap > max(longest_loss, MIN_GAP * period):
             is_period = self.slot == 0.0 and abs(gap - self.last_gap) < SAME_SILENCE * gap
             self.period, self.last_gap = gap if is_period else period, gap
-            sample_times = self._restart(arrival)
-            self.behind = self.stand_out = self.widest_gap = gap  # what was held back meanwhile may come at once
-            return sample_times
+            if longest_loss == 0.0 or self.last_t is None or self.period > MAX_HELD_PERIOD:
+                sample_times = self._restart(arrival)
+                self.behind = self.stand_out = self.widest_gap = gap  # what was held back meanwhile may come at once
+                return sample_times
+            self.backlog.hold(arrival)
+            return self._follow(arrival, period)
+        if self.backlog.since is not None:
+            return self._take_held_back(arrival, period)
         self.newest_arrival = arrival
         delay = arrival - self.clock.fit_time(self.slot + 1.0)
         settled = self.settled_packets >= SETTLED_PACKETS
@@ -364,6 +376,24 @@ class PeriodicClock:
         self.last_t = t if t_min is None else max(t, t_min + MIN_INCREMENT)
         return self.last_t
 
+    def _take_held_back(self, arrival: float, period: float) -> SampleTimes:
+        """Return the time of a packet after a silence: what was held back fills it, and a gap is what is left.
+
+        Then a new fit starts, because the device may have restarted its timer."""
+        is_over, rest = self.backlog.is_over(arrival, period), arrival - (self.last_t or 0.0) - period
+        if not is_over and rest > -MAX_EARLY_ARRIVAL:
+            return self._follow(arrival, period)
+        if rest > max(MAX_RADIO_DELAY, MIN_GAP * period):
+            return self._restart(arrival)
+        self.backlog.since = None
+        return self._refit(arrival, self.period)
+
+    def _follow(self, arrival: float, period: float) -> SampleTimes:
+        """Return the time one period after the newest, for a packet that may have been held back."""
+        self._start_fit(arrival, None)
+        self.last_t = arrival if self.last_t is None else self.last_t + period
+        return SampleTimes([self.last_t])
+
     def _refit(self, arrival: float, period: float) -> SampleTimes:
         """Start a fit with another period, whose times go on after those of the old one."""
         next_t = (arrival if self.last_t is None else self.last_t) + period
@@ -374,7 +404,7 @@ class PeriodicClock:
 
     def _restart(self, arrival: float) -> SampleTimes:
         """Restart the slots with this packet, in a new fit whose times come after those of the old fit."""
-        last_t = self.last_t
+        last_t, self.backlog.since = self.last_t, None
         self._start_fit(arrival, None if last_t is None else last_t + 0.5 * self.period)
         self.catch_up = 0.0
         t = self._assign(0.0)

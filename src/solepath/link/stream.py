@@ -3,7 +3,7 @@
 Times come from the best source that the device has, by the rules of protocol/clock.md:
 
 - The device's own time, if its ticks are fine enough. Without sequence numbers, a larger distance between two packets
-  than the rate predicts is a loss; six packets in a row at another, steady distance show that the rate was wrong.
+  than the rate predicts is a loss. Six packets in a row at another, steady distance show that the rate was wrong.
 - Else the device's sequence numbers, which count the samples. If the device also has a coarse time, that time shows
   when counting stopped; otherwise a silence of 5 s does.
 - Else arrivals alone (periodic.py)."""
@@ -19,7 +19,16 @@ from ..types.vector import unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
 from .clock import LARGE_ERROR, MAX_DRIFT, MIN_INCREMENT, Clock
-from .counters import MIN_GAP, REMEMBERED_PACKETS, Numbering, PacketPosition, PacketRun, SampleTimes, signed_difference
+from .counters import (
+    MIN_GAP,
+    REMEMBERED_PACKETS,
+    Backlog,
+    Numbering,
+    PacketPosition,
+    PacketRun,
+    SampleTimes,
+    signed_difference,
+)
 from .driver import MIN_RATE, MIN_SAMPLE_TICKS, MOST_KNOWN, Driver, Reading, TimeAxis
 from .kinds import MAX_PRESSURE_WAIT, DeviceLink, Output
 from .periodic import OTHER_RATE, PeriodicClock, other_rate
@@ -85,6 +94,8 @@ class StreamLink(DeviceLink):
     """Number of packets in a row at one steady distance that differs from the distance which the rate predicts."""
     off_rate_interval: float = 0.0
     """Distance of the newest of those packets, ticks; 0 before any."""
+    backlog: Backlog = field(factory=Backlog)
+    """Packets whose count goes on after a long silence, until they come at their own pace."""
     periodic: PeriodicClock | None = None
     newest_arrival: float | None = None
     """Arrival of the newest packet with samples, s."""
@@ -122,6 +133,7 @@ class StreamLink(DeviceLink):
     def restart_clock(self) -> None:
         """Restart the clock fit and the times, because the receiver's clock restarted."""
         self.packet_run.clock, self.newest_arrival, self.last_t, self.counted_since = None, None, None, None
+        self.backlog.since = None
         if self.periodic is not None:
             self.periodic = PeriodicClock(self.periodic.period)
 
@@ -129,7 +141,7 @@ class StreamLink(DeviceLink):
         """Take counters that go back in the next packet as restarted: no packet is overtaken across two connections.
 
         Without counters, the slots restart with the next packet."""
-        self.packet_run.after_reconnection = True
+        self.packet_run.after_reconnection, self.backlog.since = True, None
         if self.periodic is not None:
             self.periodic.newest_arrival = None
 
@@ -211,8 +223,8 @@ class StreamLink(DeviceLink):
             packet_ticks = run.packet_ticks
             sample_times = run.accept(position, tick_rate, arrival)
             self._set_rate(rate)
-            if not driver.sequence and reading.interval is None and not is_first:
-                self._correct_rate(tick_rate, position, sample_times, packet_ticks)
+            if reading.interval is None and not is_first:
+                self._correct_rate(tick_rate, position, sample_times, packet_ticks, driver.sequence > 0)
             found = self._judge_ticks(driver, position, arrival)
         else:
             position = self._locate_by_count(driver, reading, rate, arrival, checksum)
@@ -220,7 +232,7 @@ class StreamLink(DeviceLink):
                 position,
                 rate * TICKS_PER_SAMPLE,
                 arrival,
-                new_fit=self._has_stopped(driver, arrival) or self._is_another(driver, position, checksum),
+                new_fit=self._has_stopped(driver, position, arrival) or self._is_another(driver, position, checksum),
             )
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
@@ -292,6 +304,8 @@ class StreamLink(DeviceLink):
         ticks = (elapsed if device_time is None else device_time) * rate * TICKS_PER_SAMPLE
         sequence, modulus = self._number(driver, int(reading.sequence), count, ticks, checksum)
         difference, packets = run.count_packets(sequence, modulus, ticks)
+        if difference == 1 and device_time is None and elapsed > driver.profile.stale_after:
+            packets = 1  # held back, more likely than a loss of exactly so many rounds
         ticks_after = round(packets * run.packet_ticks)
         if (
             packets >= 1
@@ -333,17 +347,27 @@ class StreamLink(DeviceLink):
             return 0.0
         return pace.other_slope
 
-    def _has_stopped(self, driver: Driver, arrival: float) -> bool:
-        """Return whether a packet is so late that the device must have stopped counting before it."""
+    def _has_stopped(self, driver: Driver, position: PacketPosition, arrival: float) -> bool:
+        """Return whether a packet is so late that the device must have stopped counting before it.
+
+        A phone may have held back packets whose numbers go on. Then they come faster than they were measured."""
         clock, run = self.packet_run.clock, self.packet_run
         if clock is None or self.newest_arrival is None or driver.tick_modulus:
             return False
         silence, delay = arrival - self.newest_arrival, arrival - clock.fit_time(run.ticks + run.packet_ticks)
-        return (
-            delay > MIN_DELAY_AFTER_CONNECTION
-            if run.after_reconnection
-            else silence > LONG_SILENCE and delay > MIN_DELAY_AFTER_SILENCE
-        )
+        if run.after_reconnection:
+            return delay > MIN_DELAY_AFTER_CONNECTION
+        if self.backlog.since is not None:
+            is_over = self.backlog.is_over(arrival, run.packet_ticks / clock.rate)
+            return is_over and delay > MIN_DELAY_AFTER_CONNECTION
+        is_late = silence > LONG_SILENCE and delay > MIN_DELAY_AFTER_SILENCE
+        half_round = 0.5 * driver.sequence * run.packet_ticks / clock.rate
+        may_be_rounds = position.sequence_difference == 1 and silence > max(half_round, driver.profile.stale_after)
+        if not is_late and not (may_be_rounds and delay > MIN_DELAY_AFTER_CONNECTION):
+            return False
+        if position.packets_after > 0:
+            self.backlog.hold(arrival)
+        return self.backlog.since is None
 
     def _is_another(self, driver: Driver, position: PacketPosition, checksum: int) -> bool:
         """Return whether a packet has a number of a recent one and other bytes, so that the count started again.
@@ -353,19 +377,22 @@ class StreamLink(DeviceLink):
         return position.packets_after <= 0 and not driver.tick_modulus and any(is_known)
 
     def _correct_rate(
-        self, tick_rate: float, position: PacketPosition, sample_times: SampleTimes, predicted: float
+        self, tick_rate: float, position: PacketPosition, sample_times: SampleTimes, predicted: float, has_number: bool
     ) -> None:
         """Correct the rate when packets come at another, steady distance than `predicted`, ticks, and what was lost."""
         if position.ticks_after <= 0 or sample_times.restarted is not None:
             return
-        distance, lost = float(position.ticks_after), sample_times.lost_count
+        lost = sample_times.lost_count
+        # without a number, another distance may be the rate or a loss; a number tells how many packets it is of
+        distance = position.ticks_after / (position.packets_after if has_number else 1)
         if abs(distance - predicted) <= RATE_TOLERANCE * predicted + 1.0:
             if self.unsure and sample_times.gap_start is None:
                 sample_times.gap_start = self.last_t
             sample_times.lost_count, self.off_rate_packets, self.unsure = lost + self.unsure, 0, 0
             return
         steady = abs(distance - self.off_rate_interval) <= RATE_TOLERANCE * self.off_rate_interval
-        if self.off_rate_packets > 0 and (steady or self.off_rate_interval == 0.0):
+        may_be_rate = self.off_rate_packets > 0 and (steady or self.off_rate_interval == 0.0)
+        if may_be_rate and not (has_number and lost):
             sample_times.lost_count, sample_times.gap_start, self.unsure = 0, None, self.unsure + lost
         self.off_rate_packets = self.off_rate_packets + 1 if steady and self.off_rate_packets > 0 else 1
         self.off_rate_interval = distance
