@@ -48,7 +48,8 @@ UNUSABLE = ("in mg", "raw counts of the accelerometer", "mdeg/s", "ms", "ms sinc
 """Damages whose samples give no stride at all."""
 
 UNLIKELY = (
-    "in g", "a quarter of the range", "a gyroscope that is off", "gyroscope y mirrored", "accelerometer x mirrored"
+    "in g", "a quarter of the range", "deg/s", "a gyroscope that is off", "gyroscope y mirrored",
+    "accelerometer x mirrored",
 )  # fmt: skip
 """Damages after which no foot can carry a walker as the data have it, so that there is no stride."""
 
