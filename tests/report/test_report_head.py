@@ -147,7 +147,7 @@ def test_the_accuracy_beside_the_quality_is_that_of_the_table_of_its_command() -
     table = {(row[0], row[1]): row[2:] for row in rows if len(row) == 7}
     words = quality(shown(report_of(events_of("walk"))))["accuracy"][1]
     cycles, _, bias, limits, _ = table["`ipol_10m_uturn`", "stance time"]
-    assert f"On {cycles} cycles" in words and f"stance was {bias.removeprefix('-')} shorter" in words
+    assert f"on {cycles} cycles" in words and f"stance was {bias.removeprefix('-')} shorter" in words
     assert f"limits {limits}" in words
     for data, name in (("`ipol_10m_uturn`", "double support"), ("`tripod_treadmill`", "stride length")):
         _, _, bias, limits, _ = table[data, name]

@@ -249,8 +249,9 @@ class Strides:
     def _walks(self, start: float, end: float) -> list[tuple[float, bool]]:
         """Return the parts of a run from `start` to `end`, s: when each starts, and whether it was walked.
 
-        Cycles that were walked fill most of the time of both feet around. Single ones show nothing: some detectors find
-        few contacts of a runner, and these late."""
+        Cycles that were walked fill most of the time of both feet around; those that start shortly after the run count,
+        because the first contacts of a recording are in no cycle. Single ones show nothing: some detectors find few
+        contacts of a runner, and these late."""
         cycles = sorted([cycle for cycle in self.cycles if start <= cycle[0] and cycle[0] - cycle[1] < end + NEAR_TIME])
         parts: list[tuple[float, bool]] = []
         before = start

@@ -203,7 +203,7 @@ class OutcomeRequest:
             timed = timed_up_and_go(events, start, stop)
             results.rows += up_and_go_rows(timed, self.person)
             results.add_test(UP_AND_GO, [] if timed.steps else [NO_STEP], UP_AND_GO_NOTE)
-        elif (walk := six_minute_walk(events, min(self.marks, default=None), span and span[1])) is None:
+        elif (walk := six_minute_walk(events, self.marks[0] if self.marks else None, span and span[1])) is None:
             results.result = NO_WALK
         else:
             results.rows += six_minute_rows(walk, self.person)

@@ -23,8 +23,8 @@ GOOD_GAP_SHARE, MAX_GAP_SHARE = 0.01, 0.25
 """Share of time without samples up to which a recording is complete, and above which its figures should not be used."""
 
 ACCURACY = (
-    "On 1889 cycles labelled by hand, stance was 11 ms shorter than the labels (limits -189 to 168 ms) and double "
-    "support 1.1 points less (-9.3 to 7.1); stride length was 1.2 cm less on a treadmill (-14.8 to 12.3 cm)."
+    "Of walks: on 1889 cycles labelled by hand, stance was 11 ms shorter than the labels (limits -189 to 168 ms) and "
+    "double support 1.1 points less (-9.3 to 7.1); stride length was 1.2 cm less on a treadmill (-14.8 to 12.3 cm)."
 )
 """Agreement with references (`solepath-lab agreement DIR`: ipol_10m_uturn, tripod_treadmill; docs/accuracy.md)."""
 
@@ -67,7 +67,7 @@ def judgements(facts: Facts, concerning: Collection[str] | None = None) -> list[
         "plausibility": _plausibility(facts),
         "wearing": _wear(facts),
         "calibration": _calibration(facts),
-        "accuracy": (NOTE, ACCURACY, "") if facts.means else None,
+        "accuracy": (NOTE, ACCURACY, "") if any([not means.running for means in facts.means]) else None,
     }
     notes = [part for part in found if concerning is not None and part not in concerning]
     judged = [Judgement(part, *one) for part, one in found.items() if one is not None]
