@@ -90,7 +90,7 @@ class Curve:
         if 0 < after < len(values):
             low = values[after - 1]
             return odds[after - 1], odds[after], (value - low) / (values[after] - low)
-        end = odds[-1] if after else odds[0]
+        end = odds[-1 if after else 0]
         return end, end, 0.0
 
 

@@ -79,6 +79,11 @@ class WalkTest(ValueEnum):
     UP_AND_GO = "tug"
     WALK = "walk"
 
+    @property
+    def title(self) -> str:
+        """What the test is called in a title."""
+        return {"six-minute": SIX_MINUTE_WALK, "tug": UP_AND_GO, "walk": WALK}[self.value].capitalize()
+
 
 @frozen
 class OutcomeTable:
@@ -159,9 +164,8 @@ class ClinicalResults:
     def add_test(self, part: str, sentences: list[str], note: str) -> None:
         """Add the section of a walk test, whose rows there are already."""
         title = part.capitalize()
-        notes = [note, *self.sources(part)]
         self.result = self.rows[0]
-        self.sections.append(OutcomeSection(title, sentences, [self.table(title, part)], notes))
+        self.sections.append(OutcomeSection(title, sentences, [self.table(title, part)], [note, *self.sources(part)]))
 
 
 @frozen
@@ -186,19 +190,19 @@ class OutcomeRequest:
             events += [*walk.cycles[foot], *walk.strides[foot]]
         results = ClinicalResults(walking_bouts(events))
         if self.test is not None:
-            self._add_test(self.test, results, events, walk.event_span)
+            self._add_test(results, events, walk.event_span)
         if self.outcomes:
             self._add_outcomes(results, events)
         return results
 
-    def _add_test(self, test: WalkTest, results: ClinicalResults, events: list[Event], span: Span | None) -> None:
+    def _add_test(self, results: ClinicalResults, events: list[Event], span: Span | None) -> None:
         if fault := _find_fault(span, self.marks):
             results.result = f"There is no outcome of the test. {fault}"
-        elif test is WalkTest.WALK:
+        elif self.test is WalkTest.WALK:
             steps, distance = whole_walk(events)
             results.rows += walk_rows(events, steps, distance, self.person)
             results.add_test(WALK, [], WALK_NOTE)
-        elif test is WalkTest.UP_AND_GO:
+        elif self.test is WalkTest.UP_AND_GO:
             start, stop = self.marks
             timed = timed_up_and_go(events, start, stop)
             results.rows += up_and_go_rows(timed, self.person)

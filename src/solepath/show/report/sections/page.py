@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element
 
 from ...findings import Concern, texts
+from ...outcomes.clinic import ClinicalResults, WalkTest
 from ...tables.svg import add
 from ..content import ReportContent
 from ..figures.activity import activity_figure
@@ -15,6 +15,7 @@ from ..figures.stride import stride_figures
 from ..figures.track import plan_figure, track_figure
 from ..markup import paragraph, section, sentences, skeleton, table, whole_sentences
 from ..words import LINK_HEADER, link_rows, overview, sensors
+from .clinical import clinical_sections
 from .comparison import comparison
 from .facts import Facts, facts_of
 from .gait_table import definitions, gait_table
@@ -23,20 +24,12 @@ from .headline import headline
 from .key_figures import key_figures
 from .quality import STOP, judgements, overall, quality_box, warning
 
-if TYPE_CHECKING:
-    from ...outcomes.clinic import ClinicalResults
-
 NO_PLACE = "Where on the floor plan the wearer was is not known."
 NO_TRACK = "There is no track: no foot with a motion sensor took two strides."
-TITLES = {"six-minute": "Six-minute walk", "tug": "Timed up and go", "walk": "Walk"}
-"""What a test is called in the title."""
-CONCERNING = {
-    "six-minute": ("samples", "plausibility", "wearing"), "tug": ("samples", "plausibility", "wearing"),
-    "walk": ("gait cycles", "samples", "plausibility", "wearing"),
-}  # fmt: skip
-"""Parts of the quality that concern the result of a test.
+CONCERNING = ["samples", "plausibility", "wearing"]
+"""Parts of the quality that concern the result of every test.
 
-The distance and the time of a test need neither steady strides nor clocks that agree."""
+None needs clocks that agree, and only the speed of a walk needs gait cycles."""
 FOUND = {
     "Cannot be right": (Concern.DATA,),
     "Missing or wrong": (Concern.WEAR, Concern.LINK, Concern.STRIDES),
@@ -48,15 +41,16 @@ FOUND = {
 def page_of(report: ReportContent) -> Element:
     """Return the page of a report as an <html> element."""
     facts, walk = facts_of(report), report.walk
-    outcomes = None if report.outcomes is None else report.outcomes.results(walk)
+    outcomes = _outcomes_of(report)
     test = None if report.outcomes is None else report.outcomes.test
-    title = title_of(report.details, report.when, facts.kind if test is None else TITLES[test.value])
+    title = title_of(report.details, report.when, facts.kind if test is None else test.title)
     html, main = skeleton(title)
     add_heading(main, title, report)
     if test is not None and outcomes is not None:
-        add(main, "<p class='headline'>{}</p>", " ".join(outcomes.answer(_outcomes_before(report))))
+        add(main, "<p class='headline'>{}</p>", " ".join(outcomes.answer(_outcomes_of(report.before))))
     add(main, "<p class='{}'>{}</p>", "headline" if test is None else "beside", headline(facts))
-    judged = judgements(facts, None if test is None else CONCERNING[test.value])
+    concerning = [*CONCERNING, "gait cycles"] if test is WalkTest.WALK else CONCERNING
+    judged = judgements(facts, concerning if test is not None else None)
     if words := warning(judged):
         stops = any([one.verdict is STOP for one in judged])
         add(main, "<p class='{}'>{}</p>", "warning" if stops else "warning look", words)
@@ -73,8 +67,6 @@ def page_of(report: ReportContent) -> Element:
     if report.before is not None:
         comparison(details, report.before, report, facts, tracks=test is None)
     if outcomes is not None:
-        from .clinical import clinical_sections
-
         clinical_sections(details, outcomes)
     if has_strides:
         _gait(section(details, "gait", "Gait"), report, facts, figures=test is None)
@@ -90,10 +82,9 @@ def page_of(report: ReportContent) -> Element:
     return html
 
 
-def _outcomes_before(report: ReportContent) -> ClinicalResults | None:
-    """Return the outcomes of the walk before; None without one."""
-    before = report.before
-    return None if before is None or before.outcomes is None else before.outcomes.results(before.walk)
+def _outcomes_of(report: ReportContent | None) -> ClinicalResults | None:
+    """Return the outcomes that were requested of a walk; None without any."""
+    return None if report is None or report.outcomes is None else report.outcomes.results(report.walk)
 
 
 def _ways(parent: Element, report: ReportContent) -> None:
