@@ -16,6 +16,11 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
 from solepath_lab.command import main as lab
+from solepath_lab.evaluate.datasets import DATASETS
+from solepath_lab.evaluate.report import Result
+from solepath_lab.measures.score import Scored
+from solepath_lab.tables.columns import FIGURES
+from solepath_lab.tables.scores import score_table, words_of
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +54,17 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path, monkey
     assert figures["end_error_2d"] < 0.5
     assert scores["summary"]["all"]["mean"]["end_error"] == figures["end_error"]
     assert f"{figures['end_error']:.3f}" in result.stdout
+
+
+def test_all_tables_fit_a_terminal_and_every_column_is_explained():
+    walks = tuple(Scored(f"walk {k}", figures=dict.fromkeys(FIGURES, 1234.5 * k)) for k in (1, 2))
+    result = Result(next(one for one in DATASETS if one.lists_recordings), "default", walks)
+    lines = [*score_table(result).splitlines(), *(words := words_of([result]).splitlines())]
+    assert max(map(len, lines)) <= 120
+    headers = [re.split(" {2,}", line)[1:] for line in lines if line.startswith("recording ")]
+    titles = [title for header in headers for title in header]
+    assert titles == [line.partition(" = ")[0] for line in words if not line.startswith(" ")]
+    assert len(set(titles)) == len(FIGURES) and len(headers) > 1
 
 
 def test_the_laboratory_says_its_version():

@@ -20,7 +20,7 @@ from solepath.show.tables.progress import print_above, progress_bar
 
 from ..options import JSON, ONLY, PROCESSES, seeds
 from ..tables.accuracy import accuracy_table
-from ..tables.scores import ablation_table, score_table
+from ..tables.scores import ablation_table, score_table, words_of
 from . import ablation
 from .changes import comparison_tables, read_scores
 from .datasets import DATASETS, EMULATED
@@ -115,6 +115,8 @@ def run(options: argparse.Namespace) -> int:
         print(ablation_table(results, options.markdown))
     elif options.markdown:
         print(accuracy_table(results))
+    else:
+        print(words_of(results))
     if options.ablation or options.markdown:
         for failure in (sentence for result in results for sentence in result.failures):
             note(f"not scored: {failure}")

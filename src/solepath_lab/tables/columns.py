@@ -1,10 +1,6 @@
-"""How figures are shown: columns.csv has a column's title, its unit, digits and better direction by the name in JSON.
+"""How figures are shown: columns.csv has a title, unit, digits, better direction and words by the name in JSON.
 
-ARMSE2d is the RMS 2D error / sqrt 2. `relative` is the error (RMS 2D, mean or end error) as a share of the path length.
-`end_error` is the distance between the ends of a closed loop, `position_end` that from the estimated to the true end.
-`authors` is the mean error of the system of the data set's authors. `stride_error_track` is the mean stride length
-error by the live positions. `nees`, `held` and `heading_nees` are defined in emulated/heading.py, `drift` in
-measures/drift.py. `off` is the median magnitude of the offsets. `uturn_invented` is a number a recording.
+`nees`, `held` and `heading_nees` are defined in emulated/heading.py, `drift` in measures/drift.py.
 
 Errors, spreads and numbers of invented events should be small. Biases should be near zero. F1 and shares found should
 be large. Numbers of true events, path lengths and other people's results have no better direction."""
@@ -38,6 +34,8 @@ class Figure:
     digits: int
     better: str
     """Direction in which the figure is better: "less", "more", "nearer to zero", or none."""
+    words: str
+    """What it is."""
 
     def show(self, value: float | None) -> str:
         """Return a value in SI units as text; a dash for None."""
@@ -45,7 +43,7 @@ class Figure:
 
 
 FIGURES = {
-    row["name"]: Figure(row["title"], row["unit"], int(row["digits"]), row["better"])
+    row["name"]: Figure(row["title"], row["unit"], int(row["digits"]), row["better"], row["words"])
     for row in read_rows(__file__, "columns.csv")
 }
 """Figures by name in JSON."""
