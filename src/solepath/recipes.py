@@ -142,7 +142,7 @@ def shared_copy(recipe: Recipe) -> Recipe:
     `recipe` is not a Recipe."""
     global _copies
     if not isinstance(recipe, Recipe):
-        raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
+        raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}: recipes.by_name has them by name")
     copies = _copies
     if any([recipe is copy.recipe for copy in copies]):
         return recipe

@@ -73,7 +73,7 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
     ):
         with pytest.raises(SnapshotError, match=what):
             Session.unpack(packed(), other)
-    with pytest.raises(TypeError, match="must be a Recipe, not str"):
+    with pytest.raises(TypeError, match="must be a Recipe, not str: recipes.by_name"):
         Session.unpack(packed(), "default")  # type: ignore[arg-type]
 
 

@@ -115,7 +115,7 @@ def describe_error(error: BaseException) -> str:
         case BleakError() if any(words in str(error).lower() for words in _LOST_TEXTS):
             return "the connection was lost: the device is sought again, bring it near if this happens often"
         case FileNotFoundError() | ConnectionRefusedError():
-            return f"no Bluetooth service to talk to ({_plain(error)}): install BlueZ, and systemctl start bluetooth"
+            return "there is no Bluetooth service: install BlueZ, and systemctl start bluetooth"
         case PermissionError():
             return f"this user may not use Bluetooth ({_plain(error)}): join the group bluetooth"
         case TimeoutError():

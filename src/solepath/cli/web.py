@@ -39,8 +39,10 @@ def run(options: Namespace) -> int:
     with ExitStack() as stack:
         out = options.out or Path(stack.enter_context(TemporaryDirectory()), "site")
         print("building the site: about half a minute ...", flush=True)
-        with progress_bar("building"):
-            files = build_site(out, emulate(SITE_ROUTE).packets)
+        with progress_bar("step 1 of 2, a walk to show"):
+            packets = [*emulate(SITE_ROUTE).packets]
+        with progress_bar("step 2 of 2, the library for browsers"):
+            files = build_site(out, packets)
         print(size_table(files), flush=True)
         if options.out is not None:
             tell(f"the site is in {out}")

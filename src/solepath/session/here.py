@@ -21,8 +21,10 @@ def report_position(
     """Return the event of a reported position, and the site that has it; `Session.here` has the arguments.
 
     Raises ValueError for a place without a name, and for a level that the plan does not have."""
-    if state.now is None or state.finished or (isinstance(where, str) and not where):
-        raise ValueError("a place needs a name, and a session that has samples and is not finished")
+    if isinstance(where, str) and not where:
+        raise ValueError("a place needs a name")
+    if state.now is None or state.finished:
+        raise ValueError("the session is finished" if state.finished else "nobody is anywhere before the first sample")
     if text(level):
         if plan is None:
             raise ValueError("a level without a floor plan")

@@ -35,7 +35,7 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
     """Return the state of a snapshot; raise SnapshotError, TypeError and ValueError as `Session.restore` does."""
     classes = make_class_lookup(parts)
     if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
-        raise SnapshotError("not a snapshot of a session")
+        raise SnapshotError("not a snapshot of a session, which is a dict with solepath, check and state")
     version = saved["solepath"]
     if version != VERSION:
         raise SnapshotError(f"a snapshot of version {describe(version)}; this release reads version {VERSION} alone")

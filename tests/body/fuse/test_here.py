@@ -90,13 +90,18 @@ def test_a_packet_of_the_receiver_does_the_same_and_a_saved_session_too() -> Non
 
 def test_before_the_first_stride_a_place_has_no_effect_and_impossible_ones_are_errors() -> None:
     session = Session()
-    with pytest.raises(ValueError, match="has samples"):
+    with pytest.raises(ValueError, match="before the first sample"):
         session.here()
+    with pytest.raises(ValueError, match="needs a name"):
+        session.here("")
     session.feed(samples()[:200])
     assert [type(event) for event in session.here()] == [PositionReported]
     for position, sigma in (((float("nan"), 0.0), 1.0), ((0.0, 2e6), 1.0), (None, 0.0), (None, -1.0)):
         with pytest.raises((ValueError, TypeError), match="position"):
             session.here(position, sigma)
+    session.finish()
+    with pytest.raises(ValueError, match="finished"):
+        session.here()
 
 
 def test_one_metre_after_a_report_far_from_the_start_another_one_that_is_off_by_more_is_rejected() -> None:

@@ -26,5 +26,5 @@ async def backend_of(via: str | None) -> AsyncIterator[Backend]:
         try:
             backend = await stack.enter_async_context(reach(via))
         except (BleakError, ValueError) as error:
-            raise Failure(f"--via {via}: {error}") from None
+            raise Failure(f"--via: {error}") from None
         yield backend

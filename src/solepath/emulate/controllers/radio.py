@@ -66,8 +66,10 @@ class VirtualRadio:
             raise BleakError(f"{self.where} is closed")
         try:
             transport = await self._reach()
+        except ConnectionRefusedError as error:
+            raise BleakError(f"nothing answers at {self.where}") from error
         except OSError as error:
-            raise BleakError(f"nothing answers at {self.where}: {error.strerror or error}") from error
+            raise BleakError(f"{self.where} cannot be reached: {error.strerror or error}") from error
         config = DeviceConfiguration(name="solepath", address=self._address, gatt_service_enabled=False)
         device = Device(config=config, host=Host(transport.source, transport.sink))
         device.keystore = self.keys
