@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 from commands import rows_in, run, run_failing
 from pyarrow import parquet
+from soak import soaked
 from truths import both_feet, table, walker
 
 from solepath.emulate import Route
@@ -101,7 +102,7 @@ def test_done_recordings_are_not_run_again_unless_something_is_different(study: 
     assert "2 done (2 run now)" in back.stdout and hashes(out) == before
 
 
-@pytest.mark.parametrize("processes", [1, 3])
+@pytest.mark.parametrize("processes", [*soaked(1), 3])
 def test_a_kill_in_the_middle_changes_nothing(study: Path, out: Path, tmp_path: Path, processes: int) -> None:
     """After kill -9 what was half done is made again, and the tables are the same to the byte."""
     asked = ["batch", str(study), "--out", str(tmp_path), "--processes", str(processes)]

@@ -13,6 +13,7 @@ from attrs import evolve
 from commands import run
 from recordings import recorded
 from shown import frame, walked
+from soak import soaked
 
 from solepath import Foot, Packet, Sample, SampleGap, Session, Site, recipes
 from solepath.emulate.radio import CLEAN
@@ -51,7 +52,7 @@ def shares(text: str) -> list[float]:
 
 
 @pytest.mark.parametrize("absence", [0.0, ABSENCE])
-@pytest.mark.parametrize("every", [10, 50, 200])
+@pytest.mark.parametrize("every", [10, *soaked(50, 200)])
 def test_one_frame_of_so_many_is_missing_wherever_it_is_told(every: int, absence: float, tmp_path: Path) -> None:
     packets, lost, taken = without_one_of(every, absence)
     share = pytest.approx(100.0 * lost / taken, abs=0.1)
@@ -210,7 +211,7 @@ def test_a_silence_is_an_absence_of_a_device_exactly_where_it_is_one_of_its_rows
         assert (link.missing == 0, link.ended_absences > 0.0) == (is_absence, is_absence)
 
 
-@pytest.mark.parametrize("where", [0, 1, 2, 5, 9, 300])
+@pytest.mark.parametrize("where", [0, 2, *soaked(1, 5, 9, 300)])
 @pytest.mark.parametrize("rate", [25, 100])
 def test_one_time_that_is_wrong_hides_no_sample(rate: int, where: int) -> None:
     farthest = 0.9 if where < 3 else 0.7  # the interval is known from the fourth sample on: more is a lost sample

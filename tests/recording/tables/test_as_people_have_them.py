@@ -15,6 +15,7 @@ import pytest
 from commands import one_line, run
 from hostile import workbook
 from laid import COLUMNS, LENGTH, NAMES, UNTIMED, distance, table, walked
+from soak import soaked
 
 from solepath.recording import RecordingError, TableMapping, open_source, read_mapping, read_samples
 from solepath.types import Foot
@@ -60,7 +61,7 @@ def test_raw_counts_are_never_told_to_be_another_unit(tmp_path: Path, options: t
 
 
 @pytest.mark.parametrize("unit", ["s", "ms"])
-@pytest.mark.parametrize("size", [2, 3, 6])
+@pytest.mark.parametrize("size", [3, *soaked(2, 6)])
 @pytest.mark.parametrize("given", ["", "s", "ms"])
 def test_times_of_packets_are_repaired_by_the_rate_at_which_samples_come(
     tmp_path: Path, unit: str, size: int, given: str
