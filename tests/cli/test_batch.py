@@ -119,10 +119,35 @@ def test_a_kill_in_the_middle_changes_nothing(study: Path, out: Path, tmp_path: 
     assert not [*parts.glob(".part-*")]
 
 
+def test_recordings_with_other_outcomes_share_one_table_which_the_next_run_replaces(tmp_path: Path) -> None:
+    """Of a short walk some outcomes are not known, and they have their columns all the same, in one order."""
+    rows = []
+    for number, metres in ((1, 4.0), (2, 40.0), (3, 12.0)):
+        files = both_feet(
+            tmp_path / "data", f"P{number}", walker(number, Route().stand(1.0).walk(metres, 1.3).stop(1.0))
+        )
+        rows.append((";".join([f"data/{file.name}" for file in files]), "-10 %"))
+    for order in (rows, rows[::-1]):
+        study = table(tmp_path / "study.csv", "file,condition", order)
+        done = run("batch", study, "--out", tmp_path / "out")
+        assert done.returncode == 0 and run("batch", study, "--out", tmp_path / "out").returncode == 0, done.stderr
+        header = (tmp_path / "out" / "outcomes.csv").read_text().partition("\n")[0].split(",")
+        assert header[:2] == ["file", "condition"] and header[-1] == "findings"
+        assert header.index("variability_stride_time") < header.index("asymmetry_stance_time")
+        assert {row["condition"] for row in rows_in(tmp_path / "out" / "strides.csv")} == {"-10 %"}
+    table(study, "file,wbsteps_all_sum", [rows[0]])
+    assert "has a column wbsteps_all_sum, as the results have" in run_failing("batch", study, "--out", tmp_path / "out")
+
+
 def test_parquet_has_the_same_values_with_numbers_as_numbers_and_names_as_texts(
     study: Path, out: Path, tmp_path: Path
 ) -> None:
-    run("batch", study, "--out", tmp_path, "--parquet")
+    own = table(tmp_path / "study.csv", "file,participant,condition", [], separator=";")
+    own.write_text(study.read_text("utf-8-sig").replace("slow", "=1+1").replace("data/", f"{study.parent}/data/"))
+    assert run("batch", own, "--out", tmp_path).returncode == 1 and (tmp_path / "strides.csv").exists()
+    run("batch", own, "--out", tmp_path, "--parquet")
+    assert not (tmp_path / "strides.csv").exists(), "the tables of run.json are the only ones"
+    assert parquet.read_table(tmp_path / "failures.parquet")["condition"].to_pylist() == ["=1+1"] * 2
     for name in ("strides", "gait_cycles", "bouts", "outcomes", "failures"):
         read = parquet.read_table(tmp_path / f"{name}.parquet")
         rows = rows_in(out / f"{name}.csv")
@@ -131,7 +156,7 @@ def test_parquet_has_the_same_values_with_numbers_as_numbers_and_names_as_texts(
         assert json.loads(read.schema.metadata[b"solepath"])["recipe"] == "default"
     lengths = parquet.read_table(tmp_path / "strides.parquet")["stride_length_m"].to_pylist()
     assert lengths == [float(row["stride_length_m"]) for row in rows_in(out / "strides.csv")]
-    assert run("batch", study, "--out", tmp_path, "--parquet").returncode == 1, "its own files are replaced"
+    assert run("batch", own, "--out", tmp_path, "--parquet").returncode == 1, "its own files are replaced"
 
 
 def test_a_table_that_is_no_study_gets_one_line(tmp_path: Path) -> None:

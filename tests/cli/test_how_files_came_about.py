@@ -7,7 +7,7 @@ from hashlib import sha256
 from pathlib import Path
 
 import pytest
-from commands import run
+from commands import run, run_failing
 
 from solepath import Foot, Sample, Site, recipes, to_frame
 from solepath.emulate import Route, Walker, emulate
@@ -47,6 +47,24 @@ def test_run_json_report_storage_file_and_dataset_name_the_same_recipe_and_input
         }
 
 
+def test_files_of_one_name_are_run_again_from_the_words_of_run_json(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("data.csv", "before.csv"):
+        for foot in ("L", "R"):
+            table(tmp_path / foot / name)
+    words = ["track", "L/data.csv", "./R/data.csv", "--foot", "left,right"]
+    compared = ["--compare=L/before.csv", "--report", "r.html"]
+    assert "--foot: that is 2 feet for 1 file: L/before.csv" in run_failing(*words, *compared)
+    words += ["--compare", "R/before.csv"]
+    assert run(*words, *compared, "--out", "first").returncode == 0
+    words = json.loads(Path("first", "run.json").read_text())["command_line"]
+    assert words[:2] == ["track", "L/data.csv"] and "r.html" not in words
+    assert run(*words, "--report", "again.html", "--out", "again").returncode == 0
+    assert Path("first", "events.jsonl").read_bytes() == Path("again", "events.jsonl").read_bytes()
+
+
 def test_the_words_of_run_json_give_the_same_events_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     walk = tmp_path / "here" / "left.csv"
     walk.parent.mkdir()
@@ -57,12 +75,14 @@ def test_the_words_of_run_json_give_the_same_events_again(tmp_path: Path, monkey
     columns = "t=t,acc=AX,AY,AZ,gyro=gyro_x,gyro_y,gyro_z"
     out = tmp_path / "there" / "out"
     out.parent.mkdir()
-    done = run("track", walk, "--recipe", "shoe-sensing", "--columns", columns, "--out", out)
+    words = [f"--compare={walk.parent / 'before.csv'}", "--report", tmp_path / "r.html", "--columns", columns]
+    (walk.parent / "before.csv").write_text(text)
+    done = run("track", walk, "--recipe", "shoe-sensing", *words, "--out", out)
     assert done.returncode == 0, done.stderr
     words = json.loads((out / "run.json").read_text())["command_line"]
     assert words[:2] == ["track", "left.csv"] and str(tmp_path) not in " ".join(words)
     monkeypatch.chdir(walk.parent)
-    again = run(*words, "--out", "out")
+    again = run(*words, "--out", "out", "--report", "r.html")
     assert again.returncode == 0, again.stderr
     assert (walk.parent / "out" / "events.jsonl").read_bytes() == (out / "events.jsonl").read_bytes()
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import re
-from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -22,13 +21,12 @@ FORMULAS = [
     '=HYPERLINK("http://x","y")', "+1+1", "-2+3", "@SUM(A1)", "\t=1+1", " =1+1", "-cmd|' /C calc'!A0", "\r=1",
     *[f"{sign}1+1" for sign in WIDE],
 ]  # fmt: skip
-NAMES = ["Room 1", "-1", "+1", "1e3", "O'Neill", "a=b", ""]
+NAMES = ["Room 1", "-1", "+1", "1e3", "-2.5e-3", "-10 %", "+5deg", "O'Neill", "a=b", ""]
 
 
-def is_number(text: str) -> bool:
-    with suppress(ValueError):
-        return float(text) is not None
-    return False
+def is_amount(text: str) -> bool:
+    """Return whether a text is a number, with a unit or without one: nothing in it can be run."""
+    return re.fullmatch(r"[+-]\d[^-+=@(!|]*(e-\d)?", text) is not None
 
 
 @pytest.mark.parametrize("name", [*FORMULAS, *NAMES])
@@ -44,7 +42,7 @@ def test_the_names_of_a_floor_plan_are_text(tmp_path: Path, name: str) -> None:
     with (tmp_path / PLACES_FILE).open(newline="", encoding="utf-8") as file:
         (row,) = csv.DictReader(file)
     for column in ("level", "room", "door"):
-        assert not re.match(rf"\s*[=+\-@\t\r{WIDE}]", row[column]) or is_number(row[column])
+        assert not re.match(rf"\s*[=+\-@\t\r{WIDE}]", row[column]) or is_amount(row[column])
     is_control = not name[:1].isprintable()
     assert row["level"].lstrip("'\ufffd") == name.lstrip("\t\r")
     assert row["level"].startswith("'") == (name in FORMULAS and not is_control)

@@ -16,6 +16,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import redirect_stderr, redirect_stdout
 from hashlib import sha256
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -42,8 +43,11 @@ UNITS = {"": "", "s": "_s", "m": "_m", "m/s": "_m_per_s", "1/min": "_per_min"}
 """Ends of the columns of outcomes.csv, by unit."""
 TEXTS = ("foot", "flaws", "implausible", "findings", "reason")
 """Columns of words; all others of the results have numbers."""
-OWN_TABLE = Kind(rb"\A[^\n]*\bfile\b[^\n]*,(flaws|steady|implausible|findings|reason)\n")
-"""A table of a study: columns of one's own, then those of the results, with the last column of each table."""
+KINDS = {
+    ".csv": Kind(rb"\A[^\n]*\bfile\b[^\n]*,(flaws|steady|implausible|findings|reason)\n"),
+    ".parquet": Kind(rb"\APAR1"),
+}
+"""Tables of a study: columns of one's own, then those of the results, with the last column of each table."""
 MAX_STEM, HASH_LENGTH = 60, 16
 """Largest number of characters of a file's name, and number of digits of the hash, in the name of a folder."""
 Line = tuple[Mapping[str, str], Path]
@@ -140,9 +144,9 @@ def _outputs(options: Namespace, rows: Sequence[Mapping[str, str]]) -> dict[str,
     taken = {column for columns in _tables().values() for column in columns} | {*TEXTS}
     if common := taken.intersection(rows[0]):
         raise Failure(f"{options.table}: has a column {min(common)}, as the results have: give it another name")
-    suffix, kind = (".parquet", Kind(rb"\APAR1")) if options.parquet else (".csv", OWN_TABLE)
+    suffix = ".parquet" if options.parquet else ".csv"
     names = [*_tables(), "outcomes.csv", "failures.csv"]
-    outputs = {name: OutputFile((options.out / name).with_suffix(suffix), kind) for name in names}
+    outputs = {name: OutputFile((options.out / name).with_suffix(suffix), KINDS[suffix]) for name in names}
     return outputs | {"run.json": OutputFile(options.out / "run.json", TRACK_KINDS["run.json"])}
 
 
@@ -154,21 +158,33 @@ def _write(
     made: Mapping[str, Any],
 ) -> None:
     """Write all tables, and how they came about."""
-    from ..show.output import write_table
+    from ..show.output import table_writer
 
     def write(name: str, columns: Iterable[str], rows: Iterable[Sequence[str | None]]) -> None:
         def to(path: Path) -> None:
-            write_table(path, [*own, *columns], rows)
+            with path.open("w", encoding="utf-8", newline="") as file:
+                write_row = csv.writer(file).writerow if options.parquet else table_writer(file)
+                for row in ([*own, *columns], *rows):
+                    write_row(row)
             if options.parquet:
                 _to_parquet(path, own, made)
 
         outputs[name].replace(to)
+        earlier = outputs[name].path.with_suffix(".csv" if options.parquet else ".parquet")
+        if earlier.is_file() and KINDS[earlier.suffix].is_own(earlier):
+            earlier.unlink()
 
     own, done = [*lines[0][0]], [line for line in lines if line[1] not in failed]
+    outcomes = [(row, _outcomes(folder)) for row, folder in done]
+    named = ["findings"]
+    for _, values in outcomes:  # a recording may lack outcomes that another has: each comes before its next one
+        for following, column in pairwise([*values][::-1]):
+            if column not in named:
+                named.insert(named.index(following), column)
+    if common := {*own}.intersection(named):
+        raise Failure(f"{options.table}: has a column {min(common)}, as the results have: give it another name")
     for name, columns in _tables().items():
         write(name, columns, _joined(done, name))
-    outcomes = [(row, _outcomes(folder)) for row, folder in done]
-    named = [*dict.fromkeys([column for _, values in outcomes for column in values])] or ["findings"]
     write("outcomes.csv", named, [[*row.values(), *map(values.get, named)] for row, values in outcomes])
     left_out = [[*row.values(), failed[folder]] for row, folder in lines if folder in failed]
     write("failures.csv", ["reason"], left_out)

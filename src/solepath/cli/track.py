@@ -88,7 +88,7 @@ def run(options: Namespace) -> int:
 
     before, kinds = None, make_kinds(drivers)
     if options.compare is not None:
-        earlier = source_of(options.compare, feet_of(options), mapping_of(options))
+        earlier = source_of(options.compare, feet_of(options, options.compare), mapping_of(options))
         check_pressure(recipes[0], earlier, drivers)
         before = report_of(options, earlier, recipe=recipes[0].name, before=None)
         _run(

@@ -10,7 +10,7 @@ import csv
 import json
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, contextmanager
 from math import atan2, degrees, remainder, tau
 from pathlib import Path
 from typing import Any, TextIO
@@ -65,6 +65,8 @@ DEFECT = Flaw.DEFECT.name.lower()
 """Flaw in strides.csv of the strides of a foot whose data cannot be right."""
 FORMULA = re.compile(r"\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
 """Start of a text that programs for tables run as a formula: = + - @, also in full width."""
+AMOUNT = re.compile(r"[+\-][\d.,][\w.,%/\u00b0 ]*([eE][+\-]\d+)?")
+"""A number, and what it is a number of, as in -10 %: no formula."""
 Cell = str | int | float | None
 """What a cell of a table may hold; None is left empty."""
 MIN_DIRECTED_STRIDE = 0.3
@@ -88,12 +90,7 @@ def write_table(path: Path, columns: Sequence[str], rows: Iterable[Iterable[Cell
 
 def _plain(text: str) -> str:
     text = printable(text, len(text))
-    if FORMULA.match(text):
-        with suppress(ValueError):
-            float(text)  # a number is no formula, also below 0
-            return text
-        return f"'{text}"
-    return text
+    return f"'{text}" if FORMULA.match(text) and not AMOUNT.fullmatch(text) else text
 
 
 def _stride_row(event: StrideTaken) -> list[object]:

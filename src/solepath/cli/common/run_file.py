@@ -32,17 +32,18 @@ def made_by(recipe: Recipe, options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _command_line(options: argparse.Namespace) -> list[str]:
-    """Return the words of the command, with which it can be run again; files have their names alone.
+    """Return the words of the command, with which it can be run again where the files are.
 
-    Options without effect on the results are left out, each with its value if it has one."""
+    Of a file that was given from the root, the name is left. Options without effect on the results are left out, each
+    with its value if it has one."""
     given = {f"--{name.replace('_', '-')}": getattr(options, name, None) for name in WITHOUT_EFFECT}
     values = [one for value in vars(options).values() for one in (value if isinstance(value, list) else [value])]
-    names = {str(one): one.name for one in values if isinstance(one, Path)}
+    names = {str(one): one.name for one in values if isinstance(one, Path) and one.is_absolute()}
     words, skips = list[str](), False
     for word in getattr(options, "words", ()):
-        option, _, value = word.partition("=")
+        option, equals, value = word.partition("=")
         if option not in given and not skips:
-            words.append(names.get(word, word))
+            words.append(names[word] if word in names else option + equals + names.get(value, value))
         skips = option in given and not value and given[option] is not True
     return words
 

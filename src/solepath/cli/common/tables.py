@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from argparse import ArgumentTypeError, Namespace
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...events import DefectFound, Event
 from ...recording import Source, TableMapping, read_mapping
 from ...recording.mapping.mapping import FORMATS
+from ...show.tables.table import counted
 from ...types import Foot, Sample
 from .failure import Failure, note, parse_positive
 from .inputs import source_of
@@ -26,7 +27,7 @@ MAPPING_OPTIONS = ("columns", "units", "scale", "rows", "mapping", "format", "ra
 
 def source_named(options: Namespace, own: Iterable[Driver] = (), report: Report = note) -> Source:
     """Open the recording of FILE... as the options of tables and --foot say; the errors are those of `source_of`."""
-    return source_of(options.files, feet_of(options), mapping_of(options), own, report)
+    return source_of(options.files, feet_of(options, options.files), mapping_of(options), own, report)
 
 
 def samples_named(options: Namespace) -> tuple[Foot | None, Iterable[Sample]]:
@@ -88,13 +89,15 @@ mapping_options = together(
 """The options for tables of samples and for own devices."""
 
 
-def feet_of(options: Namespace) -> Foot | tuple[Foot, ...] | None:
-    """Return the foot of --foot, or those of several files; None without it.
+def feet_of(options: Namespace, files: Sequence[Path]) -> Foot | tuple[Foot, ...] | None:
+    """Return the foot of --foot, or those of these files; None without it.
 
     Failure is raised when it names another number of feet than of files."""
     feet: tuple[Foot, ...] = options.foot or ()
-    if len(feet) > 1 and len(feet) != len(options.files):
-        raise Failure(f"--foot: that is {len(feet)} feet for {len(options.files)} files")
+    if len(feet) > 1 and len(feet) != len(files):
+        raise Failure(
+            f"--foot: that is {len(feet)} feet for {counted(len(files), 'file')}: {' '.join(map(str, files))}"
+        )
     return feet if len(feet) > 1 else next(iter(feet), None)
 
 
