@@ -148,6 +148,42 @@ def test_a_truth_of_the_other_foot_is_named(tmp_path: Path) -> None:
     assert mended.returncode == 0 and rows_in(tmp_path / "out" / "agreement_groups.csv") == []
 
 
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda rows: [(*row[:2], 1e3 * row[2], 1e3 * row[3], row[4]) for row in rows], "are the truth's in ms?"),
+        (lambda rows: [(row[0], [*Foot][row[1] is Foot.LEFT], *row[2:]) for row in rows], "are left and right swapped"),
+        (lambda rows: [(*row[:2], row[3], row[2], row[4]) for row in rows], "line 2: ends at "),
+        (lambda rows: [rows[0], (*rows[0][:4], 9.9), *rows[1:]], "two strides with different values end at "),
+        (lambda rows: [(*row[:4], 100.0 * row[4]) for row in rows], "is it in cm?"),
+        (
+            lambda rows: [("", *row[1:]) if k % 2 else row for k, row in enumerate(rows)],
+            " rows of the truth name no rec",
+        ),
+        (
+            lambda rows: [("S02", *row[1:]) if k % 2 else row for k, row in enumerate(rows)],
+            "of the truth are of S02, of",
+        ),
+        (lambda rows: rows, "the column stride_lenght has numbers, and none of the known names"),
+    ],
+)
+def test_what_of_a_truth_cannot_be_or_is_compared_with_nothing_is_said(
+    tmp_path: Path, recorded: list[Path], change: Callable[[list], list], said: str
+) -> None:
+    rows = [("S01", foot, a, b, length) for foot in Foot for a, b, length in strides(WALK, foot)]
+    name = "stride_lenght" if "lenght" in said else "stride_length_m"
+    path = table(tmp_path / "truth.csv", f"recording,foot,t_start_s,t_end_s,{name}", change(rows))
+    other = table(tmp_path / "S03.csv", "t", [])
+    done = run("validate", path, *recorded, *([other] if "name no rec" in said else []))
+    assert said in done.stderr
+    assert run("validate", stride_truth(tmp_path / "truth.csv"), *recorded).stderr == ""
+
+
+def test_a_recipe_that_needs_cells_says_so(tmp_path: Path, recorded: list[Path]) -> None:
+    failed = run("validate", stride_truth(tmp_path / "truth.csv"), *recorded, "--recipe", "zupt")
+    assert "recipe zupt needs pressure cells" in failed.stderr and "nothing of the truth" not in failed.stderr
+
+
 def test_parameters_of_a_walk_are_those_of_the_gait_table_and_of_mobility(tmp_path: Path, events: list) -> None:
     rows = [("speed_m_per_s", 1.3), ("walkdur_all_sum", 9.0), ("distance_m", 12.0), ("stride_length_m", "-")]
     truth = read_truth(table(tmp_path / "t.csv", "parameter,value", rows))

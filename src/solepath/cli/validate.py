@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+import re
 from argparse import Namespace
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..recording import printable
+from .common.closest import closest
 from .common.failure import Failure, note, parse_number, parse_positive, require
 from .common.files import REPORT, TRACK_KINDS, Kind, OutputFile, add_force, check_outputs, write_json
-from .common.inputs import Recording, add_calibration, add_heading, calibration_of, recipe_option, recipes_of
+from .common.inputs import (
+    Recording,
+    add_calibration,
+    add_heading,
+    calibration_of,
+    check_pressure,
+    recipe_option,
+    recipes_of,
+)
 from .common.own_devices import drivers_of
 from .common.parser import command, option
 from .common.processes import add_processes, run_jobs
@@ -24,6 +35,8 @@ if TYPE_CHECKING:
 
 FAILED_STATUS = 1
 """Exit status when a recording could not be compared."""
+NUMBER = re.compile(r"-?\d+[.,]\d+")
+"""A number that is measured rather than a name or a count."""
 Job = tuple[Namespace, str, "list[TrueRow]"]
 """Options with the files of a recording, its name, and the rows of its truth."""
 
@@ -44,6 +57,8 @@ def run(options: Namespace) -> int:
     rows = rows_by_walk(truth, [*files])
     if without := files.keys() - rows.keys():
         note(f"the truth has no row of {printable(', '.join(sorted(without)))}")
+    for sentence in _left_out(truth, rows):
+        note(printable(sentence))
     jobs: list[Job] = [(Namespace(**vars(options) | {"files": files[name]}), name, of) for name, of in rows.items()]
     with stop_signals_raise(), progress_bar(options.truth.name, len(jobs)) as show:
         found = run_jobs(compare, jobs, processes=options.processes, progress=lambda done, _: show(done))
@@ -55,6 +70,8 @@ def run(options: Namespace) -> int:
     if not cells:
         raise Failure("no recording could be compared")
     comparison = WalkComparison.of(cells)
+    for sentence in comparison.doubts:
+        note(sentence)
     groups = agreement_cells(comparison.groups)
     print(table(HEADER, [*agreement_cells(comparison.agreement), *([[], *groups] if groups else [])]))
     if options.out is not None:
@@ -94,6 +111,22 @@ def _recordings(files: Sequence[Path]) -> dict[str, list[Path]]:
     return found
 
 
+def _left_out(truth: Sequence[TrueRow], rows: Mapping[str, Sequence[TrueRow]]) -> Iterator[str]:
+    """Yield sentences on what of a truth is compared with nothing: rows of other recordings, and unknown columns."""
+    from ..show.tables.table import counted
+    from ..validate.truth_table import FIGURES
+
+    used = {id(row) for of in rows.values() for row in of}
+    for recording, count in Counter([row.recording for row in truth if id(row) not in used]).items():
+        what = f"are of {recording}, of which there is no file" if recording else "name no recording"
+        yield f"{counted(count, 'row')} of the truth {what}"
+    for column in dict.fromkeys([column for row in truth for column in row.groups]):
+        if any([NUMBER.fullmatch(row.groups.get(column, "")) for row in truth]):
+            meant = closest(column, FIGURES)
+            hint = "" if meant is None else f": did you mean {meant}?"
+            yield f"the column {column} has numbers, and none of the known names, so that it is a group{hint}"
+
+
 def compare(job: Job) -> list[PairCells] | str:
     """Return the pairs of one recording, or why there are none."""
     from ..link.kinds import make_kinds
@@ -106,7 +139,9 @@ def compare(job: Job) -> list[PairCells] | str:
     try:
         drivers = drivers_of(options)
         session = Session(recipes_of(options)[0], calibration=calibration_of(options), profiles=drivers)
-        walk, recording = Walk(limit=None, keeps_all=True, kinds=make_kinds(drivers)), Recording(source_named(options))
+        source = source_named(options)
+        check_pressure(recipes_of(options)[0], source, drivers)
+        walk, recording = Walk(limit=None, keeps_all=True, kinds=make_kinds(drivers)), Recording(source)
         start: float | None = None
         for item in recording:
             start = item.t if start is None else start

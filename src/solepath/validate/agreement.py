@@ -39,6 +39,19 @@ MIN_PAIRS = 3
 """Least number of pairs with an ICC, and of recordings whose means are compared; chosen by hand."""
 MAX_GROUPS = 20
 """Largest number of values of a column by which results are grouped; with more, it is a number or a comment."""
+MOST_TIMES = 100.0
+"""Number of times by which a truth that counts in s may be longer than its recording; chosen by hand."""
+OTHER_UNITS = {
+    "_m_per_s": {"km/h": 3.6, "cm/s": 100.0},
+    "_per_min": {"strides a minute": 0.5},
+    "_share": {"%": 100.0},
+    "_deg": {"rad": 0.01745},
+    "_s": {"ms": 1000.0},
+    "_m": {"cm": 100.0, "mm": 1000.0},
+}
+"""Other units of parameters by the ends of their names, and how many of them are one."""
+UNIT_RATIO = 1.4
+"""Ratio up to which a truth in another unit may differ from what was found; chosen by hand."""
 MEANS = "means of recordings"
 """What the rows of the means of each recording are by, in place of a column."""
 EVENT_PARAMETERS = {name: f"{name.replace('-', '_')}_s" for name in GAIT_EVENTS.values()}
@@ -78,6 +91,19 @@ class WalkComparison:
         """The same by foot, by each other column of the truth, and of the means of recordings."""
         columns = ["by", "group", *self.agreement.columns]
         return _frame([row for name, found in self.parts for row in _group_rows(name, found)], columns)
+
+    @property
+    def doubts(self) -> list[str]:
+        """Sentences on parameters whose truth seems to be in another unit, by the median ratio to what was found."""
+        sentences = []
+        for name, found in self.parts:
+            both = usable(found)
+            ratio = (both.true / both.found).median()
+            units = next((units for end, units in OTHER_UNITS.items() if name.endswith(end)), {})
+            for unit, factor in units.items():
+                if UNIT_RATIO > ratio / factor > 1.0 / UNIT_RATIO:
+                    sentences.append(f"{name}: the truth is {ratio:.3g} times what was found: is it in {unit}?")
+        return sentences
 
     @property
     def parts(self) -> Any:
@@ -155,8 +181,15 @@ def _why(rows: Sequence[TrueRow], walk: Walk) -> str:
     times = [row.t_end for row in rows if row.kind is not Kind.WALK]
     if not times or walk.event_span is None:
         return ""
-    here, there = [f"{start:.1f} to {end:.1f} s" for start, end in ((min(times), max(times)), walk.event_span)]
-    return f": its times are {here}, the recording's {there}; --offset, or a column offset_s, is added to the truth's"
+    spans = (min(times), max(times)), walk.event_span
+    (first, last), (start, end) = spans
+    here, there = [f"{first:.1f} to {last:.1f} s" for first, last in spans]
+    advice = "--offset, or a column offset_s, is added to the truth's"
+    if last - first > MOST_TIMES * (end - start):
+        advice = "are the truth's in ms?"
+    elif start < last and first < end:
+        advice = f"are left and right swapped, or the clocks apart by less than a stride ({advice})?"
+    return f": its times are {here}, the recording's {there}; {advice}"
 
 
 @frozen

@@ -122,6 +122,10 @@ def read_truth(path: Path | str, *, rate: float | None = None, offset: float = 0
     rows = [one for row in read_rows(path, ()) for one in _Reader(row, rate, offset).rows()]
     if not rows:
         raise TableError(f"{path}: has no row with a value")
+    ends: dict[tuple[str, Foot | None, float], Mapping[str, float]] = {}
+    for row in rows:
+        if row.kind is Kind.STRIDE and ends.setdefault((row.recording, row.foot, row.t_end), row.values) != row.values:
+            raise TableError(f"{path}: two strides with different values end at {row.t_end:.10g} s")
     return rows
 
 
@@ -196,13 +200,19 @@ class _Reader:
         self, of_row: TrueRow, t_start: float | None, t_end: float | None, figures: dict[str, float]
     ) -> Iterator[TrueRow]:
         if t_end is not None:
+            self._check_order(t_start, t_end)
             time = {} if t_start is None else {"stride_time_s": t_end - t_start}
             yield evolve(of_row, kind=Kind.STRIDE, t_start=t_start, t_end=t_end, values=time | figures)
+
+    def _check_order(self, t_start: float | None, t_end: float) -> None:
+        if t_start is not None and t_start >= t_end:
+            raise TableError(f"{self.row.where}: ends at {t_end:.10g} s, before it starts at {t_start:.10g} s")
 
     def _part(self, of_row: TrueRow, t_start: float | None, t_end: float | None, values: dict[str, float]) -> TrueRow:
         """Return the figures of the walk, or of the part of it between two times."""
         if t_start is None or t_end is None:
             return evolve(of_row, kind=Kind.WALK, values=values)
+        self._check_order(t_start, t_end)
         return evolve(of_row, kind=Kind.WALK, values=values, t_start=t_start, t_end=t_end)
 
     def _parameter(self) -> str:
