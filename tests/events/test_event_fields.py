@@ -2,14 +2,31 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import event_fields
 import pytest
 from quoted import PAGES, run_page
+
+from solepath import Event, to_frame
+from solepath.events.frames import RENAMED
 
 
 def test_the_page_has_the_fields_of_the_classes() -> None:
     written = PAGES["docs/events.md"].split("<!-- fields -->\n", 1)[1].split("\n<!-- end -->", 1)[0]
     assert written == event_fields.event_fields(), "python .ci/readme --fields writes it"
+
+
+def test_every_field_of_the_page_is_a_column_of_the_frame_of_its_event_with_its_unit() -> None:
+    pytest.importorskip("pandas", reason="pandas is not installed")
+    for event in get_args(Event):
+        frame = to_frame([], event)
+        for name, unit, _ in event_fields.rows(event):
+            field, _, of_many = name.replace(".", "_").partition("[]")
+            renamed = RENAMED.get((event.__name__, field), field)
+            columns = [one for one in frame.columns if one == renamed or one.startswith(f"{renamed}_")]
+            assert columns, f"{event.__name__}.{name}"
+            assert of_many or not unit or {frame.attrs["units"].get(one) for one in columns} >= {unit}, name
 
 
 def test_the_program_of_the_page_selects_the_cycles_of_the_means() -> None:

@@ -67,7 +67,8 @@ def test_every_number_of_every_event_is_in_its_row(shape: int) -> None:
     every = events(shape)
     for event, row in zip(every, to_frame(every, library="polars").to_dicts(), strict=True):
         present = {name: value for name, value in row.items() if value is not None}
-        derived = {name: getattr(event, name) for name in present.keys() & properties_of(type(event))}
+        properties = [(name, getattr(event, name)) for name in present.keys() & properties_of(type(event))]
+        derived = {name: getattr(value, "value", value) for name, value in properties}
         said = {name: value for name, value in columns(event.to_dict(), row) if value is not None}
         assert present == said | derived
 

@@ -34,7 +34,8 @@ _NAMES = {
     "T": "mag",
     "dBm": "signal",
     "N": "layout_scale",
-    "1": "probability similarity coefficient phase level quat",
+    "1": "probability similarity coefficient phase level quat missing stance_share swing_share double_support_share "
+    "single_support_share",
 }
 UNITS = {name: unit for unit, names in _NAMES.items() for name in names.split()}
 """Unit of each column that has one, by the column's name without its component; "1" for shares and unit quaternions.
@@ -217,12 +218,10 @@ def _fields_of(cls: Any, owner: str, prefix: str, path: Path) -> Iterator[tuple[
 
 
 def _derived_of(cls: type[BaseEvent]) -> Iterator[tuple[str, Form, str | None, Path]]:
-    """Yield the columns of what an event derives from its fields: its properties, of the kinds that a column has."""
+    """Yield the columns of what an event derives from its fields: its properties."""
     properties = {name: one for base in cls.__mro__ for name, one in vars(base).items() if isinstance(one, property)}
     for name, one in properties.items():
-        form = _form(get_type_hints(one.fget).get("return", object))
-        if form.kind in WHOLE:
-            yield name, form, UNITS.get(name), (name,)
+        yield name, _form(get_type_hints(one.fget).get("return", object)), UNITS.get(name), (name,)
 
 
 def _without_none(hint: Any) -> Any:

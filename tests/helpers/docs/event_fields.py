@@ -25,8 +25,6 @@ USUAL = {
     "defect": "Kind of defect.",
 }
 """Meanings of fields whose names say them, where the class says no more."""
-PROPERTY_UNITS = {"double_support": "s"}
-"""Units of properties."""
 HEADER = ["| field | unit | meaning |", "|---|---|---|"]
 
 
@@ -57,7 +55,7 @@ def rows(cls: type[Any], owner: str = "", prefix: str = "", skipped: frozenset[s
         if name in skipped:
             continue
         column = prefix.replace(".", "_").replace("[]", "") + RENAMED.get((owner, name), name)
-        unit = UNITS.get(column, PROPERTY_UNITS.get(name, ""))
+        unit = UNITS.get(column, "")
         yield f"{prefix}{name}", unit, (text or USUAL[name]).replace("|", "\\|")
         hint = hints.get(name)
         for inner in (hint, *get_args(hint)):
