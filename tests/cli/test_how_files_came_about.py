@@ -40,6 +40,8 @@ def test_run_json_report_storage_file_and_dataset_name_the_same_recipe_and_input
     header = next(line for line in storage.read_text().splitlines() if line.startswith("solepath="))
     stored = json.loads(header.partition("=")[2])
     sidecar = json.loads(next(dataset.rglob("*_motion.json")).read_text())["GeneratedBy"][0]["Settings"]
+    described = json.loads((dataset / "dataset_description.json").read_text())
+    assert described["DatasetType"] == "derivative", "positions and events are computed"
     frame = to_frame([Sample(site=Site.LEFT_FOOT, t=0.0)], made_by=provenance(recipes.DEFAULT, [walk]))
     for one in (stored, sidecar, frame.attrs["solepath"]):
         assert {name: one[name] for name in ("solepath", "recipe", "recipe_sha256", "inputs")} == {
