@@ -130,7 +130,7 @@ ErrorStateFilter.start: interval level recovery rhythm velocity_error
 FootBlocks.start_block: blocks flat_height rest_force rested strides strike_height
 GatedTilt.start: velocity_change
 GyroscopeMagnitude._start_span: highs lows past_high past_low shoe
-Impact.start_swing: peak_shock_time
+Impact.start_swing: peak_onset
 Projection.start: largest_saturated least_saturated turning
 Rest._start_span: bias bias_filter count grain last scale
 Sagittal.end_lift: forward pitch toe up

@@ -21,7 +21,7 @@ class GaitEvent(BaseEvent):
 
 @frozen(kw_only=True)
 class HeelStrike(GaitEvent):
-    """The foot touched the ground; LOADING starts. `t` is the middle of the impact, or the time when cells show load.
+    """The foot touched the ground; LOADING starts. `t` is the onset of the impact, or the time when cells show load.
 
     Latency with the default cues: one sample with pressure cells, about 40 ms without; if no impact shows, the time
     until the foot is still."""

@@ -141,7 +141,8 @@ class MotionWriter:
 
     def _write_dataset(self) -> None:
         name = self.root.resolve().name
-        description = {"Name": name, "BIDSVersion": BIDS_VERSION, "DatasetType": "derivative", "GeneratedBy": [GENERATOR]}
+        description = {"Name": name, "BIDSVersion": BIDS_VERSION, "GeneratedBy": [GENERATOR]}
+        description["DatasetType"] = "derivative"
         if not (self.root / DESCRIPTION).exists():
             write_whole(self.root / DESCRIPTION, to_json(description))
         if not any(self.root.glob("README*")):
