@@ -11,7 +11,8 @@ from here import EXAMPLES
 from solepath.emulate.routes.building import BUILDING, FOUR_LOOPS, STOREY
 from solepath.emulate.routes.ways import case_study, wandering
 from solepath.emulate.wearers.walker import Walker
-from solepath.floorplan.checks import find_fault, find_warnings
+from solepath.floorplan.checks import find_fault
+from solepath.floorplan.findings import find_warnings
 from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import ConnectorKind

@@ -123,3 +123,10 @@ def test_levels_of_several_buildings_have_readable_ids_with_the_names_of_their_b
 def test_a_unit_without_a_name_has_its_other_name() -> None:
     room = unit("u", "office", box(0, 0, 5, 5), alt_name={"en": "101"})
     assert plan_of([room]).level("L0").room_names == ("101",)
+
+
+def test_stairs_whose_label_is_on_their_outline_or_beside_it_are_entered_in_their_middle() -> None:
+    for x, y, place in ((3.0, 3.0, (3.0, 3.0)), (2.0, 3.0, (4.0, 4.0)), (2.2, 3.0, (4.0, 4.0)), (9.0, 9.0, (4.0, 4.0))):
+        shown = {"type": "Point", "coordinates": [*degrees((x, y))[::-1]]}
+        (stairs,) = plan_of([unit("a", "stairs", box(2, 2, 6, 6), display_point=shown)]).connectors
+        assert stairs.stops[0].place == pytest.approx(place, abs=2e-3), (x, y)

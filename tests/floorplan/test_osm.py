@@ -152,3 +152,9 @@ def test_a_relation_has_a_hole_and_its_outline_may_be_of_several_ways() -> None:
     assert plan.inside(0, 5.0, 5.0)
     assert plan.crosses(0, 7.5, 5.0, 8.5, 5.0)
     assert plan.crosses(0, 19.5, 5.0, 20.5, 5.0)
+
+
+def test_a_gap_without_a_door_is_a_way_through_the_wall() -> None:
+    plan = IndexedPlan(house().node((5.0, 0.0), door="no", level="0").way([(0, 0), (5, 0), (20, 0)]).plan())
+    assert not plan.crosses(0, 5.0, -0.5, 5.0, 0.5)
+    assert plan.crosses(0, 15.0, -0.5, 15.0, 0.5)

@@ -12,8 +12,9 @@ from floorplans import FILES, doors, walls
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.floorplan.checks import find_fault, find_warnings
+from solepath.floorplan.checks import find_fault
 from solepath.floorplan.doors import cut_doors
+from solepath.floorplan.findings import find_warnings
 from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import (

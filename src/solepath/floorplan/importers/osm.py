@@ -75,9 +75,11 @@ def connector_kind(element: Element) -> ConnectorKind | None:
 
 
 def is_door(element: Element) -> bool:
-    """Return whether the element is a door, an entrance, or a gap to walk through."""
+    """Return whether the element is a door, an entrance, or a gap to walk through.
+
+    `door=no` is a gap without a door (OpenStreetMap wiki, Key:door)."""
     tags = element.tags
-    return tags.get("indoor") == "door" or any(tags.get(key, "no") != "no" for key in ("door", "entrance"))
+    return tags.get("indoor") == "door" or "door" in tags or tags.get("entrance", "no") != "no"
 
 
 def is_indoor(element: Element) -> bool:
@@ -294,7 +296,9 @@ class _OsmReader:
             if line is None and node.levels:
                 line = door_beside(place, self._near(place, level), width)
                 if line is None:
-                    self._drawing.remarks.append(f"{element.name}: a door on level {level!r} that is in no wall")
+                    x, y = place
+                    remark = f"{element.name}: a door on level {level!r} that is in no wall, at ({x:.1f}, {y:.1f})"
+                    self._drawing.remarks.append(remark)
             if line is not None:
                 self._drawing.storeys[level].doors.append(Door(*line, label))
 

@@ -17,7 +17,7 @@ from attrs import define, field
 
 from ...calibration import Calibration, CalibrationError
 from ...calibration.file import read_calibration
-from ...floorplan.checks import find_warnings
+from ...floorplan.findings import find_warnings
 from ...floorplan.importers.reading import read_floorplan
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import FloorPlan, FloorPlanError
