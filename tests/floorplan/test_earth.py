@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.floorplan.importers.earth import Tangent, south_west
+from solepath.floorplan.earth import Tangent, south_west
 from solepath.floorplan.plan import Anchor, FloorPlan, FloorPlanError
 
 

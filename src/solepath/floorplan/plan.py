@@ -8,35 +8,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from enum import Enum
 from math import dist, fsum, sqrt
 
 from ..saving.codec import checksum, save
 from ..types.attrs import evolve, field, frozen, limited, limits
-
-Point = tuple[float, float]
-"""(x, y) in m, plan frame."""
-MAX_COORDINATE = 1e7
-"""Largest absolute coordinate from the plan's origin, m: national grids have up to 1e7."""
-MAX_LATITUDE = 89.0
-"""Largest absolute latitude of an anchor, degrees: east is not defined at a pole."""
-
-Line = tuple[float, float, float, float]
-"""A straight line from (ax, ay) to (bx, by), m, plan frame."""
-
-
-class FloorPlanError(ValueError):
-    """Raised when a floor plan cannot be read or used; its one line names the file, the feature and the fault."""
-
-
-@contextmanager
-def naming(name: str) -> Iterator[None]:
-    """Put a name before the line of each FloorPlanError in this context."""
-    try:
-        yield
-    except FloorPlanError as error:
-        raise FloorPlanError(f"{name} {error}") from None
+from .frame import MAX_COORDINATE as MAX_COORDINATE
+from .frame import MAX_LATITUDE as MAX_LATITUDE
+from .frame import Anchor as Anchor
+from .frame import FloorPlanError as FloorPlanError
+from .frame import Line as Line
+from .frame import Point as Point
+from .frame import naming as naming
 
 
 @frozen
@@ -129,18 +112,6 @@ def with_rooms(level: Level, rooms: Sequence[tuple[tuple[Point, ...], str]]) -> 
     """Return the level with these rooms, each an outline, m, plan frame, and its name, "" for a room without one."""
     names = tuple([name for _, name in rooms])
     return evolve(level, rooms=tuple([ring for ring, _ in rooms]), room_names=names if any(names) else ())
-
-
-@frozen
-class Anchor:
-    """The position and orientation of the plan on the Earth.
-
-    `latitude` and `longitude` are those of the plan's origin (0, 0), degrees, WGS84. `bearing` is the angle from true
-    north clockwise to the plan's +y, rad; with 0, +x is east and +y is north."""
-
-    latitude: float = field(metadata=limits(-MAX_LATITUDE, MAX_LATITUDE, "degrees"))
-    longitude: float = field(metadata=limits(-180.0, 180.0, "degrees"))
-    bearing: float = limited(0.0, -10.0, 10.0, "rad")
 
 
 @frozen
@@ -255,7 +226,7 @@ class FloorPlan:
         Raises FloorPlanError when the plan has no anchor."""
         if self.anchor is None:
             raise FloorPlanError("the plan has no coordinates: give it an anchor")
-        from .importers.earth import Tangent
+        from .earth import Tangent
 
         return Tangent(self.anchor).degrees(point)
 

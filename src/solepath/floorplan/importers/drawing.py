@@ -14,6 +14,7 @@ from math import atan2
 from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_WALLS
 from ..doors import MAX_DOOR_OFFSET, Openings, cut_openings
+from ..earth import to_mm
 from ..geometry import Ring, contains, direction, distance, edges, find_inner_point, join_holes, normalize_ring
 from ..plan import (
     Anchor,
@@ -29,7 +30,6 @@ from ..plan import (
     Wall,
     with_rooms,
 )
-from .earth import to_mm
 
 _MERGE_DISTANCE = 2e-3
 """Largest distance between walls that count as lying on one line, and largest gap over which they are joined, m."""

@@ -10,9 +10,9 @@ from typing import Any, NoReturn
 
 from ...types.attrs import evolve, frozen
 from ...types.checking import describe
+from ..earth import south_west
 from ..geometry import Ring
 from ..plan import Anchor, FloorPlanError, Point, naming
-from .earth import south_west
 
 MAX_CORNERS = 1_000_000
 """Largest number of points in a file: more than any building has."""

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import groupby, pairwise
 
+from ..earth import Tangent
 from ..geometry import Ring
 from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point, make_ids, naming
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
-from .earth import Tangent
 from .features import Feature, find_anchor, parse_json, parse_positions, read_features
 
 _KINDS = ("level", "unit", "opening", "fixture", "building", "venue")

@@ -13,11 +13,11 @@ from math import floor, inf
 
 from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_RISE, MIN_RISE
+from ..earth import Tangent, south_west, to_mm
 from ..geometry import Ring, direction, distance, share_along
 from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point, naming
 from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
-from .earth import Tangent, south_west, to_mm
 from .osm_file import Element, OsmFile, Refs, find_shapes, parse_elements
 
 BORDERS = {"room": Border.WALL, "corridor": Border.OPEN, "area": Border.FREE, "column": Border.SOLID,

@@ -9,9 +9,9 @@ from __future__ import annotations
 from cmath import rect
 from math import atan2, cos, degrees, hypot, isfinite, pi, radians, sin, sqrt
 
-from ...types import Vec2, Vec3
-from ...types.vector import dot, pair, sub
-from ..plan import MAX_LATITUDE, Anchor, FloorPlanError, Point
+from ..types import Vec2, Vec3
+from ..types.vector import dot, pair, sub
+from .frame import MAX_LATITUDE, Anchor, FloorPlanError, Point
 
 _A = 6378137.0
 _F = 1.0 / 298.257223563
