@@ -17,7 +17,7 @@ from recordings import recorded
 from views import told
 from walks import insoles
 
-from solepath import FloorPlanError, Placed, PlaceLost, read_floorplan
+from solepath import Placed, PlaceLost, read_floorplan
 from solepath.body.part import StartGiven
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
@@ -145,7 +145,7 @@ def test_a_start_may_be_a_place_of_the_plan_with_its_level_where_several_have_it
         assert (start.level, start.place) == (level, (2.5, 2.0)), text
         assert (start.heading is None) == (heading is None)
         assert heading is None or degrees(start.heading or 0.0) == pytest.approx(heading)
-    with pytest.raises(FloorPlanError, match="'office' is on several levels: '0', 'wing B, up'"):
+    with pytest.raises(Failure, match="'office' is on several levels: '0', 'wing B, up'; put the level before it"):
         start_of("office", plan)
     with pytest.raises(Failure, match="there is no place 'atic': did you mean attic"):
         start_of("atic", plan)

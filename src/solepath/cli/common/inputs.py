@@ -229,9 +229,9 @@ def floorplan_of(options: Namespace) -> tuple[IndexedPlan | None, Start | None]:
 def start_of(text: str, plan: FloorPlan) -> Start:
     """Return the start of a text of --start, START_FORMS, on a plan: m and degrees, plan frame.
 
-    Raises Failure for other text, and FloorPlanError for a place that is on several levels. The names of levels and
-    places may contain commas."""
-    from ...floorplan.plan import Start
+    Raises Failure for other text, and for a place that is on several levels. The names of levels and places may contain
+    commas."""
+    from ...floorplan.plan import FloorPlanError, Start
     from ...types.checking import find_fault
 
     if text.startswith("heading="):
@@ -259,7 +259,10 @@ def start_of(text: str, plan: FloorPlan) -> Start:
     ]
     for at, name, angle in readings:
         if any(name.strip() in found for level, found in names.items() if at in (None, level)):
-            return plan.start(name.strip(), at, angle)
+            try:
+                return plan.start(name.strip(), at, angle)
+            except FloorPlanError as error:
+                raise Failure(f"--start {printable(text, 80)}: {error}; put the level before it") from None
     at, name, _ = readings[-1]
     known = [one for level, found in names.items() for one in found if at in (None, level)]
     raise Failure(f"--start {printable(text, 80)} is not {START_FORMS}: {unknown('place', name.strip(), known)}")
