@@ -85,7 +85,7 @@ def test_the_true_place_is_where_the_feet_are_on_the_plan() -> None:
 
 @pytest.mark.parametrize("up", [True, False])
 @pytest.mark.parametrize(("flights", "turn", "end"), [
-    (1, 0.0, (6.2, 1.0)), (2, 0.0, (10.6, 1.0)), (2, pi, (2.0, 2.4)), (2, -pi / 2, (7.5, -4.5)),
+    (1, 0.0, (6.2, 1.0)), (2, 0.0, (11.6, 1.0)), (2, pi, (2.0, 2.4)), (2, -pi / 2, (7.5, -4.5)),
 ])  # fmt: skip
 def test_own_stairs_lead_as_high_and_as_far_as_their_risers_and_treads(
     up: bool, flights: int, turn: float, end: tuple[float, float]

@@ -16,7 +16,7 @@ from walks import insoles
 
 from solepath import Candidate, Event, Placed, PlaceLost, WearerMoved, read_floorplan
 from solepath.show.export import write_way
-from solepath.walk.walk import Walk
+from solepath.walk import Walk
 
 HOUSE = read_floorplan(FILES / "house.geojson")
 """A plan with an anchor at 48.15 N, 11.57 E."""
