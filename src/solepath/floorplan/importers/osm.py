@@ -18,7 +18,7 @@ from ..geometry import Ring, direction, distance, share_along
 from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point, naming
 from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
-from .osm_file import Element, OsmFile, Refs, find_shapes, parse_elements
+from .osm_file import Element, OsmFile, Refs, find_shapes
 
 BORDERS = {"room": Border.WALL, "corridor": Border.OPEN, "area": Border.FREE, "column": Border.SOLID,
            "wall": Border.SOLID, "level": Border.SOLID}  # fmt: skip
@@ -145,11 +145,11 @@ def _move(place: Point, way: tuple[float, float, float], by: float) -> Point:
     return to_mm((place[0] + by * way[1], place[1] + by * way[2]))
 
 
-def read_osm(data: bytes, storey: float) -> FloorPlan:
-    """Return the plan in an OSM XML file; raise FloorPlanError when it is invalid.
+def read_osm(file: OsmFile, storey: float) -> FloorPlan:
+    """Return the plan in the elements of a file; raise FloorPlanError when it is invalid.
 
     `storey` is the assumed height from one level to the next, m."""
-    return _OsmReader(parse_elements(data)).plan(storey)
+    return _OsmReader(file).plan(storey)
 
 
 @define
