@@ -92,8 +92,7 @@ def write_way(
 
 def _stretches(walk: Walk, plan: FloorPlan | None) -> list[Stretch]:
     if plan is None:
-        track = list(walk.wearer_track) or max(map(list, walk.strides.values()), key=len)
-        return [_stretch("", True, [(one.t, *one.position) for one in track], plan)] if track else []
+        return [_stretch("", True, [(one.t, *one.position) for one in walk.way], plan)] if walk.way else []
     parts = groupby(walk.placed, lambda one: (one.level, one.decided) if isinstance(one, Placed) else None)
     return [
         _stretch(*key, [(one.t, *one.position) for one in part if isinstance(one, Placed)], plan)
