@@ -265,7 +265,8 @@ def start_of(text: str, plan: FloorPlan) -> Start:
                 raise Failure(f"--start {printable(text, 80)}: {error}; put the level before it") from None
     at, name, _ = readings[-1]
     known = [one for level, found in names.items() for one in found if at in (None, level)]
-    raise Failure(f"--start {printable(text, 80)} is not {START_FORMS}: {unknown('place', name.strip(), known)}")
+    why = unknown("place", name.strip(), known)
+    raise Failure(f"--start {printable(text, 80)}{'' if why.endswith('?') else f' is not {START_FORMS}'}: {why}")
 
 
 def _heading(text: str) -> float:

@@ -19,7 +19,7 @@ from ...events import Placed, PlaceLost
 from ...floorplan.findings import PlanFinding
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level
 from ..output import os_errors_naming
-from .svg import STEPS, View, add, colour_bar, grid, line, shade, square_ticks, write
+from .svg import STEPS, View, add, colour_bar, grid, line, px, shade, square_ticks, write
 
 MAX_LEVEL_WIDTH = 720.0
 """Largest width of the drawing of a level by default, px."""
@@ -58,10 +58,12 @@ PICTURE = (
 )
 STYLE = (
     "<style>.grid{{stroke:#1f2933;stroke-opacity:.12}}.tick{{font-size:10px;fill:#5f6b78}}"
-    ".id{{font-size:8px;fill:#1f2933;paint-order:stroke;stroke:white;stroke-opacity:.7;stroke-width:2px}}"
-    ".door{{font-size:6px;fill:#8a5a17}}.connector{{font-weight:600}}</style>"
+    ".id{{fill:#1f2933;paint-order:stroke;stroke:white;stroke-opacity:.7;stroke-width:2px}}"
+    ".door{{font-size:.75em;fill:#8a5a17}}.connector{{font-weight:600}}</style>"
 )
 """Style of the grid and the ids."""
+ID_HEIGHT, MIN_ID_SIZE = 0.5, 8.0
+"""Height of the letters of an id: as a length of the plan, m, and the least, px; the largest is NAME_SIZE."""
 ID_SHIFTS = {"room": 3.0, "connector": 16.0, "door": -3.0}
 """How far below its place an id is written, px: below the mark of stairs or a lift, above a door."""
 FINDING = (
@@ -190,6 +192,7 @@ class PlanPicture:
         if self.ids:
             x, y = view.axes
             grid(panel, x, y, *square_ticks((x.low, x.high), (y.low, y.high), MAX_GRID_LINES)[:2])
+            panel.set("font-size", px(min(max(ID_HEIGHT * view.scale, MIN_ID_SIZE), NAME_SIZE)))
             for kind, places in self.plan.places(level.id).items():
                 for name, place in places.items():
                     write(panel, x(place[0]), y(place[1]) + ID_SHIFTS[kind], name, f"id {kind}")
