@@ -9,6 +9,7 @@ from xml.sax.saxutils import quoteattr
 import pytest
 from floorplans import degrees
 
+from solepath.floorplan.findings import find_findings
 from solepath.floorplan.importers.osm import parse_levels
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.index import IndexedPlan
@@ -185,3 +186,13 @@ def test_a_map_exported_as_geojson_is_the_same_plan() -> None:
     with pytest.raises(FloorPlanError, match="feature 1: a coordinate is 'x'"):
         features[1]["geometry"] = {"type": "Point", "coordinates": ["x", 48.15]}
         parse_floorplan(json.dumps({"type": "FeatureCollection", "features": features}).encode())
+
+
+def test_stairs_that_end_at_a_wall_are_entered_through_it() -> None:
+    hall = [(0, 6), (5, 6), (20, 6), (20, 16), (0, 16), (0, 6)]
+    drawn = Map().way(hall, indoor="corridor", level="0").way([(5, 6), (5, 1)], highway="steps", level="0;1")
+    plan = drawn.way(box(0, 0, 20, 5), indoor="room", level="1").plan()
+    index = IndexedPlan(plan)
+    assert plan.connectors[0].stops[0].place == pytest.approx((5.0, 6.0), abs=2e-3)
+    assert not index.crosses(0, 5.0, 6.0, 5.0, 7.0) and index.crosses(0, 8.0, 5.5, 8.0, 6.5)
+    assert not [one.text for one in find_findings(plan) if "stand in a wall" in one.text]

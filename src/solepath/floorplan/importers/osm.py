@@ -204,6 +204,7 @@ class _OsmReader:
         for node in self._nodes:
             self._draw_node(node)
         self._remove_inner_flights()
+        self._open_walls()
         return self._drawing.plan(self._anchor, storey)
 
     def _storeys(self) -> None:
@@ -281,6 +282,16 @@ class _OsmReader:
         }  # fmt: skip
         inner = {flight.group for flight in flights} - outer
         self._drawing.parts = [part for part in self._drawing.parts if part.group not in inner]
+
+    def _open_walls(self) -> None:
+        """Make a gap in each wall at a node of which stairs or a lift end: one steps on and off there."""
+        for level, neighbours in self._neighbours.items():
+            ends = {part.place for part in self._drawing.parts if part.level == level and not part.rings}
+            for ref in [ref for ref in neighbours if self._places[ref] in ends]:
+                others = [self._places[one] for one in neighbours[ref]]
+                line = door_at(self._places[ref], others, DEFAULT_DOOR_WIDTH)
+                if line is not None:
+                    self._drawing.storeys[level].doors.append(Door(*line))
 
     def _draw_node(self, node: _Drawn) -> None:
         element, label = node.element, label_of(node.element)
