@@ -38,7 +38,6 @@ def run(options: Namespace) -> int:
     check_outputs(options, [output])
     shown = set(_levels_of(options.levels, plan))
     findings = [one for one in find_findings(plan) if one.level in {"", *shown}]
-    findings.sort(key=lambda one: not one.act)
     drawn = evolve(plan, levels=tuple([level for level in plan.levels if level.id in shown]))
     picture = PlanPicture(drawn, (), LEVEL_SIZE, LEVEL_SIZE, 1, True, findings)
     output.replace(lambda to: picture.write(to, plan.name or path.name))
@@ -51,7 +50,7 @@ def run(options: Namespace) -> int:
 def _levels_of(text: str | None, plan: FloorPlan) -> list[str]:
     """Return the ids of the levels of --levels, of all without it; raise Failure for one that there is not."""
     known = [level.id for level in plan.levels]
-    names = known if text is None else [name.strip() for name in text.split(",")]
+    names = known if text is None else [text] if text in known else [name.strip() for name in text.split(",")]
     for name in names:
         if name not in known:
             raise Failure(f"--levels: {unknown('level', name, known)}")

@@ -40,13 +40,14 @@ class PlanFinding:
 
 
 def find_findings(plan: FloorPlan, *, has_start: bool = False) -> tuple[PlanFinding, ...]:
-    """Return what is wrong with a usable plan, level by level; takes about as long as indexing the plan.
+    """Return what is wrong with a usable plan: what must be mended, then the rest, the importer's remarks first.
 
-    `has_start`: the first place is known, so that a plan without stairs and elevators needs no finding. The importer's
-    remarks come first."""
+    `has_start`: the first place is known, so that a plan without stairs and elevators needs no finding. It takes a few
+    times as long as indexing the plan."""
     if find_fault(plan) is not None:
         return ()
-    return (*[PlanFinding(line) for line in plan.remarks], *_find(plan, has_start))
+    found = [*[PlanFinding(line) for line in plan.remarks], *_find(plan, has_start)]
+    return tuple(sorted(found, key=lambda one: not one.act))
 
 
 def find_warnings(plan: FloorPlan, *, has_start: bool = False) -> tuple[str, ...]:
