@@ -39,27 +39,28 @@ class PlanFinding:
     place: Point | None = None
 
 
-def find_findings(plan: FloorPlan, *, has_start: bool = False) -> tuple[PlanFinding, ...]:
+def find_findings(plan: FloorPlan, *, has_start: bool = False, reach: bool = True) -> tuple[PlanFinding, ...]:
     """Return what is wrong with a usable plan: what must be mended, then the rest, the importer's remarks first.
 
-    `has_start`: the first place is known, so that a plan without stairs and elevators needs no finding. It takes a few
-    times as long as indexing the plan."""
+    `has_start`: the first place is known, so that a plan without stairs and elevators needs no finding. `reach`: places
+    to which no way leads are found, too, which takes most of the time, up to 0.5 s for a level. The rest takes about as
+    long as indexing the plan."""
     if find_fault(plan) is not None:
         return ()
-    found = [*[PlanFinding(line) for line in plan.remarks], *_find(plan, has_start)]
+    found = [*[PlanFinding(line) for line in plan.remarks], *_find(plan, has_start, reach)]
     return tuple(sorted(found, key=lambda one: not one.act))
 
 
-def find_warnings(plan: FloorPlan, *, has_start: bool = False) -> tuple[str, ...]:
+def find_warnings(plan: FloorPlan, *, has_start: bool = False, reach: bool = True) -> tuple[str, ...]:
     """Return the sentences of `find_findings`."""
-    return tuple([one.text for one in find_findings(plan, has_start=has_start)])
+    return tuple([one.text for one in find_findings(plan, has_start=has_start, reach=reach)])
 
 
 def _at(place: Point) -> str:
     return f"({place[0]:.1f}, {place[1]:.1f})"
 
 
-def _find(plan: FloorPlan, has_start: bool) -> Iterator[PlanFinding]:
+def _find(plan: FloorPlan, has_start: bool, reach: bool) -> Iterator[PlanFinding]:
     levels, connectors = plan.levels, plan.connectors
     if not plan.heights_known and len(levels) > 1:
         yield PlanFinding("the plan does not say how high its levels lie")
@@ -74,7 +75,7 @@ def _find(plan: FloorPlan, has_start: bool) -> Iterator[PlanFinding]:
         for place, what in _find_openings(level, enclosure, scale).items():
             yield PlanFinding(f"{name}: its walls do not close near {_at(place)}{what}", True, level.id, place)
         yield from _find_door_faults(plan, level, inner)
-        yield from _find_unreachable(plan, level, inner, enclosure)
+        yield from _find_unreachable(plan, level, inner, enclosure) if reach else ()
     if not connectors and not has_start:
         yield PlanFinding("the plan has no stairs and no lifts: the place on it is known by a start only")
     ids = make_ids([(one.name, one.kind.value) for one in connectors])
@@ -116,9 +117,9 @@ def _find_door_faults(plan: FloorPlan, level: Level, walls: Walls) -> Iterator[P
         (ax, ay), (bx, by) = door.start, door.end
         dx, dy = EDGE_SHARE * (bx - ax), EDGE_SHARE * (by - ay)
         inner = (ax + dx, ay + dy, bx - dx, by - dy)
-        if walls.crosses(*inner):
-            wall = next(wall for wall in level.walls if touch(*wall.line, *inner))
-            text = f"{what} has a wall across it, from {_at(wall.start)} to {_at(wall.end)}"
+        across = [wall for wall in level.walls if touch(*wall.line, *inner)] if walls.crosses(*inner) else []
+        if across:
+            text = f"{what} has a wall across it, from {_at(across[0].start)} to {_at(across[0].end)}"
             yield PlanFinding(text, True, level.id, middle)
         elif not any(
             distance(*wall, *end) <= MAX_WALL_DISTANCE

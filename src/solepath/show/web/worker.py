@@ -156,7 +156,10 @@ class Worker:
         notes: Sequence[str] = ()
         if kind == "plan":
             plan = read_floorplan(path)
-            self.plan, notes = IndexedPlan(plan), [f"{path.name}: {words}" for words in find_warnings(plan)]
+            self.plan, notes = (
+                IndexedPlan(plan),
+                [f"{path.name}: {words}" for words in find_warnings(plan, reach=False)],
+            )
         elif kind == "calibration":
             self.calibration = read_calibration(path)
         else:
