@@ -119,6 +119,20 @@ def test_a_floor_plan_or_a_start_that_cannot_be_used_is_rejected_in_one_line(
     assert "'stairs' is on several levels" in run_failing("track", walk, "--floorplan", hall, "--start", "stairs")
 
 
+def test_the_first_things_that_are_wrong_with_a_plan_are_printed_and_the_number_of_the_others(
+    walk: Path, hall: Path, tmp_path: Path
+) -> None:
+    plan = read_floorplan(hall)
+    lone = [Connector(ConnectorKind.LIFT, f"lift {k}", (ConnectorStop("0", (3.0 * k, 5.0)),)) for k in range(1, 6)]
+    many = tmp_path / "many.geojson"
+    many.write_text(format_floorplan(FloorPlan("hall", plan.levels, (*plan.connectors, *lone))))
+    done = run("track", walk, "--floorplan", many, "--start", "0,10,10,30")
+    assert done.returncode == 0
+    *first, more = [line.partition(f"{many}: ")[2] for line in done.stderr.splitlines()]
+    assert first == [f"lift 'lift {k}': stops at level '0' only, at ({3 * k:.1f}, 5.0)" for k in (1, 2, 3)]
+    assert more == f"2 more: solepath plan {many}"
+
+
 BUILDING = read_floorplan(FILES / "house.geojson")
 
 

@@ -219,8 +219,7 @@ def floorplan_of(options: Namespace) -> tuple[IndexedPlan | None, Start | None]:
     for sentence in warnings[:MAX_WARNINGS]:
         note(f"{options.floorplan}: {sentence}")
     if len(warnings) > MAX_WARNINGS:
-        more = f"{len(warnings) - MAX_WARNINGS} more, which solepath plan {options.floorplan} shows"
-        note(f"{options.floorplan}: {more}")
+        note(f"{options.floorplan}: {len(warnings) - MAX_WARNINGS} more: solepath plan {options.floorplan}")
     if start is not None and (problem := start_error(indexed, start)) is not None:
         raise Failure(f"{options.floorplan}: {problem}")
     return indexed, start
