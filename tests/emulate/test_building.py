@@ -2,16 +2,19 @@
 
 from functools import cache
 from itertools import pairwise
-from math import hypot
+from math import hypot, pi
 
 import numpy as np
 import pytest
 from here import EXAMPLES
 
+from solepath.emulate import Course
 from solepath.emulate.routes.building import BUILDING, FOUR_LOOPS, STOREY
 from solepath.emulate.routes.ways import case_study, wandering
 from solepath.emulate.wearers.walker import Walker
-from solepath.floorplan.checks import find_fault, find_warnings
+from solepath.floorplan.checks import find_fault
+from solepath.floorplan.findings import find_warnings
+from solepath.floorplan.geometry import distance
 from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import ConnectorKind
@@ -78,3 +81,36 @@ def test_the_true_place_is_where_the_feet_are_on_the_plan() -> None:
     y = way.start.place[1] + np.sin(heading) * middle[:, 0] + np.cos(heading) * middle[:, 1]
     away = [hypot(a - p[1], b - p[2]) for a, b, p in zip(x.tolist(), y.tolist(), places, strict=True)]
     assert max(away) < 0.25  # the sensors are not at the ankles
+
+
+@pytest.mark.parametrize("up", [True, False])
+@pytest.mark.parametrize(("flights", "turn", "end"), [
+    (1, 0.0, (6.2, 1.0)), (2, 0.0, (11.6, 1.0)), (2, pi, (2.0, 2.4)), (2, -pi / 2, (7.5, -4.5)),
+])  # fmt: skip
+def test_own_stairs_lead_as_high_and_as_far_as_their_risers_and_treads(
+    up: bool, flights: int, turn: float, end: tuple[float, float]
+) -> None:
+    course = Course("0", (1.0, 1.0), 0.0)
+    course.stand()
+    course.walk(1.0)
+    course.stairs("1" if up else "-1", 15, up, rise=0.175, going=0.28, flights=flights, turn=turn)
+    course.stand()
+    walker = Walker(course.route)
+    climbed = float(walker.truth().elevation(np.array([walker.duration]))[0])
+    assert climbed == pytest.approx(flights * 15 * 0.175 * (1.0 if up else -1.0), abs=1e-6)
+    assert course.level == ("1" if up else "-1")
+    assert course.position == pytest.approx(end, abs=1e-6)
+    assert course.place(walker, walker.duration) == pytest.approx(end, abs=0.05)
+
+
+def test_corners_that_are_close_together_are_walked_too() -> None:
+    course = Course("0", (1.0, 1.0), 0.0)
+    ways = [(1.0 + step, 1.0) for step in (0.8, 2.0)] + [(3.0, 1.4), (3.6, 1.4), (3.6, 5.0)]
+    course.walk_along(ways)
+    assert course.position == pytest.approx(ways[-1])
+    walker = Walker(course.route)
+    t = np.arange(0.0, walker.duration, 0.1)
+    track = np.array([course.place(walker, float(one)) for one in t])
+    legs = [(1.0, 1.0), *ways]
+    off = [min([distance(*a, *b, x, y) for a, b in pairwise(legs)]) for x, y in track.tolist()]
+    assert max(off) < 0.5, "the wearer stays near the line through the points"

@@ -1,13 +1,15 @@
-"""Conversion from degrees to the plan's metres."""
+"""Conversion from degrees to the plan's metres, and back."""
 
 from __future__ import annotations
 
 import math
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from solepath.floorplan.importers.earth import Tangent, south_west
-from solepath.floorplan.plan import Anchor, FloorPlanError
+from solepath.floorplan.earth import Tangent, south_west
+from solepath.floorplan.plan import Anchor, FloorPlan, FloorPlanError
 
 
 def test_lengths_are_those_of_the_wgs84_ellipsoid_at_their_latitude_to_a_millimetre() -> None:
@@ -33,3 +35,19 @@ def test_places_without_an_anchor_get_their_south_west_corner() -> None:
 def test_what_is_far_from_the_anchor_is_rejected(latitude: float, longitude: float) -> None:
     with pytest.raises(FloorPlanError):
         Tangent(Anchor(48.15, 11.57)).plan(latitude, longitude)
+
+
+far = st.floats(-14_000.0, 14_000.0)
+
+
+@given(st.builds(Anchor, st.floats(-89.0, 89.0), st.floats(-180.0, 180.0), st.floats(-3.2, 3.2)), st.tuples(far, far))
+def test_a_point_of_the_plan_has_the_degrees_that_lead_back_to_it(anchor: Anchor, point: tuple[float, float]) -> None:
+    longitude, latitude = FloorPlan("", (), anchor=anchor).to_wgs84(point)
+    assert math.dist(Tangent(anchor).plan(latitude, longitude), point) < 1e-6
+
+
+def test_a_plan_without_an_anchor_and_a_point_far_from_it_have_no_degrees() -> None:
+    with pytest.raises(FloorPlanError, match="give it an anchor"):
+        FloorPlan("", ()).to_wgs84((1.0, 2.0))
+    with pytest.raises(FloorPlanError, match="far from the anchor"):
+        FloorPlan("", (), anchor=Anchor(48.15, 11.57)).to_wgs84((0.0, 21_000.0))

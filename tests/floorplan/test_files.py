@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from plan_files import format_floorplan
 
-from solepath.floorplan.checks import find_warnings
+from solepath.floorplan.findings import find_warnings
 from solepath.floorplan.geometry import contains, edges
 from solepath.floorplan.importers import reading
 from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
@@ -84,7 +84,7 @@ def test_the_example_of_the_document_is_a_plan() -> None:
     text = (FILES.parent / "floorplan.md").read_text(encoding="utf-8").split("```json")[1].split("```")[0]
     plan = parse_floorplan(text.strip().encode())
     assert not IndexedPlan(plan).crosses(0, 3.5, -0.5, 3.5, 0.5)
-    assert find_warnings(plan) == ("lift 'A': stops at level '0' only",)
+    assert find_warnings(plan) == ("lift 'A': stops at level '0' only, at (7.0, 4.0)",)
 
 
 STEPPED = [

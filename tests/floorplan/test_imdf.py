@@ -106,3 +106,27 @@ def test_the_order_and_the_sense_in_which_a_map_was_drawn_make_no_difference(dat
             turned = (ring[first:] + ring[:first])[:: data.draw(st.sampled_from([1, -1]))]
             shape["coordinates"] = [[*turned, turned[0]]]
     assert parse_floorplan(archive(files)) == HOUSE
+
+
+def named_level(own: str, short: str, building: str, ordinal: int) -> dict[str, Any]:
+    return level(own, ordinal, short_name={"en": short}, name={"en": f"Floor {short}"}, building_ids=[building])
+
+
+def test_levels_of_several_buildings_have_readable_ids_with_the_names_of_their_buildings() -> None:
+    levels = [named_level("a2", "2", "A", 1), named_level("b1", "1", "B", 0), named_level("a1", "1", "A", 0)]
+    buildings = [feature("building", one, "Point", [11.57, 48.15], name={"en": name})
+                 for one, name in (("A", "Main"), ("B", "Annex"))]  # fmt: skip
+    assert [one.id for one in plan_of([], levels, building=buildings).levels] == ["Annex 1", "Main 1", "2"]
+    assert [one.id for one in plan_of([], levels).levels] == ["1 1", "1 2", "2"]
+
+
+def test_a_unit_without_a_name_has_its_other_name() -> None:
+    room = unit("u", "office", box(0, 0, 5, 5), alt_name={"en": "101"})
+    assert plan_of([room]).level("L0").room_names == ("101",)
+
+
+def test_stairs_whose_label_is_on_their_outline_or_beside_it_are_entered_in_their_middle() -> None:
+    for x, y, place in ((3.0, 3.0, (3.0, 3.0)), (2.0, 3.0, (4.0, 4.0)), (2.2, 3.0, (4.0, 4.0)), (9.0, 9.0, (4.0, 4.0))):
+        shown = {"type": "Point", "coordinates": [*degrees((x, y))[::-1]]}
+        (stairs,) = plan_of([unit("a", "stairs", box(2, 2, 6, 6), display_point=shown)]).connectors
+        assert stairs.stops[0].place == pytest.approx(place, abs=2e-3), (x, y)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from xml.sax.saxutils import quoteattr
 
 import pytest
 from floorplans import degrees
 
+from solepath.floorplan.findings import find_findings
 from solepath.floorplan.importers.osm import parse_levels
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.index import IndexedPlan
@@ -152,3 +154,45 @@ def test_a_relation_has_a_hole_and_its_outline_may_be_of_several_ways() -> None:
     assert plan.inside(0, 5.0, 5.0)
     assert plan.crosses(0, 7.5, 5.0, 8.5, 5.0)
     assert plan.crosses(0, 19.5, 5.0, 20.5, 5.0)
+
+
+def test_a_gap_without_a_door_is_a_way_through_the_wall() -> None:
+    plan = IndexedPlan(house().node((5.0, 0.0), door="no", level="0").way([(0, 0), (5, 0), (20, 0)]).plan())
+    assert not plan.crosses(0, 5.0, -0.5, 5.0, 0.5)
+    assert plan.crosses(0, 15.0, -0.5, 15.0, 0.5)
+
+
+def shape(kind: str, coordinates: object, **tags: object) -> dict[str, object]:
+    return {"type": "Feature", "properties": tags, "geometry": {"type": kind, "coordinates": coordinates}}
+
+
+def test_a_map_exported_as_geojson_is_the_same_plan() -> None:
+    def east_north(places: Sequence[Point]) -> list[list[float]]:
+        return [[float(f"{value:.10f}") for value in degrees(place)[::-1]] for place in places]
+
+    outer, hole, stairs = box(0, 0, 20, 10), box(8, 3, 12, 7), [(2, 2), (6, 2)]
+    ring = [*outer[:1], (5, 0), *outer[1:]]
+    drawn = Map().way(ring, number=1).way(hole, number=2).node((5, 0), door="yes", level="0", name="front")
+    drawn.relation([(1, "outer"), (2, "inner")], type="multipolygon", indoor="room", level="0", name="ring")
+    drawn.way(stairs, highway="steps", level="0;1").way(outer, indoor="room", level="1", ref="7")
+    features = [
+        shape("Polygon", [east_north(ring), east_north(hole)], indoor="room", level=0, name="ring", id="relation/1"),
+        shape("Point", east_north([(5, 0)])[0], door="yes", level="0", name="front", seen=True),
+        shape("LineString", east_north(stairs), highway="steps", level="0;1"),
+        shape("Polygon", [east_north(outer)], indoor="room", level="1", ref=7),
+    ]
+    text = json.dumps({"type": "FeatureCollection", "generator": "overpass-turbo", "features": features})
+    assert parse_floorplan(text.encode()) == drawn.plan()
+    with pytest.raises(FloorPlanError, match="feature 1: a coordinate is 'x'"):
+        features[1]["geometry"] = {"type": "Point", "coordinates": ["x", 48.15]}
+        parse_floorplan(json.dumps({"type": "FeatureCollection", "features": features}).encode())
+
+
+def test_stairs_that_end_at_a_wall_are_entered_through_it() -> None:
+    hall = [(0, 6), (5, 6), (20, 6), (20, 16), (0, 16), (0, 6)]
+    drawn = Map().way(hall, indoor="corridor", level="0").way([(5, 6), (5, 1)], highway="steps", level="0;1")
+    plan = drawn.way(box(0, 0, 20, 5), indoor="room", level="1").plan()
+    index = IndexedPlan(plan)
+    assert plan.connectors[0].stops[0].place == pytest.approx((5.0, 6.0), abs=2e-3)
+    assert not index.crosses(0, 5.0, 6.0, 5.0, 7.0) and index.crosses(0, 8.0, 5.5, 8.0, 6.5)
+    assert not [one.text for one in find_findings(plan) if "stand in a wall" in one.text]

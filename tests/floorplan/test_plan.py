@@ -12,8 +12,9 @@ from floorplans import FILES, doors, walls
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.floorplan.checks import find_fault, find_warnings
+from solepath.floorplan.checks import find_fault
 from solepath.floorplan.doors import cut_doors
+from solepath.floorplan.findings import find_warnings
 from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import (
@@ -251,3 +252,46 @@ def test_more_walls_around_one_place_than_a_step_can_be_tried_against_are_reject
     comb = tuple(Wall((0.001 * k, 0.0), (0.001 * k, 1.0)) for k in range(2500))
     with pytest.raises(FloorPlanError, match=r"^level '0': \d+ walls lie around \(-?\d+, -?\d+\)$"):
         IndexedPlan(with_level(walls=comb))
+
+
+def named(level: str, *rooms: str, doors: Sequence[str] = ()) -> Level:
+    """A level whose rooms stand in a row, 4 m wide and 3 m deep."""
+    rings = tuple(tuple(wall.start for wall in box(4.0 * k, 0.0, 4.0 * k + 4.0, 3.0)) for k in range(len(rooms)))
+    placed = tuple(Door((4.0 * k + 1.0, 0.0), (4.0 * k + 2.0, 0.0), name) for k, name in enumerate(doors))
+    return Level(level, level, int(level), 3.0 * int(level), (), placed, rings, rooms)
+
+
+NAMED = FloorPlan(
+    "",
+    (named("0", "office", "WC", "WC", "", doors=("entrance", "")), named("1", "attic", "office", "lift")),
+    (Connector(ConnectorKind.LIFT, "lift", (ConnectorStop("0", (1.0, 1.0)), ConnectorStop("1", (1.0, 1.0)))),
+     Connector(ConnectorKind.STAIRS, "", (ConnectorStop("0", (2.0, 1.0)),))),
+)  # fmt: skip
+
+
+def test_everything_on_a_level_has_an_id_of_its_own_which_is_its_name_where_no_other_has_it() -> None:
+    places = NAMED.places("0")
+    assert {kind: list(found) for kind, found in places.items()} == {
+        "connector": ["lift", "stairs 1"],
+        "room": ["office", "WC 1", "WC 2", "room 1"],
+        "door": ["entrance", "door 1"],
+    }
+    assert NAMED.landmark("WC 2", "0") == (10.0, 1.5)
+    assert NAMED.landmark("entrance", "0") == (1.5, 0.0)
+    assert NAMED.landmark("lift", "1") == (1.0, 1.0), "the lift, not the room of this name"
+    with pytest.raises(FloorPlanError, match="level '0' has no stairs, lift, room or door 'WC'; it has 'lift', 'st"):
+        NAMED.landmark("WC", "0")
+
+
+def test_a_start_may_be_a_room_which_is_as_uncertain_as_the_room_is_large() -> None:
+    assert NAMED.start("attic", heading=1.0) == Start("1", (2.0, 1.5), 1.0, math.sqrt(25.0 / 12.0))
+    assert NAMED.start("office", "1").place == (6.0, 1.5)
+    assert NAMED.start("stairs 1") == Start("0", (2.0, 1.0))
+    for name, level, why in (
+        ("office", None, "'office' is on several levels: '0', '1'"),
+        ("cellar", None, "no level of the plan has stairs, a lift, a room or a door 'cellar'"),
+        ("attic", "0", "level '0' has no stairs, lift, room or door 'attic'"),
+        ("attic", "2", "the plan has no level '2', only 0, 1"),
+    ):
+        with pytest.raises(FloorPlanError, match=why):
+            NAMED.start(name, level)

@@ -45,7 +45,8 @@ from solepath import (
     read_floorplan,
 )
 from solepath.body.part import StartGiven
-from solepath.floorplan.checks import find_fault, find_warnings
+from solepath.floorplan.checks import find_fault
+from solepath.floorplan.findings import find_warnings
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlanError, Level, Wall
 from solepath.papers.footstep_tracker.snake import PrintedSnake  # as Particles

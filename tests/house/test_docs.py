@@ -72,12 +72,6 @@ def test_gait_parameters_are_printed(here):
     assert out.getvalue().splitlines()[0].split()[0] in ("left", "right")
 
 
-def test_a_session_with_a_floor_plan_reports_the_place(here):
-    _, names = run_page("docs/floorplans.md")
-    names["indoors"].feed(WALK.packets)
-    assert names["indoors"].place.level == "0"
-
-
 def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(here):
     needed()
     parquet = import_module("pyarrow.parquet")

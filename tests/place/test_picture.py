@@ -4,23 +4,23 @@ from __future__ import annotations
 
 import csv
 import json
-from math import degrees, radians
+from math import degrees
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 from commands import run, run_failing
+from floorplans import FILES
 from floors import Pedestrian, follow, indexed_office, office, tour
 from plan_files import format_floorplan
 from recordings import recorded
 from views import told
 from walks import insoles
 
-from solepath import Placed, PlaceLost
+from solepath import Placed, PlaceLost, read_floorplan
 from solepath.body.part import StartGiven
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
-from solepath.emulate import Route
 from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall, with_rooms
 from solepath.place.placing import Particles
 from solepath.show.tables.plan import PlanPicture
@@ -115,29 +115,53 @@ def test_a_floor_plan_or_a_start_that_cannot_be_used_is_rejected_in_one_line(
     assert "the plan has no level '7', only 0, 1" in run_failing("track", walk, "--floorplan", hall, "--start", "7,1,2")
     assert "(99, 2) is nowhere on level 0" in run_failing("track", walk, "--floorplan", hall, "--start", "0,99,2")
     assert "is not LEVEL,X,Y" in run_failing("track", walk, "--floorplan", hall, "--start", "0,one,2")
+    assert "did you mean stairs" in run_failing("track", walk, "--floorplan", hall, "--start", "stair")
+    assert "'stairs' is on several levels" in run_failing("track", walk, "--floorplan", hall, "--start", "stairs")
+
+
+def test_the_first_things_that_are_wrong_with_a_plan_are_printed_and_the_number_of_the_others(
+    walk: Path, hall: Path, tmp_path: Path
+) -> None:
+    plan = read_floorplan(hall)
+    lone = [Connector(ConnectorKind.LIFT, f"lift {k}", (ConnectorStop("0", (3.0 * k, 5.0)),)) for k in range(1, 6)]
+    many = tmp_path / "many.geojson"
+    many.write_text(format_floorplan(FloorPlan("hall", plan.levels, (*plan.connectors, *lone))))
+    done = run("track", walk, "--floorplan", many, "--start", "0,10,10,30")
+    assert done.returncode == 0
+    *first, more = [line.partition(f"{many}: ")[2] for line in done.stderr.splitlines()]
+    assert first == [f"lift 'lift {k}': stops at level '0' only, at ({3 * k:.1f}, 5.0)" for k in (1, 2, 3)]
+    assert more == f"2 more: solepath plan {many}"
+
+
+BUILDING = read_floorplan(FILES / "house.geojson")
 
 
 def test_a_start_is_read_with_and_without_heading_and_commas_in_the_name_of_a_level() -> None:
-    assert start_of("0,12.5,-3") == Start("0", (12.5, -3.0))
-    turned = start_of("ground floor, 1, 2, 90")
+    assert start_of("0,12.5,-3", BUILDING) == Start("0", (12.5, -3.0))
+    turned = start_of("ground floor, 1, 2, 90", BUILDING)
     assert turned.level == "ground floor" and degrees(turned.heading or 0.0) == pytest.approx(90.0)
-    assert start_of("wing B, east,1,2") == Start("wing B, east", (1.0, 2.0))
-    assert degrees(start_of("heading=-90").heading or 0.0) == pytest.approx(-90.0)
-    for wrong in ("", "heading=", "heading=361", "heading=nan", "0", "0,1", ",1,2", "0,nan,2", "0,1,inf"):
-        with pytest.raises(Failure):
-            start_of(wrong)
+    assert start_of("wing B, east,1,2", BUILDING) == Start("wing B, east", (1.0, 2.0))
+    assert degrees(start_of("heading=-90", BUILDING).heading or 0.0) == pytest.approx(-90.0)
 
 
-@pytest.mark.soak
-def test_the_direction_of_walking_on_the_plan_is_that_of_the_last_stride(hall: Path, tmp_path: Path) -> None:
-    route = Route().stand(2.0).walk(8.0).turn(radians(90.0)).walk(8.0).stop(2.0)
-    walk = recorded(tmp_path / "turned.jsonl", insoles(route, seed=3).packets)
-    done = run("track", walk, "--floorplan", hall, "--start", "0,15,3,30", "--out", tmp_path / "out")
-    assert done.returncode == 0
-    with (tmp_path / "out" / "places.csv").open() as file:
-        rows = [row for row in csv.DictReader(file) if row["walking_direction_deg"]]
-    first, last = rows[1], rows[-2]
-    assert float(first["walking_direction_deg"]) == pytest.approx(30.0, abs=12.0)
-    assert float(last["walking_direction_deg"]) == pytest.approx(120.0, abs=12.0)
-    for row in (first, last):
-        assert float(row["frame_heading_deg"]) == pytest.approx(30.0, abs=12.0)
+def test_a_start_may_be_a_place_of_the_plan_with_its_level_where_several_have_it() -> None:
+    walls = BUILDING.levels[0].walls
+    ring = ((1.0, 1.0), (4.0, 1.0), (4.0, 3.0), (1.0, 3.0))
+    ground = with_rooms(Level("0", "", 0, 0.0, walls), [(ring, "office"), (ring, "101"), (ring, "WC, east")])
+    upper = with_rooms(Level("wing B, up", "", 1, 3.0, walls), [(ring, "office"), (ring, "attic")])
+    plan = FloorPlan("", (ground, upper))
+    for text, level, heading in (
+        ("attic", "wing B, up", None), ("attic,90", "wing B, up", 90.0), ("0,office", "0", None),
+        ("0, office, -45", "0", -45.0), ("wing B, up,office,10", "wing B, up", 10.0), ("101", "0", None),
+        ("0,101", "0", None), ("101,30", "0", 30.0), ("WC, east", "0", None), ("0,WC, east,5", "0", 5.0),
+    ):  # fmt: skip
+        start = start_of(text, plan)
+        assert (start.level, start.place) == (level, (2.5, 2.0)), text
+        assert (start.heading is None) == (heading is None)
+        assert heading is None or degrees(start.heading or 0.0) == pytest.approx(heading)
+    with pytest.raises(Failure, match="'office' is on several levels: '0', 'wing B, up'; put the level before it"):
+        start_of("office", plan)
+    with pytest.raises(Failure, match="there is no place 'atic': did you mean attic"):
+        start_of("atic", plan)
+    with pytest.raises(Failure, match="there is no place 'attic'; there are: office, 101, WC, east"):
+        start_of("0,attic", plan)

@@ -62,17 +62,21 @@ def test_tables_of_a_lab_become_frames_and_a_report(here: Path, monkeypatch: pyt
 
 
 def test_a_plan_of_ones_own_is_walked_on_and_gives_the_room(here: Path) -> None:
-    (_, walked, places, *_), names = run_page("docs/indoor.md")
+    (_, walked, places, _, _, degrees), names = run_page("docs/indoor.md")
     assert "packets" in walked
     rooms = [line.split()[2] for line in places.splitlines()[:-1]]
-    assert rooms[0] == "office" and rooms[-1] == "hall" and "door: hall door" in places
-    assert places.splitlines()[-1] == "at the end: hall"
+    assert rooms[0] == "office" and "hall" in rooms and rooms[-1] == "attic" and "door: hall door" in places
+    assert places.splitlines()[-1] == "at the end: level 1 attic"
     walk, session = names["walk"], names["session"]
     x, y = names["course"].place(walk.walker, walk.truth.duration)
-    assert (x, y) == pytest.approx((12.0, 5.0), abs=0.1)
-    assert hypot(session.place.position[0] - x, session.place.position[1] - y) < 0.7
+    assert (x, y) == pytest.approx((11.0, 2.0), abs=0.1)
+    assert hypot(session.place.position[0] - x, session.place.position[1] - y) < 1.0
+    typed("docs/indoor.md", "plan")
     typed("docs/indoor.md", "track")
-    assert (here / "out" / "plan.svg").exists()
+    assert (here / "house.svg").exists() and (here / "out" / "plan.svg").exists()
+    assert "<name>level 1" in (here / "way.kml").read_text() and "<trkpt" in (here / "way.gpx").read_text()
+    longitude, latitude = map(float, degrees.strip("()\n").split(", "))
+    assert (longitude, latitude) == pytest.approx((11.57 + 11.0 / 74408.77, 48.15 + 2.0 / 111193.24), abs=1e-8)
 
 
 def test_a_sole_of_ones_own_is_declared_proven_and_walked_with(here: Path) -> None:

@@ -1,7 +1,8 @@
 """`solepath`: parses the command line, runs the command and reports its errors.
 
-Exit status: 0 for success; 1 if a check found something (`check`, `batch`, `validate`, `fleet-demo`, `convert`);
-2 for an error in the command line or a file, with one line on stderr; 130 if interrupted before all input was used.
+Exit status: 0 for success; 1 if a check found something (`check`, `plan`, `batch`, `validate`, `fleet-demo`,
+`convert`); 2 for an error in the command line or a file, with one line on stderr; 130 if interrupted before all input
+was used.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from collections.abc import Callable, Sequence
 from importlib.machinery import ExtensionFileLoader
 from importlib.util import find_spec
 
-from . import batch, check, completion, convert, demo, fleet_demo, track, validate, web
+from . import batch, check, completion, convert, demo, fleet_demo, plan, track, validate, web
 from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
 from .common.failure import Failure, note
@@ -25,6 +26,7 @@ COMMANDS = (
     demo,
     track,
     check,
+    plan,
     batch,
     validate,
     scan,
@@ -40,6 +42,7 @@ COMMANDS = (
 GROUPS = (
     ("with your sensors", ("scan", "live", "record", "calibrate")),
     ("with recordings", ("track", "check", "batch", "validate", "convert")),
+    ("with a floor plan", ("plan",)),
     ("without sensors", ("demo", "emulate", "web", "fleet-demo")),
     ("this shell", ("completion",)),
 )

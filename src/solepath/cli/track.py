@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ..calibration import Calibration
 from ..recording import printable
 from .common.failure import Failure, note, reject_options
-from .common.files import REPORT, OutputFile, add_force, check_outputs, files_of_track
+from .common.files import RECORDING, REPORT, WAY_KINDS, OutputFile, add_force, check_outputs, files_of_track
 from .common.inputs import (
     Recording,
     add_calibration,
@@ -44,15 +44,16 @@ if TYPE_CHECKING:
 
 
 OF_ONE_RECIPE = (
-    "report", "title", "subject", "date", "device", "compare", "reference", "view", "no_browser", "speed",
+    "report", "title", "subject", "date", "device", "compare", "reference", "view", "no_browser", "speed", "export",
 )  # fmt: skip
-"""Options of the report and of the page, which show one walk, so that they go with one recipe."""
+"""Options of the report, the page and the way, which show one walk, so that they go with one recipe."""
 
 
 def run(options: Namespace) -> int:
     """Run the recording, with several recipes through a session for each at once; return the exit status."""
     from ..link.kinds import make_kinds
     from ..session import Session
+    from ..show.export import way_error
     from .common.loop import stop_signals_raise
     from .common.results import Results
 
@@ -73,6 +74,8 @@ def run(options: Namespace) -> int:
         check_pressure(recipe, source, drivers)
     plan, start = floorplan_of(options)
     floor = None if plan is None else plan.plan
+    if options.export is not None and (error := way_error(options.export.suffix.lower(), floor)) is not None:
+        raise Failure(f"--export {options.export}: {error}")
     has_cells = address is not None or options.report is not None
 
     def new_session(recipe: Recipe, plan: IndexedPlan | None = None, start: Start | None = None) -> Session:
@@ -109,6 +112,7 @@ def run(options: Namespace) -> int:
             outputs,
             outcomes,
             options,
+            options.export,
             kinds,
         )
         for recipe in recipes
@@ -152,7 +156,7 @@ def _check_comparison(options: Namespace, recipes: Sequence[Recipe]) -> None:
 
 
 def _outputs(options: Namespace, recipes: Sequence[Recipe]) -> list[OutputFile]:
-    """Return the files of --out and --report; raise Failure or OSError when one must not, or cannot, be written."""
+    """Return the files of --out, --report and --export; raise Failure or OSError when one must not be written."""
     has_plan, outcomes = options.floorplan is not None, has_outcomes(options)
     outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=outcomes)
     if len(recipes) > 1:
@@ -160,6 +164,8 @@ def _outputs(options: Namespace, recipes: Sequence[Recipe]) -> list[OutputFile]:
         outputs = [one for out in folders for one in files_of_track(out, places=has_plan, plan=has_plan)]
     if options.report is not None:
         outputs.append(OutputFile(options.report, REPORT))
+    if options.export is not None:
+        outputs.append(OutputFile(options.export, WAY_KINDS.get(options.export.suffix.lower(), RECORDING)))
     check_outputs(options, outputs)
     return outputs
 
@@ -237,6 +243,12 @@ add_to = command(
         type=Path,
         help="write events.jsonl, track.csv, strides.csv, gait_cycles.csv and run.json into it, with a floor plan "
         "places.csv and plan.svg too, once they are whole",
+    ),
+    option(
+        "--export",
+        metavar="FILE",
+        type=Path,
+        help="write the way for a map: .geojson, .gpx or .kml, the latter two on a floor plan with an anchor",
     ),
     add_report,
     add_outcomes,

@@ -1,4 +1,4 @@
-"""Checks of a floor plan: faults that make it unusable, and warnings about a usable plan."""
+"""Checks of a floor plan: faults that make it unusable. findings.py has what is wrong with a usable plan."""
 
 from __future__ import annotations
 
@@ -8,10 +8,7 @@ from math import dist, fsum, sqrt
 
 from ..types import checking
 from ..types.checking import describe
-from .enclosure import Enclosure
-from .plan import MAX_COORDINATE, Connector, FloorPlan, Level, Point
-from .rooms import Rooms
-from .walls import Walls
+from .plan import MAX_COORDINATE, Connector, FloorPlan
 
 MAX_BUILDING_WIDTH = 5000.0
 """Largest width of a building, m: the longest are 4 km."""
@@ -129,39 +126,3 @@ def _find_faults_of_connector(connector: Connector, elevations: dict[str, float]
         yield f"{name}: has {describe(connector.flights)} flights a storey"
     if connector.rise is not None and not MIN_RISE <= connector.rise <= MAX_RISE:
         yield f"{name}: its steps rise {describe(connector.rise)} m"
-
-
-def find_warnings(plan: FloorPlan, *, has_start: bool = False) -> tuple[str, ...]:
-    """Return the warnings about a usable plan, one line each; takes about as long as indexing the plan.
-
-    They are the importer's remarks, walls that do not close, and missing stairs and elevators. `has_start`: the first
-    place is known, so that a plan without stairs and elevators needs no warning."""
-    return (*plan.remarks, *_find_remarks(plan, has_start)) if find_fault(plan) is None else ()
-
-
-def _find_remarks(plan: FloorPlan, has_start: bool) -> Iterator[str]:
-    levels, connectors = plan.levels, plan.connectors
-    if not plan.heights_known and len(levels) > 1:
-        yield "the plan does not say how high its levels lie"
-    scale = scale_cells(plan)
-    for level in levels:
-        if not level.walls:
-            yield f"level {level.id!r}: has no walls"
-        for x, y in _find_openings(level, len(levels), scale) if level.walls else ():
-            yield f"level {level.id!r}: its walls do not close near ({x:.1f}, {y:.1f})"
-    if not connectors and not has_start:
-        yield "the plan has no stairs and no lifts: the place on it is known by a start only"
-    for connector in connectors:
-        if len(connector.stops) == 1:
-            yield f"{connector.label}: stops at level {connector.stops[0].level!r} only"
-    joined = {stop.level for connector in connectors if len(connector.stops) > 1 for stop in connector.stops}
-    for level in levels if connectors and len(levels) > 1 else ():
-        if level.id not in joined:
-            yield f"level {level.id!r}: neither stairs nor a lift lead there"
-
-
-def _find_openings(level: Level, count: int, scale: float) -> list[Point]:
-    """Return the first place through which one comes in from outside without a door, m, if there is one."""
-    enclosure = Enclosure(level, Walls([wall.line for wall in level.walls], 2.0 * scale), count)
-    rooms = Rooms(level, (), scale)
-    return [place for place in enclosure.outside if rooms.find(*place)][:1] if level.rooms else enclosure.open_ends[:1]

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from math import ceil, dist, sqrt
 
 from .doors import MAX_DOOR_OFFSET
-from .geometry import distance, side
+from .geometry import Ring, contains, distance, edges, side
 from .plan import Level, Line, Point
 from .walls import Walls
 
@@ -21,6 +22,9 @@ MAX_POINTS, MAX_POINTS_PER_PLAN = 30_000, 500_000
 _CLOSING_DISTANCE = MAX_DOOR_OFFSET + 0.05
 """Largest distance of a wall's end from a door's end at which the two are joined by a closing line, m."""
 
+OUTSIDE, ENCLOSED = 0, -1
+"""Region of the points outside, and of those within that have no number yet."""
+
 OPEN_END_DISTANCE = 0.05
 """Distance from all other walls and doors beyond which a wall's end counts as open, m."""
 
@@ -30,7 +34,7 @@ class Enclosure:
 
     `walls` are those of the level, `count` is the number of levels of the plan."""
 
-    __slots__ = ("_barriers", "_bottom", "_enclosed", "_hull", "_left", "_space", "open_ends", "outside")
+    __slots__ = ("_barriers", "_bottom", "_hull", "_left", "_regions", "_space", "open_ends", "outside")
 
     def __init__(self, level: Level, walls: Walls, count: int) -> None:
         doors = [door.line for door in level.doors if door.start != door.end]
@@ -43,9 +47,9 @@ class Enclosure:
         # an odd fraction, so that walls at round numbers do not lie on the lattice
         self._left, self._bottom = xs[0] - 1.37 * self._space, ys[0] - 1.37 * self._space
         columns, rows = ceil(width / self._space) + 3, ceil(depth / self._space) + 3
-        self._enclosed = {(i, j): True for i in range(columns) for j in range(rows)}
-        self.outside = list(self._flood())
-        """The points outside, m, in the order in which the flood fill reaches them."""
+        self._regions = {(i, j): ENCLOSED for i in range(columns) for j in range(rows)}
+        self.outside = list(self._flood((0, 0), OUTSIDE))
+        """The points outside, m, in the order in which the flood fill reaches them, each with that before it."""
         self.open_ends = list(self._find_open_ends(lines))
         """Ends of walls, doors and closing lines near the outside and near no other of these, m."""
         self._hull = _hull(ends) if self.open_ends else []
@@ -56,24 +60,47 @@ class Enclosure:
     def _find_nearest(self, x: float, y: float) -> tuple[int, int]:
         return round((x - self._left) / self._space), round((y - self._bottom) / self._space)
 
-    def _flood(self) -> Iterator[Point]:
-        """Yield the points outside, as the first one is, and mark them as not enclosed."""
-        self._enclosed[0, 0] = False
-        found = [(0, 0)]
+    def _flood(self, first: tuple[int, int], region: int) -> Iterator[tuple[Point, Point]]:
+        """Mark the points that no wall or door separates from the first one as of this region.
+
+        Yields each of them after the first one, with the point from which it is reached."""
+        self._regions[first] = region
+        found = [first]
         for i, j in found:  # the list grows in the loop
             place = self._point(i, j)
-            yield place
             for near in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)):
-                if self._enclosed.get(near) and not self._barriers.crosses(*place, *self._point(*near)):
-                    self._enclosed[near] = False
-                    found.append(near)
+                if self._regions.get(near) == ENCLOSED:
+                    beside = self._point(*near)
+                    if not self._barriers.crosses(*place, *beside):
+                        self._regions[near] = region
+                        found.append(near)
+                        yield beside, place
+
+    def number_regions(self) -> int:
+        """Give a number to each region within, in which no wall or door bars the way; return the number of all regions.
+
+        The region outside counts, too."""
+        count = OUTSIDE + 1
+        for point in self._regions:
+            if self._regions[point] == ENCLOSED:
+                list(self._flood(point, count))
+                count += 1
+        return count
+
+    def count_regions(self, ring: Ring) -> Counter[int]:
+        """Return of how many points of the lattice in the ring each region is."""
+        lines, (xs, ys) = edges(ring), zip(*ring, strict=True)
+        (left, bottom), (right, top) = self._find_nearest(min(xs), min(ys)), self._find_nearest(max(xs), max(ys))
+        points = [(i, j) for i in range(left, right + 1) for j in range(bottom, top + 1)]
+        within = [one for one in points if one in self._regions and contains(lines, *self._point(*one))]
+        return Counter([self._regions[one] for one in within])
 
     def _find_open_ends(self, lines: list[Line]) -> Iterator[Point]:
         for line in lines:
             for end in (line[:2], line[2:]):
                 i, j = self._find_nearest(*end)
-                around = [self._enclosed[k, m] for k in (i - 1, i, i + 1) for m in (j - 1, j, j + 1)]
-                if not all(around) and not any(
+                around = [self._regions[k, m] for k in (i - 1, i, i + 1) for m in (j - 1, j, j + 1)]
+                if OUTSIDE in around and not any(
                     distance(*other, *end) <= OPEN_END_DISTANCE
                     for other in self._barriers.near(*end) if other not in (line, line[2:] + line[:2])
                 ):  # fmt: skip
@@ -85,12 +112,15 @@ class Enclosure:
             ends = zip(self._hull, self._hull[1:] + self._hull[:1], strict=True)
             return all(side(*a, *b, x, y) >= 0 for a, b in ends)
         i, j = self._find_nearest(x, y)
-        if (i, j) not in self._enclosed:
-            return False
+        return (i, j) in self._regions and self.region(x, y) != OUTSIDE
+
+    def region(self, x: float, y: float) -> int | None:
+        """Return the region of (x, y), m; None where walls and doors separate it from all points around it."""
+        i, j = self._find_nearest(x, y)
         for near in ((i, j), (i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
-            if near in self._enclosed and not self._barriers.crosses(x, y, *self._point(*near)):
-                return self._enclosed[near]
-        return True  # walls separate the place from all points around it
+            if near in self._regions and not self._barriers.crosses(x, y, *self._point(*near)):
+                return self._regions[near]
+        return None
 
 
 def _find_closing_lines(level: Level, walls: Walls) -> list[Line]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from math import dist, fsum, hypot
 
-from .plan import Line, Point
+from .frame import Line, Point
 
 Ring = tuple[Point, ...]
 

@@ -6,35 +6,20 @@ of them (doors.py). checks.py has the requirements on a plan."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from enum import Enum
+from math import dist, fsum, sqrt
 
 from ..saving.codec import checksum, save
 from ..types.attrs import evolve, field, frozen, limited, limits
-
-Point = tuple[float, float]
-"""(x, y) in m, plan frame."""
-MAX_COORDINATE = 1e7
-"""Largest absolute coordinate from the plan's origin, m: national grids have up to 1e7."""
-MAX_LATITUDE = 89.0
-"""Largest absolute latitude of an anchor, degrees: east is not defined at a pole."""
-
-Line = tuple[float, float, float, float]
-"""A straight line from (ax, ay) to (bx, by), m, plan frame."""
-
-
-class FloorPlanError(ValueError):
-    """Raised when a floor plan cannot be read or used; its one line names the file, the feature and the fault."""
-
-
-@contextmanager
-def naming(name: str) -> Iterator[None]:
-    """Put a name before the line of each FloorPlanError in this context."""
-    try:
-        yield
-    except FloorPlanError as error:
-        raise FloorPlanError(f"{name} {error}") from None
+from .frame import MAX_COORDINATE as MAX_COORDINATE
+from .frame import MAX_LATITUDE as MAX_LATITUDE
+from .frame import Anchor as Anchor
+from .frame import FloorPlanError as FloorPlanError
+from .frame import Line as Line
+from .frame import Point as Point
+from .frame import naming as naming
 
 
 @frozen
@@ -48,6 +33,11 @@ class Wall:
     def line(self) -> Line:
         """The wall from end to end."""
         return (*self.start, *self.end)
+
+    @property
+    def middle(self) -> Point:
+        """The place in the middle of the wall, m."""
+        return 0.5 * (self.start[0] + self.end[0]), 0.5 * (self.start[1] + self.end[1])
 
 
 @frozen
@@ -125,18 +115,6 @@ def with_rooms(level: Level, rooms: Sequence[tuple[tuple[Point, ...], str]]) -> 
 
 
 @frozen
-class Anchor:
-    """The position and orientation of the plan on the Earth.
-
-    `latitude` and `longitude` are those of the plan's origin (0, 0), degrees, WGS84. `bearing` is the angle from true
-    north clockwise to the plan's +y, rad; with 0, +x is east and +y is north."""
-
-    latitude: float = field(metadata=limits(-MAX_LATITUDE, MAX_LATITUDE, "degrees"))
-    longitude: float = field(metadata=limits(-180.0, 180.0, "degrees"))
-    bearing: float = limited(0.0, -10.0, 10.0, "rad")
-
-
-@frozen
 class FloorPlan:
     """A building with levels and connectors.
 
@@ -190,18 +168,78 @@ class FloorPlan:
         known = ", ".join(level.id for level in self.levels)
         raise FloorPlanError(f"the plan has no level {name!r}, only {known or 'none at all'}")
 
-    def landmark(self, name: str, level: str) -> Point:
-        """Return where a person steps on and off the stairs or lift of this name on a level, m.
+    def places(self, level: str) -> dict[str, dict[str, Point]]:
+        """Return where the rooms, stairs and lifts, and doors of a level are, m, by kind and id.
 
-        Raises FloorPlanError when there is no such level, or not exactly one stop of that name on it."""
-        self.level(level)
-        stops = [(one.name, stop.place) for one in self.connectors for stop in one.stops if stop.level == level]
-        places = [place for named, place in stops if named == name]
-        if len(places) == 1:
-            return places[0]
-        known = ", ".join([repr(named) for named, _ in stops if named])
-        number = "no stairs or lift" if not places else f"{len(places)} stairs or lifts"
-        raise FloorPlanError(f"level {level!r} has {number} of the name {name!r}; its names are {known or 'not known'}")
+        An id is a name that no other of its kind has, else the name, or the kind, with a number. The place of a room is
+        inside it, that of stairs or a lift is where a person steps on and off, that of a door is its middle. Raises
+        FloorPlanError when there is no such level."""
+        from .geometry import find_inner_point
+
+        drawn = self.level(level)
+        names = drawn.room_names or ("",) * len(drawn.rooms)
+        connectors = make_ids([(one.name, one.kind.value) for one in self.connectors])
+        return {
+            "connector": {name: stop.place for name, one in zip(connectors, self.connectors, strict=True)
+                          for stop in one.stops if stop.level == level},
+            "room": dict(zip(make_ids([(name, "room") for name in names]), map(find_inner_point, drawn.rooms),
+                             strict=True)),
+            "door": dict(zip(make_ids([(door.name, "door") for door in drawn.doors]),
+                             [door.middle for door in drawn.doors], strict=True)),
+        }  # fmt: skip
+
+    def landmark(self, name: str, level: str) -> Point:
+        """Return the place of the stairs or lift, the room or the door with this id on a level (`places`), m.
+
+        Raises FloorPlanError when there is no such level, or nothing with this id on it."""
+        places = self.places(level)
+        for found in places.values():
+            if name in found:
+                return found[name]
+        known = ", ".join([repr(named) for found in (places["connector"], places["room"]) for named in found])
+        raise FloorPlanError(f"level {level!r} has no stairs, lift, room or door {name!r}; it has {known or 'none'}")
+
+    def start(self, name: str, level: str | None = None, heading: float | None = None) -> Start:
+        """Return the start of a wearer who sets out at a place with this id (`places`).
+
+        `level` may be left out when only one level has such a place. `heading` is the wearer's first heading, rad,
+        counter-clockwise from +x. In a room the place is uncertain by the size of the room. Raises FloorPlanError when
+        there is no such place, or several."""
+        levels = [one.id for one in self.levels] if level is None else [level]
+        on = [one for one in levels if any([name in found for found in self.places(one).values()])]
+        if len(on) > 1:
+            raise FloorPlanError(f"{name!r} is on several levels: {', '.join(map(repr, on))}")
+        if not on and level is None:
+            raise FloorPlanError(f"no level of the plan has stairs, a lift, a room or a door {name!r}")
+        at = (on or levels)[0]
+        place = self.landmark(name, at)
+        rooms, drawn = self.places(at)["room"], self.level(at)
+        if rooms.get(name) != place:
+            return Start(at, place, heading)
+        ring = drawn.rooms[list(rooms).index(name)]
+        # of a rectangle, the mean square distance from its middle is a third of that of its corners
+        return Start(at, place, heading, sqrt(fsum([dist(place, corner) ** 2 for corner in ring]) / len(ring) / 3.0))
+
+    def to_wgs84(self, point: Point) -> tuple[float, float]:
+        """Return longitude and latitude, degrees, of a point of the plan, m; right to 0.1 mm within 20 km.
+
+        Raises FloorPlanError when the plan has no anchor."""
+        if self.anchor is None:
+            raise FloorPlanError("the plan has no coordinates: give it an anchor")
+        from .earth import Tangent
+
+        return Tangent(self.anchor).degrees(point)
+
+
+def make_ids(names: Sequence[tuple[str, str]]) -> list[str]:
+    """Return an id for each name and kind: a name that is there once, else name or kind with a number."""
+    counts = Counter([name for name, _ in names])
+    numbers: Counter[str] = Counter()
+    ids = []
+    for name, kind in names:
+        numbers[name or kind] += 1
+        ids.append(name if name and counts[name] == 1 else f"{name or kind} {numbers[name or kind]}")
+    return ids
 
 
 @frozen

@@ -118,8 +118,8 @@ class Session:
     def here(self, where: Vec2 | str | None = None, sigma: float = 1.0, *, level: str = "") -> list[Event]:
         """Report where the wearer is, to `sigma`, m: x and y, m, a place's name, or None for the start.
 
-        With a `level`, x and y are the plan's, and a name is that of stairs or a lift. Returns PositionReported and
-        what follows. Raises ValueError."""
+        With a `level`, x and y are the plan's, and a name is that of stairs, a lift, a room or a door. Returns
+        PositionReported and what follows. Raises ValueError."""
         from .here import report_position
 
         state = self._state

@@ -413,6 +413,11 @@ class Walk:
         return self.keeps_all or foot not in self.spoilt_feet
 
     @property
+    def way(self) -> Sequence[WearerMoved | StrideTaken]:
+        """Track of the wearer or, if it is not known, that of the foot with the most strides."""
+        return list(self.wearer_track) or max(map(list[StrideTaken], self.strides.values()), key=len)
+
+    @property
     def spoilt_feet(self) -> list[Foot]:
         """Feet whose data cannot be right now: they give no strides, gait, distance or comparison of the feet."""
         found = [one.event for one in self.faults.values() if one.holds and isinstance(one.event, DefectFound)]

@@ -39,7 +39,7 @@ from .failure import Failure
 from .parser import option
 
 T = TypeVar("T")
-WRITTEN = {"out", "record", "report", "json", "figure", "resume", "dir"}
+WRITTEN = {"out", "record", "report", "export", "json", "figure", "resume", "dir"}
 """Options that name files to be written, or a folder of folders that are read."""
 MAX_START = 1_000_000
 """Number of bytes of an existing file that are looked at, which say what it is."""
@@ -79,6 +79,12 @@ TRACK_KINDS = {
     GAIT_CYCLES_FILE: table_kind(CYCLE_COLUMNS),
     RUN_FILE: Kind(rb'\A\{\n "solepath": "[^"\n]*",\n "recipe": "'),
 }
+WAY_KINDS = {
+    ".geojson": Kind(rb'\A\{"type": "FeatureCollection", "solepath": \{'),
+    ".gpx": Kind(rb"""\A<\?xml [^\n]*\n<gpx [^>]*creator="solepath"""),
+    ".kml": Kind(rb"""\A<\?xml [^\n]*\n<kml [^>]*>\s*<Document id="solepath-way">"""),
+}
+"""Files of --export, by the ending of their names."""
 PLACE_KINDS = {PLACES_FILE: table_kind(PLACE_COLUMNS)}
 PLAN_KINDS = {PLAN_FILE: Kind(rb"""\A<\?xml [^\n]*\n<svg [^\n>]*id="solepath-plan\"""")}
 

@@ -15,12 +15,13 @@ from ...link.kinds import DeviceKinds, make_kinds
 from ...recording import RecordingError, Source, TableMapping, open_source, printable
 from ...types import Foot, Sample
 from ...types.registry import TABLE
+from .closest import unknown
 from .failure import Failure, finite, note, parse_degrees, parse_offset, parse_span
 from .parser import Option, one_of, option, together
 
 if TYPE_CHECKING:
     from ...floorplan.index import IndexedPlan
-    from ...floorplan.plan import Start
+    from ...floorplan.plan import FloorPlan, Start
     from ...link.driver import Driver
     from ...recipes import Recipe
     from ...recording.btsnoop import BtsnoopLog
@@ -28,6 +29,10 @@ if TYPE_CHECKING:
     from ...walk.walk import Remark
 
 
+START_FORMS = "LEVEL,X,Y, a place, LEVEL and a place, each with ,HEADING or without it, or heading=DEGREES"
+"""What --start can be."""
+MAX_WARNINGS = 3
+"""Largest number of warnings about a floor plan that a command prints; chosen by hand."""
 LARGE_SHARE = 0.1
 """Share of damaged rows from which on they must be mended; chosen by hand."""
 
@@ -198,36 +203,38 @@ def floorplan_of(options: Namespace) -> tuple[IndexedPlan | None, Start | None]:
     """Return the plan of --floorplan and the start of --start; print warnings about the plan on stderr.
 
     Failure is raised when the plan cannot be used, or when a walk cannot start at --start."""
-    from ...floorplan.checks import find_warnings
+    from ...floorplan.findings import find_warnings
     from ...floorplan.importers.reading import read_floorplan
     from ...floorplan.index import IndexedPlan
     from ...place.placing import start_error
 
-    start = options.start
     if options.floorplan is None:
-        if start is not None:
+        if options.start is not None:
             raise Failure("--start is a place on a floor plan: give --floorplan, too")
         return None, None
     plan = read_floorplan(options.floorplan)
     indexed = IndexedPlan(plan)
-    for sentence in find_warnings(plan, has_start=start is not None and start.place is not None):
+    start = None if options.start is None else start_of(options.start, plan)
+    warnings = find_warnings(plan, has_start=start is not None and start.place is not None)
+    for sentence in warnings[:MAX_WARNINGS]:
         note(f"{options.floorplan}: {sentence}")
+    if len(warnings) > MAX_WARNINGS:
+        note(f"{options.floorplan}: {len(warnings) - MAX_WARNINGS} more: solepath plan {options.floorplan}")
     if start is not None and (problem := start_error(indexed, start)) is not None:
         raise Failure(f"{options.floorplan}: {problem}")
     return indexed, start
 
 
-def start_of(text: str) -> Start:
-    """Return the start of LEVEL,X,Y, LEVEL,X,Y,HEADING or heading=DEGREES: plan frame, m and degrees.
+def start_of(text: str, plan: FloorPlan) -> Start:
+    """Return the start of a text of --start, START_FORMS, on a plan: m and degrees, plan frame.
 
-    Raises Failure for other text.
-
-    The name of the level may contain commas."""
-    from ...floorplan.plan import Start
+    Raises Failure for other text, and for a place that is on several levels. The names of levels and places may contain
+    commas."""
+    from ...floorplan.plan import FloorPlanError, Start
     from ...types.checking import find_fault
 
-    with suppress(ValueError):
-        if text.startswith("heading="):
+    if text.startswith("heading="):
+        with suppress(ValueError):
             return Start(heading=_heading(text.removeprefix("heading=")))
     for count in (3, 2):
         with suppress(ValueError):
@@ -239,9 +246,26 @@ def start_of(text: str) -> Start:
             if (problem := find_fault(start, Start)) is not None:
                 raise Failure(f"--start {printable(text, 80)}: {problem}")
             return start
-    raise Failure(
-        f"--start {printable(text, 80)} is not LEVEL,X,Y, LEVEL,X,Y,HEADING or heading=DEGREES, as in 0,12.5,3,90"
-    )
+    names = {one.id: [name for found in plan.places(one.id).values() for name in found] for one in plan.levels}
+    wholes: list[tuple[str, float | None]] = [(text, None)]
+    with suppress(ValueError):
+        place, heading_text = text.rsplit(",", 1)
+        wholes.append((place, _heading(heading_text)))
+    readings = [
+        (at, name, angle)
+        for whole, angle in wholes
+        for at, name in [(None, whole), *[(one, whole[len(one) + 1 :]) for one in names if whole.startswith(f"{one},")]]
+    ]
+    for at, name, angle in readings:
+        if any(name.strip() in found for level, found in names.items() if at in (None, level)):
+            try:
+                return plan.start(name.strip(), at, angle)
+            except FloorPlanError as error:
+                raise Failure(f"--start {printable(text, 80)}: {error}; put the level before it") from None
+    at, name, _ = readings[-1]
+    known = [one for level, found in names.items() for one in found if at in (None, level)]
+    why = unknown("place", name.strip(), known)
+    raise Failure(f"--start {printable(text, 80)}{'' if why.endswith('?') else f' is not {START_FORMS}'}: {why}")
 
 
 def _heading(text: str) -> float:
@@ -260,10 +284,10 @@ add_floorplan = together(
     ),
     option(
         "--start",
-        metavar="LEVEL,X,Y[,HEADING]|heading=DEGREES",
-        type=start_of,
-        help="where on it the wearer sets out: m in the plan's frame, and the first heading in degrees, anticlockwise"
-        " from the plan's x axis, or that heading alone; without a place it is known after stairs or a lift",
+        metavar="PLACE[,HEADING]",
+        help="where on it the wearer sets out: a room, stairs, a lift or a door (solepath plan lists them), LEVEL and"
+        " such a place, or LEVEL,X,Y in m of the plan's frame; then the first heading in degrees, anticlockwise from"
+        " the plan's x axis; or heading=DEGREES alone; without a place it is known after stairs or a lift",
     ),
 )
 """--floorplan and --start."""

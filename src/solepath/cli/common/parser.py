@@ -36,7 +36,7 @@ OPTION_GROUPS = {
     "the report": ("--title", "track --subject", "--date", "track --device", "--compare"),
     "clinical outcomes": ("--outcomes", "--test", "--test-before", "--reference"),
     "sensors": ("--left", "--right", "--at", "--profile", "--pair", "--via", "--live"),
-    "what is written": ("--out", "--record", "--report", "--json", "--figure", "--resume", "--force"),
+    "what is written": ("--out", "--record", "--report", "--export", "--json", "--figure", "--resume", "--force"),
     "page": ("--view", "--no-browser", "--speed", "--terminal"),
     "other programs": ("--lsl", "live --channels", "live --units"),
     "phone's log": ("--site", "--handle"),

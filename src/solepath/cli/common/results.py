@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from attrs import define, field
 
@@ -53,6 +53,8 @@ class Results:
     """Clinical outcomes; None without any."""
     options: Namespace | None = None
     """Options of the command, for run.json; None without this file."""
+    export: Path | None = None
+    """The file of the way; None without one."""
     kinds: DeviceKinds | None = None
     """Devices of the session; None if none was added."""
     walk: Walk = field(factory=Walk, init=False)
@@ -67,7 +69,7 @@ class Results:
         self.walk.kinds = self.kinds
         self._replacements = replacements(self.outputs)
         self._stack.callback(self._replacements.discard)
-        if self.out is not None or self.outcomes is not None:
+        if self.out is not None or self.outcomes is not None or self.export is not None:
             self.walk.limit = None
         if self.contents is not None:
             self.contents.walk, self.contents.outcomes = self.walk, self.outcomes
@@ -117,6 +119,8 @@ class Results:
                     write_bouts(found, self._replacements.temporary_path(self.out / BOUTS_FILE))
                     write_outcomes(found, self._replacements.temporary_path(self.out / OUTCOMES_FILE))
             lines.append(f"written to {printable(str(self.out))}")
+        if self.export is not None and self.options is not None:
+            lines.append(self._write_way(self.export, made_by(self.session.recipe, self.options)))
         if self.contents is not None and self.options is not None:
             self.contents.made_by = made_by(self.session.recipe, self.options)
         if self.contents is not None and self._report_path is not None and self.report is not None:
@@ -125,6 +129,16 @@ class Results:
             lines.append(f"report in {printable(str(self.report))}")
         self._replacements.move_to_targets()
         return lines
+
+    def _write_way(self, path: Path, made: dict[str, Any]) -> str:
+        """Write the way and return the line about it."""
+        from ...show.export import LOCAL_NOTE, has_degrees, write_way
+
+        written = self._replacements.temporary_path(path)
+        count = write_way(written, self.walk, self.plan, ending=path.suffix.lower(), made_by=made)
+        why = "" if count else ", which is empty: no place was found" if self.plan else ", which is empty: no stride"
+        note = "" if has_degrees(self.plan) else f"; {LOCAL_NOTE}"
+        return f"way in {printable(str(path))}{why}{note}"
 
     def urgent_links(self) -> list[str]:
         """Return what the counts of the links show to be wrong until somebody acts."""

@@ -29,8 +29,12 @@ WALKING_SPEED = 1.3
 """Walking speed, m/s."""
 CORNER_RADIUS = 0.9
 """Radius of the bends in which the wearer walks around corners of corridors, m."""
+MIN_RADIUS, LEG_SHARE = 0.3, 0.9
+"""Radius of the tightest bend, m, and share of a short leg that it may take; chosen by hand."""
 TURN_DISTANCE = 5.6
 """Distance from the door of a stairwell to where the wearer starts to turn on the landing, m."""
+LANDING_LENGTH = 0.6
+"""Length of a landing before and after the turn on it, m: with the turn, 1.2 m or more, as building codes ask for."""
 OTHER_LEVEL = {GROUND: UPPER, UPPER: GROUND}
 """Id of the other level for each level."""
 
@@ -80,9 +84,34 @@ class Course:
         self._go(self.route.turn(angle, radius, speed), chord, self.heading + 0.5 * angle)
         self.heading += angle
 
-    def flight(self, up: bool) -> None:
-        """Walk one flight of stairs."""
-        self._go(self.route.stairs(RISERS, up, RISE, GOING), RISERS * GOING, self.heading)
+    def flight(self, up: bool, risers: int = RISERS, rise: float = RISE, going: float = GOING) -> None:
+        """Walk one flight of stairs: the height of a riser is `rise` m, the depth of a tread `going` m."""
+        self._go(self.route.stairs(risers, up, rise, going), risers * going, self.heading)
+
+    def stairs(
+        self,
+        level: str,
+        risers: int,
+        up: bool = True,
+        *,
+        rise: float = RISE,
+        going: float = GOING,
+        flights: int = 1,
+        turn: float = 0.0,
+        landing: float = LANDING_LENGTH,
+    ) -> None:
+        """Walk stairs to `level`: `flights` flights of `risers` risers, of `rise` m, with treads of `going` m.
+
+        They begin where the wearer is. Between two flights is a landing: the wearer walks `landing` m on it, turns by
+        `turn` rad along a bend of LANE_OFFSET m, counter-clockwise positive, and walks as far again."""
+        for number in range(flights):
+            if number:
+                self.walk(landing)
+                if turn:
+                    self.bend(turn, LANE_OFFSET)
+                self.walk(landing)
+            self.flight(up, risers, rise, going)
+        self.level = level
 
     def _go(self, route: Route, distance: float, direction: float) -> None:
         """Go on to a longer route, `distance` m away in this direction of the plan frame, rad."""
@@ -90,7 +119,9 @@ class Course:
         self.position = (x + distance * cos(direction), y + distance * sin(direction))
 
     def walk_along(self, points: list[Point]) -> None:
-        """Walk from point to point, m, plan frame, with rounded corners; turn on the spot to the first one."""
+        """Walk from point to point, m, plan frame, with rounded corners; turn on the spot to the first one.
+
+        Where a leg is too short for a bend of CORNER_RADIUS the bend is tighter, or a turn on the spot."""
         ahead_turn = wrapped(atan2(points[0][1] - self.position[1], points[0][0] - self.position[0]) - self.heading)
         if self.position != points[0] and abs(ahead_turn) > 1e-9:
             self.face(self.heading + ahead_turn)
@@ -101,12 +132,15 @@ class Course:
                 return
             next_heading = atan2(points[k + 1][1] - y, points[k + 1][0] - x)
             angle = wrapped(next_heading - self.heading)
-            if abs(angle) > pi - 0.1:
+            slope = tan(0.5 * abs(angle))
+            leg = min(distance, hypot(points[k + 1][0] - x, points[k + 1][1] - y))
+            radius = CORNER_RADIUS if not slope or CORNER_RADIUS * slope < leg else LEG_SHARE * leg / slope
+            if abs(angle) > pi - 0.1 or radius < MIN_RADIUS:
                 self.walk(distance)
                 self.face(next_heading)
             elif abs(angle) > 1e-9:
-                self.walk(distance - CORNER_RADIUS * tan(0.5 * abs(angle)))
-                self.bend(angle, CORNER_RADIUS)
+                self.walk(distance - radius * slope)
+                self.bend(angle, radius)
             elif distance > 0.0:
                 self.walk(distance)
 

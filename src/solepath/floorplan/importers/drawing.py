@@ -14,6 +14,7 @@ from math import atan2
 from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_WALLS
 from ..doors import MAX_DOOR_OFFSET, Openings, cut_openings
+from ..earth import to_mm
 from ..geometry import Ring, contains, direction, distance, edges, find_inner_point, join_holes, normalize_ring
 from ..plan import (
     Anchor,
@@ -29,7 +30,6 @@ from ..plan import (
     Wall,
     with_rooms,
 )
-from .earth import to_mm
 
 _MERGE_DISTANCE = 2e-3
 """Largest distance between walls that count as lying on one line, and largest gap over which they are joined, m."""
@@ -37,6 +37,9 @@ _MERGE_DISTANCE = 2e-3
 SHARED_BORDER_DISTANCE = 0.05
 """Largest distance between borders of two spaces that count as one border, m."""
 
+
+MIN_PLACE_DISTANCE = 0.3
+"""Least distance from the outline at which a person stands in stairs or a cabin, m: half of a person's width."""
 
 MAX_PARTS = 1000
 """Largest number of parts of stairs and elevators: each is compared with all others."""
@@ -65,8 +68,9 @@ class ConnectorPart:
     """The part of stairs or an elevator on one level.
 
     Parts with the same `group` belong to the same connector; other parts do if they overlap on neighbouring levels.
-    `place` is where a person steps on, m, plan frame; None stands for the middle. `rise` is the height of one tread of
-    the stairs, m; None when unknown."""
+    `place` is where a person steps on, m, plan frame; None stands for the middle, and so does a place that is not well
+    within the outline, as many a map has its label there. `rise` is the height of one tread of the stairs, m; None when
+    unknown."""
 
     kind: ConnectorKind
     name: str
@@ -85,6 +89,13 @@ class ConnectorPart:
         if self.rings:
             self.outline = normalize_ring(join_holes(self.rings))
             self.middle = find_inner_point(self.outline)
+            if self.place is not None and not self._holds(self.place):
+                self.place = None
+
+    def _holds(self, place: Point) -> bool:
+        """Return whether a person can stand at a place within the outline."""
+        margin = min([distance(*edge, *place) for edge in edges(self.outline)])
+        return self.contains(place) and margin >= MIN_PLACE_DISTANCE
 
     def contains(self, place: Point) -> bool:
         """Return whether the outline contains a place, m."""

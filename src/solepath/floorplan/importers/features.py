@@ -10,9 +10,9 @@ from typing import Any, NoReturn
 
 from ...types.attrs import evolve, frozen
 from ...types.checking import describe
+from ..earth import south_west
 from ..geometry import Ring
 from ..plan import Anchor, FloorPlanError, Point, naming
-from .earth import south_west
 
 MAX_CORNERS = 1_000_000
 """Largest number of points in a file: more than any building has."""
@@ -126,7 +126,8 @@ def _reject_constant(name: str) -> NoReturn:
 def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool) -> Iterator[Feature]:
     """Yield the features of a FeatureCollection.
 
-    The kind of a feature is the member `kind_key` of its properties if `in_properties`, else of the feature itself."""
+    The kind of a feature is the member `kind_key` of its properties if `in_properties`, else of the feature itself;
+    with "" no kind is read."""
     if collection.get("type") != "FeatureCollection" or not isinstance(collection.get("features"), list):
         raise FloorPlanError("is not a GeoJSON FeatureCollection")
     ids: set[str] = set()
@@ -145,7 +146,7 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
         properties = {} if properties is None else properties
         if not isinstance(properties, dict):
             raise FloorPlanError(f"feature {i}: its properties are no object")
-        kind = (properties if in_properties else value).get(kind_key)
+        kind = (properties if in_properties else value).get(kind_key) if kind_key else ""
         if not isinstance(kind, str):
             raise FloorPlanError(f"feature {own_id[:60] or i!r}: its {kind_key} is missing")
         word = kind[:20] if kind.isascii() and kind.isalpha() else "feature"

@@ -8,6 +8,7 @@ from typing import Any
 from ...types.attrs import define, evolve, field
 from ...types.checking import find_fault
 from ..doors import cut_doors
+from ..earth import Tangent
 from ..geometry import Ring, find_inner_point, join_holes
 from ..plan import (
     Anchor,
@@ -21,7 +22,6 @@ from ..plan import (
     Wall,
     with_rooms,
 )
-from .earth import Tangent
 from .features import Feature, ToPlan, find_anchor, parse_number, read_features
 
 FORMAT = "solepath-floorplan"

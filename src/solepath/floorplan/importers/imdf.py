@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import groupby, pairwise
 
+from ..earth import Tangent
 from ..geometry import Ring
-from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point, naming
+from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Point, make_ids, naming
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
-from .earth import Tangent
 from .features import Feature, find_anchor, parse_json, parse_positions, read_features
 
 _KINDS = ("level", "unit", "opening", "fixture", "building", "venue")
@@ -72,10 +72,10 @@ class _ImdfReader:
 
     def __init__(self, files: Mapping[str, bytes], language: str) -> None:
         self._language = language
-        self._levels, self._units, self._openings, self._fixtures, buildings, venues = [
+        self._levels, self._units, self._openings, self._fixtures, self._buildings, venues = [
             _read_features(files, kind) for kind in _KINDS
         ]
-        names = [self._label(feature, "name") for feature in buildings + venues]
+        names = [self._label(feature, "name") for feature in self._buildings + venues]
         self._drawing = Drawing(next(filter(None, names), ""))
         self._anchor = find_anchor(self._levels + self._units)
         self._to_plan = Tangent(self._anchor).place
@@ -90,6 +90,10 @@ class _ImdfReader:
         preferred = (self._language, self._language.split("-")[0], "en", *sorted(texts))
         return next((texts[tag] for tag in preferred if tag in texts), "")
 
+    def _name(self, feature: Feature) -> str:
+        """Return the name of a unit or an opening, else its other name, "" when it has none."""
+        return self._label(feature, "name") or self._label(feature, "alt_name")
+
     def plan(self, storey: float) -> FloorPlan:
         self._storeys()
         for feature in self._units:
@@ -102,17 +106,26 @@ class _ImdfReader:
         return self._drawing.plan(self._anchor, storey)
 
     def _storeys(self) -> None:
-        """Add the levels; each is named by its short name if no other level has it, else by its id."""
-        short_names = [self._label(feature, "short_name") for feature in self._levels]
-        for feature, short_name in zip(self._levels, short_names, strict=True):
+        """Add the levels.
+
+        The id of each is its short name, else its name, else that of the feature, with the name of its building where
+        several levels have the same one, and with a number where that is not enough."""
+        levels = sorted(self._levels, key=lambda feature: (feature.ordinal(), feature.id))
+        names = [self._label(one, "short_name") or self._label(one, "name") or one.id for one in levels]
+        whole = [name if names.count(name) == 1 else f"{self._building(feature)} {name}".strip()
+                 for feature, name in zip(levels, names, strict=True)]  # fmt: skip
+        for feature, name in zip(levels, make_ids([(name, "level") for name in whole]), strict=True):
             ordinal = feature.ordinal()
-            name = short_name if short_name and short_names.count(short_name) == 1 else feature.id
-            if name in self._drawing.storeys:
-                feature.fail(f"its id is the short name of another level, {name!r}")
             self._names[feature.id] = name
             self._drawing.storeys[name] = Storey(self._label(feature, "name") or name, ordinal, float(ordinal))
             if feature.properties.get("outdoor") is not True:
                 self._space(feature, name, Border.SOLID)
+
+    def _building(self, level: Feature) -> str:
+        """Return the name of the first building of a level, "" when none is known."""
+        known, ids = {one.id: one for one in self._buildings}, level.properties.get("building_ids")
+        named = [self._label(known[one], "name") for one in ids if one in known] if isinstance(ids, list) else []
+        return next(filter(None, named), "")
 
     def _level(self, feature: Feature) -> str:
         level = feature.properties.get("level_id")
@@ -129,7 +142,7 @@ class _ImdfReader:
             return
         for i, rings in enumerate(self._rings(feature)):
             point = None if i else self._display_point(feature)
-            name, group = self._label(feature, "name"), f"{feature.id or feature.name}.{i}"
+            name, group = self._name(feature), f"{feature.id or feature.name}.{i}"
             self._drawing.parts.append(ConnectorPart(kind, name, level, point, rings, group))
 
     def _display_point(self, feature: Feature) -> Point | None:
@@ -139,7 +152,7 @@ class _ImdfReader:
         return feature.convert_line([parse_positions(value.get("coordinates"), feature)], self._to_plan)[0]
 
     def _space(self, feature: Feature, level: str, border: Border) -> None:
-        name = self._label(feature, "name")
+        name = self._name(feature)
         self._drawing.storeys[level].spaces += [Space(rings, border, name) for rings in self._rings(feature)]
 
     def _opening(self, feature: Feature) -> None:
@@ -147,7 +160,7 @@ class _ImdfReader:
         if feature.geometry != "LineString":
             feature.fail("an opening is a LineString")
         points = [point for point, _ in groupby(feature.convert_line(feature.lines[0][0], self._to_plan))]
-        name = self._label(feature, "name")
+        name = self._name(feature)
         self._drawing.storeys[level].doors += [Door(a, b, name) for a, b in pairwise(points)]
 
     def _rings(self, feature: Feature) -> list[tuple[Ring, ...]]:

@@ -13,12 +13,12 @@ from math import floor, inf
 
 from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_RISE, MIN_RISE
+from ..earth import Tangent, south_west, to_mm
 from ..geometry import Ring, direction, distance, share_along
 from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point, naming
 from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
-from .earth import Tangent, south_west, to_mm
-from .osm_file import Element, OsmFile, Refs, find_shapes, parse_elements
+from .osm_file import Element, OsmFile, Refs, find_shapes
 
 BORDERS = {"room": Border.WALL, "corridor": Border.OPEN, "area": Border.FREE, "column": Border.SOLID,
            "wall": Border.SOLID, "level": Border.SOLID}  # fmt: skip
@@ -75,9 +75,11 @@ def connector_kind(element: Element) -> ConnectorKind | None:
 
 
 def is_door(element: Element) -> bool:
-    """Return whether the element is a door, an entrance, or a gap to walk through."""
+    """Return whether the element is a door, an entrance, or a gap to walk through.
+
+    `door=no` is a gap without a door (OpenStreetMap wiki, Key:door)."""
     tags = element.tags
-    return tags.get("indoor") == "door" or any(tags.get(key, "no") != "no" for key in ("door", "entrance"))
+    return tags.get("indoor") == "door" or "door" in tags or tags.get("entrance", "no") != "no"
 
 
 def is_indoor(element: Element) -> bool:
@@ -143,11 +145,11 @@ def _move(place: Point, way: tuple[float, float, float], by: float) -> Point:
     return to_mm((place[0] + by * way[1], place[1] + by * way[2]))
 
 
-def read_osm(data: bytes, storey: float) -> FloorPlan:
-    """Return the plan in an OSM XML file; raise FloorPlanError when it is invalid.
+def read_osm(file: OsmFile, storey: float) -> FloorPlan:
+    """Return the plan in the elements of a file; raise FloorPlanError when it is invalid.
 
     `storey` is the assumed height from one level to the next, m."""
-    return _OsmReader(parse_elements(data)).plan(storey)
+    return _OsmReader(file).plan(storey)
 
 
 @define
@@ -202,6 +204,7 @@ class _OsmReader:
         for node in self._nodes:
             self._draw_node(node)
         self._remove_inner_flights()
+        self._open_walls()
         return self._drawing.plan(self._anchor, storey)
 
     def _storeys(self) -> None:
@@ -280,6 +283,16 @@ class _OsmReader:
         inner = {flight.group for flight in flights} - outer
         self._drawing.parts = [part for part in self._drawing.parts if part.group not in inner]
 
+    def _open_walls(self) -> None:
+        """Make a gap in each wall at a node of which stairs or a lift end: one steps on and off there."""
+        for level, neighbours in self._neighbours.items():
+            ends = {part.place for part in self._drawing.parts if part.level == level and not part.rings}
+            for ref in [ref for ref in neighbours if self._places[ref] in ends]:
+                others = [self._places[one] for one in neighbours[ref]]
+                line = door_at(self._places[ref], others, DEFAULT_DOOR_WIDTH)
+                if line is not None:
+                    self._drawing.storeys[level].doors.append(Door(*line))
+
     def _draw_node(self, node: _Drawn) -> None:
         element, label = node.element, label_of(node.element)
         kind, place = connector_kind(element), self._places[element.id]
@@ -294,7 +307,9 @@ class _OsmReader:
             if line is None and node.levels:
                 line = door_beside(place, self._near(place, level), width)
                 if line is None:
-                    self._drawing.remarks.append(f"{element.name}: a door on level {level!r} that is in no wall")
+                    x, y = place
+                    remark = f"{element.name}: a door on level {level!r} that is in no wall, at ({x:.1f}, {y:.1f})"
+                    self._drawing.remarks.append(remark)
             if line is not None:
                 self._drawing.storeys[level].doors.append(Door(*line, label))
 

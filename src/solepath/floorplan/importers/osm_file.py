@@ -1,19 +1,21 @@
-"""Parser of OpenStreetMap XML from untrusted bytes: nodes, ways and relations with their tags.
+"""Parser of OpenStreetMap's elements, nodes, ways and relations with their tags, from untrusted XML or GeoJSON.
 
-It rejects a document type declaration, since entities can be declared only there."""
+It rejects a document type declaration, since entities can be declared only there. GeoJSON is that of osmtogeojson,
+which Overpass turbo exports: tags are properties, and points with the same coordinates are one node."""
 
 from __future__ import annotations
 
 from itertools import groupby
 from math import inf
-from typing import NoReturn
+from typing import Any, NoReturn
 from xml.etree.ElementTree import XML, ParseError, TreeBuilder, XMLParser
 from xml.etree.ElementTree import Element as XmlElement
 from xml.parsers.expat import ErrorString
 
 from ...types import Vec2
-from ...types.attrs import frozen
+from ...types.attrs import evolve, frozen
 from ..plan import FloorPlanError
+from .features import MAX_NUMBER, read_features
 
 MAX_XML_TAGS = 4_000_000
 """Largest number of tags that begin and end elements."""
@@ -70,6 +72,43 @@ def parse_elements(data: bytes) -> OsmFile:
             if found[one.tag].setdefault(element.id, element) is not element:
                 raise FloorPlanError(f"two {one.tag}s have the id {element.id[:40]!r}")
     return found
+
+
+def is_collection(collection: dict[str, Any]) -> bool:
+    """Return whether a FeatureCollection has elements with indoor tags."""
+    features = [one for one in collection["features"] if isinstance(one, dict)]
+    return any(isinstance(tags := one.get("properties"), dict) and "indoor" in tags for one in features)
+
+
+def convert_collection(collection: dict[str, Any]) -> OsmFile:
+    """Return all elements of a FeatureCollection; raise FloorPlanError when it is none."""
+    file: OsmFile = {"node": {}, "way": {}, "relation": {}}
+
+    def add_node(position: Vec2) -> str:
+        own = f"{position[0]!r} {position[1]!r}"
+        file["node"].setdefault(own, Element("node", own, position, [], [], {}))
+        return own
+
+    for number, feature in enumerate(read_features(collection, "", in_properties=True)):
+        tags = {
+            key: value if isinstance(value, str) else f"{value:g}"
+            for key, value in feature.properties.items()
+            if isinstance(value, str) or isinstance(value, int | float) and abs(value) < MAX_NUMBER
+        }
+        own, parts = feature.id or str(number), feature.lines
+        if feature.geometry == "Point":
+            ref = add_node(parts[0][0][0])
+            file["node"][ref] = evolve(file["node"][ref], tags=tags)
+            continue
+        ways = [Element("way", f"{own} {i}.{k}", (0.0, 0.0), [add_node(one) for one in line], [], {})
+                for i, part in enumerate(parts) for k, line in enumerate(part)]  # fmt: skip
+        if len(ways) == 1:
+            file["way"][own] = evolve(ways[0], id=own, tags=tags)
+            continue
+        file["way"] |= {way.id: way for way in ways}
+        members = [("way", way.id, "outer" if way.id.endswith(".0") else "inner") for way in ways]
+        file["relation"][own] = Element("relation", own, (0.0, 0.0), [], members, tags)
+    return file
 
 
 def _parse_element(one: XmlElement) -> Element:

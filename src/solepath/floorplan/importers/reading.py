@@ -21,9 +21,10 @@ DEFAULT_STOREY_HEIGHT = 3.0
 def read_floorplan(path: Path | str, storey: float = DEFAULT_STOREY_HEIGHT) -> FloorPlan:
     """Return the plan in a file.
 
-    The file is GeoJSON of protocol/floorplan.md, an IMDF archive (a zip file or a folder), or OpenStreetMap XML with
-    Simple Indoor Tagging. `storey` is the assumed height from one level to the next, m, for a file without elevations;
-    then `heights_known` of the plan is False. Raises FloorPlanError, with one line, when it cannot be read or used."""
+    The file is GeoJSON of protocol/floorplan.md, an IMDF archive (a zip file or a folder), or OpenStreetMap XML or
+    GeoJSON with Simple Indoor Tagging. `storey` is the assumed height from one level to the next, m, for a file without
+    elevations; then `heights_known` of the plan is False. Raises FloorPlanError, with one line, when it cannot be read
+    or used."""
     try:
         return _check(_read(Path(path), storey))
     except FileTooLarge as error:
@@ -56,7 +57,7 @@ def _read(path: Path, storey: float) -> FloorPlan:
 
 
 def _plan(data: bytes, storey: float) -> FloorPlan:
-    from . import geojson, imdf, osm
+    from . import geojson, imdf, osm, osm_file
     from .features import parse_json
 
     if not 1.0 <= storey <= 50.0:
@@ -65,7 +66,7 @@ def _plan(data: bytes, storey: float) -> FloorPlan:
         return imdf.read_archive(_unpack(data), storey)
     first_byte = data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
     if first_byte == b"<" or data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return osm.read_osm(data, storey)
+        return osm.read_osm(osm_file.parse_elements(data), storey)
     if first_byte != b"{":
         raise FloorPlanError("is no floor plan: neither GeoJSON, nor an IMDF archive, nor OpenStreetMap XML")
     collection = parse_json(data)
@@ -75,6 +76,8 @@ def _plan(data: bytes, storey: float) -> FloorPlan:
         first = collection["features"][0] if collection["features"] else None
         if isinstance(first, dict) and "feature_type" in first:
             raise FloorPlanError("is one file of an IMDF archive; the archive or its folder is needed")
+        if osm_file.is_collection(collection):
+            return osm.read_osm(osm_file.convert_collection(collection), storey)
         raise FloorPlanError(f"is GeoJSON, but not a floor plan: its format is not {geojson.FORMAT!r}")
     raise FloorPlanError("is JSON, but not a floor plan")
 

@@ -70,5 +70,5 @@ class ReportContent:
 
     @property
     def track(self) -> Sequence[TimedPosition]:
-        """Track of the wearer or, if it is not known, that of the foot with the most strides."""
-        return list(self.walk.wearer_track) or max(map(list, self.walk.strides.values()), key=len)
+        """Track of the wearer, or of a foot."""
+        return self.walk.way

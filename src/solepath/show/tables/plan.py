@@ -1,13 +1,14 @@
-"""Draws a floor plan with the track as an SVG picture: a panel for each level, all at one scale, +y upwards.
+"""Draws a floor plan as an SVG picture: a panel for each level, +y upwards.
 
-The colour of the track changes from the start to the end of the recording. While a place has several candidates, they
-are drawn as dots; the smaller the weight, the fainter the dot. Sizes were chosen by hand and not swept."""
+With ids, it has a grid, its levels have scales of their own, and what is wrong with the plan is marked. Otherwise it
+has the track, whose colour changes from the start to the end of the recording. While a place has several candidates,
+they are drawn as dots; the smaller the weight, the fainter the dot. Sizes were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from math import degrees
+from math import degrees, fsum
 from pathlib import Path
 from typing import TypeGuard
 from xml.etree.ElementTree import Element, ElementTree, indent
@@ -15,9 +16,10 @@ from xml.etree.ElementTree import Element, ElementTree, indent
 from attrs import define, evolve
 
 from ...events import Placed, PlaceLost
+from ...floorplan.findings import PlanFinding
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level
 from ..output import os_errors_naming
-from .svg import STEPS, View, add, colour_bar, line, shade
+from .svg import STEPS, View, add, colour_bar, grid, line, px, shade, square_ticks, write
 
 MAX_LEVEL_WIDTH = 720.0
 """Largest width of the drawing of a level by default, px."""
@@ -54,6 +56,25 @@ PICTURE = (
     "font-size='12'><title>{}</title><rect width='100%' height='100%' fill='white'/>"
     "<text x='{}' y='30' font-size='17' font-weight='600'>{}</text></svg>"
 )
+STYLE = (
+    "<style>.grid{{stroke:#1f2933;stroke-opacity:.12}}.tick{{font-size:10px;fill:#5f6b78}}"
+    ".id{{fill:#1f2933;paint-order:stroke;stroke:white;stroke-opacity:.7;stroke-width:2px}}"
+    ".door{{font-size:.75em;fill:#8a5a17}}.connector{{font-weight:600}}</style>"
+)
+"""Style of the grid and the ids."""
+ID_HEIGHT, MIN_ID_SIZE = 0.5, 8.0
+"""Height of the letters of an id: as a length of the plan, m, and the least, px; the largest is NAME_SIZE."""
+ID_SHIFTS = {"room": 3.0, "connector": 16.0, "door": -3.0}
+"""How far below its place an id is written, px: below the mark of stairs or a lift, above a door."""
+FINDING = (
+    "<g transform='translate({} {})'><title>{}</title><circle r='7' fill='#c62828' fill-opacity='.85'/>"
+    "<text y='3' font-size='8' font-weight='600' fill='white' text-anchor='middle'>{}</text></g>"
+)
+"""Mark of a place where something is wrong."""
+FINDING_COLOUR, FINDING_SHIFT = "#c62828", 12.0
+"""Colour of that mark, and how far above the place it is, px."""
+MAX_GRID_LINES, GRID_GAP = 16, 12.0
+"""Largest number of lines of the grid along x, and height of its labels, px."""
 TEXT, AREA = "<text x='{}' y='{}'>{}</text>", "<path d='{}' fill='{}'/>"
 END = (
     "<g><circle cx='{}' cy='{}' r='6' fill='{}' stroke='white' stroke-width='2'/><text x='{}' y='{}' font-size='11' "
@@ -84,6 +105,10 @@ class PlanPicture:
     width: float = MAX_LEVEL_WIDTH
     height: float = MAX_LEVEL_HEIGHT
     columns: int | None = None
+    ids: bool = False
+    """Whether there are a grid in m, and the ids of rooms, stairs, lifts and doors (`FloorPlan.places`)."""
+    findings: Sequence[PlanFinding] = ()
+    """What is wrong with the plan: each has its number, from 1 on, at its place."""
 
     @property
     def places(self) -> list[Placed]:
@@ -99,27 +124,39 @@ class PlanPicture:
 
     def drawn(self, title: str) -> Element:
         """Return the picture as an <svg> element."""
-        view = self._view()
-        count = max(len(self.plan.levels), 1)
+        levels = self.plan.levels
+        views = [self._view([level]) for level in levels] if self.ids else [self._view(levels)] * len(levels)
+        view, gap = max(views, key=lambda one: one.width, default=self._view(levels)), PANEL_GAP + GRID_GAP * self.ids
+        count = max(len(levels), 1)
         columns = self.columns or min(count, 3)
         width = 2.0 * MARGIN + columns * view.width + (columns - 1) * PANEL_GAP
-        bottom = SPACE_ABOVE - (-count // columns) * (view.height + PANEL_GAP)
+        rows = [views[k : k + columns] for k in range(0, count, columns)]
+        heights = [max([one.height for one in row], default=view.height) for row in rows]
+        bottom = SPACE_ABOVE + fsum(heights) + len(heights) * gap
         height = bottom + SPACE_BELOW
         svg = add(Element("figure"), PICTURE, width, height, width, height, title, MARGIN, title)
         svg.set("xmlns", "http://www.w3.org/2000/svg")
-        for k, level in enumerate(self.plan.levels):
+        if self.ids:
+            add(svg, STYLE)
+        for k, level in enumerate(levels):
             left = MARGIN + (k % columns) * (view.width + PANEL_GAP)
-            top = SPACE_ABOVE + (k // columns) * (view.height + PANEL_GAP)
+            top = SPACE_ABOVE + fsum(heights[: k // columns]) + k // columns * gap
             name = f"level {level.id}" if level.name in ("", level.id) else f"{level.name} ({level.id})"
-            self._level(add(svg, "<g/>"), level, evolve(view, left=left, top=top), f"{name}, {level.elevation:.1f} m")
-        self._legend(svg, view.scale, width, bottom + 14.0)
+            panel, box = add(svg, "<g/>"), evolve(views[k], left=left, top=top)
+            self._level(panel, level, box, f"{name}, {level.elevation:.1f} m")
+            for number, finding in enumerate(self.findings, 1):
+                if finding.level == level.id and finding.place is not None:
+                    x, y = box.at(finding.place)
+                    add(panel, FINDING, x, y - FINDING_SHIFT, finding.text, f"{number}")
+        self._legend(svg, None if self.ids else view.scale, width, bottom + 14.0)
         return svg
 
-    def _view(self) -> View:
-        """Return the box of each level, which shows all levels and the track."""
-        points = [end for level in self.plan.levels for wall in level.walls for end in (wall.start, wall.end)]
-        points += [point for level in self.plan.levels for room in level.rooms for point in room]
-        points += [stop.place for connector in self.plan.connectors for stop in connector.stops]
+    def _view(self, levels: Sequence[Level]) -> View:
+        """Return a box that shows these levels and the track."""
+        shown = {level.id for level in levels}
+        points = [end for level in levels for wall in level.walls for end in (wall.start, wall.end)]
+        points += [point for level in levels for room in level.rooms for point in room]
+        points += [stop.place for one in self.plan.connectors for stop in one.stops if stop.level in shown]
         points += [place.position[:2] for place in self.places]
         return View.fit(points or [(0.0, 0.0)], self.width, self.height, MARGIN_SHARE, MIN_MARGIN)
 
@@ -152,7 +189,15 @@ class PlanPicture:
                 width,
             )
         self._candidates(panel, level.id, view)
-        _room_names(panel, level, view)
+        if self.ids:
+            x, y = view.axes
+            grid(panel, x, y, *square_ticks((x.low, x.high), (y.low, y.high), MAX_GRID_LINES)[:2])
+            panel.set("font-size", px(min(max(ID_HEIGHT * view.scale, MIN_ID_SIZE), NAME_SIZE)))
+            for kind, places in self.plan.places(level.id).items():
+                for name, place in places.items():
+                    write(panel, x(place[0]), y(place[1]) + ID_SHIFTS[kind], name, f"id {kind}")
+        else:
+            _room_names(panel, level, view)
         self._track(panel, level.id, view)
 
     def _candidates(self, panel: Element, level: str, view: View) -> None:
@@ -181,19 +226,22 @@ class PlanPicture:
                 x, y = view.at(place.position[:2])
                 add(panel, END, x, y, colour, x + 9.0, y + 4.0, colour, word)
 
-    def _legend(self, svg: Element, scale: float, width: float, top: float) -> None:
-        """Draw the scale, the times, the meaning of the marks, and an arrow to north if the plan has an anchor."""
-        metres = max([step for step, _ in STEPS if step * scale <= 120.0])
-        bar = "<path d='M{} {}v6h{}v-6' fill='none' stroke='#1f2933' stroke-width='1.5'/>"
-        add(svg, bar, MARGIN, top + 4.0, metres * scale)
-        add(svg, TEXT, MARGIN, top + 28.0, f"{metres:g} m")
+    def _legend(self, svg: Element, scale: float | None, width: float, top: float) -> None:
+        """Draw the scale, the times, the meaning of the marks, and an arrow to north if the plan has an anchor.
+
+        `scale` is the size of a metre, px; with None there is a grid instead."""
+        if scale is not None:
+            metres = max([step for step, _ in STEPS if step * scale <= 120.0])
+            bar = "<path d='M{} {}v6h{}v-6' fill='none' stroke='#1f2933' stroke-width='1.5'/>"
+            add(svg, bar, MARGIN, top + 4.0, metres * scale)
+            add(svg, TEXT, MARGIN, top + 28.0, f"{metres:g} m")
         if self.places:
             colour_bar(svg, TRACK_COLOURS, TIMES_LEFT, top + 2.0, 120.0)
             add(svg, TEXT, TIMES_LEFT, top + 28.0, f"{self.places[0].t:.0f} s")
             add(svg, TEXT, TIMES_LEFT + 90.0, top + 28.0, f"{self.places[-1].t:.0f} s")
         kinds = {connector.kind for connector in self.plan.connectors}
         marks = {kind.value: colour for kind, (colour, _) in CONNECTORS.items() if kind in kinds}
-        marks = {"candidate": CANDIDATE_COLOUR} | marks
+        marks = ({"wrong": FINDING_COLOUR} if self.ids else {"candidate": CANDIDATE_COLOUR}) | marks
         for k, (word, colour) in enumerate(marks.items()):
             add(svg, DOT, MARGIN + 5.0 + 110.0 * k, top + 57.0, colour, MARGIN + 15.0 + 110.0 * k, top + 61.0, word)
         if self.plan.anchor is not None:

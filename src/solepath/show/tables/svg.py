@@ -133,3 +133,27 @@ def colour_bar(parent: Element, colours: Sequence[str], left: float, top: float,
     step = width / len(colours)
     for k, colour in enumerate(colours):
         add(parent, "<rect x='{}' y='{}' width='{}' height='8' fill='{}'/>", left + step * k, top, step + 0.3, colour)
+
+
+def square_ticks(x: Point, y: Point, most: int = 8) -> tuple[Ticks, Ticks, float]:
+    """Return ticks with the same spacing within the ranges of two axes of one scale, and that spacing.
+
+    `most` is the largest number of ticks of x plus one."""
+    across = ticks(*x, most)
+    step = (max(across) - min(across)) / (len(across) - 1)
+    return across, ticks(*y, most, step), step
+
+
+def write(parent: Element, x: float, y: float, words: str, kind: str, anchor: str = "middle") -> None:
+    """Write words at (x, y), px; `kind` holds classes of the style sheet."""
+    add(parent, "<text x='{}' y='{}' class='{}' text-anchor='{}'>{}</text>", x, y, kind, anchor, words)
+
+
+def grid(svg: Element, x: AxisScale, y: AxisScale, across: Ticks, up: Ticks) -> None:
+    """Draw a grid at the values `across` of x and `up` of y, with their labels beside the axes."""
+    for value, words in across.items():
+        add(svg, "<path d='M{} {}V{}' class='grid'/>", x(value), y.end, y.start)
+        write(svg, x(value), y.start + 16.0, words, "tick")
+    for value, words in up.items():
+        add(svg, "<path d='M{} {}H{}' class='grid'/>", x.start, y(value), x.end)
+        write(svg, x.start - 5.0, y(value) + 4.0, words, "tick", "end")

@@ -17,7 +17,7 @@ from attrs import define, field
 
 from ...calibration import Calibration, CalibrationError
 from ...calibration.file import read_calibration
-from ...floorplan.checks import find_warnings
+from ...floorplan.findings import find_warnings
 from ...floorplan.importers.reading import read_floorplan
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import FloorPlan, FloorPlanError
@@ -156,7 +156,10 @@ class Worker:
         notes: Sequence[str] = ()
         if kind == "plan":
             plan = read_floorplan(path)
-            self.plan, notes = IndexedPlan(plan), [f"{path.name}: {words}" for words in find_warnings(plan)]
+            self.plan, notes = (
+                IndexedPlan(plan),
+                [f"{path.name}: {words}" for words in find_warnings(plan, reach=False)],
+            )
         elif kind == "calibration":
             self.calibration = read_calibration(path)
         else:

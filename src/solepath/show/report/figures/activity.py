@@ -5,12 +5,11 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 from ....types import Activity
-from ...tables.svg import AxisScale, add, ticks
+from ...tables.svg import AxisScale, add, grid, ticks, write
 from ...tables.table import duration_text
 from ...tables.words import activity_words
 from ..clock import ReportClock
 from ..markup import figure
-from .axes import grid, write
 
 ROW_HEIGHT = 20.0
 LEFT, RIGHT, TOP = 104.0, 390.0, 8.0

@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 from attrs import define
 
 from ....types import Foot
-from ...tables.svg import AxisScale, Point, Ticks, add, line, ticks
+from ...tables.svg import AxisScale, Point, add, grid, line, ticks, write
 from ..markup import WIDTH, figure
 
 LEFT, RIGHT, TOP, BOTTOM = 46.0, 18.0, 30.0, 40.0
@@ -29,28 +29,6 @@ def padded_range(values: Sequence[float], least: float) -> Point:
     low, high = min(values), max(values)
     half = (0.5 + MARGIN_SHARE) * max(high - low, least)
     return 0.5 * (low + high) - half, 0.5 * (low + high) + half
-
-
-def square_ticks(x: Point, y: Point) -> tuple[Ticks, Ticks, float]:
-    """Return ticks with the same spacing within the ranges of two axes of one scale, and that spacing."""
-    across = ticks(*x, 8)
-    step = (max(across) - min(across)) / (len(across) - 1)
-    return across, ticks(*y, 8, step), step
-
-
-def write(parent: Element, x: float, y: float, words: str, kind: str, anchor: str = "middle") -> None:
-    """Write words at (x, y), px; `kind` holds classes of the style sheet."""
-    add(parent, "<text x='{}' y='{}' class='{}' text-anchor='{}'>{}</text>", x, y, kind, anchor, words)
-
-
-def grid(svg: Element, x: AxisScale, y: AxisScale, across: Ticks, up: Ticks) -> None:
-    """Draw a grid at the values `across` of x and `up` of y, with their labels beside the axes."""
-    for value, words in across.items():
-        add(svg, "<path d='M{} {}V{}' class='grid'/>", x(value), y.end, y.start)
-        write(svg, x(value), y.start + 16.0, words, "tick")
-    for value, words in up.items():
-        add(svg, "<path d='M{} {}H{}' class='grid'/>", x.start, y(value), x.end)
-        write(svg, x.start - 5.0, y(value) + 4.0, words, "tick", "end")
 
 
 @define

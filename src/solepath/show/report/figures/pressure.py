@@ -13,9 +13,9 @@ from attrs import evolve
 
 from ....types import Foot, Layout
 from ....walk.soles import STATIONS, SoleLoads
-from ...tables.svg import View, add, colour_bar, line, shade
+from ...tables.svg import View, add, colour_bar, line, shade, write
 from ..markup import figure, paragraph, whole_sentences
-from .axes import HEAD, MARGIN_SHARE, PATH, Chart, write
+from .axes import HEAD, MARGIN_SHARE, PATH, Chart
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
 """Colours from no load to the highest; a higher load is darker, also on a black-and-white printer."""

@@ -11,10 +11,10 @@ from xml.etree.ElementTree import Element
 
 from attrs import evolve
 
-from ...tables.svg import Point, View, add, line
+from ...tables.svg import Point, View, add, line, square_ticks
 from ..content import TimedPosition
 from ..markup import WIDTH, figure
-from .axes import PATH, square_ticks
+from .axes import PATH
 from .track import mark_end
 
 LEAST_RISE = 1.0

@@ -12,10 +12,10 @@ from attrs import evolve
 
 from ....events import Placed
 from ...tables.plan import PANEL_GAP, PlanPicture
-from ...tables.svg import Point, View, add, line, ticks
+from ...tables.svg import Point, View, add, grid, line, square_ticks, ticks, write
 from ..content import ReportContent
 from ..markup import WIDTH, caption, drawing
-from .axes import PATH, grid, square_ticks, write
+from .axes import PATH
 
 MAX_HEIGHT = 366.0
 """Largest height of a track on its drawing, px."""

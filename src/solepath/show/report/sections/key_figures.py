@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from xml.etree.ElementTree import Element
 
-from ...tables.svg import AxisScale, add
+from ...tables.svg import AxisScale, add, write
 from ..bands import Band
-from ..figures.axes import write
 from ..markup import drawing, notes
 from ..measures import SWING_DIFFERENCE, Measure
 from .facts import Facts

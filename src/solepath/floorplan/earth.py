@@ -1,4 +1,4 @@
-"""Conversion from degrees to the plan's metres, in the tangent plane of WGS84 at the anchor.
+"""Conversion from degrees to the plan's metres and back, in the tangent plane of WGS84 at the anchor.
 
 Points on the ellipsoid are projected onto the local tangent plane (east, north, up) and turned by the anchor's bearing.
 At a distance d from the anchor, lengths in the plane are too short by the share d^2 / 6 R^2 (R: radius of the Earth),
@@ -7,11 +7,11 @@ less than 0.001 mm at 500 m and 0.1 mm at 2.5 km. The rounding error is below 1e
 from __future__ import annotations
 
 from cmath import rect
-from math import cos, isfinite, pi, radians, sin, sqrt
+from math import atan2, cos, degrees, hypot, isfinite, pi, radians, sin, sqrt
 
-from ...types import Vec2, Vec3
-from ...types.vector import dot, pair, sub
-from ..plan import MAX_LATITUDE, Anchor, FloorPlanError, Point
+from ..types import Vec2, Vec3
+from ..types.vector import dot, pair, sub
+from .frame import MAX_LATITUDE, Anchor, FloorPlanError, Point
 
 _A = 6378137.0
 _F = 1.0 / 298.257223563
@@ -30,6 +30,7 @@ class Tangent:
         self._origin = _earth_fixed(latitude, longitude)
         self._east = _outwards(0.0, longitude + 0.5 * pi)
         self._north = _outwards(latitude + 0.5 * pi, longitude)
+        self._up = _outwards(latitude, longitude)
         self._turn = rect(1.0, anchor.bearing)
 
     def plan(self, latitude: float, longitude: float) -> Point:
@@ -40,6 +41,22 @@ class Tangent:
         if dot(offset, offset) > MAX_ANCHOR_DISTANCE**2:
             raise FloorPlanError(f"latitude {latitude:g}, longitude {longitude:g} is far from the rest of the plan")
         return pair(complex(dot(self._east, offset), dot(self._north, offset)) * self._turn)
+
+    def degrees(self, point: Point) -> tuple[float, float]:
+        """Return longitude and latitude, degrees, of a point of the plan, m: of the ellipsoid below or above it.
+
+        Raises FloorPlanError for a point that is not near the anchor."""
+        if hypot(*point) > MAX_ANCHOR_DISTANCE:
+            raise FloorPlanError(f"({point[0]:g}, {point[1]:g}) is far from the anchor of the plan")
+        east, north = pair(complex(*point) / self._turn)
+        x, y, z = [o + east * e + north * n for o, e, n in zip(self._origin, self._east, self._north, strict=True)]
+        up = self._up
+        # how far up the ellipsoid is: x^2 + y^2 + z^2 / (1 - e^2) = a^2
+        a = up[0] ** 2 + up[1] ** 2 + up[2] ** 2 / (1.0 - _E2)
+        b = up[0] * x + up[1] * y + up[2] * z / (1.0 - _E2)
+        height = (sqrt(b * b - a * (x * x + y * y + z * z / (1.0 - _E2) - _A * _A)) - b) / a
+        x, y, z = x + height * up[0], y + height * up[1], z + height * up[2]
+        return degrees(atan2(y, x)), degrees(atan2(z, (1.0 - _E2) * hypot(x, y)))
 
     def place(self, position: Point) -> Point:
         """Return the point of the plan, m, rounded to 1 mm, at (longitude, latitude) in degrees."""
