@@ -12,12 +12,24 @@ from pathlib import Path
 
 from construct import Const, Int16ul, Struct, Terminated
 
-from solepath import Foot, Packet, SampleGap, Session, Site, StrideTaken
+from solepath import (
+    Access,
+    Channel,
+    Driver,
+    Fields,
+    Foot,
+    Measured,
+    Packet,
+    Profile,
+    Reading,
+    SampleGap,
+    Session,
+    Site,
+    StrideTaken,
+    Write,
+)
 from solepath.emulate import Route, Walker
-from solepath.link.driver import Driver, Measured, Reading
-from solepath.link.profile import Access, Channel, Profile, Write
 from solepath.testing.vectors import disagreements
-from solepath.wire.fields import Fields
 
 UUID = "5d1e000{}-9c60-4cf1-a1b3-1a2b3c4d5e6f".format
 MOTION = Channel("shoe/motion", UUID(1), UUID(2), Access.NOTIFY)

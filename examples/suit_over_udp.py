@@ -11,9 +11,10 @@ import asyncio
 import sys
 from contextlib import closing
 
-from solepath import Limitation, Packet, Session, Site, TouchedDown, recipes
+from solepath import Limitation, Packet, Session, Site, recipes
 from solepath.calibration import Limbs
 from solepath.emulate import Route, emulate, suit
+from solepath.papers import TouchedDown
 
 
 class Suit(asyncio.DatagramProtocol):

@@ -7,8 +7,9 @@ Emulated are a short walk for the calibration, and then a walk of 20 m, both at 
 
 from attrs import evolve
 
-from solepath import Session, Site, StrideFused, recipes
+from solepath import Session, Site, recipes
 from solepath.emulate import Insole, Route, layout, sampled
+from solepath.papers import StrideFused
 from solepath.papers.kupt_dfpc.noise import pressure_noise
 
 INSOLES = {site: Insole(rate=30.0) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}

@@ -52,25 +52,30 @@ if TYPE_CHECKING:
         StreamResumed,
         StreamStale,
         StrideFeatures,
-        StrideFused,
         StrideTaken,
         ToeOff,
-        TouchedDown,
         TrackNode,
         TrackRevised,
         TurnMade,
-        WalkingModeChanged,
         WearerMoved,
     )
     from .events.frames import to_frame
     from .floorplan.importers.reading import read_floorplan
     from .floorplan.index import IndexedPlan
     from .floorplan.plan import FloorPlan, FloorPlanError, Start
+    from .link.catalogue import DEVICES
+    from .link.driver import Driver, Measured, Reading
+    from .link.profile import Access, Channel, Profile, Write
+    from .link.setup.device_setup import GattCharacteristic
     from .recipes import Recipe
     from .saving.codec import SnapshotError
+    from .saving.files import write_whole
     from .session import Session
     from .session.arguments import ItemError
-    from .types import Activity, Cell, Foot, Layout, Packet, Phase, Quat, Sample, Site, Support, Turn, Vec3, WalkingMode
+    from .session.host import Host
+    from .session.json_host import JsonHost
+    from .types import Activity, Cell, Foot, Layout, Packet, Phase, Quat, Sample, Site, Support, Turn, Vec3
+    from .wire.fields import Fields
 
 _MODULES = (
     "types",
@@ -80,13 +85,21 @@ _MODULES = (
     "body.gait.means",
     "recipes",
     "session",
+    "session.arguments",
+    "saving.codec",
+    "saving.files",
+    "calibration.file",
+    "events.frames",
+    "link.driver",
+    "link.profile",
+    "wire.fields",
+    "link.setup.device_setup",
+    "session.host",
+    "link.catalogue",
+    "session.json_host",
     "floorplan.plan",
     "floorplan.index",
     "floorplan.importers.reading",
-    "calibration.file",
-    "saving.codec",
-    "session.arguments",
-    "events.frames",
 )
 """Modules of the names in `__all__`; those that most apps need come first.
 
@@ -96,7 +109,7 @@ _SUBMODULES = ("calibration", "events", "floorplan", "recipes", "session", "type
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*__all__, *_SUBMODULES})
 
 
 def __getattr__(name: str) -> object:
@@ -118,15 +131,16 @@ def _find(name: str) -> object:
 
 
 __all__ = [
-    "Activity", "ActivityChanged", "BatteryLevel", "Calibration", "CalibrationError", "Candidate", "Cell",
-    "CellFault", "CellsFailed", "ClockReset", "Connected", "Defect", "DefectFound", "Disconnected", "Event",
-    "FeetSwapped", "Figure", "Flaw", "FlightClimbed", "FloorPlan", "FloorPlanError", "Foot", "FootFlat", "FootMoved",
-    "FootPressed", "FootResumed", "FootSilent", "GaitCycleMeasured", "GaitParameters", "HeelOff", "HeelStrike",
-    "IndexedPlan", "InsoleNeverUnloads", "ItemError", "KeysChanged", "Layout", "LayoutKnown", "LiftRidden",
-    "Limitation", "LinkTrouble", "Packet", "PacketRejected", "PacketsDropped", "Phase", "PlaceLost",
-    "Placed", "PlanContradicted", "Position", "PositionRejected", "PositionReported", "Quat", "Recipe", "Rejection",
-    "Sample", "SampleGap", "SampleRejected", "Session", "Site", "SnapshotError", "Start", "StreamRestarted",
-    "StreamResumed", "StreamStale", "StrideFeatures", "StrideFigures", "StrideFused", "StrideTaken", "Support",
-    "ToeOff", "TouchedDown", "TrackNode", "TrackRevised", "Turn", "TurnMade", "Vec3", "WalkingMode",
-    "WalkingModeChanged", "WearerMoved", "read_calibration", "read_floorplan", "recipes", "to_frame",
+    "Access", "Activity", "ActivityChanged", "BatteryLevel", "Calibration", "CalibrationError", "Candidate", "Cell",
+    "CellFault", "CellsFailed", "Channel", "ClockReset", "Connected", "DEVICES", "Defect", "DefectFound",
+    "Disconnected", "Driver", "Event", "FeetSwapped", "Fields", "Figure", "Flaw", "FlightClimbed", "FloorPlan",
+    "FloorPlanError", "Foot", "FootFlat", "FootMoved", "FootPressed", "FootResumed", "FootSilent",
+    "GaitCycleMeasured", "GaitParameters", "GattCharacteristic", "HeelOff", "HeelStrike", "Host", "IndexedPlan",
+    "InsoleNeverUnloads", "ItemError", "JsonHost", "KeysChanged", "Layout", "LayoutKnown", "LiftRidden",
+    "Limitation", "LinkTrouble", "Measured", "Packet", "PacketRejected", "PacketsDropped", "Phase", "PlaceLost",
+    "Placed", "PlanContradicted", "Position", "PositionRejected", "PositionReported", "Profile", "Quat", "Reading",
+    "Recipe", "Rejection", "Sample", "SampleGap", "SampleRejected", "Session", "Site", "SnapshotError", "Start",
+    "StreamRestarted", "StreamResumed", "StreamStale", "StrideFeatures", "StrideFigures", "StrideTaken", "Support",
+    "ToeOff", "TrackNode", "TrackRevised", "Turn", "TurnMade", "Vec3", "WearerMoved", "Write", "read_calibration",
+    "read_floorplan", "recipes", "to_frame", "write_whole",
 ]  # fmt: skip

@@ -16,7 +16,7 @@ from airs import collect
 
 from solepath import Disconnected, FootMoved, PacketRejected, Session
 from solepath.ble import DeviceConfig, Devices, scan
-from solepath.link.catalogue import BY_NAME
+from solepath.link.catalogue import DEVICES
 from solepath.types import Packet, Site
 from solepath.walk.links import is_sample_channel
 
@@ -38,7 +38,7 @@ async def receive() -> list[Packet]:
     """Return the packets from the connection to LISTENED s after the first samples."""
     found = [one for one in await scan(10.0) if one.address.upper() == ADDRESS.upper()]
     assert found, f"{ADDRESS} is not heard: switch it on, bring it near"
-    profile = BY_NAME[PROFILE] if PROFILE else found[0].profile
+    profile = DEVICES[PROFILE] if PROFILE else found[0].profile
     assert profile is not None, "what this is its advertisement does not tell: SOLEPATH_RADIO_PROFILE=NAME"
     # an insole says itself whose it is
     config = DeviceConfig(None if profile.name == "insole" else Site.RIGHT_FOOT, ADDRESS, profile)

@@ -21,7 +21,6 @@ from solepath import (
     Session,
     Site,
     StrideTaken,
-    WalkingMode,
     read_calibration,
     recipes,
 )
@@ -31,6 +30,7 @@ from solepath.calibration.records import TriadCalibration
 from solepath.emulate.sensors.insoles import layout
 from solepath.events import CellsFailed, Limitation
 from solepath.foot.pressure.insole import in_newtons
+from solepath.papers import WalkingMode
 from solepath.recipes import Recipe
 from solepath.types.checking import find_fault
 

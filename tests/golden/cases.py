@@ -39,7 +39,7 @@ from changes import (
 )
 from corpus import FOLDER, Call, Case, Item, given
 
-from solepath import Calibration, Cell, Foot, IndexedPlan, Layout, Sample, Start, WalkingMode, read_floorplan, recipes
+from solepath import Calibration, Cell, Foot, IndexedPlan, Layout, Sample, Start, read_floorplan, recipes
 from solepath.calibration.records import (
     HeadingCalibration,
     InsoleCalibration,
@@ -51,6 +51,7 @@ from solepath.calibration.records import (
 )
 from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.plan import Anchor
+from solepath.papers import WalkingMode
 from solepath.recording import read_samples
 from solepath.session.heading_walk import heading_calibration, heading_walk
 from solepath.session.json_host import JsonHost

@@ -11,8 +11,9 @@ from cases import STARTS, calibrated, half, of, planned, sole, walked
 from changes import LEFT, RIGHT, Change, added, each, later, ordered, set_back, turned, without
 from corpus import Call, Case, Item, given
 
-from solepath import Calibration, Foot, Sample, Site, WalkingMode
+from solepath import Calibration, Foot, Sample, Site
 from solepath.calibration import CalibrationError
+from solepath.papers import WalkingMode
 from solepath.papers.walking_modes.calibrate import ModeMark, mean_errors, step_errors, touchdowns
 from solepath.papers.walking_modes.limbs.standing import check_standing
 from solepath.recording.decoded import DecodedRecording

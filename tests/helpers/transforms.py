@@ -15,11 +15,12 @@ from attrs import evolve, frozen
 from kept import kept
 from walks import suited
 
-from solepath import Calibration, Foot, FootMoved, Sample, Session, Site, Turn, WalkingMode, recipes
+from solepath import Calibration, Foot, FootMoved, Sample, Session, Site, Turn, recipes
 from solepath.calibration import InsoleCalibration
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.papers import WalkingMode
 from solepath.types import Quat, Vec3
 from solepath.types.vector import conjugate, from_yaw, multiply, rotate, rotate_back
 

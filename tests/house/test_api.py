@@ -38,6 +38,8 @@ EXAMPLES_OF_A_KIND = {
 }
 """Modules that the documentation imports as one of several, without a page."""
 SIGNATURES = {
+    "solepath.session.host",
+    "solepath.link.setup.device_setup",
     "solepath.recipes", "solepath.floorplan.plan", "solepath.foot.view", "solepath.foot.navigate.corrector",
     "solepath.events.foot",
 }  # fmt: skip

@@ -14,6 +14,7 @@ import attrs
 
 import solepath
 import solepath.fleet
+import solepath.papers
 from solepath import Event
 
 ROOT = Path(solepath.__file__).parent
@@ -44,8 +45,10 @@ def test_nothing_else_is_public() -> None:
     assert {name for name in vars(solepath) if not name.startswith("_")} - modules - own <= set(solepath.__all__)
 
 
-def test_every_event_is_public() -> None:
-    assert {kind.__name__ for kind in Event.__args__} <= set(solepath.__all__)
+def test_every_event_is_public_and_those_of_one_paper_are_with_the_papers() -> None:
+    assert {kind.__name__ for kind in Event.__args__} <= {*solepath.__all__, *solepath.papers.__all__}
+    assert not {*solepath.__all__} & {*solepath.papers.__all__}
+    assert [name for name in dir(solepath) if name.startswith("_") or name in ("TYPE_CHECKING", "import_module")] == []
 
 
 def documented(thing: Any) -> bool:

@@ -50,10 +50,10 @@ def perform(
     while (request := setup.request) is not None and setup.end is None:
         done.append((request.operation, request.channel.name))
         if len(done) - 1 == rejected:
-            values += setup.reject(float(len(done)), "busy")
+            values += setup.reject("busy", float(len(done)))
         else:
             answer = value_of(request.channel.name, foot) if request.operation is READ else b""
-            values += setup.answer(float(len(done)), answer)
+            values += setup.answer(answer, float(len(done)))
     return done, values
 
 
@@ -85,7 +85,7 @@ def test_a_device_is_read_subscribed_and_written_in_order_and_every_value_is_rec
     assert values[1:] == [(name, value) for _, name, value in recorded]
     assert setup.disconnect() == [("receiver/disconnected", b"")] and setup.next_check_at() is None
     with pytest.raises(ValueError, match="no request"):
-        setup.answer(99.0)
+        setup.answer(b"", 99.0)
 
 
 @pytest.mark.parametrize("profile", NAMED)
@@ -133,7 +133,7 @@ def test_a_frozen_stream_is_set_up_again_twice_and_then_the_connection_ends() ->
         assert values[0] == ("receiver/restarted", b"cc2650/movement")
         while setup.request is not None:
             assert setup.next_check_at() is None
-            values += setup.answer(due + 0.25)
+            values += setup.answer(b"", due + 0.25)
         if setup.end is None:
             assert values[1:] == [(write.channel, write.value) for write in TAG.setup]
         restarts += 1
@@ -178,7 +178,7 @@ def test_insoles_report_their_feet_and_one_that_is_not_expected_ends_in_words_fo
     assert setup.end == "Shoe is a right foot one: expected at the left foot"
     setup = setup_of(INSOLE)
     setup.start(0.0)
-    assert setup.answer(1.0, b"?")[0][0] == "receiver/trouble" and setup.end is not None
+    assert setup.answer(b"?", 1.0)[0][0] == "receiver/trouble" and setup.end is not None
     assert setup.end.startswith("the INFO record of Shoe cannot be read")
     named = Roster()
     first, second = named.add([DeviceConfig(LEFT, "A", TAG), DeviceConfig(RIGHT, "Shoe", TAG)])

@@ -12,7 +12,8 @@ from attrs import field, frozen
 from transforms import FIELD, WALKING_MODES, WALKS, Change, differences, events_of, headless, in_order, remounted, run
 from walks import SELDOM, often
 
-from solepath import Foot, Sample, Session, Site, StrideTaken, TouchedDown, WearerMoved, recipes
+from solepath import Foot, Sample, Session, Site, StrideTaken, WearerMoved, recipes
+from solepath.papers import TouchedDown
 from solepath.types.vector import from_rotation_vector
 
 EXACT = {"": 1e-9}

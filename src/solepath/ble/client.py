@@ -59,9 +59,9 @@ class Client:
             except BleakError as error:
                 if not is_rejection(error, self.client):
                     raise
-                self.emitter.emit(self.setup.reject(_now(), describe_error(error)))
+                self.emitter.emit(self.setup.reject(describe_error(error), _now()))
             else:
-                self.emitter.emit(self.setup.answer(_now(), value))
+                self.emitter.emit(self.setup.answer(value, _now()))
 
     async def _do(self, request: Request) -> bytes:
         """Do one request and return what was read. Raises BleakError."""

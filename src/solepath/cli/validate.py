@@ -70,7 +70,7 @@ def run(options: Namespace) -> int:
     if not cells:
         raise Failure("no recording could be compared")
     comparison = WalkComparison.of(cells)
-    for sentence in comparison.doubts:
+    for sentence in comparison.unit_warnings:
         note(sentence)
     groups = agreement_cells(comparison.groups)
     print(table(HEADER, [*agreement_cells(comparison.agreement), *([[], *groups] if groups else [])]))

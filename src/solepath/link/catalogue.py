@@ -7,8 +7,9 @@ from .devices.cc2541 import PROFILE_20HZ
 from .driver import Driver
 from .profile import Profile
 
-_DEVICES = [load("device", name) for name in TABLE["device"]]
-DECLARED: tuple[Driver, ...] = tuple([device for device in _DEVICES if isinstance(device, Driver)])
+_LOADED = [load("device", name) for name in TABLE["device"]]
+DECLARED: tuple[Driver, ...] = tuple([device for device in _LOADED if isinstance(device, Driver)])
 """Drivers of the devices that are declared by data alone (driver.py)."""
-PROFILES: tuple[Profile, ...] = (*[device.profile for device in _DEVICES], PROFILE_20HZ)
-BY_NAME = {profile.name: profile for profile in PROFILES}
+PROFILES: tuple[Profile, ...] = (*[device.profile for device in _LOADED], PROFILE_20HZ)
+DEVICES = {profile.name: profile for profile in PROFILES}
+"""Profiles of all known devices by name: their channels, and what to read, subscribe to and write."""

@@ -9,3 +9,8 @@
 - walking_modes: Gong et al. 2023, "Improving accuracy of real-time positioning and path tracking by using an error
   compensation algorithm against walking modes"
 """
+
+from ..events import StrideFused, TouchedDown, WalkingModeChanged
+from ..types import WalkingMode
+
+__all__ = ["StrideFused", "TouchedDown", "WalkingMode", "WalkingModeChanged"]

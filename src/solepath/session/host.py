@@ -3,8 +3,8 @@
     host = Host(Session(), observe)
     host.add("C0:FF:EE:00:00:01", None)             # None: an insole, which reports its site
     commands = host.connect("C0:FF:EE:00:00:01", name, characteristics, now)
-    commands = host.answer("C0:FF:EE:00:00:01", now, value)
-    host.notify("C0:FF:EE:00:00:01", "insole/frame", now, value)
+    commands = host.answer("C0:FF:EE:00:00:01", value, now)
+    host.notify("C0:FF:EE:00:00:01", "insole/frame", value, now)
     commands = host.advance(now)                    # at least five times a second
 
 The program does what the commands say, one request of a device at a time, and reports the outcome. All times are of one
@@ -107,6 +107,7 @@ class Host:
         name: str,
         characteristics: Iterable[GattCharacteristic],
         now: float,
+        *,
         signal: int | None = None,
     ) -> list[HostCommand]:
         """Start the setup of a device that was connected at `now`; an earlier connection of it has ended thereby.
@@ -123,24 +124,24 @@ class Host:
         one.setup = DeviceSetup(self.roster, one.member, profile, found, device, name, signal)
         return self._use(device, now, one.setup.start(now))
 
-    def answer(self, device: str, now: float, value: bytes = b"") -> list[HostCommand]:
-        """Note that the device has done the request; `value` is what was read."""
-        return self._use(device, now, self._setup(device).answer(now, value))
+    def answer(self, device: str, value: bytes, now: float) -> list[HostCommand]:
+        """Note that the device has done the request; `value` is what was read, b"" of others."""
+        return self._use(device, now, self._setup(device).answer(value, now))
 
-    def reject(self, device: str, now: float, reason: str) -> list[HostCommand]:
+    def reject(self, device: str, reason: str, now: float) -> list[HostCommand]:
         """Note that the device has rejected the request while the connection stands."""
-        return self._use(device, now, self._setup(device).reject(now, reason))
+        return self._use(device, now, self._setup(device).reject(reason, now))
 
-    def notify(self, device: str, channel: str, now: float, data: bytes) -> None:
+    def notify(self, device: str, channel: str, value: bytes, now: float) -> None:
         """Feed a notification that came at `now`.
 
         One of a device that is not connected, or not yet known to be the configured one, is left out."""
         one = self._get(device)
         if one.setup is not None and one.setup.end is None and one.member.address:
             one.setup.add_notification(channel, now)
-            self._feed_packet(one.packet(now, channel, data))
+            self._feed_packet(one.packet(now, channel, value))
 
-    def report(self, device: str, now: float, sentence: str) -> None:
+    def report(self, device: str, sentence: str, now: float) -> None:
         """Feed a sentence on what failed: a connection or a request without an answer, for instance."""
         self._feed(self._get(device), now, [trouble(sentence)])
 

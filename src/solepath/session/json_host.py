@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from ..events import Event
-from ..link.catalogue import BY_NAME, PROFILES
+from ..link.catalogue import DEVICES, PROFILES
 from ..link.kinds import is_address
 from ..link.profile import Profile
 from ..link.setup.device_setup import GattCharacteristic
@@ -76,7 +76,7 @@ class JsonHost:
 
     def _read(self, message: Message) -> Message:
         """Return the keys of a message that are known and not null; ValueError when one has an impossible value."""
-        names: dict[str, dict[str, Any]] = {"site": SITES, "profile": BY_NAME | self.host.profiles}
+        names: dict[str, dict[str, Any]] = {"site": SITES, "profile": DEVICES | self.host.profiles}
         fields = _Fields()
         for key, value in message.items():
             if value is None:
@@ -141,7 +141,7 @@ class JsonHost:
                 case _:
                     raise ValueError("a characteristic is [service, UUID, can notify]")
         device, name = message["device"], message.get("name", "")
-        commands = self.host.connect(device, name, found.values(), message["t"], message.get("signal"))
+        commands = self.host.connect(device, name, found.values(), message["t"], signal=message.get("signal"))
         self._connections[device] = message.get("connection")
         self._command(commands)
 
@@ -151,14 +151,14 @@ class JsonHost:
         is_done = message["type"] == "done"
         outcome: Any = bytes.fromhex(message.get("value", "")) if is_done else message["reason"]
         if message.get("connection") in (None, self._connections.get(device)):
-            self._command((self.host.answer if is_done else self.host.reject)(device, now, outcome))
+            self._command((self.host.answer if is_done else self.host.reject)(device, outcome, now))
 
     def _values(self, message: Message) -> None:
         values = []
         for one in message["values"]:
             match one:
                 case [t, str(device), str(channel), value]:
-                    values.append((device, channel, _checked("t", t), bytes.fromhex(_checked("value", value))))
+                    values.append((device, channel, bytes.fromhex(_checked("value", value)), _checked("t", t)))
                 case _:
                     raise ValueError("each is [t, device, channel, value]")
         unknown = ""
@@ -247,7 +247,7 @@ HANDLERS: dict[str, Callable[[JsonHost, Message], None]] = {
     "connected": JsonHost._connected,
     "done": JsonHost._answer,
     "rejected": JsonHost._answer,
-    "failed": lambda one, message: one.host.report(message["device"], message["t"], message["reason"]),
+    "failed": lambda one, message: one.host.report(message["device"], message["reason"], message["t"]),
     "values": JsonHost._values,
     "disconnected": lambda one, message: one.host.disconnect(message["device"], message["t"]),
     "time": lambda one, message: one._command(one.host.advance(message["t"])),

@@ -93,7 +93,7 @@ class WalkComparison:
         return _frame([row for name, found in self.parts for row in _group_rows(name, found)], columns)
 
     @property
-    def doubts(self) -> list[str]:
+    def unit_warnings(self) -> list[str]:
         """Sentences on parameters whose truth seems to be in another unit, by the median ratio to what was found."""
         sentences = []
         for name, found in self.parts:

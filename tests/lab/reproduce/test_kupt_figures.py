@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 from attrs import evolve
 
-from solepath import HeelStrike, StrideFused, ToeOff
+from solepath import HeelStrike, ToeOff
+from solepath.papers import StrideFused
 from solepath.types import Foot
 from solepath_lab.reproduce.kupt.figures import KnownSample, coverage, panels, without_drift
 

@@ -46,9 +46,9 @@ add_via = option(
 
 
 def _profile_names() -> Iterable[str]:
-    from ...link.catalogue import BY_NAME
+    from ...link.catalogue import DEVICES
 
-    return BY_NAME
+    return DEVICES
 
 
 def _add_profile(command: Any) -> None:
@@ -93,9 +93,9 @@ add_devices = together(
 
 def profile_named(name: str | None, own: Iterable[Driver] = ()) -> Profile | None:
     """Return the profile of this name, of one's `own` devices or a built-in one; raise Failure when there is none."""
-    from ...link.catalogue import BY_NAME
+    from ...link.catalogue import DEVICES
 
-    profiles = BY_NAME | {driver.name: driver.profile for driver in own}
+    profiles = DEVICES | {driver.name: driver.profile for driver in own}
     if name is not None and name not in profiles:
         raise Failure(unknown("profile", name, profiles))
     return None if name is None else profiles[name]

@@ -4,7 +4,7 @@
     values = setup.start(now)
     while (request := setup.request) is not None:
         # perform it, then
-        values = setup.answer(now, value)      # or setup.reject(now, reason), if the device rejects it
+        values = setup.answer(value, now)      # or setup.reject(reason, now), if the device rejects it
     if setup.is_listening:
         # until the connection is lost: setup.add_notification(channel, now) for each notification, and at next_check_at
         values = setup.check(now)              # may give requests again
@@ -172,8 +172,8 @@ class DeviceSetup:
             self._accept(now, None)
         return self._take_values()
 
-    def answer(self, now: float, value: bytes = b"") -> list[Value]:
-        """Note that the device has done the request, at `now`, s; `value` is what was read."""
+    def answer(self, value: bytes, now: float) -> list[Value]:
+        """Note that the device has done the request, at `now`, s; `value` is what was read, b"" of others."""
         request = self._take_request()
         if not self._is_accepted:
             self._info = value
@@ -190,7 +190,7 @@ class DeviceSetup:
         self._advance(now)
         return self._take_values()
 
-    def reject(self, now: float, reason: str) -> list[Value]:
+    def reject(self, reason: str, now: float) -> list[Value]:
         """Note that the device has rejected the request while the connection stands; `reason` is in words."""
         request = self._take_request()
         channel = request.channel.name

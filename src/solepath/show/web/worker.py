@@ -21,7 +21,7 @@ from ...floorplan.findings import find_warnings
 from ...floorplan.importers.reading import read_floorplan
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import FloorPlan, FloorPlanError
-from ...link.catalogue import BY_NAME
+from ...link.catalogue import DEVICES
 from ...recipes import DEFAULT, NAMES, Recipe, by_name
 from ...recording import RecordingError, read_packets
 from ...saving.codec import SnapshotError
@@ -93,7 +93,7 @@ class Worker:
 
     def choices(self) -> str:
         """Return the names of all recipes and of all kinds of devices, as JSON."""
-        return encode({"recipes": NAMES, "profiles": tuple(BY_NAME)})
+        return encode({"recipes": NAMES, "profiles": tuple(DEVICES)})
 
     def choose_recipe(self, name: str) -> None:
         """Use this recipe for the next walk and for what is played; raise UnknownRecipe for another name."""
