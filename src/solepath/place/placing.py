@@ -504,7 +504,8 @@ class Particles(Part):
         """Continue each particle that may have changed level from its exits, and keep those that stayed."""
         if all([landing.kind is not arrived.kind for landing in plan.landings]):
             return
-        staying, changing = self._staying(), [one for one in self.particles if one.landing]
+        staying, kinds = self._staying(), {landing.index: landing.kind for landing in plan.landings}
+        changing = [one for one in self.particles if kinds.get(one.landing) is arrived.kind]
         changing = changing or self._entering(plan, staying, arrived)
         total = total_weight(staying)
         is_same_climb = self.arrival is not None and arrived.t_start < self.arrival.t + SAME_STAIRS_TIME

@@ -415,14 +415,14 @@ class References:
                 case StrideTaken():
                     self._add_stride(event.foot)
                 case ActivityChanged():
-                    references += self._change_activity(plan, event, event in last)
+                    references += self._change_activity(plan, event, levels, here, event in last)
                 case FlightClimbed():
                     references += self._add_flight(plan, event)
                 case LiftRidden():
                     references += self._add_ride(event)
         passage = self.passage
         if passage is not None and passage.t_left is not None:
-            references += self._decide(passage, passage.t_left, plan, levels, here)
+            references += self._decide(passage, plan, levels, here, here.t - passage.t_left)
         elif passage is not None and passage.leads_away(here.position):
             references += self._cancel()
         return references
@@ -475,7 +475,9 @@ class References:
             passage.t_left, passage.end = event.t, passage.start
         return self._reached(passage, ridden is not None)
 
-    def _change_activity(self, plan: IndexedPlan, event: ActivityChanged, is_last: bool) -> list[Reference]:
+    def _change_activity(
+        self, plan: IndexedPlan, event: ActivityChanged, levels: frozenset[int], here: WearerMoved, is_last: bool
+    ) -> list[Reference]:
         """Follow a report of an activity; `is_last` says that none after it is known yet."""
         self.activity = event.activity
         connector, passage = CONNECTOR_OF_ACTIVITY.get(event.activity), self.passage
@@ -500,7 +502,9 @@ class References:
         if passage is not None and passage.kind is kind:
             passage.t_left = passage.end = None
         else:
-            references += [] if passage is None else self._cancel()
+            if passage is not None:  # another one begins: the wait is over
+                is_over = passage.t_left is not None and passage.t_left <= t
+                references += self._decide(passage, plan, levels, here, inf) if is_over else self._cancel()
             passage = self._enter(plan, kind, t, references)
         if kind is ConnectorKind.LIFT:
             passage.add_direction(up)
@@ -538,10 +542,10 @@ class References:
         return passage
 
     def _decide(
-        self, passage: Passage, t_left: float, plan: IndexedPlan, levels: frozenset[int], here: WearerMoved
+        self, passage: Passage, plan: IndexedPlan, levels: frozenset[int], here: WearerMoved, waiting_time: float
     ) -> list[Reference]:
         """Decide whether a passage that was left led to another level, when that is certain or the wait is over."""
-        height, waiting_time = passage.height(here.position), here.t - t_left
+        height = passage.height(here.position)
         if passage.kind is ConnectorKind.LIFT:
             if waiting_time <= RIDE_END_TIME and passage.strides_since < 2:
                 return []

@@ -124,3 +124,29 @@ def test_without_a_start_the_true_place_is_among_the_candidates(
         if one.level == pedestrian.level and dist(one.position[:2], pedestrian.place) < 3.0
     ]
     assert sum([one.weight for one in near]) > 0.05
+
+
+@pytest.mark.parametrize("withdrawn", [False, True])
+def test_a_step_taken_for_stairs_on_the_way_out_of_a_lift_does_not_undo_the_ride(part: Method, withdrawn: bool) -> None:
+    pedestrian, lift = Pedestrian(6, "0", (20.0, LOW)).known_to(part), LIFTS["lift south"]
+    pedestrian.walk(beside(lift), lift)
+    start = pedestrian.t + 2.0
+    pedestrian.t += 11.0
+    end, (x, y, z) = pedestrian.t - 2.0, pedestrian.track
+    pedestrian.track = (x, y, z + STOREY)
+    pedestrian.emit(
+        activity_changed(start, end, Activity.ELEVATOR_UP),
+        activity_changed(end + 0.5, end + 1.0, Activity.STANDING),
+        activity_changed(end + 1.5, end + 2.0, Activity.STAIRS_UP),
+    )
+    pedestrian.step(0.0, -0.4, counts=False)
+    if withdrawn:
+        pedestrian.emit(activity_changed(end + 2.0, pedestrian.t, Activity.WALKING))
+    pedestrian.step(0.0, -0.4, counts=False)
+    pedestrian.emit(LiftRidden(t=end, known_at=pedestrian.t, t_start=start, up=True, height=STOREY))
+    if not withdrawn:
+        pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t, Activity.WALKING))
+    pedestrian.level = "1"
+    pedestrian.walk(beside(lift), (LEFT, LOW), (LEFT, 15.0))
+    last = placed(follow(part, pedestrian.received, tall_office(2)))[-1]
+    assert last.level == "1" and dist(last.position[:2], pedestrian.place) < 1.5
