@@ -128,7 +128,7 @@ def test_without_a_start_the_true_place_is_among_the_candidates(
 
 @pytest.mark.parametrize("withdrawn", [False, True])
 def test_a_step_taken_for_stairs_on_the_way_out_of_a_lift_does_not_undo_the_ride(part: Method, withdrawn: bool) -> None:
-    pedestrian, lift = Pedestrian(6, "0", (20.0, LOW)).known_to(part), LIFTS["lift south"]
+    pedestrian, lift = Pedestrian(6, "1", (20.0, LOW)).known_to(part), LIFTS["lift south"]
     pedestrian.walk(beside(lift), lift)
     start = pedestrian.t + 2.0
     pedestrian.t += 11.0
@@ -146,7 +146,14 @@ def test_a_step_taken_for_stairs_on_the_way_out_of_a_lift_does_not_undo_the_ride
     pedestrian.emit(LiftRidden(t=end, known_at=pedestrian.t, t_start=start, up=True, height=STOREY))
     if not withdrawn:
         pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t, Activity.WALKING))
-    pedestrian.level = "1"
+    pedestrian.level = "2"
     pedestrian.walk(beside(lift), (LEFT, LOW), (LEFT, 15.0))
-    last = placed(follow(part, pedestrian.received, tall_office(2)))[-1]
-    assert last.level == "1" and dist(last.position[:2], pedestrian.place) < 1.5
+    plan = tall_office(2).plan
+    near = [
+        evolve(one, stops=tuple([evolve(stop, place=(16.5, 7.0)) for stop in one.stops[:2]]))
+        if one.name == NAME
+        else one
+        for one in plan.connectors
+    ]  # stairs beside the lift, which lead down only
+    last = placed(follow(part, pedestrian.received, IndexedPlan(evolve(plan, connectors=tuple(near)))))[-1]
+    assert last.level == "2" and dist(last.position[:2], pedestrian.place) < 1.5
