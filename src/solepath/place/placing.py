@@ -66,7 +66,7 @@ from .particles import (
     total_weight,
     turned,
 )
-from .references import FAIR_CERTAINTY, HEIGHT_ERROR, LevelChangePossible, LevelReached, References, find_exits
+from .references import FAIR_CERTAINTY, HEIGHT_ERROR, LevelChangePossible, LevelReached, References
 
 MAX_PARTICLES = 260
 """Largest number of particles that are kept."""
@@ -103,8 +103,6 @@ MAX_START_SPREAD, SPREAD_FACTOR = 20.0, 1.2
 """Largest rms error of a start place that is used, m, and ratio of the largest error on each axis to the rms error."""
 START_STRETCH_ERROR = 0.05
 """Largest deviation of the stretch of a new particle from 1."""
-SAME_STAIRS_TIME = 10.0
-"""Time after an arrival, s, in which further stairs count as the rest of the same stairs."""
 MIN_LANDING_SHARE = 0.02
 """Least weight of the particles at exits, as a share of the others'; with less, particles were at wrong places."""
 STAYING_SHARE = {ConnectorKind.STAIRS: 0.85, ConnectorKind.LIFT: 0.5}
@@ -508,11 +506,6 @@ class Particles(Part):
         changing = [one for one in self.particles if kinds.get(one.landing) is arrived.kind]
         changing = changing or self._entering(plan, staying, arrived)
         total = total_weight(staying)
-        is_same_climb = self.arrival is not None and arrived.t_start < self.arrival.t + SAME_STAIRS_TIME
-        entered = [plan.landings[at - 1] for at in landings_of(changing)]
-        if is_same_climb and entered and not any([find_exits(plan, at, arrived.up) for at in entered]):
-            self.particles = stored(staying)  # the rest of a climb that already counted as a whole storey
-            return
         found = leaving(plan, changing, arrived, self._draw())
         k = arrived.certainty / (1.0 - arrived.certainty)
         if total_weight(found) > MIN_LANDING_SHARE * total:
