@@ -50,6 +50,7 @@ GROUPS: dict[str, tuple[str, Kinds]] = {
                 "the right floor after stairs, escalators and lifts",
                 (seeds(100, 5901), only("way, such as 'lift'"), PROCESSES),
             ),
+            "places": ("place without a start and with a heading, on two plans", (seeds(12, 6001), PROCESSES)),
             "north": ("worth of a compass on a plan that knows its north", (seeds(24, 7001),)),
             "runs": ("measures of runners against the truth", (seeds(12, 1, "runs"),)),
             "other-motions": ("what is reported of motions that are not walking", ()),
@@ -81,11 +82,21 @@ def _modules(group: str) -> dict[str, ModuleType]:
 
             return {"sensors": sensors, "clocks": clocks, "losses": losses, "faults": faults}
         case "emulated":
-            from .emulated import by_hand, evidence, floors, north, other_motions, reliability, runs, slow_walkers
+            from .emulated import (
+                by_hand,
+                evidence,
+                floors,
+                north,
+                other_motions,
+                places,
+                reliability,
+                runs,
+                slow_walkers,
+            )
 
             return {
                 "evidence": evidence, "reliability": reliability, "north": north, "runs": runs, "by-hand": by_hand,
-                "floors": floors, "other-motions": other_motions, "slow-walkers": slow_walkers,
+                "floors": floors, "places": places, "other-motions": other_motions, "slow-walkers": slow_walkers,
             }  # fmt: skip
         case "train":
             from .train import activities, bearing, footstep_activity, turns

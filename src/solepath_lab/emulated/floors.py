@@ -48,6 +48,8 @@ STRAIGHT_RISERS = 20
 """Number of risers of a straight flight."""
 STRAIGHT, ESCALATORS, TURNING, LIFTS = (7.0, 25.0), (12.0, 35.5), (18.0, 41.5), (21.5, 31.0)
 """Places of both connectors of each kind along the corridors, m."""
+RAMP = 8.0, 1.0 / 12.0
+"""Length of a ramp, m, and its rise over run, the steepest for wheelchairs (ADA Standards, 405.2)."""
 TOP = {"straight": EDGE + STRAIGHT_RISERS * GOING, "escalator": EDGE + Escalator(STOREY).run}
 """Distance from the middle of the south corridor to the upper landing, m."""
 
@@ -196,11 +198,24 @@ def _lift(rng: Rng, up: bool, back: bool = False) -> FloorWalk:
     return FloorWalk(course, tuple(map(str, levels)))
 
 
+def _ramp(rng: Rng, up: bool) -> FloorWalk:
+    """Return a walk over a ramp within a floor, which is no way to another one."""
+    level, forwards = str(int(rng.integers(3))), rng.uniform() < 0.5
+    course = Course(level, (8.0 if forwards else LENGTH - 8.0, 0.0), 0.0 if forwards else pi)
+    course.stand()
+    course.walk(float(rng.uniform(4.0, 8.0)))
+    course.route = course.route.walk(RAMP[0], slope=RAMP[1] if up else -RAMP[1])
+    _follow(course)
+    _leave(course, 0.0, rng)
+    return FloorWalk(course, (level,))
+
+
 KINDS: dict[str, Callable[[Rng, bool], FloorWalk]] = {
     "straight stairs": lambda rng, up: _straight(rng, "straight", up),
     "turning stairs": lambda rng, up: _turning(rng, up),
     "escalator, standing": lambda rng, up: _straight(rng, "escalator, standing", up),
     "escalator, walking": lambda rng, up: _straight(rng, "escalator, walking", up),
+    "ramp within a floor": _ramp,
     "lift": lambda rng, up: _lift(rng, up),
     "two storeys in a row": lambda rng, up: _turning(rng, up, 2),
     "straight stairs and back": lambda rng, up: _straight(rng, "straight", up, back=True),
@@ -249,7 +264,7 @@ def score_walk(recipe: str, job: tuple[str, int]) -> tuple[str, FloorScore]:
         return () if session.place is None else session.place.candidates, decided
 
     last, decided = places(way.course.start)
-    others, _ = places(None)
+    others = places(None)[0] if len(way.levels) > 1 else last  # nothing tells a place without stairs or lifts
     is_true = [is_near(one, way.levels[-1], *end) for one in others]
     is_right = bool(last) and is_near(last[0], way.levels[-1], *end)
     return kind, FloorScore(1, is_right, not decided <= set(way.levels), any(is_true))
