@@ -75,7 +75,7 @@ KNOWN_PARTICLES = 64
 PARTICLES_PER_CANDIDATE = 30
 """Number of additional particles that are kept for each candidate but the heaviest; fewer for a weight below 0.1.
 
-Without a start, three of 25 emulated walks with insoles lose the true place with 20, none with 30; 60 gain nothing."""
+Without a start, three of 25 emulated walks with insoles lose the true place with 20, one with 30; 60 gain nothing."""
 ONE_CANDIDATE_SPREAD = 1.5
 """Largest rms deviation of the places of all particles at which they form one candidate, m."""
 MAX_JUMP = 100.0

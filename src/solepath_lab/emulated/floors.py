@@ -206,7 +206,8 @@ def _ramp(rng: Rng, up: bool) -> FloorWalk:
     course.walk(float(rng.uniform(4.0, 8.0)))
     course.route = course.route.walk(RAMP[0], slope=RAMP[1] if up else -RAMP[1])
     _follow(course)
-    _leave(course, 0.0, rng)
+    course.walk(float(rng.uniform(8.0, 14.0)))
+    course.stand()
     return FloorWalk(course, (level,))
 
 
