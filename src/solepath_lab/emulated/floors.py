@@ -10,10 +10,11 @@ comes to a connector of the house, takes it up or down, and walks away."""
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import partial
 from math import cos, pi, sin
 from operator import add
+from pathlib import Path
 
 import numpy as np
 from attrs import astuple, frozen
@@ -28,8 +29,9 @@ from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.curves import Rng
 from solepath.emulate.wearers.gait import Wearer
 from solepath.events import Candidate, Placed
+from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Point, Start, Wall
+from solepath.floorplan.plan import Start
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot
 from solepath.validate.place import is_near
@@ -40,8 +42,6 @@ from .wearers import random_wearer
 
 LENGTH, DEPTH, HALF_WIDTH = 46.0, 14.0, 1.2
 """Length and depth of the ring of corridors, along their middles, and half of their width, m."""
-SHAFT = 1.4
-"""Half of the width of a shaft, m."""
 EDGE = 3.0
 """Distance from the middle of the south corridor to the first edge of a straight flight, or to an escalator, m."""
 STRAIGHT_RISERS = 20
@@ -50,62 +50,10 @@ STRAIGHT, ESCALATORS, TURNING, LIFTS = (7.0, 25.0), (12.0, 35.5), (18.0, 41.5), 
 """Places of both connectors of each kind along the corridors, m."""
 RAMP = 8.0, 1.0 / 12.0
 """Length of a ramp, m, and its rise over run, the steepest for wheelchairs (ADA Standards, 405.2)."""
-TOP = {"straight": EDGE + STRAIGHT_RISERS * GOING, "escalator": EDGE + Escalator(STOREY).run}
-"""Distance from the middle of the south corridor to the upper landing, m."""
+HOUSE = read_floorplan(Path(__file__).with_name("house.geojson"))
+"""A house of three storeys without symmetry: a ring of corridors with a spur, and shafts between the two long ones.
 
-
-def _wall(start: Point, end: Point, gaps: Iterable[tuple[float, float]] = ()) -> list[Wall]:
-    """Return a wall along an axis with gaps, m along that axis."""
-    along = start[0] == end[0]
-    walls, at = list[Wall](), start[along]
-    for a, b in (*sorted(gaps), (end[along], end[along])):
-        if a > at:
-            walls.append(Wall((start[0], at), (start[0], a)) if along else Wall((at, start[1]), (a, start[1])))
-        at = b
-    return walls
-
-
-def _level(ordinal: int) -> Level:
-    """Return a storey: a ring of corridors with a spur, and shafts between them that open to one of them."""
-    (low, high), (south, north) = (-HALF_WIDTH, HALF_WIDTH), (DEPTH - HALF_WIDTH, DEPTH + HALF_WIDTH)
-    far = LENGTH + HALF_WIDTH
-    walls = [*_wall((low, low), (far, low), [(4.0, 6.4)]), *_wall((low, north), (far, north))]
-    walls += [*_wall((low, low), (low, north)), *_wall((far, low), (far, north))]
-    walls += [*_wall((4.0, -9.0), (4.0, low)), *_wall((6.4, -9.0), (6.4, low)), *_wall((4.0, -9.0), (6.4, -9.0))]
-    through, south_only = (*STRAIGHT, *ESCALATORS), (*TURNING, *LIFTS)
-    of_level = {0: (through, ()), 1: ((), through), 2: ((), ())}[ordinal]
-    for y, shafts in ((high, (*of_level[0], *south_only)), (south, of_level[1])):
-        walls += _wall((high, y), (LENGTH - HALF_WIDTH, y), [(x - SHAFT, x + SHAFT) for x in shafts])
-    for x in (high, LENGTH - HALF_WIDTH, *[x + side for x in (*through, *south_only) for side in (-SHAFT, SHAFT)]):
-        walls += _wall((x, high), (x, south))
-    for x in LIFTS:
-        walls += _wall((x - SHAFT, 4.0), (x + SHAFT, 4.0))
-    for x in TURNING:
-        walls += _wall((x - SHAFT, 8.5), (x + SHAFT, 8.5))
-    return Level(str(ordinal), f"floor {ordinal}", ordinal, STOREY * ordinal, tuple(walls))
-
-
-def _house() -> FloorPlan:
-    """Return a house of three storeys without symmetry, with two connectors of each kind."""
-    connectors = []
-    for kind, places, name in (
-        (ConnectorKind.STAIRS, STRAIGHT, "straight"),
-        (ConnectorKind.STAIRS, ESCALATORS, "escalator"),
-    ):
-        for k, x in enumerate(places):
-            stops = tuple([ConnectorStop(str(n), (x, y)) for n, y in enumerate((EDGE - 0.5, TOP[name] + 0.5))])
-            connectors.append(Connector(kind, f"{name} {k}", stops, 1))
-    for k, x in enumerate(TURNING):
-        stops = tuple([ConnectorStop(str(n), (x, HALF_WIDTH + EDGE_OFFSET)) for n in range(3)])
-        connectors.append(Connector(ConnectorKind.STAIRS, f"turning {k}", stops, 2, RISE))
-    for k, x in enumerate(LIFTS):
-        stops = tuple([ConnectorStop(str(n), (x, 2.6)) for n in range(3)])
-        connectors.append(Connector(ConnectorKind.LIFT, f"lift {k}", stops))
-    return FloorPlan("house", tuple(map(_level, range(3))), tuple(connectors))
-
-
-HOUSE = _house()
-"""The house."""
+It has two connectors of each kind. Straight flights and escalators join its first two floors."""
 
 
 @frozen
@@ -125,9 +73,14 @@ def _follow(course: Course) -> None:
     course.heading = heading + end.heading
 
 
+def _aside(x: float, least: float, rng: Rng) -> float:
+    """Return a way of `least` to 14 m along a corridor from `x`, m, to a side on which there is room for it."""
+    return float(rng.uniform(least, 14.0)) * (1.0 if x < 14.0 or (x < LENGTH - 14.0 and rng.uniform() < 0.5) else -1.0)
+
+
 def _arrive(level: str, x: float, y: float, corridor: float, rng: Rng) -> Course:
     """Return a course along the corridor to the place (x, y) of a connector."""
-    away = float(rng.uniform(6.0, 14.0)) * (1.0 if x < 14.0 or (x < LENGTH - 14.0 and rng.uniform() < 0.5) else -1.0)
+    away = _aside(x, 6.0, rng)
     offset = float(rng.uniform(-0.3, 0.3))
     course = Course(level, (x + away, corridor + offset), pi if away > 0.0 else 0.0)
     course.stand()
@@ -136,8 +89,9 @@ def _arrive(level: str, x: float, y: float, corridor: float, rng: Rng) -> Course
 
 
 def _leave(course: Course, corridor: float, rng: Rng) -> None:
+    """Continue a course from a connector along the corridor."""
     x, _ = course.position
-    away = float(rng.uniform(8.0, 14.0)) * (1.0 if x < 14.0 or (x < LENGTH - 14.0 and rng.uniform() < 0.5) else -1.0)
+    away = _aside(x, 8.0, rng)
     course.walk_along([(x, corridor), (x + away, corridor)])
     course.stand()
 
@@ -147,7 +101,7 @@ def _straight(rng: Rng, kind: str, up: bool, back: bool = False) -> FloorWalk:
     x = float(rng.choice(STRAIGHT if kind == "straight" else ESCALATORS))
     bottom, top = EDGE - ahead(True, GOING), EDGE + (STRAIGHT_RISERS - 1) * GOING + ahead(False, GOING)
     if kind != "straight":
-        bottom, top = EDGE, TOP["escalator"]
+        bottom, top = EDGE, EDGE + Escalator(STOREY).run
     levels = ["0", "1"] if up else ["1", "0"]
     course = _arrive(levels[0], x, bottom if up else top, 0.0 if up else DEPTH, rng)
     for k, way in enumerate([up, not up] if back else [up]):
@@ -188,6 +142,7 @@ def _turning(rng: Rng, up: bool, storeys: int = 1, back: bool = False) -> FloorW
 
 
 def _lift(rng: Rng, up: bool, back: bool = False) -> FloorWalk:
+    """Return a walk into a lift, by a storey, or there and back at once, and out of it."""
     x, level = float(rng.choice(LIFTS)), int(rng.integers(2)) + (not up)
     course, levels = _arrive(str(level), x, 2.6, 0.0, rng), [level]
     course.face(-0.5 * pi)
