@@ -208,10 +208,10 @@ class Particles(Part):
     """Weights of the landings from which it may have been reached, by index; empty for any."""
     level_uncertain: bool = False
     """Flag: the level depends on the reported direction of stairs, which is often wrong."""
-    first_arrival: LevelReached | None = None
-    """First arrival, or one shortly after it, while its exits are not decided; None otherwise."""
+    is_undecided: bool = False
+    """Flag: it is the first arrival, or one shortly after it, and its exits are not decided."""
     strides_since: int = 0
-    """Number of strides on the level since the newest arrival while its exits are not decided."""
+    """Number of strides on the level since the newest arrival while it is undecided."""
     has_turned: bool = False
     """Flag: the wearer has turned about since then, by an angle that may be wrong, so that no particles start again."""
     unmapped: Cloud = state(factory=list)
@@ -325,7 +325,7 @@ class Particles(Part):
             outputs += self._start_at(plan, here, known_at)
         elif here.t < track[-1][0] - 1.0:
             self.references.reset()
-            self.arrival, self.known.since, self.unmapped, self.first_arrival = None, here.t, [], None
+            self.arrival, self.known.since, self.unmapped, self.is_undecided = None, here.t, [], False
         self.particles = self.known.update(plan.plan, here, self.particles)
         strides = [event for event in events if isinstance(event, StrideTaken)]
         for stride in strides:
@@ -490,7 +490,7 @@ class Particles(Part):
 
     def _come_back(self, plan: IndexedPlan, whole: LevelReached, is_back: bool) -> None:
         """Continue the particles of a lift that stopped between landings, after the rest of its way or back."""
-        riders, self.unmapped, self.arrival = self.unmapped, [], None
+        riders, self.unmapped = self.unmapped, []
         random = self._draw()
         found = [one._replace(landing=0) for one in riders] if is_back else leaving(plan, riders, whole, random)
         others = resample([one._replace(landing=0) for one in self.particles], KNOWN_PARTICLES)
@@ -510,16 +510,14 @@ class Particles(Part):
         k = arrived.certainty / (1.0 - arrived.certainty)
         if total_weight(found) > MIN_LANDING_SHARE * total:
             self.level_uncertain, self.entered = False, landings_of(changing)
-            self.first_arrival = self.first_arrival and arrived
         elif arrived.certainty > MIN_CERTAINTY:
             self.entered = {}
             found = self._spread_over_exits(plan, arrived, MAX_PARTICLES)
-            self.first_arrival = arrived if self.known.heading is None and not staying else None
+            self.is_undecided = self.known.heading is None and not staying
             self.level_uncertain = arrived.kind is ConnectorKind.STAIRS
             weight, share = total_weight(found), 1.0 - STAYING_SHARE[arrived.kind]
             k = total * share / (1.0 - share) / weight if weight > 0.0 and total > 0.0 else 1.0
         else:
-            self.arrival = None
             self.particles = stored(staying)
             return
         self.arrival, self.strides_since, self.has_turned = arrived, 0, False
@@ -547,13 +545,12 @@ class Particles(Part):
 
     def _revise_arrival(self, plan: IndexedPlan, revised: LevelReached) -> None:
         """Weigh the levels to which the newest arrival may have led by what is known of it now."""
-        if self.arrival is None:
+        if self.arrival is None or self.arrival.t_start != revised.t_start:
             return
         before, now = [shares_of_levels(plan, self.entered, one) for one in (self.arrival, revised)]
         factors = {level: max(now.get(level, 0.0), LEAST_REVISED_SHARE) / share for level, share in before.items()}
         self.particles = stored(scaled(self.particles, [factors.get(one.level, 1.0) for one in self.particles]))
         self.arrival = revised
-        self.first_arrival = self.first_arrival and revised
 
     def _start_again(self, plan: IndexedPlan) -> None:
         """Start particles from all exits again after a stride, if the first arrival is not decided.
@@ -563,12 +560,12 @@ class Particles(Part):
         some strides later, many particles start once more from all exits, follow the track since then, and those that
         the walls leave are kept. They are alive only while this takes place; then their number is what the recipe
         keeps."""
-        first = self.first_arrival
-        if first is None or landings_of(self.particles):
+        first = self.arrival
+        if first is None or not self.is_undecided or landings_of(self.particles):
             return
         self.strides_since += 1
         if not self.particles or self.strides_since >= RESTARTS[-1]:
-            self.first_arrival = None
+            self.is_undecided = False
         is_followed = bool(self.particles) and not self.has_turned and self.references.reach_back_to(first.t)
         if self.strides_since in RESTARTS and is_followed:
             particles = self._spread_over_exits(plan, first, RESTARTED_PARTICLES)
@@ -630,7 +627,7 @@ class Particles(Part):
                 "on: two that agree are believed"
             )
             return self._reject(event, place, distance, what)
-        self.rejected, self.unmapped, self.first_arrival = None, [], None
+        self.rejected, self.unmapped, self.is_undecided = None, [], False
         return []
 
     def _reject(self, event: PositionReported, place: Point, distance: float, what: str) -> list[Event]:
