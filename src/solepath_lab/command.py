@@ -46,6 +46,11 @@ GROUPS: dict[str, tuple[str, Kinds]] = {
                 (seeds(12, 5001), only("row, such as 'everything'"), PROCESSES),
             ),
             "reliability": ("weights of candidates and how often they are true", (seeds(25, 5001),)),
+            "floors": (
+                "the right floor after stairs, escalators and lifts",
+                (seeds(100, 5901), only("way, such as 'lift'"), PROCESSES),
+            ),
+            "places": ("place without a start and with a heading, on two plans", (seeds(12, 6001), PROCESSES)),
             "north": ("worth of a compass on a plan that knows its north", (seeds(24, 7001),)),
             "runs": ("measures of runners against the truth", (seeds(12, 1, "runs"),)),
             "other-motions": ("what is reported of motions that are not walking", ()),
@@ -77,11 +82,21 @@ def _modules(group: str) -> dict[str, ModuleType]:
 
             return {"sensors": sensors, "clocks": clocks, "losses": losses, "faults": faults}
         case "emulated":
-            from .emulated import by_hand, evidence, north, other_motions, reliability, runs, slow_walkers
+            from .emulated import (
+                by_hand,
+                evidence,
+                floors,
+                north,
+                other_motions,
+                places,
+                reliability,
+                runs,
+                slow_walkers,
+            )
 
             return {
                 "evidence": evidence, "reliability": reliability, "north": north, "runs": runs, "by-hand": by_hand,
-                "other-motions": other_motions, "slow-walkers": slow_walkers,
+                "floors": floors, "places": places, "other-motions": other_motions, "slow-walkers": slow_walkers,
             }  # fmt: skip
         case "train":
             from .train import activities, bearing, footstep_activity, turns

@@ -35,6 +35,8 @@ TURN_ERROR, STRETCH_ERROR = 0.07, 0.02
 """Largest errors of the track's heading, rad, and of its stretch that stairs or a ride add."""
 ON_STAIRS_WEIGHT = 2.0
 """Likelihood of being on stairs divided by that of walking past them, when climbing is reported near stairs."""
+LEAST_REVISED_SHARE = 1e-3
+"""Least probability of a level after a revision, because its particles are gone with less (assumed)."""
 LEAST_OPPOSITE_SHARE = {ConnectorKind.STAIRS: 0.1, ConnectorKind.LIFT: 0.01}
 """Least probability that the wearer's direction, up or down, is not the reported one: feet move alike in both."""
 BOTH_LEVELS_LIMITS = (0.3, 0.8)
@@ -89,25 +91,35 @@ def leaving(plan: IndexedPlan, changing: Cloud, arrived: LevelReached, random: i
     return found
 
 
-def landings_of(particles: Cloud) -> list[int]:
-    """Return the indices of the landings at which particles change level."""
-    return sorted({particle.landing for particle in particles} - {0})
+def landings_of(particles: Cloud) -> dict[int, float]:
+    """Return the weights of the particles that change level, by the index of the landing at which they do."""
+    weights: dict[int, float] = {}
+    for one in particles:
+        if one.landing:
+            weights[one.landing] = weights.get(one.landing, 0.0) + one.weight
+    return {index: weights[index] for index in sorted(weights)}
 
 
-def odds_of_reversal(plan: IndexedPlan, changing: Cloud, arrived: LevelReached) -> dict[int, float] | None:
-    """Return how a level's weight changes if the stairs are later reported in the other direction, by level.
+def weights_of_exits(plan: IndexedPlan, entered: dict[int, float], arrived: LevelReached) -> dict[int, float]:
+    """Return the weights of the landings by which the wearer may have left, by index, which add up to one.
 
-    Levels to which they lead in both directions are left out. None for a lift."""
-    if arrived.kind is ConnectorKind.LIFT:
-        return None
-    entered = [plan.landings[at - 1] for at in landings_of(changing)]
-    expected, opposite = [
-        {one.level for at in entered for one, _ in find_exits(plan, at, up, arrived.height)}
-        for up in (arrived.up, not arrived.up)
-    ]
-    share = max(arrived.opposite_share, LEAST_OPPOSITE_SHARE[arrived.kind])
-    odds = share / (1.0 - share)
-    return {level: odds if level in expected else 1.0 / odds for level in sorted(expected ^ opposite)}
+    `entered` has those of the landings by which they may have entered; empty if it is any of the kind."""
+    entered = entered or {landing.index: 1.0 for landing in plan.landings if landing.kind is arrived.kind}
+    weights: dict[int, float] = {}
+    for index, weight in entered.items():
+        for landing, share in weigh_exits(plan, plan.landings[index - 1], arrived):
+            weights[landing.index] = weights.get(landing.index, 0.0) + weight * share
+    total = fsum(weights.values())
+    return {index: weights[index] / total for index in sorted(weights) if weights[index] > 0.0}
+
+
+def shares_of_levels(plan: IndexedPlan, entered: dict[int, float], arrived: LevelReached) -> dict[int, float]:
+    """Return the probability of each level after an arrival."""
+    shares: dict[int, float] = {}
+    for index, weight in weights_of_exits(plan, entered, arrived).items():
+        level = plan.landings[index - 1].level
+        shares[level] = shares.get(level, 0.0) + weight
+    return shares
 
 
 def levels_on_the_way(

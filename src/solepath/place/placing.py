@@ -34,15 +34,16 @@ from ..types.attrs import NOT_SAVED, evolve, state, stateful
 from .headings import ANY_HEADING_SHARE, START_HEADING_ERROR, Heading, KnownHeading
 from .levels import (
     EXIT_ERROR,
+    LEAST_REVISED_SHARE,
     contradicted_height,
     entering,
     hold_alike_levels,
     landings_of,
     leaving,
     levels_on_the_way,
-    odds_of_reversal,
     place_near,
-    weigh_exits,
+    shares_of_levels,
+    weights_of_exits,
 )
 from .particles import (
     MAX_MOVE,
@@ -65,15 +66,7 @@ from .particles import (
     total_weight,
     turned,
 )
-from .references import (
-    FAIR_CERTAINTY,
-    HEIGHT_ERROR,
-    DirectionRevised,
-    LevelChangePossible,
-    LevelReached,
-    References,
-    find_exits,
-)
+from .references import FAIR_CERTAINTY, HEIGHT_ERROR, LevelChangePossible, LevelReached, References
 
 MAX_PARTICLES = 260
 """Largest number of particles that are kept."""
@@ -82,7 +75,7 @@ KNOWN_PARTICLES = 64
 PARTICLES_PER_CANDIDATE = 30
 """Number of additional particles that are kept for each candidate but the heaviest; fewer for a weight below 0.1.
 
-Without a start, three of 25 emulated walks with insoles lose the true place with 20, none with 30; 60 gain nothing."""
+Without a start, three of 25 emulated walks with insoles lose the true place with 20, one with 30; 60 gain nothing."""
 ONE_CANDIDATE_SPREAD = 1.5
 """Largest rms deviation of the places of all particles at which they form one candidate, m."""
 MAX_JUMP = 100.0
@@ -110,8 +103,6 @@ MAX_START_SPREAD, SPREAD_FACTOR = 20.0, 1.2
 """Largest rms error of a start place that is used, m, and ratio of the largest error on each axis to the rms error."""
 START_STRETCH_ERROR = 0.05
 """Largest deviation of the stretch of a new particle from 1."""
-SAME_STAIRS_TIME = 10.0
-"""Time after an arrival, s, in which further stairs count as the rest of the same stairs."""
 MIN_LANDING_SHARE = 0.02
 """Least weight of the particles at exits, as a share of the others'; with less, particles were at wrong places."""
 STAYING_SHARE = {ConnectorKind.STAIRS: 0.85, ConnectorKind.LIFT: 0.5}
@@ -211,16 +202,18 @@ class Particles(Part):
     """Length of track since a particle could move, m."""
     rejected: tuple[Point, Point] | None = None
     """Newest rejected place of a report, plan frame, and where the track was, world frame, m; None after one fitted."""
-    arrived_at: float | None = None
-    """Time of the last arrival on another level, s; None before any."""
-    odds: dict[int, float] | None = None
-    """Factors of the weight of levels if the newest stairs led in the other direction; None before any arrival."""
+    arrival: LevelReached | None = None
+    """Newest arrival on another level, as far as it is known; None before any."""
+    entered: dict[int, float] = state(factory=dict)
+    """Weights of the landings from which it may have been reached, by index; empty for any."""
     level_uncertain: bool = False
     """Flag: the level depends on the reported direction of stairs, which is often wrong."""
-    first_arrival: LevelReached | None = None
-    """First arrival while its exits are not decided; None before, afterwards, and with a known heading."""
+    is_undecided: bool = False
+    """Flag: it is the first arrival, or one shortly after it, and its exits are not decided."""
     strides_since: int = 0
-    """Number of strides since the first arrival."""
+    """Number of strides on the level since the newest arrival while it is undecided."""
+    has_turned: bool = False
+    """Flag: the wearer has turned about since then, by an angle that may be wrong, so that no particles start again."""
     unmapped: Cloud = state(factory=list)
     """Particles that were in a lift when it went to where the plan has no landing; empty if it did not."""
     unmapped_height: float = 0.0
@@ -332,7 +325,7 @@ class Particles(Part):
             outputs += self._start_at(plan, here, known_at)
         elif here.t < track[-1][0] - 1.0:
             self.references.reset()
-            self.arrived_at, self.known.since, self.unmapped, self.first_arrival = None, here.t, [], None
+            self.arrival, self.known.since, self.unmapped, self.is_undecided = None, here.t, [], False
         self.particles = self.known.update(plan.plan, here, self.particles)
         strides = [event for event in events if isinstance(event, StrideTaken)]
         for stride in strides:
@@ -344,7 +337,7 @@ class Particles(Part):
             if isinstance(event, TurnMade) and abs(event.angle) > ABOUT_TURN_ANGLE and self.particles:
                 wrong = after_wrong_turn(plan, self.particles, self._displacement_since(event.t))
                 self.set_particles(self.particles + wrong)
-                self.wide_strides, self.first_arrival = ABOUT_TURN_STRIDES, None
+                self.wide_strides, self.has_turned = ABOUT_TURN_STRIDES, True
         levels = frozenset([particle.level for particle in self.particles])
         references = self.references.update(plan, events, here, levels)
         for reference in references:
@@ -352,10 +345,10 @@ class Particles(Part):
                 case LevelChangePossible():
                     staying = self._staying()
                     self.set_particles(staying + self._entering(plan, staying, reference))
+                case LevelReached(is_revision=True):
+                    self._revise_arrival(plan, reference)
                 case LevelReached():
                     outputs += self._arrive(plan, reference, known_at)
-                case DirectionRevised():
-                    self._revise_direction()
                 case _:
                     self.particles = stored(self._staying())
         if self.particles and (strides or any([isinstance(one, LevelReached) for one in references])):
@@ -497,7 +490,7 @@ class Particles(Part):
 
     def _come_back(self, plan: IndexedPlan, whole: LevelReached, is_back: bool) -> None:
         """Continue the particles of a lift that stopped between landings, after the rest of its way or back."""
-        riders, self.unmapped, self.arrived_at = self.unmapped, [], whole.t
+        riders, self.unmapped = self.unmapped, []
         random = self._draw()
         found = [one._replace(landing=0) for one in riders] if is_back else leaving(plan, riders, whole, random)
         others = resample([one._replace(landing=0) for one in self.particles], KNOWN_PARTICLES)
@@ -509,30 +502,25 @@ class Particles(Part):
         """Continue each particle that may have changed level from its exits, and keep those that stayed."""
         if all([landing.kind is not arrived.kind for landing in plan.landings]):
             return
-        staying, changing = self._staying(), [one for one in self.particles if one.landing]
+        staying, kinds = self._staying(), {landing.index: landing.kind for landing in plan.landings}
+        changing = [one for one in self.particles if kinds.get(one.landing) is arrived.kind]
         changing = changing or self._entering(plan, staying, arrived)
         total = total_weight(staying)
-        is_same_climb = self.arrived_at is not None and arrived.t_start < self.arrived_at + SAME_STAIRS_TIME
-        entered = [plan.landings[at - 1] for at in landings_of(changing)]
-        if is_same_climb and entered and not any([find_exits(plan, at, arrived.up) for at in entered]):
-            self.particles = stored(staying)  # the rest of a climb that already counted as a whole storey
-            return
         found = leaving(plan, changing, arrived, self._draw())
         k = arrived.certainty / (1.0 - arrived.certainty)
         if total_weight(found) > MIN_LANDING_SHARE * total:
-            self.level_uncertain, self.first_arrival = False, None
+            self.level_uncertain, self.entered = False, landings_of(changing)
         elif arrived.certainty > MIN_CERTAINTY:
+            self.entered = {}
             found = self._spread_over_exits(plan, arrived, MAX_PARTICLES)
-            is_first, self.strides_since = self.known.heading is None and not staying, 0
-            self.first_arrival = arrived if is_first else None
+            self.is_undecided = self.known.heading is None and not staying
             self.level_uncertain = arrived.kind is ConnectorKind.STAIRS
             weight, share = total_weight(found), 1.0 - STAYING_SHARE[arrived.kind]
             k = total * share / (1.0 - share) / weight if weight > 0.0 and total > 0.0 else 1.0
         else:
-            self.odds = None
             self.particles = stored(staying)
             return
-        self.arrived_at, self.odds = arrived.t, odds_of_reversal(plan, changing, arrived)
+        self.arrival, self.strides_since, self.has_turned = arrived, 0, False
         found = scaled(found, repeat(k))
         found = self._move_from_exits(plan, self._limited(found), arrived) + resample(staying, KNOWN_PARTICLES)
         self.set_particles(found or self.particles)
@@ -542,16 +530,11 @@ class Particles(Part):
 
         With a known heading of the track, half of them have it, and nearly all of the weight."""
         heading = self.known.heading
-        weights: dict[int, float] = {}
-        for entered in plan.landings:
-            if entered.kind is arrived.kind:
-                for landing, share in weigh_exits(plan, entered, arrived):
-                    weights[landing.index] = weights.get(landing.index, 0.0) + share
-        total, roots = fsum(weights.values()), fsum([sqrt(weight) for weight in weights.values()])
+        weights = weights_of_exits(plan, self.entered, arrived)
+        roots = fsum([sqrt(weight) for weight in weights.values()])
         particles: Cloud = []
-        for index in sorted(weights):
-            landing, share = plan.landings[index - 1], weights[index] / total
-            count = max(int(most * sqrt(weights[index]) / roots), 8)
+        for index, share in weights.items():
+            landing, count = plan.landings[index - 1], max(int(most * sqrt(share) / roots), 8)
             at = (plan, landing.level, landing.place, EXIT_ERROR)
             if heading is not None:
                 count, known = count // 2, share * (1.0 - ANY_HEADING_SHARE)
@@ -560,14 +543,14 @@ class Particles(Part):
             particles += self._spread(*at, None, count, share, landing.connector + 1)
         return particles
 
-    def _revise_direction(self) -> None:
-        """Exchange the weights of the levels above and below after the newest stairs, as they led the other way."""
-        if self.odds is None:
+    def _revise_arrival(self, plan: IndexedPlan, revised: LevelReached) -> None:
+        """Weigh the levels to which the newest arrival may have led by what is known of it now."""
+        if self.arrival is None or self.arrival.t_start != revised.t_start:
             return
-        self.particles = stored(scaled(self.particles, [self.odds.get(one.level, 1.0) for one in self.particles]))
-        self.odds = {level: 1.0 / factor for level, factor in self.odds.items()}
-        if self.first_arrival is not None:
-            self.first_arrival = evolve(self.first_arrival, up=not self.first_arrival.up)
+        before, now = [shares_of_levels(plan, self.entered, one) for one in (self.arrival, revised)]
+        factors = {level: max(now.get(level, 0.0), LEAST_REVISED_SHARE) / share for level, share in before.items()}
+        self.particles = stored(scaled(self.particles, [factors.get(one.level, 1.0) for one in self.particles]))
+        self.arrival = revised
 
     def _start_again(self, plan: IndexedPlan) -> None:
         """Start particles from all exits again after a stride, if the first arrival is not decided.
@@ -577,14 +560,14 @@ class Particles(Part):
         some strides later, many particles start once more from all exits, follow the track since then, and those that
         the walls leave are kept. They are alive only while this takes place; then their number is what the recipe
         keeps."""
-        first = self.first_arrival
-        if first is None:
+        first = self.arrival
+        if first is None or not self.is_undecided or landings_of(self.particles):
             return
         self.strides_since += 1
-        is_lost = not (self.particles and self.references.reach_back_to(first.t))
-        if is_lost or self.strides_since >= RESTARTS[-1]:
-            self.first_arrival = None
-        if self.strides_since in RESTARTS and not is_lost and not landings_of(self.particles):
+        if not self.particles or self.strides_since >= RESTARTS[-1]:
+            self.is_undecided = False
+        is_followed = bool(self.particles) and not self.has_turned and self.references.reach_back_to(first.t)
+        if self.strides_since in RESTARTS and is_followed:
             particles = self._spread_over_exits(plan, first, RESTARTED_PARTICLES)
             self.set_particles(self._move_from_exits(plan, particles, first) or self.particles)
 
@@ -644,7 +627,7 @@ class Particles(Part):
                 "on: two that agree are believed"
             )
             return self._reject(event, place, distance, what)
-        self.rejected, self.unmapped, self.first_arrival = None, [], None
+        self.rejected, self.unmapped, self.is_undecided = None, [], False
         return []
 
     def _reject(self, event: PositionReported, place: Point, distance: float, what: str) -> list[Event]:

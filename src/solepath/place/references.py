@@ -152,8 +152,8 @@ class Passage:
     """Foot of the newest stride on the stairs; None before any."""
     both_feet: bool = False
     """Flag: both feet have made strides on the stairs."""
-    flight_height: float = 0.0
-    """Sum of the heights of the flights, m, positive upwards."""
+    reported_height: float = 0.0
+    """Sum of the heights of the flights, or the height of the ride, m, positive upwards; 0 if it is not known."""
     t_left: float | None = None
     """Time at which the wearer left the stairs or the elevator, s; None before."""
     end: Vec3 | None = None
@@ -166,6 +166,21 @@ class Passage:
     """Number of flights upwards minus the number downwards."""
     height_before: float = 0.0
     """Height up to the half-way landing at which the passage starts, m, positive upwards; 0 from a level on."""
+    decided_height: float | None = None
+    """Height by which it was decided, m, not negative; None before, and when it is not known."""
+    certainty: float = 0.0
+    """Probability that the passage led to another level; 0 while that is not decided, and if it did not."""
+    is_half_way: bool = False
+    """Flag: the passage ended on a half-way landing, and none has continued it."""
+
+    def contains(self, t_start: float, t: float) -> bool:
+        """Return whether more than half of the time from `t_start` to `t`, s, is before the end of the passage."""
+        return self.t_left is not None and 0.5 * (t_start + t) <= self.t_left
+
+    def add_flight(self, event: FlightClimbed) -> None:
+        """Add a flight."""
+        self.reported_height += event.height if abs(event.height) < 100.0 else 0.0
+        self.flights += 1 if event.up else -1
 
     def report(self, t: float, up: bool, revises: float | None) -> None:
         """Count further strides in the direction that is reported from `t`, s, on, and revise those reported before.
@@ -234,7 +249,7 @@ class Passage:
 
     def height_signed(self, here: Vec3) -> float:
         """Return the height of stairs from the last level on, m, positive upwards."""
-        is_measured, counted = self.is_measured(here), max(abs(self.flight_height), self._counted_height)
+        is_measured, counted = self.is_measured(here), max(abs(self.reported_height), self._counted_height)
         own = abs(self._rise(here)) if is_measured else counted
         return self.height_before + (own if self.net_up > 0 else -own)
 
@@ -291,8 +306,6 @@ KERB_SHARE = 0.35
 Heights between this and `MIN_STOREY_SHARE` are half a storey, or a storey of which only half was detected."""
 RIDE_END_TIME = 4.0
 """Time after the end of an elevator activity at which a ride without an event has ended, s; two strides also end it."""
-SAME_RIDE_TIME = 5.0
-"""Largest time between the ends of two reports of the same ride, s."""
 MAX_TRACK_POSITIONS = 24
 """Number of positions of the track that are kept."""
 
@@ -335,14 +348,11 @@ class LevelReached:
     """Share of the strides that were reported in the other direction."""
     flights: int | None = None
     """Number of flights that were climbed; None when none was reported."""
+    is_revision: bool = False
+    """Flag: it is the newest arrival again, of which more is known now."""
 
 
-@frozen
-class DirectionRevised:
-    """The reference that the newest stairs, which were left already, led in the other direction."""
-
-
-Reference = LevelChangePossible | LevelChangeCancelled | LevelReached | DirectionRevised
+Reference = LevelChangePossible | LevelChangeCancelled | LevelReached
 
 
 @stateful
@@ -354,16 +364,14 @@ class References:
     """Passage under way, or left and not decided; None otherwise."""
     track: deque[tuple[float, Vec3]] = state(factory=deque)
     """Newest positions of the track: t, s, and position, m."""
-    ride_end: float | None = None
-    """End of the last ride, s."""
-    decided: tuple[float, bool] | None = None
-    """End of the newest stairs that led to another level, s, and a flag: they led up; None before any."""
-    partial: Passage | None = None
-    """Newest passage that ended on a half-way landing; None otherwise."""
+    newest: Passage | None = None
+    """Newest passage that was decided: it led to another level, or to a half-way landing; None before any.
+
+    What is reported of its time afterwards belongs to it, and begins no other passage."""
 
     def reset(self) -> None:
-        """Discard the passages, the last ride and the track, because the clock restarts."""
-        self.passage = self.partial = self.decided = self.ride_end = None
+        """Discard the passages and the track, because the clock restarts."""
+        self.passage = self.newest = None
         self.track.clear()
 
     def position_at(self, t: float) -> Vec3:
@@ -378,8 +386,9 @@ class References:
     def move(self, by: Point) -> None:
         """Move all positions that are kept by x and y, m, because the track was revised."""
         self.track = deque([(t, add(position, (*by, 0.0))) for t, position in self.track])
-        if self.passage is not None:
-            self.passage.move(by)
+        for passage in (self.passage, self.newest):
+            if passage is not None:
+                passage.move(by)
 
     def reach_back_to(self, t: float) -> bool:
         """Return whether no position since `t`, s, was discarded."""
@@ -400,19 +409,20 @@ class References:
         if len(self.track) > MAX_TRACK_POSITIONS:
             self.track.popleft()
         references: list[Reference] = []
+        last = [event for event in events if isinstance(event, ActivityChanged)][-1:]
         for event in events:
             match event:
                 case StrideTaken():
                     self._add_stride(event.foot)
                 case ActivityChanged():
-                    references += self._change_activity(plan, event)
+                    references += self._change_activity(plan, event, levels, here, event in last)
                 case FlightClimbed():
                     references += self._add_flight(plan, event)
                 case LiftRidden():
                     references += self._add_ride(event)
         passage = self.passage
         if passage is not None and passage.t_left is not None:
-            references += self._decide(passage, passage.t_left, plan, levels, here)
+            references += self._decide(passage, plan, levels, here, here.t - passage.t_left)
         elif passage is not None and passage.leads_away(here.position):
             references += self._cancel()
         return references
@@ -421,6 +431,22 @@ class References:
         """Forget the passage, which was none."""
         self.passage = None
         return [LevelChangeCancelled()]
+
+    def _newest_of(self, kind: ConnectorKind, t_start: float, t: float) -> Passage | None:
+        """Return the newest passage if it is of this kind and what is reported from `t_start` to `t`, s, belongs to it.
+
+        This is the one rule by which evidence that comes late is not counted twice."""
+        newest = self.newest
+        return newest if newest is not None and newest.kind is kind and newest.contains(t_start, t) else None
+
+    def _reached(self, passage: Passage, is_revision: bool = False) -> list[Reference]:
+        """Return the arrival by a passage that is decided, as far as it led to another level."""
+        t_left, opposite = passage.t_left, passage.opposite_share
+        if t_left is None or not passage.certainty:
+            return []
+        height, certainty = passage.decided_height, passage.certainty * (1.0 - opposite)
+        up, flights = passage.net_up > 0, abs(passage.flights) or None
+        return [LevelReached(passage.kind, up, height, passage.t, t_left, certainty, opposite, flights, is_revision)]
 
     def _add_stride(self, foot: Foot) -> None:
         passage, connector = self.passage, CONNECTOR_OF_ACTIVITY.get(self.activity)
@@ -432,16 +458,27 @@ class References:
             passage.add_direction(connector[1], foot)
 
     def _add_ride(self, event: LiftRidden) -> list[Reference]:
+        """Add a ride to the newest passage, of which it may tell the height; otherwise it is a passage."""
         if self.passage is not None and self.passage.kind is ConnectorKind.LIFT:
             self.passage = None
-        if self.ride_end is not None and event.t <= self.ride_end + SAME_RIDE_TIME:
-            return []
-        self.ride_end = event.t
-        height = None if event.height is None or not isfinite(event.height) else abs(event.height)
         t_start = min(event.t_start, event.t)
-        return [LevelReached(ConnectorKind.LIFT, event.up, height, t_start, event.t, RIDE_CERTAINTY)]
+        ridden = self._newest_of(ConnectorKind.LIFT, t_start, event.t)
+        passage = ridden or Passage(ConnectorKind.LIFT, t_start, self.position_at(t_start), certainty=RIDE_CERTAINTY)
+        if passage.reported_height:
+            return []
+        passage.spans = [StairSpan(t_start, 1 if event.up else -1)]
+        known = event.height is not None and isfinite(event.height)
+        passage.reported_height = abs(event.height or 0.0) if known else 0.0
+        passage.decided_height = passage.reported_height or passage.decided_height
+        self.newest = passage
+        if ridden is None:
+            passage.t_left, passage.end = event.t, passage.start
+        return self._reached(passage, ridden is not None)
 
-    def _change_activity(self, plan: IndexedPlan, event: ActivityChanged) -> list[Reference]:
+    def _change_activity(
+        self, plan: IndexedPlan, event: ActivityChanged, levels: frozenset[int], here: WearerMoved, is_last: bool
+    ) -> list[Reference]:
+        """Follow a report of an activity; `is_last` says that none after it is known yet."""
         self.activity = event.activity
         connector, passage = CONNECTOR_OF_ACTIVITY.get(event.activity), self.passage
         if connector is None:
@@ -451,36 +488,44 @@ class References:
                 passage.t_left, passage.end, passage.strides_since = event.t, self.position_at(event.t), 0
             return []
         kind, up = connector
-        if kind is ConnectorKind.LIFT and self.ride_end is not None and event.t < self.ride_end:
+        t, references = event.t, list[Reference]()
+        newest = None if passage is not None else self._newest_of(kind, t, t)
+        if newest is not None and kind is ConnectorKind.LIFT:
             return []
-        if passage is None and kind is ConnectorKind.STAIRS and self.decided is not None and event.revises is not None:
-            t_left, was_up = self.decided
-            if event.t < t_left:  # a later report of the newest stairs, which were left already
-                self.decided = (t_left, up)
-                return [] if up is was_up else [DirectionRevised()]
-        references: list[Reference] = []
+        if newest is not None and newest.t_left is not None:
+            was_up = newest.net_up > 0
+            newest.report(t, up, event.revises)
+            references += self._reached(newest, True) if (newest.net_up > 0) is not was_up else []
+            if not is_last:
+                return references
+            t = newest.t_left  # the stairs go on
         if passage is not None and passage.kind is kind:
             passage.t_left = passage.end = None
         else:
-            references = [] if passage is None else self._cancel()
-            passage = self._enter(plan, kind, event.t, references)
+            if passage is not None:  # another one begins: the wait is over
+                is_over = passage.t_left is not None and passage.t_left <= t
+                references += self._decide(passage, plan, levels, here, inf) if is_over else self._cancel()
+            passage = self._enter(plan, kind, t, references)
         if kind is ConnectorKind.LIFT:
             passage.add_direction(up)
         else:
-            passage.report(event.t, up, event.revises)
+            passage.report(t, up, event.revises)
         return references
 
     def _add_flight(self, plan: IndexedPlan, event: FlightClimbed) -> list[Reference]:
-        """Add a flight to the passage over stairs; without one, the flight starts a passage."""
-        passage, references = self.passage, list[Reference]()
+        """Add a flight to the passage over stairs that it belongs to; without one, the flight starts a passage."""
+        passage, references, t_start = self.passage, list[Reference](), min(event.t_start, event.t)
+        newest = self._newest_of(ConnectorKind.STAIRS, t_start, event.t)
+        if newest is not None and not (passage is not None and passage.height_before):
+            newest.add_flight(event)
+            return self._reached(newest, True)
         if passage is None:
-            passage = self._enter(plan, ConnectorKind.STAIRS, min(event.t_start, event.t), references)
+            passage = self._enter(plan, ConnectorKind.STAIRS, t_start, references)
             passage.t_left = -inf
             passage.add_direction(event.up)
         elif passage.kind is ConnectorKind.LIFT:
             return []
-        passage.flight_height += event.height if abs(event.height) < 100.0 else 0.0
-        passage.flights += 1 if event.up else -1
+        passage.add_flight(event)
         if passage.t_left is not None and event.t > passage.t_left:
             passage.t_left, passage.end = event.t, self.position_at(event.t)
         return references
@@ -488,24 +533,25 @@ class References:
     def _enter(self, plan: IndexedPlan, kind: ConnectorKind, t: float, references: list[Reference]) -> Passage:
         """Begin a passage at `t`, s; from a half-way landing it continues the one that ended there."""
         references.append(LevelChangePossible(kind, t))
-        start, partial = self.position_at(t), self.partial
-        passage = Passage(kind, t, start, riser=riser_height(plan))
-        self.passage, self.partial = passage, None
-        if partial is not None and kind is ConnectorKind.STAIRS and partial.is_continued(t, start):
-            passage.height_before, passage.flights = partial.height_signed(start), partial.flights
+        start, newest = self.position_at(t), self.newest
+        passage = self.passage = Passage(kind, t, start, riser=riser_height(plan))
+        if newest is not None:
+            if newest.is_half_way and kind is ConnectorKind.STAIRS and newest.is_continued(t, start):
+                passage.height_before, passage.flights = newest.height_signed(start), newest.flights
+            newest.is_half_way = False
         return passage
 
     def _decide(
-        self, passage: Passage, t_left: float, plan: IndexedPlan, levels: frozenset[int], here: WearerMoved
+        self, passage: Passage, plan: IndexedPlan, levels: frozenset[int], here: WearerMoved, waiting_time: float
     ) -> list[Reference]:
         """Decide whether a passage that was left led to another level, when that is certain or the wait is over."""
-        kind, up, height = passage.kind, passage.net_up > 0, passage.height(here.position)
-        waiting_time = here.t - t_left
-        if kind is ConnectorKind.LIFT:
+        height = passage.height(here.position)
+        if passage.kind is ConnectorKind.LIFT:
             if waiting_time <= RIDE_END_TIME and passage.strides_since < 2:
                 return []
-            self.passage, self.ride_end = None, t_left
-            return [LevelReached(kind, up, height, passage.t, t_left, RIDE_CERTAINTY)]
+            self.passage, self.newest = None, passage
+            passage.decided_height, passage.certainty = height, RIDE_CERTAINTY
+            return self._reached(passage)
         # only the height of the track shows the direction beyond doubt
         storeys = storeys_of(plan, levels, passage.measured_up(here.position))
         least, rises = storeys.least, storeys.rises
@@ -525,10 +571,11 @@ class References:
         is_settled = is_storey and is_possible and fits and (measured or height >= COUNTED_SHARE * least)
         if not (is_settled or waiting_time > MAX_WAIT or _distance(here.position, end) > WAIT_DISTANCE):
             return []
-        self.partial = passage if (is_possible or (flights and not leads_away)) and not is_storey else None
+        passage.is_half_way = (is_possible or (flights > 0 and not leads_away)) and not is_storey
+        if is_possible or passage.is_half_way:
+            self.newest = passage
         if not is_possible:
             return self._cancel()
-        self.passage, self.decided, opposite = None, (t_left, up), passage.opposite_share
-        certainty = HALF_CERTAINTY if not is_storey else SURE_CERTAINTY if fits or not rises else FAIR_CERTAINTY
-        certainty *= 1.0 - opposite
-        return [LevelReached(kind, up, height, passage.t, t_left, certainty, opposite, flights or None)]
+        self.passage, passage.decided_height = None, height
+        passage.certainty = HALF_CERTAINTY if not is_storey else SURE_CERTAINTY if fits or not rises else FAIR_CERTAINTY
+        return self._reached(passage)

@@ -2,8 +2,9 @@
 
 It is JSON: {"solepath": version, "recipe": name, "recipe_sha256", "inputs": [{"name", "sha256"}], "options": {...},
 "command_line": [...], "sites": {"left_foot": {"samples", "missing", "missing_s", "missing_share", "absent_s"}},
-"findings": [{"code", "site", "text"}]}. walk/links.py defines the figures of a site, show/findings.py the findings; the
-site of one about both feet or the whole session is ""."""
+"findings": [{"code", "site", "text"}], "place": {"level", "room", "x_m", "y_m", "within_m", "candidates", "decided"}}.
+The place is that at the end, on the floor plan; null without one. walk/links.py defines the figures of a site,
+show/findings.py the findings; the site of one about both feet or the whole session is ""."""
 
 from __future__ import annotations
 
@@ -14,6 +15,7 @@ from typing import Any
 
 from attrs import asdict, has
 
+from ...events import Placed
 from ...recipes import Recipe
 from ...saving.provenance import provenance
 from ...show.findings import findings, links_of
@@ -56,8 +58,16 @@ def write_run(path: Path, recipe: Recipe, walk: Walk, options: argparse.Namespac
             {"code": one.code, "site": "" if one.site is None else one.site.value, "text": one.what}
             for one in findings(walk)
         ],
+        "place": walk.places.last and _place(walk.places.last),
     }
     path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def _place(place: Placed) -> dict[str, Any]:
+    """Return the place at the end; `decided` is the rule of summary, page, picture and report."""
+    x, y, _ = place.position
+    where = {"level": place.level, "room": place.room, "x_m": x, "y_m": y, "within_m": round(place.spread, 3)}
+    return where | {"candidates": len(place.candidates), "decided": place.decided}
 
 
 def _given(options: argparse.Namespace) -> dict[str, Any]:

@@ -220,7 +220,8 @@ class PlanPicture:
                 add(lines, "<polyline points='{},{} {},{}' stroke='{}'/>", *ends, colour)
         decided = [place for place in places if _is_decided(place)]
         first = "start" if decided[:1] == places[:1] else "found"
-        marked = [(decided[0], START_COLOUR, first), (decided[-1], END_COLOUR, "end")] if decided else []
+        last = "end" if all(map(_is_decided, [*self.events][-1:])) else "last known"
+        marked = [(decided[0], START_COLOUR, first), (decided[-1], END_COLOUR, last)] if decided else []
         for place, colour, word in marked:
             if place.level == level:
                 x, y = view.at(place.position[:2])

@@ -88,8 +88,7 @@ def place_lines(counts: PlaceCounts) -> list[str]:
         share = f"one place for {counts.decided_count} of {counts.places} strides"
         lines = [f"place: found after {counted(strides, 'stride')}, at {number(t, 1)} s; {share}"]
     if counts.last is not None:
-        several = "" if counts.last.decided else f", one of {len(counts.last.candidates)} candidates"
-        lines.append(f"at the end: {_where(counts.last)}{several}")
+        lines.append(end_line(counts.last))
     if counts.level_starts:
         levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.level_starts])
         unlisted = counts.level_changes - MAX_LISTED
@@ -98,6 +97,12 @@ def place_lines(counts: PlaceCounts) -> list[str]:
     if counts.loss_count > MAX_LISTED:
         lines.append(f"and {times(counts.loss_count - MAX_LISTED)} more")
     return lines
+
+
+def end_line(place: Placed) -> str:
+    """Return a line with the place at the end, which says if it is not decided."""
+    several = "" if place.decided else f", one of {counted(len(place.candidates), 'candidate')}"
+    return f"at the end: {_where(place)}{several}"
 
 
 def place_line(place: Placed) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from math import hypot
 from operator import itemgetter
@@ -50,6 +50,14 @@ def bent(points: Sequence[TrackPoint], bend: Bend) -> list[TrackPoint]:
             dx, dy = _interpolate(t, bend)
             moved[k] = (t, round(x + dx, 3), round(y + dy, 3), *rest)
     return moved
+
+
+def span_of(times: Sequence[float], t_start: float, t_end: float) -> tuple[int, int]:
+    """Return the number of points up to `t_start`, s, and the index of the first one from `t_end` on.
+
+    `times` are those of the points of a track, s."""
+    first = _start_of_clock(times, SET_BACK_TOLERANCE)
+    return bisect_right(times, t_start, first), bisect_left(times, t_end, first)
 
 
 def _interpolate(at: float, rows: Sequence[tuple[float, ...]]) -> tuple[float, ...]:

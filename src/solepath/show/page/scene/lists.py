@@ -48,7 +48,7 @@ class GrowingList(Generic[T]):
             self.items = self.items[::2] if self.thins else self.items[1:]
 
     def replace(self, items: Sequence[T]) -> None:
-        """Replace all items by as many others; every page then needs the whole list."""
+        """Replace all items; every page then needs the whole list."""
         self.items = [*items]
         self.count += 1
         self._known_from = self.count

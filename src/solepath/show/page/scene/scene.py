@@ -19,6 +19,7 @@ from ....events import (
     HeelOff,
     HeelStrike,
     LayoutKnown,
+    LiftRidden,
     Placed,
     PlaceLost,
     PositionRejected,
@@ -127,6 +128,8 @@ class Scene:
                 self.pace.add_stride(event)
             case WearerMoved():
                 self.wearer.add_position(event)
+            case LiftRidden():
+                self.wearer.ride(event)
             case Placed(level=level) if self.wearer.add_place(event):
                 self.log.add(event.t, "place", f"on {self._level_name(level)}")
             case PlaceLost():

@@ -6,11 +6,11 @@ from typing import Any
 
 from attrs import define, evolve, field
 
-from ....events import Placed, TrackRevised, WearerMoved
+from ....events import LiftRidden, Placed, TrackRevised, WearerMoved
 from ....recording import printable
 from ....types.attrs import NOT_SAVED
 from ..messages import members, plain
-from .bending import Bend, bent
+from .bending import Bend, bent, span_of
 from .lists import GrowingList, TrackPoint, add_position, new_track
 
 MAX_CANDIDATES = 40
@@ -23,7 +23,7 @@ PlacePoint = tuple[float, str, float, float, float]
 class WearerScene:
     """The tracks of the wearer.
 
-    `track` has a point for each stride. `places` has a point for each place whose candidates are all on one level."""
+    `track` has a point for each stride, `places` one for each decided place; both have start and end of a ride."""
 
     moved: WearerMoved | None = None
     is_revised: bool = False
@@ -31,7 +31,7 @@ class WearerScene:
     track: GrowingList[TrackPoint] = field(factory=new_track)
     places: GrowingList[PlacePoint] = field(factory=lambda: GrowingList(thins=True))
     level: str | None = None
-    """The last level that all candidates shared; None after the place was lost."""
+    """Level of the last decided place; None after the place was lost."""
     _place_frame: tuple[Placed | None, dict[str, Any] | None] = field(default=(None, None), metadata=NOT_SAVED)
 
     def add_position(self, event: WearerMoved) -> None:
@@ -48,9 +48,27 @@ class WearerScene:
         self.moved, self.is_revised = evolve(self.moved, t=event.t, known_at=event.known_at, position=position), True
         add_position(self.track, event.t, position)
 
+    def ride(self, ride: LiftRidden) -> None:
+        """Draw the height of a ride over its time, although it is known some strides after the ride.
+
+        Positions since the ride are that much higher. Places since then are left out: they are those before it."""
+        height, t_start, t = ride.height, round(ride.t_start, 3), round(ride.t, 3)
+        if height is None:
+            return
+        track, places = self.track.items, self.places.items
+        end, after = span_of([point[0] for point in track], t_start, t)
+        if end:
+            _, x, y, z = track[end - 1]
+            raised = [(*point[:3], round(point[3] + height, 3)) for point in track[after:]]
+            self.track.replace([*track[:end], (t_start, x, y, z), (t, x, y, round(z + height, 3)), *raised])
+        end, _ = span_of([place[0] for place in places], t_start, t)
+        if end:
+            _, level, x, y, z = places[end - 1]
+            self.places.replace([*places[:end], (t_start, level, x, y, z), (t, level, x, y, round(z + height, 3))])
+
     def add_place(self, event: Placed) -> bool:
-        """Add a place on the plan; return whether all candidates share its level, and did not before."""
-        if any([candidate.level != event.level for candidate in event.candidates]):
+        """Add a place on the plan if it is decided; return whether its level is another one than before."""
+        if not event.decided:
             return False
         x, y, z = event.position
         self.places.add((round(event.t, 3), event.level, round(x, 3), round(y, 3), round(z, 3)))

@@ -77,7 +77,7 @@ function series({ plan, place, places, track, t }) {
   if (plan === null || places.length < 2) return { points: heights, levels: [] };
   const before = onPlanHeights(track, places).filter(([t]) => t < places[0][0]); // the ride or the stairs that gave the place
   const points = [...before, ...places].map((point) => [point[0], point.at(-1)]);
-  const now = place?.position[2]; // places are those whose level is decided
+  const now = place?.decided ? place.position[2] : NaN; // `places` are decided, this one may not be
   if (Number.isFinite(now) && t > points.at(-1)[0]) points.push([t, now]);
   return { points, levels: plan.levels.filter(({ elevation }) => elevation !== null) };
 }

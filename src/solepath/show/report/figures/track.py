@@ -12,9 +12,10 @@ from attrs import evolve
 
 from ....events import Placed
 from ...tables.plan import PANEL_GAP, PlanPicture
+from ...tables.summary import end_line
 from ...tables.svg import Point, View, add, grid, line, square_ticks, ticks, write
 from ..content import ReportContent
-from ..markup import WIDTH, caption, drawing
+from ..markup import WIDTH, caption, drawing, whole_sentences
 from .axes import PATH
 
 MAX_HEIGHT = 366.0
@@ -110,6 +111,8 @@ def plan_figure(parent: Element, report: ReportContent) -> bool:
     rooms = list(dict.fromkeys([place.room for place in places if place.room and place.decided]))
     if rooms:
         notes.append(f"On the way: {', '.join(rooms)}.")
+    if report.walk.places.last is not None:
+        notes += whole_sentences([end_line(report.walk.places.last)])
     if len(levels) < len(plan.levels):
         notes.append("Levels where the wearer was not are left out.")
     caption(element, "Track on the floor plan", *notes)
