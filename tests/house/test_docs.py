@@ -91,7 +91,7 @@ def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(here):
 
 
 def test_the_loop_over_bluetooth_is_a_program(here):
-    """The loop runs in examples/bluetooth.py, against emulated insoles."""
+    """A loop like it runs in examples/app.py, against emulated insoles (tests/life/test_app.py)."""
     _, names = run_page("docs/bluetooth.md")
     assert names["listen"].__name__ == "listen"
 

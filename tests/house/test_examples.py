@@ -39,15 +39,6 @@ def test_the_loop_ends_where_an_emulated_route_ends():
     assert float(stands[8]) == pytest.approx(float(end[9]), abs=0.5)
 
 
-@pytest.mark.soak
-def test_emulated_insoles_are_received_over_bluetooth():
-    lines_out = run("bluetooth").splitlines()
-    assert {"left_foot: connected to solepath L", "right_foot: connected to solepath R"} <= set(lines_out)
-    strides = [line for line in lines_out if " stride of " in line]
-    assert {line.split()[0] for line in strides} == {"left", "right"}
-    assert sum(float(line.split()[3]) for line in strides) == pytest.approx(8.0, rel=0.05)  # 4 m with each foot
-
-
 def test_the_loop_prints_the_strides_of_a_recording(tmp_path):
     walk = insoles(ROUTE, Radio(corrupt=0.02), seed=2)
     lines_out = run("own_loop", recorded(tmp_path / "walk.jsonl", walk.packets))

@@ -18,7 +18,7 @@ import solepath.papers
 from solepath import Event
 
 ROOT = Path(solepath.__file__).parent
-ALIASES = {"Event", "Quat", "Vec3"}
+ALIASES = {"Event", "LinkEvent", "Quat", "Vec3"}
 """Type aliases, which Python gives no docstring."""
 
 

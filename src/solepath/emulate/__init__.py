@@ -1,5 +1,10 @@
 """The emulator: a wearer on a scripted route, devices, a radio link and the ground truth. Needs numpy."""
 
+from __future__ import annotations
+
+from contextlib import AbstractAsyncContextManager
+from typing import TYPE_CHECKING
+
 from .devices.bench import Bench
 from .radio import Radio
 from .routes.course import Course
@@ -14,6 +19,9 @@ from .walk import EmulatedWalk, SampledWalk, emulate, sampled
 from .wearers.gait import Wearer
 from .wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from .wearers.walker import Walker
+
+if TYPE_CHECKING:
+    from ..ble import Backend
 
 __all__ = [
     "Bench",
@@ -34,6 +42,16 @@ __all__ = [
     "case_study",
     "emulate",
     "layout",
+    "reach",
     "sampled",
     "suit",
 ]
+
+
+def reach(where: str) -> AbstractAsyncContextManager[Backend]:
+    """Return a context that gives `Devices` the emulated sensors of `solepath emulate` at `where`, tcp:HOST:PORT.
+
+    Raises ValueError for other words, and BleakError, on entering, when nothing answers. Needs the extra `loopback`."""
+    from .controllers import reach
+
+    return reach(where)
