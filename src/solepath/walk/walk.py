@@ -42,7 +42,9 @@ from ..events import (
     PacketRejected,
     Placed,
     PlaceLost,
+    SampleGap,
     SampleRejected,
+    StreamStale,
     StrideFused,
     StrideTaken,
     ToeOff,
@@ -193,6 +195,8 @@ class Walk:
     newest_cycles: deque[GaitCycleMeasured] = field(factory=lambda: deque(maxlen=2 * LIMIT))
     """Newest gait cycles of both feet, in their order, from which the differences between the feet follow."""
     made_turns: ThinnedList[TurnMade] = field(factory=ThinnedList)
+    absences: ThinnedList[SampleGap | FootSilent | StreamStale] = field(factory=ThinnedList)
+    """Times in which a sensor sent nothing; empty unless the strides of a walk of any length are kept."""
     rides: ThinnedList[LiftRidden] = field(factory=ThinnedList)
     """Final elevator rides."""
     wearer_track: ThinnedList[WearerMoved] = field(factory=ThinnedList)
@@ -294,6 +298,8 @@ class Walk:
                 if site is not None:
                     self.link(site).add_event(event, self.now)
                 self._count_event(event)
+                if self.limit is None and isinstance(event, SampleGap | FootSilent | StreamStale):
+                    self.absences.add(event, None)
                 self._add_fault(event)
                 self.places.add(event)
         return True

@@ -185,7 +185,7 @@ class OutcomeRequest:
 
     def results(self, walk: Walk) -> ClinicalResults:
         """Return the outcomes of a walk so far."""
-        events: list[Event] = [*walk.made_turns]
+        events: list[Event] = [*walk.made_turns, *walk.absences]
         for foot in Foot:
             events += [*walk.cycles[foot], *walk.strides[foot]]
         results = ClinicalResults(walking_bouts(events))
