@@ -5,29 +5,16 @@ from __future__ import annotations
 from math import pi
 
 import pytest
-from strides import cycle, stride
+from made_walks import walk, without
+from strides import stride
 from walks import insoles, run_session
 
 from solepath import FootSilent, SampleGap, TurnMade
 from solepath.emulate.routes.route import Route
-from solepath.events import Event, GaitCycleMeasured, StrideTaken
 from solepath.show.outcomes import six_minute_walk, timed_up_and_go
 from solepath.types import SITE_OF_FOOT, Foot, Turn
 
 L, R = Foot.LEFT, Foot.RIGHT
-
-
-def walk(start: float, seconds: int, length: float = 1.2) -> list[Event]:
-    """Return strides of 1 s: the left foot swings from k + 0.5 to k + 0.9 s after `start`, the right one from k + 1.0
-    to k + 1.4 s, for as many k as `seconds`."""
-    made: list[Event] = []
-    for k in range(seconds):
-        for foot, offset in ((L, 0.5), (R, 1.0)):
-            off = start + k + offset
-            made.append(stride(foot, off + 0.5, (length, 0.0, 0.0), t_toe_off=off, t_heel_strike=off + 0.4))
-            if k:
-                made.append(cycle(foot, off - 0.6, 1.0, length))
-    return made
 
 
 def test_six_minutes_start_with_the_first_toe_off_and_end_within_a_stride() -> None:
@@ -130,20 +117,6 @@ def test_an_emulated_six_minute_walk_there_and_back() -> None:
     contacts = [t for foot in Foot for t in walked.truth.feet[foot].heel_strikes if first < t <= first + 360.0]
     assert six.steps == pytest.approx(len(contacts), abs=2)
     assert six.about_turns in (13, 14) and max(six.minutes) - min(six.minutes) < 4.0
-
-
-def without(events: list[Event], foot: Foot, start: float, end: float) -> list[Event]:
-    """Return the events of a walk in which the sensor of a foot sent nothing from `start` to `end`, s."""
-    gap = SampleGap(t=start, known_at=end, site=SITE_OF_FOOT[foot], duration=end - start, count=0)
-    kept = [
-        one
-        for one in events
-        if not isinstance(one, StrideTaken | GaitCycleMeasured)
-        or one.foot is not foot
-        or one.t <= start
-        or one.t_start >= end
-    ]
-    return [*kept, gap]
 
 
 def test_while_a_foot_sends_nothing_the_distance_is_that_of_the_other_foot() -> None:
