@@ -35,7 +35,8 @@ class Absences:
         """Return the absences of the feet that took strides or gait cycles in these events."""
         silences: dict[Foot, list[Span]] = {}
         holes: dict[Foot, list[Span]] = {}
-        strides = sorted([(one.t_start, one.t_end, one.foot) for one in events if _is_stride(one)])
+        final = [one for one in events if isinstance(one, StrideTaken) and one.final]
+        strides = sorted([(one.t_start, one.t_end, one.foot) for one in final], key=lambda one: one[:2])
         feet = {one.foot for one in events if isinstance(one, StrideTaken | GaitCycleMeasured)}
         for foot in [foot for foot in Foot if foot in feet]:
             own = [(a, b) for a, b, of in strides if of is foot]
@@ -71,10 +72,6 @@ class Absences:
         """Return how long each foot alone was measured while the other one sent nothing, s; feet that never were."""
         times = {foot: _time(self.silences, {*self.silences} - {foot}, start, stop) for foot in self.silences}
         return {foot: time for foot, time in times.items() if time > 0.0}
-
-
-def _is_stride(event: Event) -> bool:
-    return isinstance(event, StrideTaken) and event.final
 
 
 def _foot_of(event: Absence) -> Foot | None:

@@ -13,8 +13,8 @@ def answer(row: OutcomeRow, before: OutcomeRow | None) -> list[str]:
     if row.value is None:
         return [f"{name}: the {row.label} is not known."]
     sentences = [f"{name}: {row.measured}{_reference_clause(row)}."]
-    if row.doubts:
-        reasons = " and ".join(row.doubts)
+    if row.shortfalls:
+        reasons = " and ".join(row.shortfalls)
         sentences.append(f"{reasons[0].upper()}{reasons[1:]}: it is compared with no prediction and no other walk.")
     if before is not None:
         sentences.append(_change(row, before))
@@ -37,7 +37,7 @@ def _change(row: OutcomeRow, before: OutcomeRow) -> str:
         return "Before: not known."
     change = change_of(row, before)
     if change is None or row.value is None:
-        why = f": {' and '.join(before.doubts)}, so that no change is given" if before.doubts else ""
+        why = f": {' and '.join(before.shortfalls)}, so that no change is given" if before.shortfalls else ""
         return f"Before: {before.measured}{why}."
     digits, one = row.digits(row.value), row.smallest_change
     words = f"Before: {before.value:.{digits}f} {row.unit}{before.extent}. The change, {change:+.{digits}f}"
@@ -49,6 +49,6 @@ def _change(row: OutcomeRow, before: OutcomeRow) -> str:
 
 def change_of(row: OutcomeRow, before: OutcomeRow) -> float | None:
     """Return the change of a result from that of the walk before; None unless both are of whole tests."""
-    if row.value is None or before.value is None or row.doubts or before.doubts:
+    if row.value is None or before.value is None or row.shortfalls or before.shortfalls:
         return None
     return row.value - before.value

@@ -35,6 +35,7 @@ from .rows import (
     up_and_go_rows,
     walk_rows,
 )
+from .spread import LEFT_OUT
 from .walk_tests import SixMinuteWalk, six_minute_walk, timed_up_and_go, whole_walk
 
 LABEL = (
@@ -55,9 +56,6 @@ NEEDED = (
 SENSORS = (
     "The intervals are of the strides: sensors whose scales differ by 1 % make lengths and speeds differ by as much."
 )
-MOST_NEEDED = 25
-"""Number of times as many strides as there are that an outcome may need; then its interval is five times as wide as it
-should be, and it is left out (chosen by hand)."""
 TOO_FEW = "There are too few steady strides for variability and asymmetry: four of a foot are needed."
 NO_BOUT = "No walking bout: none has four strides without a break of more than 3 s."
 NO_WALK = "No walking bout was found, so that there is no six-minute walk."
@@ -223,7 +221,7 @@ class OutcomeRequest:
         person = self.person if self.usual_pace else None
         results.rows += [*mobility_rows(mobility_outcomes(bouts)), steady_speed_row(events, person)]
         estimates = stride_rows(events)
-        vague = [row for row in estimates if (one := row.interval) and one.needed > MOST_NEEDED * one.strides]
+        vague = [row for row in estimates if (one := row.interval) and one.is_vague]
         results.rows += [row for row in estimates if row not in vague]
         tables = [
             OutcomeTable("Walking bouts", BOUT_HEADER, [bout_row(bout) for bout in bouts[:MAX_BOUTS]]),
@@ -236,7 +234,7 @@ class OutcomeRequest:
         notes = [f"The first {MAX_BOUTS} bouts are shown; there are {more} more."] if more > 0 else []
         if vague:
             left_out = ", ".join([f"{row.part} of {row.label}" for row in vague])
-            notes.append(f"Left out, because {MOST_NEEDED} times as many strides would not be enough: {left_out}.")
+            notes.append(LEFT_OUT.format(left_out))
         notes += [NEEDED, SENSORS] if any([results.part(part) for part in OF_STRIDES]) else [TOO_FEW]
         notes += results.sources(MOBILITY)
         sentences = [LABEL, *([] if bouts else [NO_BOUT])]

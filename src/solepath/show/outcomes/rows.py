@@ -70,7 +70,7 @@ class OutcomeRow:
     """True if the value lacks what was not measured."""
     extent: str = ""
     """What the value is of where that is not the whole test by both feet, such as "in 20 s of the six minutes"."""
-    doubts: tuple[str, ...] = ()
+    shortfalls: tuple[str, ...] = ()
     """Why the value is not that of a whole test, so that nothing is compared with it."""
 
     def shown(self, value: float | int | None) -> str:
@@ -149,7 +149,7 @@ def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeR
         ("about_turns", "turns about", "", walk.about_turns),
         ("degraded", "degraded strides", "", walk.degraded),
     ]  # fmt: skip
-    doubts = [
+    shortfalls = [
         "" if walk.complete else "the recording ends before the six minutes do",
         "" if walk.measured else f"no foot was measured for {duration_text(walk.unmeasured_time)} of the six minutes",
     ]
@@ -158,8 +158,8 @@ def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeR
     extent = ", ".join(["" if walk.complete else f" in {duration_text(walk.duration)} of the six minutes", *alone])
     reference = None if person is None else six_minute_reference(person)
     first, *others = _rows(SIX_MINUTE_WALK, values, reference, SIX_MINUTE_CHANGE)
-    first = evolve(first, at_least=not walk.measured, extent=extent, doubts=tuple(filter(None, doubts)))
-    return [evolve(first, reference=None, smallest_change=None) if first.doubts else first, *others]
+    first = evolve(first, at_least=not walk.measured, extent=extent, shortfalls=tuple(filter(None, shortfalls)))
+    return [evolve(first, reference=None, smallest_change=None) if first.shortfalls else first, *others]
 
 
 def up_and_go_rows(test: TimedUpAndGo, person: Person | None) -> list[OutcomeRow]:

@@ -38,15 +38,21 @@ class FootDifference:
     """A difference between the feet in steady strides of walking: (right - left) / mean of both, as a share."""
 
     value: float
+    """Asymmetry of the gait table, of the feet's means."""
+    paired: float
+    """Mean difference of strides that follow each other (paired_difference)."""
     half_width: float
-    """Half the width of the 95 % interval of `value`, as a share (paired_difference)."""
+    """Half the width of the 95 % interval of `paired`, as a share."""
     error: float
     """Difference that the measurement may show where there is none, as a share."""
+    is_vague: bool = False
+    """True if its interval says nothing (outcomes/spread.py)."""
 
     @property
     def is_certain(self) -> bool:
-        """True if the whole interval is beyond the error of the measurement."""
-        return abs(self.value) - self.half_width > self.error
+        """True if the whole interval is beyond the error of the measurement, around either estimate."""
+        least = min(abs(self.value), abs(self.paired)) if self.value * self.paired > 0.0 else 0.0
+        return not self.is_vague and least - self.half_width > self.error
 
 
 def foot_differences(
@@ -56,16 +62,18 @@ def foot_differences(
 
     `strides` are gait cycles in order of time. A difference that `parameters` lack, as step times on separate clocks
     are, is left out, and so are those of runs."""
+    from ..outcomes.spread import VAGUE_ASYMMETRY, asymmetry
+
     known: dict[str, FootDifference] = {}
     if parameters is None:
         return known
     for name in (STRIDE_LENGTH, SWING_TIME, STEP_TIME):
         figure: Figure | None = getattr(parameters.both, name)
-        estimate = paired_difference(strides, name)
-        if figure is not None and estimate is not None and figure.mean > 0.0:
-            known[name] = FootDifference(
-                *estimate, LENGTH_ERROR if name == STRIDE_LENGTH else EVENT_ERROR / figure.mean
-            )
+        value, paired, index = parameters.asymmetry(name), paired_difference(strides, name), asymmetry(strides, name)
+        if figure is not None and value is not None and paired is not None and figure.mean > 0.0:
+            error = LENGTH_ERROR if name == STRIDE_LENGTH else EVENT_ERROR / figure.mean
+            is_vague = index is None or index.is_vague or paired[1] > VAGUE_ASYMMETRY
+            known[name] = FootDifference(value, *paired, error, is_vague)
     return known
 
 

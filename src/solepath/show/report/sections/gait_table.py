@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element
 
 from ....body.gait.means import GaitParameters, StrideFigures
+from ....events import GaitCycleMeasured
 from ....types import Foot
-from ...tables.gait import MIN_STRIDES, gait_cells, gait_rows, strides_of
+from ...tables.gait import MIN_STRIDES, gait_cells, gait_rows, strides_of, sure_rows
 from ...tables.table import milliseconds, percent
 from ..markup import notes, table, terms
 from ..running import running_means
@@ -46,10 +47,11 @@ RUNNING = [
 ]
 
 
-def gait_table(parent: Element, parameters: GaitParameters) -> None:
-    """Add the table of walking or of running."""
+def gait_table(parent: Element, parameters: GaitParameters, cycles: Iterable[GaitCycleMeasured]) -> None:
+    """Add the table of walking or of running, of these gait cycles."""
+    known, left_out = sure_rows(parameters, cycles)
     # the standard deviation is on a line of its own
-    rows = gait_cells(parameters, "\n\N{PLUS-MINUS SIGN}")
+    rows = gait_cells(parameters, "\n\N{PLUS-MINUS SIGN}", known)
     if (run := running_means(parameters)) is not None:
         contacts = [parameters.feet.get(foot, StrideFigures()).stance_time for foot in Foot]
         feet = ["-" if one is None else milliseconds(one.mean) for one in contacts]
@@ -63,6 +65,7 @@ def gait_table(parent: Element, parameters: GaitParameters) -> None:
     table(parent, caption, HEADER, rows, "numbers gait")
     if parameters.coordination is not None:
         notes(parent, [f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007)."])
+    notes(parent, left_out)
     count = sum([strides_of(parameters, foot) or 0 for foot in Foot])  # whole numbers
     if count < MIN_STRIDES:
         notes(parent, [f"Of {count} gait cycles: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."])

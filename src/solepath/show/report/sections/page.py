@@ -110,7 +110,7 @@ def _ways(parent: Element, report: ReportContent) -> None:
 
 def _gait(parent: Element, report: ReportContent, facts: Facts, *, figures: bool) -> None:
     for means in facts.means:
-        gait_table(parent, means)
+        gait_table(parent, means, report.walk.newest_cycles)
     if figures:
         drawn = add(parent, "<div class='figures'/>")
         stride_figures(drawn, [one for cycles in report.walk.cycles.values() for one in cycles], report.clock)
