@@ -82,6 +82,9 @@ MAX_ACTIVITY_CHANGES = 2000
 """Largest number of activity changes that are kept; with more, the shortest activities are left out."""
 LIMIT = 1200
 """Largest number of strides of a foot, and of other things that are kept, where a walk may last all day."""
+LEAST_ABSENCE = 1.0
+"""Least time without samples that is kept, s: the shortest after which a device counts as silent (Profile.stale_after);
+a stride bridges a shorter one."""
 MAX_CANDIDATES = 40
 """Largest number of candidates of a place; those with the largest weights are kept."""
 MAX_POINTS = 1500
@@ -196,7 +199,7 @@ class Walk:
     """Newest gait cycles of both feet, in their order, from which the differences between the feet follow."""
     made_turns: ThinnedList[TurnMade] = field(factory=ThinnedList)
     absences: ThinnedList[SampleGap | FootSilent | StreamStale] = field(factory=ThinnedList)
-    """Times in which a sensor sent nothing; empty unless the strides of a walk of any length are kept."""
+    """Times of LEAST_ABSENCE and more in which a sensor sent nothing."""
     rides: ThinnedList[LiftRidden] = field(factory=ThinnedList)
     """Final elevator rides."""
     wearer_track: ThinnedList[WearerMoved] = field(factory=ThinnedList)
@@ -298,8 +301,6 @@ class Walk:
                 if site is not None:
                     self.link(site).add_event(event, self.now)
                 self._count_event(event)
-                if self.limit is None and isinstance(event, SampleGap | FootSilent | StreamStale):
-                    self.absences.add(event, None)
                 self._add_fault(event)
                 self.places.add(event)
         return True
@@ -375,6 +376,10 @@ class Walk:
                 self.wearer_track.add(event, self._point_limit)
             case Placed() | PlaceLost():
                 self.placed.add(event if self.keeps_all else _with_heaviest(event), self.limit)
+            case SampleGap(duration=duration) if duration >= LEAST_ABSENCE:
+                self.absences.add(event, self.limit)
+            case FootSilent() | StreamStale():
+                self.absences.add(event, self.limit)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None and self.limit != 0:
                 self.sole(site.foot).layout = layout
             case _:

@@ -6,13 +6,14 @@ before such a time and the one after it do not meet: a short gap within a stride
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 from math import fsum, inf
 
 from attrs import frozen
 
 from ...events import Event, FootSilent, GaitCycleMeasured, SampleGap, StreamStale, StrideTaken
 from ...types import Foot
+from ...walk.walk import Walk
 from .bouts import MAX_STRIDE_TIME
 
 Span = tuple[float, float]
@@ -51,6 +52,14 @@ class Absences:
                     silences[foot].append((max(a, low), min(b, high)))
                     holes[foot].append((max(a - MAX_STRIDE_TIME, low), min(b + MAX_STRIDE_TIME, high)))
         return cls(silences, holes)
+
+    @classmethod
+    def of_walk(cls, walk: Walk) -> Absences:
+        """Return the absences of a walk; none of one so long that not all of its strides are kept."""
+        strides, cycles = walk.strides.values(), walk.cycles.values()
+        if any([kept.interval > 1 for kept in strides]):
+            return cls({}, {})
+        return cls.of([*chain(*strides), *chain(*cycles), *walk.absences])
 
     def parts(self, start: float, stop: float) -> Iterator[tuple[float, float, set[Foot]]]:
         """Yield the parts of a time, s, with the feet of which strides are missing in it."""

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from statistics import fmean
 from typing import TYPE_CHECKING, Any
 
-from attrs import define, field, frozen
+from attrs import define, evolve, field, frozen
 
 from ...events import Event, FootMoved, StrideTaken, WearerMoved
 from ...floorplan.plan import FloorPlan
 from ...saving.provenance import installed_version
-from ...types import Packet, Sample
+from ...types import Packet, Sample, Vec3
 from ...walk.walk import Walk
 from .bands import Band
 from .clock import ReportClock
@@ -70,5 +71,35 @@ class ReportContent:
 
     @property
     def track(self) -> Sequence[TimedPosition]:
-        """Track of the wearer or, if it is not known, that of the foot with the most strides."""
-        return list(self.walk.wearer_track) or max(map(list, self.walk.strides.values()), key=len)
+        """Track of the wearer or, if it is not known, of the foot with the most strides, from the first step on."""
+        strides, moved = {foot: list(kept) for foot, kept in self.walk.strides.items()}, list(self.walk.wearer_track)
+        if moved:
+            return [*_first_steps([own for own in strides.values() if own], moved[0]), *moved]
+        most = max(strides.values(), key=len)
+        return [evolve(most[0], t=_start_of(most[0]), position=_before(most[0])), *most] if most else []
+
+
+def _first_steps(strides: Sequence[Sequence[StrideTaken]], first: WearerMoved) -> list[WearerMoved]:
+    """Return where the wearer was before the `first` position that a session gives: in the middle of the feet.
+
+    A session gives it once the feet are known to carry a walker."""
+    early = sorted([one for own in strides for one in own if one.t_end < first.t], key=lambda one: one.t_end)
+    places = {own[0].foot: _before(own[0]) for own in strides}
+    found = []
+    for t, stride in [(min(map(_start_of, early), default=first.t), None), *[(one.t_end, one) for one in early]]:
+        if stride is not None:
+            places[stride.foot] = stride.position
+        x, y, z = [fmean(values) for values in zip(*places.values(), strict=True)] if places else first.position
+        found.append(evolve(first, t=t, position=(x, y, z)))
+    return found if early else []
+
+
+def _start_of(stride: StrideTaken) -> float:
+    """Return when the foot left the ground, s, or the start of the stride if that is not known."""
+    return stride.t_start if stride.t_toe_off is None else stride.t_toe_off
+
+
+def _before(stride: StrideTaken) -> Vec3:
+    """Return where a stride began, m."""
+    x, y, z = [end - way for end, way in zip(stride.position, stride.displacement, strict=True)]
+    return x, y, z

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element, fromstring
 
@@ -17,6 +18,17 @@ WIDTH = 400.0
 HEAD = """<head><meta charset='utf-8'/><meta name='generator' content='solepath'/>
 <meta name='viewport' content='width=device-width, initial-scale=1'/><meta name='color-scheme' content='light dark'/>
 <title>{}</title><style/></head>"""
+
+
+UNIT = re.compile(r"(?<=\d) (?=(?:m/s|mm|cm|ms|min|m|s|h|%|Hz|deg|points)(?![\w/]))")
+"""Space between a number and its unit."""
+
+
+def keep_units(page: Element) -> None:
+    """Keep each number and its unit on one line, in all words of a page."""
+    for one in page.iter():
+        if one.tag not in ("style", "title"):
+            one.text, one.tail = [words and UNIT.sub("\N{NO-BREAK SPACE}", words) for words in (one.text, one.tail)]
 
 
 def skeleton(title: str) -> tuple[Element, Element]:

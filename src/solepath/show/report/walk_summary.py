@@ -7,12 +7,17 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from math import fsum, sqrt
+from statistics import fmean
+from typing import TYPE_CHECKING
 
 from attrs import frozen
 
 from ...body.gait.means import Figure, GaitParameters
 from ...events import GaitCycleMeasured
 from ...types import Activity, Foot
+
+if TYPE_CHECKING:
+    from ..outcomes.absences import Absences
 
 LENGTH_ERROR = 0.02
 """Difference of stride lengths that two good sensors may show, as a share: each has a scale within 1 % by the data
@@ -121,8 +126,10 @@ def gait_spans(
     return found
 
 
-def distance_in(spans: Sequence[Span], distances: Mapping[Foot, Sequence[tuple[float, float]]]) -> float | None:
-    """Return how far the wearer went in some spans of time, m: the mean of the feet; None without any.
+def distance_in(
+    spans: Sequence[Span], distances: Mapping[Foot, Sequence[tuple[float, float]]], absences: Absences
+) -> float | None:
+    """Return how far the wearer went in some spans of time, m: the mean of the feet measured; None without any.
 
     `distances` has pairs of the end of a stride, s, and the distance that the foot has gone until then, m. A stride
     counts where its middle is, because activities change in the middle of the first and the last one."""
@@ -131,6 +138,8 @@ def distance_in(spans: Sequence[Span], distances: Mapping[Foot, Sequence[tuple[f
         k = bisect_right(pairs, t + HALF_STRIDE, key=lambda pair: pair[0])
         return pairs[k - 1][1] if k else 0.0
 
-    known = [pairs for pairs in distances.values() if pairs]
-    lengths = [until(pairs, end) - until(pairs, start) for pairs in known for start, end in spans]
-    return fsum(lengths) / len(known) if known else None
+    known = {foot: pairs for foot, pairs in distances.items() if pairs}
+    parts = [part for start, end in spans for part in absences.parts(start, end)]
+    feet = [([known[foot] for foot in known if foot not in absent], a, b) for a, b, absent in parts]
+    means = [fmean([until(pairs, b) - until(pairs, a) for pairs in there]) for there, a, b in feet if there]
+    return fsum(means) if known else None

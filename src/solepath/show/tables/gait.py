@@ -4,7 +4,7 @@ The tables of the terminal, the page and the report all use these rows."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from math import degrees
 
 from attrs import evolve, frozen
@@ -111,14 +111,17 @@ def strides_of(parameters: GaitParameters, foot: Foot) -> int | None:
     return None if time is None else time.strides
 
 
-def sure_rows(parameters: GaitParameters, cycles: Iterable[GaitCycleMeasured]) -> tuple[list[GaitRow], list[str]]:
+def sure_rows(
+    parameters: GaitParameters, cycles: Iterable[GaitCycleMeasured], without: Collection[str] = ()
+) -> tuple[list[GaitRow], list[str]]:
     """Return the rows without variations and asymmetries whose intervals say nothing, and sentences that name these.
 
-    `cycles` are those of the means. Of the difference of an angle only the number of strides counts."""
+    Rows of the names `without` are left out. `cycles` are those of the means. Of the difference of an angle only the
+    number of strides counts."""
     from ..outcomes.spread import LEFT_OUT, asymmetry, variability
 
     known, running = list(cycles), parameters.running
-    rows = gait_rows(parameters)
+    rows = [row for row in gait_rows(parameters) if row.name not in without]
     few = asymmetry(known, "stride_time", running=running) is None
     unsure: list[tuple[str, GaitRow]] = []
     for row in rows:

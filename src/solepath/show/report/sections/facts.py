@@ -8,6 +8,7 @@ from math import fsum
 from attrs import frozen
 
 from ....body.gait.means import GaitParameters
+from ...outcomes.absences import Absences
 from ...outcomes.spread import LEFT_OUT
 from ..content import ReportContent
 from ..measures import Measure, measures
@@ -85,9 +86,12 @@ def facts_of(report: ReportContent) -> Facts:
     found += [] if running is None else measures(running)
     cycles = [one for found in walk.cycles.values() for one in found]
     distances = {foot: list(pairs) for foot, pairs in walk.distances.items() if foot in walk.measured_feet}
-    bouts = {}
+    bouts, absences = {}, Absences.of_walk(walk)
     for is_run, spans in gait_spans(walk.timeline.spans(report.clock.end), cycles).items():
-        duration, distance = fsum([end - start for start, end in spans]), distance_in(spans, distances) or None
+        duration, distance = (
+            fsum([end - start for start, end in spans]),
+            distance_in(spans, distances, absences) or None,
+        )
         count = len([one for one in cycles if any([start <= one.t <= end for start, end in spans])])
         if duration > 0.0 and (count or distance):
             bouts[is_run] = Bout(duration, distance, count)

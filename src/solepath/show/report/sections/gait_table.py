@@ -28,6 +28,8 @@ DEFINITIONS = {
     "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
 }
 """Short definition of each parameter; GaitCycleMeasured has the full definitions."""
+FOOT_PARAMETERS = ("clearance", "toe_off_angle", "heel_strike_angle")
+"""Parameters of how a foot moves, which no result of a walk test needs."""
 STEADY = ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or degraded")
 VARIATION = ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)")
 BOTH_FEET = ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)")
@@ -47,9 +49,11 @@ RUNNING = [
 ]
 
 
-def gait_table(parent: Element, parameters: GaitParameters, cycles: Iterable[GaitCycleMeasured]) -> None:
-    """Add the table of walking or of running, of these gait cycles."""
-    known, left_out = sure_rows(parameters, cycles)
+def gait_table(
+    parent: Element, parameters: GaitParameters, cycles: Iterable[GaitCycleMeasured], *, brief: bool
+) -> None:
+    """Add the table of walking or of running, of these gait cycles; a `brief` one has no FOOT_PARAMETERS."""
+    known, left_out = sure_rows(parameters, cycles, FOOT_PARAMETERS if brief else ())
     # the standard deviation is on a line of its own
     rows = gait_cells(parameters, "\n\N{PLUS-MINUS SIGN}", known)
     if (run := running_means(parameters)) is not None:
@@ -71,11 +75,12 @@ def gait_table(parent: Element, parameters: GaitParameters, cycles: Iterable[Gai
         notes(parent, [f"Of {count} gait cycles: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."])
 
 
-def definitions(parent: Element, tables: Sequence[GaitParameters], *, difference: bool) -> None:
+def definitions(parent: Element, tables: Sequence[GaitParameters], *, difference: bool, brief: bool) -> None:
     """Add the definitions of the parameters that are shown, with their sources.
 
-    `difference` says that the left/right difference is shown."""
-    labels = {row.name: row.label for parameters in tables for row in gait_rows(parameters)}
+    `difference` says that the left/right difference is shown, `brief` that the tables have no FOOT_PARAMETERS."""
+    rows = [row for parameters in tables for row in gait_rows(parameters)]
+    labels = {row.name: row.label for row in rows if not brief or row.name not in FOOT_PARAMETERS}
     meanings = [(labels[name], meaning) for name, meaning in DEFINITIONS.items() if name in labels]
     meanings += [*(RUNNING if any([one.running for one in tables]) else []), STEADY]
     if any([len(parameters.feet) == len(Foot) for parameters in tables]):

@@ -89,8 +89,8 @@ def judgements(facts: Facts, before: Facts | None = None, concerning: Collection
         "plausibility": _plausibility(facts),
         "wearing": _wear(facts),
         "calibration": _calibration(facts),
-        "accuracy": _accuracy(facts),
         BEFORE: None if before is None else _before(judgements(before, None, concerning)),
+        "accuracy": _accuracy(facts),
     }
     notes = [part for part in found if concerning is not None and part not in concerning]
     judged = [Judgement(part, *one) for part, one in found.items() if one is not None]
@@ -118,9 +118,10 @@ def warning(parts: Sequence[Judgement]) -> str:
 def quality_box(parent: Element, parts: Sequence[Judgement]) -> None:
     """Add a list of the parts, each with its verdict in a word of its own colour."""
     box = add(parent, "<dl class='quality'/>")
-    row = "<div><dt><span>{}</span><strong class='verdict {}'>{}</strong></dt><dd>{}</dd></div>"
+    row = "<div class='{}'><dt><span>{}</span><strong class='verdict {}'>{}</strong></dt><dd>{}</dd></div>"
     for part in parts:
-        add(box, row, part.part, part.verdict.name.lower(), part.verdict.value, part.words)
+        kind = "whole" if part.part == "accuracy" else ""
+        add(box, row, kind, part.part, part.verdict.name.lower(), part.verdict.value, part.words)
 
 
 def _gait_cycles(facts: Facts) -> Found:
@@ -143,7 +144,7 @@ def _samples(facts: Facts) -> Found:
             worst = max(worst, link.missing_share, absent)
             missing.append(f"{foot} foot {words}")
     verdict = STOP if worst > MAX_GAP_SHARE else LOOK if worst > GOOD_GAP_SHARE else GOOD
-    return verdict, f"{'; '.join(missing) or 'No sample is missing'}.", "missing samples"
+    return verdict, " ".join(whole_sentences(missing)) or "No sample is missing.", "missing samples"
 
 
 def _strides(facts: Facts) -> Found | None:
@@ -165,7 +166,7 @@ def _before(parts: Sequence[Judgement]) -> Found | None:
     """Return the judgement of the walk before: the worst of its parts, and what is wrong."""
     wrong = [part for part in parts if part.verdict in (LOOK, STOP)]
     if not wrong:
-        return (GOOD, "It was measured well.", "") if parts else None
+        return (GOOD, "There is nothing to look at.", "") if parts else None
     verdict = STOP if any([part.verdict is STOP for part in wrong]) else LOOK
     return (
         verdict,
