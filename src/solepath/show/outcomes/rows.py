@@ -91,7 +91,12 @@ class OutcomeRow:
     @property
     def cells(self) -> list[str]:
         """Cells of a table: label, value, unit, which is % for a share, and those of `REFERENCE_HEADERS`."""
-        return [self.label, self.shown(self.value), self.shown_unit, *self.reference_cells]
+        return [self.label, self.least + self.shown(self.value), self.shown_unit, *self.reference_cells]
+
+    @property
+    def least(self) -> str:
+        """Sign before the value in a table: that it is at least so large, or nothing."""
+        return ">= " if self.at_least else ""
 
     @property
     def shown_unit(self) -> str:
@@ -133,12 +138,13 @@ def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeR
     """Return the rows of a six-minute walk; the distance has a reference if the whole test was measured."""
     known = walk.measured or None
     unmeasured = None if walk.measured else walk.unmeasured_time
+    long = {foot: t for foot, t in walk.alone_times.items() if not is_measured(t, walk.duration)}
     values: list[NamedValue] = [
         ("distance", "distance", "m", walk.distance),
         ("duration", "duration", "s", walk.duration),
         *[(f"distance_{foot}", f"distance of the {foot} foot", "m", d) for foot, d in walk.foot_distances.items()],
         ("unmeasured_time", "time in which no foot was measured", "s", unmeasured),
-        *[(f"alone_{foot}_time", f"time of the {foot} foot alone", "s", t) for foot, t in walk.alone_times.items()],
+        *[(f"alone_{foot}_time", f"time of the {foot} foot alone", "s", t) for foot, t in long.items()],
         ("speed", "distance / duration", "m/s", known and walk.speed),
         ("cadence", "steps / duration", "1/min", known and walk.cadence),
         ("steps", "steps", "", known and walk.steps),
@@ -153,7 +159,6 @@ def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeR
         "" if walk.complete else "the recording ends before the six minutes do",
         "" if walk.measured else f"no foot was measured for {duration_text(walk.unmeasured_time)} of the six minutes",
     ]
-    long = {foot: t for foot, t in walk.alone_times.items() if not is_measured(t, walk.duration)}
     alone = [f"{duration_text(t)} of it by the {foot} foot alone" for foot, t in long.items()]
     extent = ", ".join(["" if walk.complete else f" in {duration_text(walk.duration)} of the six minutes", *alone])
     reference = None if person is None else six_minute_reference(person)

@@ -11,6 +11,8 @@ from .style import STYLE
 
 NOTHING = ("", "-")
 """Cells of a table that hold nothing."""
+MAX_PHONE_COLUMNS = 5
+"""Largest number of columns of a table that stand side by side on a phone; others follow below."""
 MAX_LISTED = 40
 """Largest number of sentences of a list that are shown; chosen by hand."""
 WIDTH = 400.0
@@ -111,10 +113,10 @@ def table(
     filled = [row for row in rows if not all([cell in NOTHING for cell in row[1:]])]
     kept = [c for c in range(len(header)) if c == 0 or not all([row[c] in NOTHING for row in filled])]
     template = (
-        "<table role='table' class='{}'><caption>{}</caption>"
+        "<table role='table' class='{}' style='--columns: {}'><caption>{}</caption>"
         "<thead role='rowgroup'><tr role='row'/></thead><tbody role='rowgroup'/></table>"
     )
-    _, head, body = add(parent, template, kind, caption)
+    _, head, body = add(parent, template, kind, str(min(len(kept) - 1, MAX_PHONE_COLUMNS)), caption)
     for c in kept:
         add(head[0], "<th scope='col' role='columnheader'>{}</th>", header[c])
     for row in filled:

@@ -113,7 +113,7 @@ svg.plan { font-family: system-ui, sans-serif; }
   tr > * { min-width: 0; } tr > :first-child { grid-column: 1 / -1; }
   th, td { border: 0; padding: .05rem .2rem .05rem 0; font-size: .875rem; text-align: left; }
   thead th { font-size: .75rem; } tbody th { font-weight: 600; }
-  td span { display: block; } td span + span { margin-left: 0; }
+  td span { display: block; white-space: normal; } td span + span { margin-left: 0; }
   table.gait tr { grid-template-columns: 1fr 1fr 1.3fr .8fr 1.3fr; }
   table.comparison tr { grid-template-columns: .8fr .8fr 1.7fr .8fr .8fr; }
   table.links tr { --columns: 4; }

@@ -20,14 +20,16 @@ from .axes import PATH, grid, square_ticks, write
 
 Span = tuple[float, float]
 """Lower and upper end, px."""
+Box = tuple[float, float, float, float]
+"""Left, right, upper and lower end, px."""
 MAX_HEIGHT = 366.0
 """Largest height of a track on its drawing, px."""
 WIDE_WIDTH, WIDE_HEIGHT = 840.0, 386.0
 """Width of the drawing for wide screens and paper, and largest height of the track on it, px."""
 TEST_HEIGHT = 200.0
 """The same in the report of a test, which has a comparison on the same page of paper."""
-MARGIN_SHARE, MIN_MARGIN = 0.06, 0.4
-"""Margin around the track: as a share of its larger extent, and the least, m."""
+MARGIN_SHARE, MIN_MARGIN = 0.08, 0.4
+"""Margin around the track: as a share of its larger extent, with room for a label on a phone, and the least, m."""
 MIN_HEIGHT = 118.0
 """Least height of the track on its drawing, px."""
 LETTER_WIDTH, LABEL_HEIGHT = 8.6, 15.0
@@ -73,7 +75,7 @@ def _draw(parent: Element, name: str, title: str, report: ReportContent, width: 
     grid(svg, x, y, *square_ticks((x.low, x.high), (y.low, y.high))[:2])
     write(svg, 0.5 * (x.start + x.end), y.start + 33.0, "x and y, m", "label")
     add(svg, PATH, line(map(view.at, way)), "way")
-    labels = _Labels([view.at(one) for one in way], width)
+    labels = _Labels([view.at(one) for one in way], width - RIGHT, y.start)
     for word, place in (("start", way[0]), ("end", way[-1])):
         point = view.at(place)
         add(svg, "<circle cx='{}' cy='{}' r='4.5' class='{}'/>", *point, word)
@@ -82,47 +84,52 @@ def _draw(parent: Element, name: str, title: str, report: ReportContent, width: 
     return svg
 
 
+def _box(middle: Point, width: float) -> Box:
+    """Return the box of a label."""
+    x, y = middle
+    return x - 0.5 * width, x + 0.5 * width, y - 8.0, y + 8.0
+
+
 @define
 class _Labels:
     """The labels of a track: none is over another one, or over the track if there is a place that is free."""
 
     way: Sequence[Point]
     """Points of the track, px."""
-    width: float
-    """Width of the drawing, px."""
-    boxes: list[tuple[float, float, float, float]] = field(factory=list)
+    right: float
+    """Right end of the grid, px; its left end is at LEFT."""
+    bottom: float
+    """Lower end of the grid, px."""
+    boxes: list[Box] = field(factory=list)
     """Left, right, upper and lower ends of what has a label, px."""
 
     def add(self, svg: Element, point: Point, words: str, kind: str, *, is_needed: bool = False) -> bool:
-        """Write words beside a point at the first free place, if any; return whether they were written."""
+        """Write words beside a point at the first free place; return whether they were written.
+
+        Words that are needed go farther away, or over the track, if there is no such place."""
         width, (x, y) = LETTER_WIDTH * len(words), point
-        for distance in range(1, FARTHEST + 1):
-            for right, down in PLACES:
-                middle = x + distance * right * (0.5 * width + 8.0), y + distance * down * LABEL_HEIGHT
-                box = middle[0] - 0.5 * width, middle[0] + 0.5 * width, middle[1] - 8.0, middle[1] + 8.0
-                if self._is_free(box) and self._is_beside(point, middle):
-                    self._write(svg, middle, box, words, kind)
-                    return True
+        middles = [
+            (x + distance * right * (0.5 * width + 8.0), y + distance * down * LABEL_HEIGHT)
+            for distance in range(1, (2 if is_needed else 1) * FARTHEST + 1)
+            for right, down in PLACES
+        ]
+        free = [one for one in middles if self._is_free(_box(one, width))]
+        known = [one for one in free if self._is_beside(point, one)] or (free if is_needed else [])
         if is_needed:
-            middle = min(max(x, 0.5 * width), self.width - 0.5 * width), y - LABEL_HEIGHT
-            box = middle[0] - 0.5 * width, middle[0] + 0.5 * width, middle[1] - 8.0, middle[1] + 8.0
-            self._write(svg, middle, box, words, kind)
-        return is_needed
+            known.append((min(max(x, LEFT + 0.5 * width), self.right - 0.5 * width), y - LABEL_HEIGHT))
+        if known:
+            self.boxes.append(_box(known[0], width))
+            write(svg, known[0][0], known[0][1] + 4.5, words, kind)
+        return bool(known)
 
     def _is_beside(self, point: Point, middle: Point) -> bool:
         """Return whether no other part of the track is between a point of it and the middle of its label."""
         x, y = [0.7 * a + 0.3 * b for a, b in zip(point, middle, strict=True)]
         return not any([_meet((x, y), middle, a, b) for a, b in pairwise(self.way)])
 
-    def _write(
-        self, svg: Element, middle: Point, box: tuple[float, float, float, float], words: str, kind: str
-    ) -> None:
-        self.boxes.append(box)
-        write(svg, middle[0], middle[1] + 4.5, words, kind)
-
-    def _is_free(self, box: tuple[float, float, float, float]) -> bool:
+    def _is_free(self, box: Box) -> bool:
         left, right, upper, lower = box
-        if left < LEFT or right > self.width - RIGHT or upper < 0.0:
+        if left < LEFT or right > self.right or upper < 0.0 or lower > self.bottom:
             return False
         if any([left < b and a < right and upper < d and c < lower for a, b, c, d in self.boxes]):
             return False

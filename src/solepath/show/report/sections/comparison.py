@@ -63,7 +63,7 @@ def comparison(
 def _result_row(before: OutcomeRow, after: OutcomeRow) -> list[str]:
     """Return the row of the result of a test; what was not measured of the whole test is not judged."""
     label, known = f"{after.label}, {after.unit}", after.smallest_change
-    shown = ["-" if one.value is None else f"{'>= ' * one.at_least}{one.shown(one.value)}" for one in (before, after)]
+    shown = ["-" if one.value is None else one.least + one.shown(one.value) for one in (before, after)]
     change = change_of(after, before)
     if change is None or after.value is None:
         return [label, *shown, "-", "-", "-"]
@@ -81,9 +81,9 @@ def _change(change: float, base: float | None, digits: int, known: SmallestChang
     """Return the cells of a change: the change, also in percent of `base`, and how it is judged.
 
     The change of a share is in points."""
-    share = f" ({100.0 * change / abs(base):+.0f} %)" if base else " points" if unit == "%" else ""
+    share = f" ({100.0 * change / abs(base):+z.0f} %)" if base else " points" if unit == "%" else ""
     judged = ["-", "-"] if known is None else [f"{known.value:.{digits}f}", "yes" if known.reached_by(change) else "no"]
-    return [f"{change:+.{digits}f}{share}", *judged]
+    return [f"{change:+z.{digits}f}{share}", *judged]
 
 
 def _smallest(measure: Measure, usual_pace: bool) -> SmallestChange | None:

@@ -120,7 +120,7 @@ def quality_box(parent: Element, parts: Sequence[Judgement]) -> None:
     box = add(parent, "<dl class='quality'/>")
     row = "<div class='{}'><dt><span>{}</span><strong class='verdict {}'>{}</strong></dt><dd>{}</dd></div>"
     for part in parts:
-        kind = "whole" if part.part == "accuracy" else ""
+        kind = "whole" if part.part in (BEFORE, "accuracy") else ""
         add(box, row, kind, part.part, part.verdict.name.lower(), part.verdict.value, part.words)
 
 
@@ -163,16 +163,12 @@ def _strides(facts: Facts) -> Found | None:
 
 
 def _before(parts: Sequence[Judgement]) -> Found | None:
-    """Return the judgement of the walk before: the worst of its parts, and what is wrong."""
+    """Return the judgement of the walk before, which is something to look at: figures of this walk do not need it."""
     wrong = [part for part in parts if part.verdict in (LOOK, STOP)]
     if not wrong:
         return (GOOD, "There is nothing to look at.", "") if parts else None
-    verdict = STOP if any([part.verdict is STOP for part in wrong]) else LOOK
-    return (
-        verdict,
-        " ".join([part.words for part in wrong]),
-        f"the walk before ({', '.join([part.concern for part in wrong])})",
-    )
+    concerns = ", ".join([part.concern for part in wrong])
+    return LOOK, " ".join([part.words for part in wrong]), f"the walk before ({concerns})"
 
 
 def _accuracy(facts: Facts) -> Found | None:
