@@ -10,8 +10,8 @@ import pytest
 from attrs import evolve
 from pages import Node, parse_page
 from quoted import PAGES
-from reported_walks import events_of, report_of
-from walks import of
+from reported_walks import ROUTES, events_of, report_of
+from walks import of, run_session, samples
 
 from solepath import Defect, DefectFound, Site
 from solepath.events import Event, GaitCycleMeasured
@@ -47,6 +47,13 @@ def test_the_first_sentence_has_distance_time_speed_and_cadence() -> None:
         f"Walked {walk.distance:.0f} m in {walk.duration:.0f} s, in steady strides at {speed} m/s"
     )
     assert sentence.endswith(f" and {cadence} steps a minute.")
+
+
+@pytest.mark.parametrize("silent", [*Foot])
+def test_the_distance_is_that_of_the_other_foot_while_one_sends_nothing(silent: Foot) -> None:
+    fed = [one for one in samples(ROUTES["walk"], cells=0, rate=100.0) if one.site.foot is not silent or one.t < 15.0]
+    sentence = sentence_of(run_session(fed, poses=True, pressures=True))
+    assert float(sentence.removeprefix("Walked ").partition(" m in")[0]) == pytest.approx(40.0, abs=1.5)
 
 
 def with_factor(name: str, factor: float) -> list[Event]:

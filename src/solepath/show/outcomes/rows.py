@@ -179,7 +179,9 @@ def up_and_go_rows(test: TimedUpAndGo, person: Person | None) -> list[OutcomeRow
     return _rows(UP_AND_GO, values, None if person is None else up_and_go_reference(person), UP_AND_GO_CHANGE)
 
 
-def walk_rows(events: Sequence[Event], steps: int, distance: float | None, person: Person | None) -> list[OutcomeRow]:
+def walk_rows(
+    events: Sequence[Event], steps: int | None, distance: float | None, person: Person | None
+) -> list[OutcomeRow]:
     """Return the rows of a walk at the usual pace, whose result is the speed of steady strides."""
     speed = steady_speed_row(events, person)
     values: list[NamedValue] = [

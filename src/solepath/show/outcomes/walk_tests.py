@@ -183,9 +183,13 @@ def timed_up_and_go(events: Sequence[Event], start: float, stop: float) -> Timed
     return TimedUpAndGo(start, stop, steps, walked, distance, absences.time(start, stop))
 
 
-def whole_walk(events: Sequence[Event]) -> tuple[int, float | None]:
-    """Return the number of initial contacts of a recording, and the distance, m: the mean of the feet's distances."""
-    absences = Absences.of(events)
+def whole_walk(events: Sequence[Event]) -> tuple[int | None, float | None]:
+    """Return the number of initial contacts of a recording, and the distance, m: the mean of the feet's distances.
+
+    Neither is known where no foot was measured for more than one per cent of the time."""
+    absences, times = Absences.of(events), [event.t for event in events]
+    if times and not is_measured(absences.time(min(times), max(times)), max(times) - min(times)):
+        return None, None
     return _count_steps(events, absences, -inf, inf), _distance(_swings(events), absences, -inf, inf)
 
 

@@ -113,7 +113,7 @@ def table(
     filled = [row for row in rows if not all([cell in NOTHING for cell in row[1:]])]
     kept = [c for c in range(len(header)) if c == 0 or not all([row[c] in NOTHING for row in filled])]
     template = (
-        "<table role='table' class='{}' style='--columns: {}'><caption>{}</caption>"
+        "<table role='table' class='{} columns-{}'><caption>{}</caption>"
         "<thead role='rowgroup'><tr role='row'/></thead><tbody role='rowgroup'/></table>"
     )
     _, head, body = add(parent, template, kind, str(min(len(kept) - 1, MAX_PHONE_COLUMNS)), caption)

@@ -110,6 +110,7 @@ svg.plan { font-family: system-ui, sans-serif; }
   table, tbody, thead, caption { display: block; }
   tr { display: grid; grid-template-columns: repeat(var(--columns, 5), 1fr); border-bottom: 1px solid var(--rule);
     padding: .25rem 0; }
+  .columns-1 { --columns: 1; } .columns-2 { --columns: 2; } .columns-3 { --columns: 3; } .columns-4 { --columns: 4; }
   tr > * { min-width: 0; } tr > :first-child { grid-column: 1 / -1; }
   th, td { border: 0; padding: .05rem .2rem .05rem 0; font-size: .875rem; text-align: left; }
   thead th { font-size: .75rem; } tbody th { font-weight: 600; }

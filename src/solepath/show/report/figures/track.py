@@ -106,11 +106,11 @@ class _Labels:
     def add(self, svg: Element, point: Point, words: str, kind: str, *, is_needed: bool = False) -> bool:
         """Write words beside a point at the first free place; return whether they were written.
 
-        Words that are needed go farther away, or over the track, if there is no such place."""
+        Words that are needed go beyond another part of the track, or over it, if there is no such place."""
         width, (x, y) = LETTER_WIDTH * len(words), point
         middles = [
             (x + distance * right * (0.5 * width + 8.0), y + distance * down * LABEL_HEIGHT)
-            for distance in range(1, (2 if is_needed else 1) * FARTHEST + 1)
+            for distance in range(1, FARTHEST + 1)
             for right, down in PLACES
         ]
         free = [one for one in middles if self._is_free(_box(one, width))]
