@@ -220,13 +220,13 @@ def test_gait_csv_has_a_line_for_each_stride_and_empty_fields_where_nothing_is_k
 
 def test_the_table_is_of_walking_and_of_running_each_if_there_was_any() -> None:
     walk = Walk()
-    assert gait_lines(walk.gait) == []
+    assert gait_lines(walk) == []
     for stride in walked(LEVEL)[1]:
         walk.add(stride)
-    text = "\n".join(gait_lines(walk.gait))
+    text = "\n".join(gait_lines(walk))
     assert "walking, steady strides" in text and "running" not in text
     for word in ("cadence", "stride length", "stance %", "heel-strike angle", "coordination"):
         assert word in text
     for stride in walked(JOGGED)[1]:
         walk.add(stride)
-    assert "running, steady strides" in "\n".join(gait_lines(walk.gait))
+    assert "running, steady strides" in "\n".join(gait_lines(walk))

@@ -70,7 +70,7 @@ def test_the_text_names_what_was_measured_and_what_it_is_not(tracked: tuple[str,
     assert re.search("^bout +start s +.* steps/min +length m +speed m/s$", text, re.MULTILINE)
     assert LABEL in text and "not outcomes of its validated pipeline" in LABEL
     assert re.search(r"^total time +13\.00 +s +9\.20 \(141 %\) +8\.20 to 10\.20$", text, re.MULTILINE)
-    assert "Bohannon 2006" in text and "Bohannon and Andrews 2011" in text
+    assert "Bohannon 2006" in text and "usual pace" not in text, "that reference is of walks at the usual pace"
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_marks_that_are_not_within_the_recording_give_no_outcome(recording: Path
     files = ("--out", tmp_path / "out", "--report", tmp_path / "walk.html")
     result = run("track", recording, "--test", "tug=3,1000", *files)
     assert result.returncode == 0
-    sentence = "There is no outcome of the test. The recording is from 0.0 to "
-    assert sentence in result.stdout and "3 and 1000 s is not within it." in result.stdout
+    sentence = "There is no outcome of the timed up and go. The recording is from 0.0 to "
+    assert sentence in result.stdout and "; 1000 s is not within it." in result.stdout
     assert "total time" not in result.stdout and sentence in (tmp_path / "walk.html").read_text()
     assert rows_of(tmp_path / "out" / "outcomes.csv") == []

@@ -5,29 +5,16 @@ from __future__ import annotations
 from math import pi
 
 import pytest
-from strides import cycle, stride
+from made_walks import walk, without
+from strides import stride
 from walks import insoles, run_session
 
-from solepath import TurnMade
+from solepath import FootSilent, SampleGap, TurnMade
 from solepath.emulate.routes.route import Route
-from solepath.events import Event
 from solepath.show.outcomes import six_minute_walk, timed_up_and_go
-from solepath.types import Foot, Turn
+from solepath.types import SITE_OF_FOOT, Foot, Turn
 
 L, R = Foot.LEFT, Foot.RIGHT
-
-
-def walk(start: float, seconds: int, length: float = 1.2) -> list[Event]:
-    """Return strides of 1 s: the left foot swings from k + 0.5 to k + 0.9 s after `start`, the right one from k + 1.0
-    to k + 1.4 s, for as many k as `seconds`."""
-    made: list[Event] = []
-    for k in range(seconds):
-        for foot, offset in ((L, 0.5), (R, 1.0)):
-            off = start + k + offset
-            made.append(stride(foot, off + 0.5, (length, 0.0, 0.0), t_toe_off=off, t_heel_strike=off + 0.4))
-            if k:
-                made.append(cycle(foot, off - 0.6, 1.0, length))
-    return made
 
 
 def test_six_minutes_start_with_the_first_toe_off_and_end_within_a_stride() -> None:
@@ -130,3 +117,42 @@ def test_an_emulated_six_minute_walk_there_and_back() -> None:
     contacts = [t for foot in Foot for t in walked.truth.feet[foot].heel_strikes if first < t <= first + 360.0]
     assert six.steps == pytest.approx(len(contacts), abs=2)
     assert six.about_turns in (13, 14) and max(six.minutes) - min(six.minutes) < 4.0
+
+
+def test_while_a_foot_sends_nothing_the_distance_is_that_of_the_other_foot() -> None:
+    whole = six_minute_walk(walk(10.0, 400))
+    for start, end in ((100.2, 160.3), (100.7, 102.9), (100.2, 400.0)):
+        six = six_minute_walk(without(walk(10.0, 400), L, start, end))
+        assert whole is not None and six is not None and six.measured and six.distance is not None
+        # where the feet change over, one is up to a step ahead of the other, of which half counts
+        assert six.distance == pytest.approx(whole.distance, abs=0.61)
+        assert six.alone_times == {R: pytest.approx(min(end, 370.5) - start)} and six.unmeasured_time == 0.0
+        assert (six.stops, [*six.foot_distances], len(six.minutes)) == (0, [R], 6)
+        assert six.minutes == pytest.approx((72.0,) * 6, abs=0.61) and six.steps == pytest.approx(720, abs=2)
+
+
+def test_a_foot_that_falls_silent_to_the_end_is_absent_and_does_not_stand() -> None:
+    events = [one for one in walk(10.0, 400) if getattr(one, "foot", R) is R or one.t < 200.0]
+    silent = FootSilent(t=203.0, known_at=203.0, foot=L, silent_for=3.0)
+    six = six_minute_walk([*events, silent])
+    assert six is not None and six.distance == pytest.approx(432.0, abs=0.61)
+    assert six.alone_times == {R: pytest.approx(170.5)} and [*six.foot_distances] == [R]
+    late = [one for one in walk(10.0, 400) if getattr(one, "foot", R) is R or getattr(one, "t_start", 0.0) > 200.0]
+    six = six_minute_walk(late)
+    assert six is not None and six.distance == pytest.approx(432.0, abs=0.61) and [*six.foot_distances] == [R]
+
+
+def test_what_both_feet_did_while_neither_sent_anything_is_lacking_and_no_stop() -> None:
+    six = six_minute_walk(without(without(walk(10.0, 400), L, 100.2, 160.3), R, 100.1, 160.0))
+    assert six is not None and six.complete and not six.measured
+    assert six.unmeasured_time == pytest.approx(59.8) and six.stops == 0 and six.foot_distances == {}
+    assert six.distance == pytest.approx(432.0 - 60.0 * 1.2, abs=2.5)
+    assert [one is None for one in six.minutes] == [False, True, True, False, False, False]
+    test = timed_up_and_go(without(without(walk(10.0, 20), L, 15.0, 18.0), R, 15.0, 18.0), 9.0, 31.0)
+    assert test.duration == 22.0 and not test.measured
+
+
+def test_a_gap_within_a_stride_or_while_standing_is_no_absence() -> None:
+    gap = SampleGap(t=100.2, known_at=100.6, site=SITE_OF_FOOT[L], duration=0.4, count=40)
+    six, whole = six_minute_walk([*walk(10.0, 400), gap]), six_minute_walk(walk(10.0, 400))
+    assert six == whole

@@ -53,17 +53,27 @@ def tracked(tmp_path: Path, walk: Path, *options: object) -> tuple[list[str], st
     return [one.text for one in page.first("main").all("p")[:3]], page.text
 
 
-def test_the_distance_of_six_minutes_comes_first_and_is_that_of_the_events(
+def test_the_distance_of_a_test_that_was_not_finished_is_compared_with_nothing(
     walks: tuple[Path, Path], tmp_path: Path
 ) -> None:
     after, before = walks
     run("track", before, "--out", tmp_path / "earlier")
     (result, *_), text = tracked(tmp_path, after, "--test", "six-minute", "--compare", before, "--reference", WOMAN)
     now, then = distance_of(tmp_path / "out" / "events.jsonl"), distance_of(tmp_path / "earlier" / "events.jsonl")
-    assert result.startswith(f"Six-minute walk: {now:.2f} m. Before: {then:.2f} m. The change, {now - then:+.2f} m, ")
-    assert f"is less than the smallest that matters, {SIX_MINUTE_CHANGE.value:g} m." in result
-    assert SIX_MINUTE_CHANGE.source in text and "the recording ends before the six minutes do" in text
-    assert "predicted" not in result, "only six whole minutes are compared with the prediction"
+    assert re.fullmatch(
+        rf"Six-minute walk: {now:.2f} m in \d+ s of the six minutes. The recording ends before the six minutes do: "
+        rf"it is compared with no prediction and no other walk. Before: {then:.2f} m in \d+ s of the six minutes: "
+        "the recording ends before the six minutes do, so that no change is given.",
+        result,
+    )
+    assert "redicted" not in text and SIX_MINUTE_CHANGE.source not in text
+    assert rows_before_and_after(tmp_path)["distance, m"] == [f"{then:.2f}", f"{now:.2f}", "-"]
+
+
+def rows_before_and_after(tmp_path: Path) -> dict[str, list[str]]:
+    """Return the rows of the table of both walks by their first cells."""
+    rows = read_page(tmp_path / "r.html").named("comparison").all("tr")[1:]
+    return {row.first("th").text: [cell.text for cell in row.all("td")] for row in rows}
 
 
 def test_the_time_of_a_timed_up_and_go_is_that_of_its_marks_and_few_strides_do_not_concern_it(
@@ -77,19 +87,22 @@ def test_the_time_of_a_timed_up_and_go_is_that_of_its_marks_and_few_strides_do_n
         f"Before: 14.25 s. The change, -3.75 s, reaches the smallest that matters, {UP_AND_GO_CHANGE.value:g} s."
     )
     assert not [one for one in paragraphs if one.startswith("Check before use")]
+    rows = rows_before_and_after(tmp_path)
+    assert rows["total time, s"] == ["14.25", "10.50", "-3.75 (-26 %)", "3.50", "yes"]
+    assert rows["speed, m/s"][-2:] == ["-", "-"], "the limit is of walks at the usual pace"
+    assert "usual pace" not in text and "Smallest change of speed" not in text
     assert UP_AND_GO_CHANGE.source in text and "95 % interval of that mean" in text
     assert "lower limit of normal" not in text
 
 
 def test_a_walk_is_answered_by_the_speed_of_its_steady_strides(walks: tuple[Path, Path], tmp_path: Path) -> None:
     after, before = walks
-    (result, *_), text = tracked(tmp_path, after, "--test", "walk", "--compare", before)
+    (result, *_), _ = tracked(tmp_path, after, "--test", "walk", "--compare", before)
     found = re.match(r"Walk: ([\d.]+) m/s. Before: ([\d.]+) m/s. The change, ([+-][\d.]+) m/s, reaches", result)
     assert found is not None
     speed, earlier, change = map(float, found.groups())
     assert change == pytest.approx(speed - earlier, abs=0.011)
-    row = re.search(r"speed, m/s ([\d.]+) ([\d.]+)", text)
-    assert row is not None and (float(row[1]), float(row[2])) == (earlier, speed)
+    assert [float(cell) for cell in rows_before_and_after(tmp_path)["speed, m/s"][:2]] == [earlier, speed]
 
 
 def test_a_change_is_said_to_matter_only_where_a_publication_says_how_much(
@@ -97,11 +110,7 @@ def test_a_change_is_said_to_matter_only_where_a_publication_says_how_much(
 ) -> None:
     after, before = walks
     run("track", after, "--compare", before, "--report", tmp_path / "r.html")
-    rows = [
-        [row.first("th").text, *[cell.text for cell in row.all("td")]]
-        for row in read_page(tmp_path / "r.html").named("comparison").all("tr")[1:]
-    ]
-    judged = {row[0]: row[4:] for row in rows}
+    judged = {label: cells[-2:] for label, cells in rows_before_and_after(tmp_path).items()}
     assert judged.pop("speed, m/s") == ["0.10", "yes"]
     assert judged and set(map(tuple, judged.values())) == {("-", "-")}
 

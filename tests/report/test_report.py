@@ -21,7 +21,7 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
 from solepath.events import Event, FootMoved, GaitCycleMeasured, StrideTaken, WearerMoved
 from solepath.show.report import Report, ReportDetails
-from solepath.show.tables.gait import gait_rows
+from solepath.show.tables.gait import sure_rows
 from solepath.show.tables.table import number, percent
 from solepath.types import Foot
 
@@ -61,7 +61,7 @@ def test_the_gait_table_has_the_numbers_of_the_session() -> None:
     parameters = means.of(False)
     assert parameters is not None
     rows = rows_of(shown(report_of(*walk_events())))
-    for row in gait_rows(parameters):
+    for row in sure_rows(parameters, of(GaitCycleMeasured, walk_events()))[0]:
         spread = "" if row.sd is None else f" \N{PLUS-MINUS SIGN} {number(row.sd, row.digits)}"
         both = f"{number(row.both, row.digits)}{spread}"
         feet = [number(one, row.digits) for one in (row.left, row.right)]

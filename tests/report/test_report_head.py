@@ -10,8 +10,8 @@ import pytest
 from attrs import evolve
 from pages import Node, parse_page
 from quoted import PAGES
-from reported_walks import events_of, report_of
-from walks import of
+from reported_walks import ROUTES, events_of, report_of
+from walks import of, run_session, samples
 
 from solepath import Defect, DefectFound, Site
 from solepath.events import Event, GaitCycleMeasured
@@ -47,6 +47,13 @@ def test_the_first_sentence_has_distance_time_speed_and_cadence() -> None:
         f"Walked {walk.distance:.0f} m in {walk.duration:.0f} s, in steady strides at {speed} m/s"
     )
     assert sentence.endswith(f" and {cadence} steps a minute.")
+
+
+@pytest.mark.parametrize("silent", [*Foot])
+def test_the_distance_is_that_of_the_other_foot_while_one_sends_nothing(silent: Foot) -> None:
+    fed = [one for one in samples(ROUTES["walk"], cells=0, rate=100.0) if one.site.foot is not silent or one.t < 15.0]
+    sentence = sentence_of(run_session(fed, poses=True, pressures=True))
+    assert float(sentence.removeprefix("Walked ").partition(" m in")[0]) == pytest.approx(40.0, abs=1.5)
 
 
 def with_factor(name: str, factor: float) -> list[Event]:
@@ -111,8 +118,8 @@ def quality(page: Node) -> dict[str, tuple[str, str]]:
 def test_the_quality_is_good_look_at_or_do_not_use() -> None:
     good = quality(shown(report_of(events_of("walk"))))
     assert {part: verdict for part, (verdict, _) in good.items()} == {
-        "gait cycles": "good", "samples": "good", "clocks": "good", "plausibility": "good", "calibration": "note",
-        "accuracy": "note",
+        "gait cycles": "good", "samples": "good", "strides": "good", "clocks": "good", "plausibility": "good",
+        "calibration": "note", "accuracy": "note",
     }  # fmt: skip
     report = report_of(events_of("walk"), calibrated=True)
     clocks = DefectFound(
@@ -142,13 +149,57 @@ def test_two_walks_are_compared_with_signs_and_with_the_smallest_change_that_mat
     assert {"Track before", "Track after"} <= {one.first("strong").text for one in page.all("figcaption")}
 
 
-def test_the_accuracy_beside_the_quality_is_that_of_the_table_of_its_command() -> None:
+AGREEMENT = {
+    "motion sensors alone": (("ipol_10m_uturn", ""), ("tripod_treadmill", "stride length")),
+    "cells alone": (("gaitpdb_vgrf", ""),),
+    "motion sensors and cells": (("moticon_pressed", ""),),
+}
+"""Rows of the table of agreement, of all parameters or of one, that belong to each kind of sensors."""
+
+
+def report_with(sensors: str, events: Sequence[Event] | None = None, **more: object) -> Report:
+    report = report_of(events_of("walk") if events is None else events, **more)
+    for link in report.walk.links.values():
+        link.has_motion, link.has_pressure = sensors != "cells alone", "cells" in sensors
+    return report
+
+
+@pytest.mark.parametrize("sensors", AGREEMENT)
+def test_the_accuracy_beside_the_quality_is_that_of_these_sensors_in_the_table_of_its_command(sensors: str) -> None:
     rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in PAGES["docs/accuracy.md"].splitlines()]
-    table = {(row[0], row[1]): row[2:] for row in rows if len(row) == 7}
-    words = quality(shown(report_of(events_of("walk"))))["accuracy"][1]
-    cycles, _, bias, limits, _ = table["`ipol_10m_uturn`", "stance time"]
-    assert f"on {cycles} cycles" in words and f"stance was {bias.removeprefix('-')} shorter" in words
-    assert f"limits {limits}" in words
-    for data, name in (("`ipol_10m_uturn`", "double support"), ("`tripod_treadmill`", "stride length")):
-        _, _, bias, limits, _ = table[data, name]
-        assert bias.strip("-% cm") in words and limits.removesuffix(" %") in words
+    table = [row for row in rows if len(row) == 7 and row[2].isdecimal()]
+    words = quality(shown(report_with(sensors)))["accuracy"][1]
+    known = []
+    for data, only in AGREEMENT[sensors]:
+        for _, label, _, _, bias, limits, icc in [row for row in table if row[0] == f"`{data}`"]:
+            if only in label and (only or (data, label) != ("tripod_treadmill", "stride length")):
+                ends = limits.removesuffix(bias.partition(" ")[2]).strip()
+                known.append(
+                    f"{label.removesuffix(' time') if 'stride' not in label else label} {bias} ({ends}; {icc})"
+                )
+    assert len(known) >= 4
+    for one in known:
+        assert one in words
+    assert words.count(";") == len(known) + (sensors == "motion sensors alone") + 1
+
+
+def test_no_accuracy_is_said_of_what_was_not_measured() -> None:
+    report = report_of(events_of("walk"))
+    report.recipe = "zupt"
+    assert quality(shown(report))["accuracy"] == ("note", "Not measured for this recipe.")
+    assert "accuracy" not in quality(shown(report_of(events_of("run"))))
+    unknown = [
+        evolve(one, stride_length=None, speed=None) if isinstance(one, GaitCycleMeasured) else one
+        for one in events_of("walk")
+    ]
+    assert "stride length" not in quality(shown(report_with("motion sensors and cells", unknown)))["accuracy"][1]
+
+
+def test_a_walk_before_that_was_measured_badly_is_a_point_of_the_quality() -> None:
+    before = report_of(events_of("slow"))
+    assert quality(shown(report_of(events_of("walk"), before=before)))["walk before"][0] == "good"
+    for foot in before.walk.feet.values():
+        foot.degraded = foot.strides // 4
+    page = shown(report_of(events_of("walk"), before=before))
+    assert quality(page)["walk before"][0] == "look at"
+    assert page.named("warning").text == "Check before use: the walk before (degraded strides)."

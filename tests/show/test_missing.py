@@ -63,7 +63,7 @@ def test_one_frame_of_so_many_is_missing_wherever_it_is_told(every: int, absence
     assert 100.0 * figures["missing_share"] == share
     assert figures["missing_s"] == pytest.approx(0.01 * lost, rel=0.01)
     assert figures["absent_s"] == pytest.approx(absence, abs=0.1)
-    page = re.sub("<[^>]*>", "", report.read_text())
+    page = re.sub("<[^>]*>", "", report.read_text()).replace("\N{NO-BREAK SPACE}", " ")
     for text in (tracked.stdout, checked.stdout, page):
         assert shares(text) and all(one == share for one in shares(text)), text
         assert ("absent for 25.0 s" in text) is (absence > 0.0)

@@ -54,7 +54,7 @@ def run(options: Namespace) -> int:
             note(f"the live view needs rich: {install_hint('live')}; plain text without it")
         _print_progress(demo)
     print()
-    print("\n".join([*gait_lines(demo.found.gait), *[f"{one}\n" for one in demo.tables()]]))
+    print("\n".join([*gait_lines(demo.found), *[f"{one}\n" for one in demo.tables()]]))
     return 0
 
 

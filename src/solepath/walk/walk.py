@@ -42,7 +42,9 @@ from ..events import (
     PacketRejected,
     Placed,
     PlaceLost,
+    SampleGap,
     SampleRejected,
+    StreamStale,
     StrideFused,
     StrideTaken,
     ToeOff,
@@ -60,6 +62,7 @@ from .soles import SoleLoads
 from .thinned import T, ThinnedList
 from .timeline import Timeline
 from .valid import has_valid_numbers
+from .way import way_of
 
 GAIT_EVENTS: dict[type[Event], str] = {
     HeelStrike: "heel-strike",
@@ -80,6 +83,9 @@ MAX_ACTIVITY_CHANGES = 2000
 """Largest number of activity changes that are kept; with more, the shortest activities are left out."""
 LIMIT = 1200
 """Largest number of strides of a foot, and of other things that are kept, where a walk may last all day."""
+LEAST_ABSENCE = 1.0
+"""Least time without samples that is kept, s: the shortest after which a device counts as silent (Profile.stale_after);
+a stride bridges a shorter one."""
 MAX_CANDIDATES = 40
 """Largest number of candidates of a place; those with the largest weights are kept."""
 MAX_POINTS = 1500
@@ -193,6 +199,8 @@ class Walk:
     newest_cycles: deque[GaitCycleMeasured] = field(factory=lambda: deque(maxlen=2 * LIMIT))
     """Newest gait cycles of both feet, in their order, from which the differences between the feet follow."""
     made_turns: ThinnedList[TurnMade] = field(factory=ThinnedList)
+    absences: ThinnedList[SampleGap | FootSilent | StreamStale] = field(factory=ThinnedList)
+    """Times of LEAST_ABSENCE and more in which a sensor sent nothing."""
     rides: ThinnedList[LiftRidden] = field(factory=ThinnedList)
     """Final elevator rides."""
     wearer_track: ThinnedList[WearerMoved] = field(factory=ThinnedList)
@@ -369,6 +377,10 @@ class Walk:
                 self.wearer_track.add(event, self._point_limit)
             case Placed() | PlaceLost():
                 self.placed.add(event if self.keeps_all else _with_heaviest(event), self.limit)
+            case SampleGap(duration=duration) if duration >= LEAST_ABSENCE:
+                self.absences.add(event, self.limit)
+            case FootSilent() | StreamStale():
+                self.absences.add(event, self.limit)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None and self.limit != 0:
                 self.sole(site.foot).layout = layout
             case _:
@@ -414,8 +426,8 @@ class Walk:
 
     @property
     def way(self) -> Sequence[WearerMoved | StrideTaken]:
-        """Track of the wearer or, if it is not known, that of the foot with the most strides."""
-        return list(self.wearer_track) or max(map(list[StrideTaken], self.strides.values()), key=len)
+        """Track of the wearer or, if it is not known, of the foot with the most strides, from its first step on."""
+        return way_of({foot: list(kept) for foot, kept in self.strides.items()}, list(self.wearer_track))
 
     @property
     def spoilt_feet(self) -> list[Foot]:

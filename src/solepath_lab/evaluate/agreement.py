@@ -42,8 +42,8 @@ RUNNERS: dict[str, Runner] = {
     "gaitpdb_vgrf": partial(run_recording, calibration=force_sensors()),
 }
 """How the recordings are run of each data set whose reference has both contacts of a foot."""
-UNITS = {"_s": ("ms", 1e3, 0), "_m": ("cm", 1e2, 1), "_share": ("%", 1e2, 1)}
-"""Unit, factor and digits in the table, by the ending of a parameter."""
+UNITS = {"_s": ("ms", "ms", 1e3, 0), "_m": ("cm", "cm", 1e2, 1), "_share": ("%", "points", 1e2, 1)}
+"""Unit, that of a difference, factor and digits in the table, by the ending of a parameter."""
 HEADER = ["data", "parameter", "cycles", "mean of the truth", "bias", "95 % limits of agreement", "ICC(2,1)"]
 
 
@@ -78,12 +78,13 @@ def compare(job: tuple[str, Path]) -> list[PairCells]:
 def table_rows(name: str, agreement: Any) -> Iterator[list[str]]:
     """Yield the rows of the table of a data set."""
     for one in agreement.itertuples():
-        unit, factor, digits = next(known for ending, known in UNITS.items() if one.parameter.endswith(ending))
+        known = next(known for ending, known in UNITS.items() if one.parameter.endswith(ending))
+        unit, difference, factor, digits = known
         truth, bias, lower, upper = [
             f"{factor * value:.{digits}f}" for value in (one.truth, one.bias, one.lower, one.upper)
         ]
         label = one.parameter.rpartition("_")[0].replace("_", " ")
-        values = [f"{truth} {unit}", f"{bias} {unit}", f"{lower} to {upper} {unit}", f"{one.icc:.2f}"]
+        values = [f"{truth} {unit}", f"{bias} {difference}", f"{lower} to {upper} {difference}", f"{one.icc:.2f}"]
         yield [f"`{name}`", label, str(one.n), *values]
 
 

@@ -53,7 +53,7 @@ class Reader(HTMLParser):
 
     def handle_data(self, data: str) -> None:
         if data.strip():
-            self.open[-1].words.append(data.strip())
+            self.open[-1].words.append(data.strip().replace("\N{NO-BREAK SPACE}", " "))
 
 
 def read_page(path: Path) -> Node:

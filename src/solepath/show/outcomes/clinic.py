@@ -35,6 +35,7 @@ from .rows import (
     up_and_go_rows,
     walk_rows,
 )
+from .spread import LEFT_OUT
 from .walk_tests import SixMinuteWalk, six_minute_walk, timed_up_and_go, whole_walk
 
 LABEL = (
@@ -43,7 +44,7 @@ LABEL = (
 )
 SIX_MINUTE_NOTE = (
     "The distance is the mean of what both feet went, stride by stride, turns included (ATS 2002 counts lengths of a "
-    "course). Stops are breaks of more than 3 s."
+    "course). While one foot alone is measured, it is that foot's. Stops are breaks of more than 3 s."
 )
 UP_AND_GO_NOTE = (
     "The total is the time between the two marks. It is not divided: sitting to standing cannot be seen from a foot."
@@ -55,9 +56,6 @@ NEEDED = (
 SENSORS = (
     "The intervals are of the strides: sensors whose scales differ by 1 % make lengths and speeds differ by as much."
 )
-MOST_NEEDED = 25
-"""Number of times as many strides as there are that an outcome may need; then its interval is five times as wide as it
-should be, and it is left out (chosen by hand)."""
 TOO_FEW = "There are too few steady strides for variability and asymmetry: four of a foot are needed."
 NO_BOUT = "No walking bout: none has four strides without a break of more than 3 s."
 NO_WALK = "No walking bout was found, so that there is no six-minute walk."
@@ -137,7 +135,7 @@ class ClinicalResults:
             return [self.result] if self.result else []
         earlier = None if before is None else before.result
         if isinstance(earlier, str):
-            return [*answer(self.result, None), f"Before: {earlier}"]
+            return [*answer(self.result, None), f"Before: {earlier[0].lower()}{earlier[1:]}"]
         return answer(self.result, earlier)
 
     def table(self, caption: str, part: str) -> OutcomeTable:
@@ -183,26 +181,31 @@ class OutcomeRequest:
     person: Person | None = None
     """Person for whom references are given."""
 
+    @property
+    def usual_pace(self) -> bool:
+        """True if the wearer walked at the usual pace, so that references and limits of its speed hold."""
+        return self.test in (None, WalkTest.WALK)
+
     def results(self, walk: Walk) -> ClinicalResults:
         """Return the outcomes of a walk so far."""
-        events: list[Event] = [*walk.made_turns]
+        events: list[Event] = [*walk.made_turns, *walk.absences]
         for foot in Foot:
             events += [*walk.cycles[foot], *walk.strides[foot]]
         results = ClinicalResults(walking_bouts(events))
         if self.test is not None:
-            self._add_test(results, events, walk.event_span)
+            self._add_test(results, self.test, events, walk.event_span)
         if self.outcomes:
             self._add_outcomes(results, events)
         return results
 
-    def _add_test(self, results: ClinicalResults, events: list[Event], span: Span | None) -> None:
+    def _add_test(self, results: ClinicalResults, test: WalkTest, events: list[Event], span: Span | None) -> None:
         if fault := _find_fault(span, self.marks):
-            results.result = f"There is no outcome of the test. {fault}"
-        elif self.test is WalkTest.WALK:
+            results.result = f"There is no outcome of the {test.title.lower()}. {fault}"
+        elif test is WalkTest.WALK:
             steps, distance = whole_walk(events)
             results.rows += walk_rows(events, steps, distance, self.person)
             results.add_test(WALK, [], WALK_NOTE)
-        elif self.test is WalkTest.UP_AND_GO:
+        elif test is WalkTest.UP_AND_GO:
             start, stop = self.marks
             timed = timed_up_and_go(events, start, stop)
             results.rows += up_and_go_rows(timed, self.person)
@@ -215,9 +218,10 @@ class OutcomeRequest:
 
     def _add_outcomes(self, results: ClinicalResults, events: list[Event]) -> None:
         bouts = results.bouts
-        results.rows += [*mobility_rows(mobility_outcomes(bouts)), steady_speed_row(events, self.person)]
+        person = self.person if self.usual_pace else None
+        results.rows += [*mobility_rows(mobility_outcomes(bouts)), steady_speed_row(events, person)]
         estimates = stride_rows(events)
-        vague = [row for row in estimates if (one := row.interval) and one.needed > MOST_NEEDED * one.strides]
+        vague = [row for row in estimates if (one := row.interval) and one.is_vague]
         results.rows += [row for row in estimates if row not in vague]
         tables = [
             OutcomeTable("Walking bouts", BOUT_HEADER, [bout_row(bout) for bout in bouts[:MAX_BOUTS]]),
@@ -230,7 +234,7 @@ class OutcomeRequest:
         notes = [f"The first {MAX_BOUTS} bouts are shown; there are {more} more."] if more > 0 else []
         if vague:
             left_out = ", ".join([f"{row.part} of {row.label}" for row in vague])
-            notes.append(f"Left out, because {MOST_NEEDED} times as many strides would not be enough: {left_out}.")
+            notes.append(LEFT_OUT.format(left_out))
         notes += [NEEDED, SENSORS] if any([results.part(part) for part in OF_STRIDES]) else [TOO_FEW]
         notes += results.sources(MOBILITY)
         sentences = [LABEL, *([] if bouts else [NO_BOUT])]
@@ -239,20 +243,24 @@ class OutcomeRequest:
 
 def _find_fault(span: Span | None, marks: Sequence[float]) -> str:
     """Return a sentence on marks that are not within the recording, whose `span` is in s; "" if they are."""
-    if span is None or all([span[0] - MARK_ERROR <= mark <= span[1] + MARK_ERROR for mark in marks]):
+    if span is None:
         return ""
-    given = " and ".join([f"{mark:.10g}" for mark in marks])
-    return f"The recording is from {span[0]:.1f} to {span[1]:.1f} s on its clock; {given} s is not within it."
+    outside = [f"{mark:.10g}" for mark in marks if not span[0] - MARK_ERROR <= mark <= span[1] + MARK_ERROR]
+    if not outside:
+        return ""
+    verb = "is" if len(outside) == 1 else "are"
+    given = f"{' and '.join(outside)} s {verb} not within it"
+    return f"The recording is from {span[0]:.1f} to {span[1]:.1f} s on its clock; {given}."
 
 
 def six_minute_sentence(walk: SixMinuteWalk) -> str:
     """Return the result of a six-minute walk as a sentence."""
     distance = "an unknown distance" if walk.distance is None else f"{walk.distance:.1f} m"
+    least = "" if walk.measured else "at least "
     duration = "six minutes" if walk.complete else f"{walk.duration:.1f} s"
-    end = "" if walk.complete else ": the recording ends before the six minutes do"
-    minutes = ", ".join([f"{metres:.0f}" for metres in walk.minutes])
+    minutes = ", ".join([number(metres, 0) for metres in walk.minutes])
     each = f" Each minute: {minutes} m." if minutes else ""
-    return f"Walked {distance} in {duration}, from {walk.t_start:.1f} s on the recording's clock{end}.{each}"
+    return f"Walked {least}{distance} in {duration}, from {walk.t_start:.1f} s on the recording's clock.{each}"
 
 
 def bout_row(bout: WalkingBout) -> list[str]:

@@ -9,6 +9,7 @@ from attrs import asdict, evolve, frozen
 from ...body.gait.means import GaitMeans
 from ...events import Event, GaitCycleMeasured
 from ...walk.walk import UNLIMITED_STRIDES
+from ..tables.table import duration_text
 from .mobility import MobilityOutcomes, unit_of
 from .references import (
     SIX_MINUTE_CHANGE,
@@ -22,7 +23,7 @@ from .references import (
     walking_speed_reference,
 )
 from .spread import VARIABLE, IntervalEstimate, asymmetry, variability
-from .walk_tests import SixMinuteWalk, TimedUpAndGo
+from .walk_tests import SixMinuteWalk, TimedUpAndGo, is_measured
 
 SIX_MINUTE_WALK, UP_AND_GO, WALK, MOBILITY = "six-minute walk", "timed up and go", "walk", "mobility"
 OF_STRIDES = VARIABILITY, ASYMMETRY = "variability", "asymmetry"
@@ -65,12 +66,23 @@ class OutcomeRow:
     reference: Reference | None = None
     smallest_change: SmallestChange | None = None
     """The smallest change that matters; None where no publication gives one."""
+    at_least: bool = False
+    """True if the value lacks what was not measured."""
+    extent: str = ""
+    """What the value is of where that is not the whole test by both feet, such as "in 20 s of the six minutes"."""
+    shortfalls: tuple[str, ...] = ()
+    """Why the value is not that of a whole test, so that nothing is compared with it."""
 
     def shown(self, value: float | int | None) -> str:
         """Return a value of this outcome as a table shows it, without the unit."""
         if value is None or (not self.unit and isinstance(value, int)):
             return "-" if value is None else str(value)
         return f"{value if self.unit else 100.0 * value:z.{self.digits(value)}f}"
+
+    @property
+    def measured(self) -> str:
+        """The value with its unit, and what it is of."""
+        return f"{'at least ' * self.at_least}{self.shown(self.value)} {self.shown_unit}{self.extent}"
 
     def digits(self, value: float) -> int:
         """Return the number of digits after the point with which a table shows a value of this outcome."""
@@ -79,7 +91,12 @@ class OutcomeRow:
     @property
     def cells(self) -> list[str]:
         """Cells of a table: label, value, unit, which is % for a share, and those of `REFERENCE_HEADERS`."""
-        return [self.label, self.shown(self.value), self.shown_unit, *self.reference_cells]
+        return [self.label, self.least + self.shown(self.value), self.shown_unit, *self.reference_cells]
+
+    @property
+    def least(self) -> str:
+        """Sign before the value in a table: that it is at least so large, or nothing."""
+        return ">= " if self.at_least else ""
 
     @property
     def shown_unit(self) -> str:
@@ -118,15 +135,19 @@ class OutcomeRow:
 
 
 def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeRow]:
-    """Return the rows of a six-minute walk; the distance has a reference if the whole test was recorded."""
-    reference = None if person is None or not walk.complete else six_minute_reference(person)
+    """Return the rows of a six-minute walk; the distance has a reference if the whole test was measured."""
+    known = walk.measured or None
+    unmeasured = None if walk.measured else walk.unmeasured_time
+    long = {foot: t for foot, t in walk.alone_times.items() if not is_measured(t, walk.duration)}
     values: list[NamedValue] = [
         ("distance", "distance", "m", walk.distance),
         ("duration", "duration", "s", walk.duration),
         *[(f"distance_{foot}", f"distance of the {foot} foot", "m", d) for foot, d in walk.foot_distances.items()],
-        ("speed", "distance / duration", "m/s", walk.speed),
-        ("cadence", "steps / duration", "1/min", walk.cadence),
-        ("steps", "steps", "", walk.steps),
+        ("unmeasured_time", "time in which no foot was measured", "s", unmeasured),
+        *[(f"alone_{foot}_time", f"time of the {foot} foot alone", "s", t) for foot, t in long.items()],
+        ("speed", "distance / duration", "m/s", known and walk.speed),
+        ("cadence", "steps / duration", "1/min", known and walk.cadence),
+        ("steps", "steps", "", known and walk.steps),
         *[(f"{MINUTE_NAME}{k}", f"distance in minute {k}", "m", d) for k, d in enumerate(walk.minutes, start=1)],
         ("distance_index", "change from minute 1 to 6", "", walk.distance_index),
         ("stops", "stops of more than 3 s", "", walk.stops),
@@ -134,21 +155,33 @@ def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeR
         ("about_turns", "turns about", "", walk.about_turns),
         ("degraded", "degraded strides", "", walk.degraded),
     ]  # fmt: skip
-    return _rows(SIX_MINUTE_WALK, values, reference, SIX_MINUTE_CHANGE)
+    shortfalls = [
+        "" if walk.complete else "the recording ends before the six minutes do",
+        "" if walk.measured else f"no foot was measured for {duration_text(walk.unmeasured_time)} of the six minutes",
+    ]
+    alone = [f"{duration_text(t)} of it by the {foot} foot alone" for foot, t in long.items()]
+    extent = ", ".join(["" if walk.complete else f" in {duration_text(walk.duration)} of the six minutes", *alone])
+    reference = None if person is None else six_minute_reference(person)
+    first, *others = _rows(SIX_MINUTE_WALK, values, reference, SIX_MINUTE_CHANGE)
+    first = evolve(first, at_least=not walk.measured, extent=extent, shortfalls=tuple(filter(None, shortfalls)))
+    return [evolve(first, reference=None, smallest_change=None) if first.shortfalls else first, *others]
 
 
 def up_and_go_rows(test: TimedUpAndGo, person: Person | None) -> list[OutcomeRow]:
-    """Return the rows of a timed up and go."""
+    """Return the rows of a timed up and go; what strides say is left out where they may be missing."""
+    known = test.measured or None
     values: list[NamedValue] = [
         ("duration", "total time", "s", test.duration),
-        ("walking_time", "from the first toe-off to the last contact", "s", test.walking_time),
-        ("steps", "steps", "", test.steps),
-        ("distance", "distance", "m", test.distance),
+        ("walking_time", "from the first toe-off to the last contact", "s", known and test.walking_time),
+        ("steps", "steps", "", known and test.steps),
+        ("distance", "distance", "m", known and test.distance),
     ]
     return _rows(UP_AND_GO, values, None if person is None else up_and_go_reference(person), UP_AND_GO_CHANGE)
 
 
-def walk_rows(events: Sequence[Event], steps: int, distance: float | None, person: Person | None) -> list[OutcomeRow]:
+def walk_rows(
+    events: Sequence[Event], steps: int | None, distance: float | None, person: Person | None
+) -> list[OutcomeRow]:
     """Return the rows of a walk at the usual pace, whose result is the speed of steady strides."""
     speed = steady_speed_row(events, person)
     values: list[NamedValue] = [

@@ -31,6 +31,14 @@ With independent strides it takes 50, which is also from where on variability wa
 2014, Gait & Posture 39)."""
 ASYMMETRY_PRECISION = 0.02
 """Half width of the interval of an asymmetry for which `needed` is given, as a share; chosen by hand."""
+MOST_NEEDED = 25
+"""Number of times as many strides as there are that an outcome may need; then its interval is five times as wide as it
+should be, it says nothing, and the outcome is left out (chosen by hand)."""
+VAGUE_ASYMMETRY = ASYMMETRY_PRECISION * sqrt(MOST_NEEDED)
+"""Half width above which the interval of an asymmetry says nothing by the same rule, as a share: it falls with the root
+of the number of strides."""
+LEFT_OUT = "Left out, because the interval says nothing: {}."
+"""Sentence on what is left out for it."""
 MAX_CORRELATION = 0.95
 """Largest autocorrelation that is used; chosen by hand: nearer to 1 the number of independent strides is below 3 %."""
 
@@ -60,6 +68,11 @@ class IntervalEstimate:
         """True if there are as many strides as needed."""
         return self.strides >= self.needed
 
+    @property
+    def is_vague(self) -> bool:
+        """True if the interval is so wide that it says nothing."""
+        return self.needed > MOST_NEEDED * self.strides
+
 
 @frozen
 class FootSample:
@@ -86,8 +99,10 @@ class FootSample:
         return self.count * (1.0 - square) / (1.0 + square)
 
 
-def variability(events: Iterable[Event], name: str, foot: Foot | None = None) -> IntervalEstimate | None:
-    """Return the coefficient of variation of a field of GaitCycleMeasured over steady walking strides.
+def variability(
+    events: Iterable[Event], name: str, foot: Foot | None = None, *, running: bool = False
+) -> IntervalEstimate | None:
+    """Return the coefficient of variation of a field of GaitCycleMeasured over steady strides of walking or `running`.
 
     Without `foot` it is that of both feet, as in the gait table: the root of the mean of the feet's variances over the
     mean of their means (Galna et al. 2013, Gait & Posture 37); of a wearer of one sensor that foot's. The interval is
@@ -95,7 +110,7 @@ def variability(events: Iterable[Event], name: str, foot: Foot | None = None) ->
     and the coefficient is below 1/3. The number of strides needed is 1 + z^2 / (2 h^2) independent ones of each foot
     together, with half width h (Greenwood and Sandomire 1950, J. Am. Stat. Assoc. 45). None if a foot has fewer than
     four strides or the mean is not above zero."""
-    samples = [sample for one, sample in _samples(events, name).items() if foot in (None, one)]
+    samples = [sample for one, sample in _samples(events, name, running).items() if foot in (None, one)]
     variances = [sample.variance for sample in samples]
     total, counts = fsum(variances), [sample.count for sample in samples]
     if min(counts, default=0) < MIN_FOOT_STRIDES or total <= 0.0:
@@ -122,14 +137,15 @@ def _freedom(parts: Sequence[float], counts: Sequence[float]) -> float:
     return fsum(parts) ** 2 / fsum(terms)
 
 
-def asymmetry(events: Iterable[Event], name: str) -> IntervalEstimate | None:
+def asymmetry(events: Iterable[Event], name: str, *, running: bool = False) -> IntervalEstimate | None:
     """Return the symmetry index of a field of GaitCycleMeasured, 2 (right - left) / (right + left).
 
-    `left` and `right` are the feet's means over steady walking strides (Robinson et al. 1987, J. Manip. Physiol. Ther.
-    10). The variance of the index is that of first order (delta method) of these means, which are taken as independent:
-    what both feet have in common makes the true interval narrower. Its quantile is Student's t, with degrees of freedom
-    by Welch (1947, Biometrika 34). None without four strides of each foot, or if a mean is not above zero."""
-    samples = list(_samples(events, name).values())
+    `left` and `right` are the feet's means over steady strides of walking or `running` (Robinson et al. 1987, J. Manip.
+    Physiol. Ther. 10). The variance of the index is that of first order (delta method) of these means, which are taken
+    as independent: what both feet have in common makes the true interval narrower. Its quantile is Student's t, with
+    degrees of freedom by Welch (1947, Biometrika 34). None without four strides of each foot, or if a mean is not above
+    zero."""
+    samples = list(_samples(events, name, running).values())
     if len(samples) < len(Foot) or min([sample.count for sample in samples]) < MIN_FOOT_STRIDES:
         return None
     left, right = samples
@@ -146,8 +162,8 @@ def asymmetry(events: Iterable[Event], name: str) -> IntervalEstimate | None:
     return IntervalEstimate(value=index, low=index - half, high=index + half, strides=count, needed=needed)
 
 
-def steady_strides(events: Iterable[Event]) -> list[GaitCycleMeasured]:
-    """Return the strides that count: steady ones of walking that the next one of the foot follows.
+def steady_strides(events: Iterable[Event], *, running: bool = False) -> list[GaitCycleMeasured]:
+    """Return the strides that count: steady ones of walking or `running` that the next one of the foot follows.
 
     They are those of the means in `Session.gait`."""
     latest: dict[Foot, GaitCycleMeasured] = {}
@@ -155,14 +171,16 @@ def steady_strides(events: Iterable[Event]) -> list[GaitCycleMeasured]:
     for event in events:
         if isinstance(event, GaitCycleMeasured):
             last, latest[event.foot] = latest.get(event.foot), event
-            if last is not None and last.steady and not last.running and last.t == event.t_start:
+            if last is not None and last.steady and last.running is running and last.t == event.t_start:
                 strides.append(last)
     return strides
 
 
-def _samples(events: Iterable[Event], name: str) -> dict[Foot, FootSample]:
+def _samples(events: Iterable[Event], name: str, running: bool) -> dict[Foot, FootSample]:
     """Return the moments of a parameter over the steady strides of each foot that has any."""
-    strides = [(one, value) for one in steady_strides(events) if (value := getattr(one, name)) is not None]
+    strides = [
+        (one, value) for one in steady_strides(events, running=running) if (value := getattr(one, name)) is not None
+    ]
     found = {foot: [pair for pair in strides if pair[0].foot is foot] for foot in Foot}
     return {foot: moments(pairs) for foot, pairs in found.items() if pairs}
 

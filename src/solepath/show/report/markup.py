@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element, fromstring
 
@@ -10,6 +11,8 @@ from .style import STYLE
 
 NOTHING = ("", "-")
 """Cells of a table that hold nothing."""
+MAX_PHONE_COLUMNS = 5
+"""Largest number of columns of a table that stand side by side on a phone; others follow below."""
 MAX_LISTED = 40
 """Largest number of sentences of a list that are shown; chosen by hand."""
 WIDTH = 400.0
@@ -17,6 +20,17 @@ WIDTH = 400.0
 HEAD = """<head><meta charset='utf-8'/><meta name='generator' content='solepath'/>
 <meta name='viewport' content='width=device-width, initial-scale=1'/><meta name='color-scheme' content='light dark'/>
 <title>{}</title><style/></head>"""
+
+
+UNIT = re.compile(r"(?<=\d) (?=(?:m/s|mm|cm|ms|min|m|s|h|%|Hz|deg|points)(?![\w/]))")
+"""Space between a number and its unit."""
+
+
+def keep_units(page: Element) -> None:
+    """Keep each number and its unit on one line, in all words of a page."""
+    for one in page.iter():
+        if one.tag not in ("style", "title"):
+            one.text, one.tail = [words and UNIT.sub("\N{NO-BREAK SPACE}", words) for words in (one.text, one.tail)]
 
 
 def skeleton(title: str) -> tuple[Element, Element]:
@@ -99,10 +113,10 @@ def table(
     filled = [row for row in rows if not all([cell in NOTHING for cell in row[1:]])]
     kept = [c for c in range(len(header)) if c == 0 or not all([row[c] in NOTHING for row in filled])]
     template = (
-        "<table role='table' class='{}'><caption>{}</caption>"
+        "<table role='table' class='{} columns-{}'><caption>{}</caption>"
         "<thead role='rowgroup'><tr role='row'/></thead><tbody role='rowgroup'/></table>"
     )
-    _, head, body = add(parent, template, kind, caption)
+    _, head, body = add(parent, template, kind, str(min(len(kept) - 1, MAX_PHONE_COLUMNS)), caption)
     for c in kept:
         add(head[0], "<th scope='col' role='columnheader'>{}</th>", header[c])
     for row in filled:

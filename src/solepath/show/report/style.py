@@ -46,6 +46,7 @@ svg path.pointer { fill: var(--ink); }
 dl.quality { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); gap: 0 1.6rem; }
 dl.quality div { display: grid; grid-template-columns: 6.2rem 1fr; column-gap: .8rem; padding: .35rem 0;
   border-bottom: 1px solid var(--rule); font-size: .9375rem; }
+dl.quality .whole { grid-column: 1 / -1; }
 dl.quality dt span { display: block; font-weight: 600; } dl.quality dt span::first-letter { text-transform: uppercase; }
 .verdict { font-size: .8125rem; font-weight: 600; color: var(--soft); }
 .verdict.good { color: var(--good); } .verdict.look { color: var(--warn); } .verdict.stop { color: var(--stop); }
@@ -109,10 +110,11 @@ svg.plan { font-family: system-ui, sans-serif; }
   table, tbody, thead, caption { display: block; }
   tr { display: grid; grid-template-columns: repeat(var(--columns, 5), 1fr); border-bottom: 1px solid var(--rule);
     padding: .25rem 0; }
-  tr > :first-child { grid-column: 1 / -1; }
+  .columns-1 { --columns: 1; } .columns-2 { --columns: 2; } .columns-3 { --columns: 3; } .columns-4 { --columns: 4; }
+  tr > * { min-width: 0; } tr > :first-child { grid-column: 1 / -1; }
   th, td { border: 0; padding: .05rem .2rem .05rem 0; font-size: .875rem; text-align: left; }
   thead th { font-size: .75rem; } tbody th { font-weight: 600; }
-  td span { display: block; } td span + span { margin-left: 0; }
+  td span { display: block; white-space: normal; } td span + span { margin-left: 0; }
   table.gait tr { grid-template-columns: 1fr 1fr 1.3fr .8fr 1.3fr; }
   table.comparison tr { grid-template-columns: .8fr .8fr 1.7fr .8fr .8fr; }
   table.links tr { --columns: 4; }
@@ -142,6 +144,9 @@ svg.plan { font-family: system-ui, sans-serif; }
   #health ~ ul { columns: 2; } ul { padding-left: 3.5mm; font-size: 7.5pt; line-height: 1.25; }
   dl.quality { grid-template-columns: 1fr 1fr; } dl.quality div { padding: 1mm 0; font-size: 8pt; }
   .verdict { font-size: 7.5pt; }
+  .test section { break-inside: avoid; } .test section p { font-size: 7.5pt; } .test .headline { font-size: 11.5pt; }
+  .test h2 { margin: 2mm 0 1mm; } .test .figures { margin-top: 1mm; }
+  .test section dl.facts { font-size: 6.5pt; line-height: 1.2; columns: 1; } table.titled caption { display: none; }
   .second-page { break-before: page; }
   .second-page > section:first-child h2 { margin-top: 0; }
   table { margin: 1mm 0; font-size: 7.5pt; line-height: 1.2; break-inside: auto; } th, td { padding: .28mm 1.5mm; }

@@ -7,12 +7,17 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from math import fsum, sqrt
+from statistics import fmean
+from typing import TYPE_CHECKING
 
 from attrs import frozen
 
 from ...body.gait.means import Figure, GaitParameters
 from ...events import GaitCycleMeasured
 from ...types import Activity, Foot
+
+if TYPE_CHECKING:
+    from ..outcomes.absences import Absences
 
 LENGTH_ERROR = 0.02
 """Difference of stride lengths that two good sensors may show, as a share: each has a scale within 1 % by the data
@@ -38,15 +43,21 @@ class FootDifference:
     """A difference between the feet in steady strides of walking: (right - left) / mean of both, as a share."""
 
     value: float
+    """Asymmetry of the gait table, of the feet's means."""
+    paired: float
+    """Mean difference of strides that follow each other (paired_difference)."""
     half_width: float
-    """Half the width of the 95 % interval of `value`, as a share (paired_difference)."""
+    """Half the width of the 95 % interval of `paired`, as a share."""
     error: float
     """Difference that the measurement may show where there is none, as a share."""
+    is_vague: bool = False
+    """True if its interval says nothing (outcomes/spread.py)."""
 
     @property
     def is_certain(self) -> bool:
-        """True if the whole interval is beyond the error of the measurement."""
-        return abs(self.value) - self.half_width > self.error
+        """True if the whole interval is beyond the error of the measurement, around either estimate."""
+        least = min(abs(self.value), abs(self.paired)) if self.value * self.paired > 0.0 else 0.0
+        return not self.is_vague and least - self.half_width > self.error
 
 
 def foot_differences(
@@ -56,16 +67,18 @@ def foot_differences(
 
     `strides` are gait cycles in order of time. A difference that `parameters` lack, as step times on separate clocks
     are, is left out, and so are those of runs."""
+    from ..outcomes.spread import VAGUE_ASYMMETRY, asymmetry
+
     known: dict[str, FootDifference] = {}
     if parameters is None:
         return known
     for name in (STRIDE_LENGTH, SWING_TIME, STEP_TIME):
         figure: Figure | None = getattr(parameters.both, name)
-        estimate = paired_difference(strides, name)
-        if figure is not None and estimate is not None and figure.mean > 0.0:
-            known[name] = FootDifference(
-                *estimate, LENGTH_ERROR if name == STRIDE_LENGTH else EVENT_ERROR / figure.mean
-            )
+        value, paired, index = parameters.asymmetry(name), paired_difference(strides, name), asymmetry(strides, name)
+        if figure is not None and value is not None and paired is not None and figure.mean > 0.0:
+            error = LENGTH_ERROR if name == STRIDE_LENGTH else EVENT_ERROR / figure.mean
+            is_vague = index is None or index.is_vague or paired[1] > VAGUE_ASYMMETRY
+            known[name] = FootDifference(value, *paired, error, is_vague)
     return known
 
 
@@ -113,8 +126,10 @@ def gait_spans(
     return found
 
 
-def distance_in(spans: Sequence[Span], distances: Mapping[Foot, Sequence[tuple[float, float]]]) -> float | None:
-    """Return how far the wearer went in some spans of time, m: the mean of the feet; None without any.
+def distance_in(
+    spans: Sequence[Span], distances: Mapping[Foot, Sequence[tuple[float, float]]], absences: Absences
+) -> float | None:
+    """Return how far the wearer went in some spans of time, m: the mean of the feet measured; None without any.
 
     `distances` has pairs of the end of a stride, s, and the distance that the foot has gone until then, m. A stride
     counts where its middle is, because activities change in the middle of the first and the last one."""
@@ -123,6 +138,8 @@ def distance_in(spans: Sequence[Span], distances: Mapping[Foot, Sequence[tuple[f
         k = bisect_right(pairs, t + HALF_STRIDE, key=lambda pair: pair[0])
         return pairs[k - 1][1] if k else 0.0
 
-    known = [pairs for pairs in distances.values() if pairs]
-    lengths = [until(pairs, end) - until(pairs, start) for pairs in known for start, end in spans]
-    return fsum(lengths) / len(known) if known else None
+    known = {foot: pairs for foot, pairs in distances.items() if pairs}
+    parts = [part for start, end in spans for part in absences.parts(start, end)]
+    feet = [([known[foot] for foot in known if foot not in absent], a, b) for a, b, absent in parts]
+    means = [fmean([until(pairs, b) - until(pairs, a) for pairs in there]) for there, a, b in feet if there]
+    return fsum(means) if known else None

@@ -12,7 +12,7 @@ from .markup import whole_sentences
 
 MAX_NAME_LENGTH = 60
 """Largest number of characters of a device's name that are shown."""
-LINK_HEADER = ("sensor", "samples", "Hz", "missing", "%", "s absent", "rejected", "silent", "battery")
+LINK_HEADER = ("sensor", "samples", "Hz", "missing", "missing, %", "absent, s", "rejected", "silent", "battery")
 
 
 def overview(walk: Walk, duration: float, end: float) -> list[str]:

@@ -4,12 +4,15 @@ The tables of the terminal, the page and the report all use these rows."""
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterable
 from math import degrees
 
-from attrs import frozen
+from attrs import evolve, frozen
 
-from ...body.gait.means import Figure, GaitMeans, GaitParameters, StrideFigures
+from ...body.gait.means import Figure, GaitParameters, StrideFigures
+from ...events import GaitCycleMeasured
 from ...types import Foot
+from ...walk.walk import Walk
 from .table import number, percent, table
 
 DEGREE_UNIT = "deg"
@@ -108,8 +111,43 @@ def strides_of(parameters: GaitParameters, foot: Foot) -> int | None:
     return None if time is None else time.strides
 
 
-def gait_cells(parameters: GaitParameters, separator: str) -> list[list[str]]:
-    """Return the rows of the table of both feet, with a separator before the standard deviation."""
+def sure_rows(
+    parameters: GaitParameters, cycles: Iterable[GaitCycleMeasured], without: Collection[str] = ()
+) -> tuple[list[GaitRow], list[str]]:
+    """Return the rows without variations and asymmetries whose intervals say nothing, and sentences that name these.
+
+    Rows of the names `without` are left out. `cycles` are those of the means. Of the difference of an angle only the
+    number of strides counts."""
+    from ..outcomes.spread import LEFT_OUT, asymmetry, variability
+
+    known, running = list(cycles), parameters.running
+    rows = [row for row in gait_rows(parameters) if row.name not in without]
+    few = asymmetry(known, "stride_time", running=running) is None
+    unsure: list[tuple[str, GaitRow]] = []
+    for row in rows:
+        spread = None if row.cv is None else variability(known, row.name, running=running)
+        index = None if row.asymmetry is None else asymmetry(known, row.name, running=running)
+        if row.cv is not None and (spread is None or spread.is_vague):
+            unsure.append(("CV", row))
+        if few and row.difference is not None or row.asymmetry is not None and (index is None or index.is_vague):
+            unsure.append(("asymmetry", row))
+    clauses = []
+    for kind, shown in (("CV", [row for row in rows if row.cv is not None]), ("asymmetry", _compared(rows))):
+        found = [row.label for name, row in unsure if name == kind]
+        clauses += [f"every {kind}" if len(found) == len(shown) else f"{kind} of {', '.join(found)}"] if found else []
+    vague = [(kind, row.name) for kind, row in unsure]
+    rows = [evolve(row, cv=None) if ("CV", row.name) in vague else row for row in rows]
+    rows = [evolve(row, asymmetry=None, difference=None) if ("asymmetry", row.name) in vague else row for row in rows]
+    return rows, [LEFT_OUT.format("; ".join(clauses))] if clauses else []
+
+
+def _compared(rows: Iterable[GaitRow]) -> list[GaitRow]:
+    """Return the rows that compare the feet."""
+    return [row for row in rows if row.asymmetry is not None or row.difference is not None]
+
+
+def gait_cells(parameters: GaitParameters, separator: str, rows: Iterable[GaitRow]) -> list[list[str]]:
+    """Return the cells of these rows of the table of both feet, with a separator before the standard deviation."""
     columns = [parameters.feet.get(foot, StrideFigures()) for foot in Foot]
     columns.append(parameters.both if len(parameters.feet) == len(Foot) else StrideFigures())
     times = [column.stride_time for column in columns]
@@ -117,20 +155,21 @@ def gait_cells(parameters: GaitParameters, separator: str) -> list[list[str]]:
     return [
         ["gait cycles", *[number(strides_of(parameters, foot), 0) for foot in Foot], "-", "-", "-"],
         ["cadence, steps/min", *[number(cadence, 1) for cadence in cadences], "-", "-"],
-        *[[f"{row.label}, {row.unit}", *row.cells(separator)] for row in gait_rows(parameters)],
+        *[[f"{row.label}, {row.unit}", *row.cells(separator)] for row in rows],
     ]
 
 
-def gait_lines(means: GaitMeans) -> list[str]:
+def gait_lines(walk: Walk) -> list[str]:
     """Return the lines of a table for walking and one for running, each with a blank line after it.
 
     A table without steady strides is left out."""
     lines: list[str] = []
-    for parameters in filter(None, [means.of(False), means.of(True)]):
+    for parameters in filter(None, [walk.gait.of(False), walk.gait.of(True)]):
         what = "running" if parameters.running else "walking"
-        rows = [[name.replace(",", ""), *cells] for name, *cells in gait_cells(parameters, " +-")]
+        known, left_out = sure_rows(parameters, walk.newest_cycles)
+        rows = [[name.replace(",", ""), *cells] for name, *cells in gait_cells(parameters, " +-", known)]
         lines.append(table([f"{what}, steady strides", "left", "right", "both +- SD", "CV %", "asymmetry"], rows))
         if parameters.coordination is not None:
             lines.append(f"phase coordination index {percent(parameters.coordination)} %")
-        lines.append("")
+        lines += [*left_out, ""]
     return lines

@@ -28,7 +28,7 @@ def summary(walk: Walk, *, title: str, seconds: float) -> str:
         modes = ", ".join([f"{mode} {walk.modes[mode]}" for mode in WalkingMode if walk.modes[mode]])
         lines.append(f"{counted(walk.modes.total(), 'touchdown')}: {modes}")
     lines += activity_lines(walk, walk.now)
-    if gait := gait_lines(walk.gait):
+    if gait := gait_lines(walk):
         lines += ["", *gait]
     lines += [one.line for one in found if one.concern is not Concern.DATA]
     samples = sum([walk.samples(foot) for foot in Foot])  # whole numbers

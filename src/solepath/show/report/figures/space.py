@@ -11,11 +11,10 @@ from xml.etree.ElementTree import Element
 
 from attrs import evolve
 
-from ...tables.svg import Point, View, add, line, square_ticks
+from ...tables.svg import Point, View, add, line, square_ticks, write
 from ..content import TimedPosition
 from ..markup import WIDTH, figure
 from .axes import PATH
-from .track import mark_end
 
 LEAST_RISE = 1.0
 """Least range of heights of a track that is drawn in space, m: half a storey's flight."""
@@ -74,5 +73,13 @@ def space_figure(parent: Element, track: Sequence[TimedPosition]) -> None:
     svg = figure(parent, "space", "Track in space", what, view.height + 2.0 * MARGIN, *notes)
     for kind, path in lines:
         add(svg, PATH, line([view.at(on_paper(place)) for place in path]), kind)
-    mark_end(svg, view.at(on_paper(places[0])), "start", -6.0)
-    mark_end(svg, view.at(on_paper(places[-1])), "end", 13.0)
+    _mark_end(svg, view.at(on_paper(places[0])), "start", -6.0)
+    _mark_end(svg, view.at(on_paper(places[-1])), "end", 13.0)
+
+
+def _mark_end(svg: Element, point: Point, word: str, offset: float) -> None:
+    """Draw the start or the end of a track with its name."""
+    x, y = point
+    add(svg, "<circle cx='{}' cy='{}' r='4.5' class='{}'/>", x, y, word)
+    at_edge = x > 0.85 * WIDTH
+    write(svg, x + (-8.0 if at_edge else 8.0), y + offset, word, "halo strong", "end" if at_edge else "start")

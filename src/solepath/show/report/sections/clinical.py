@@ -16,5 +16,6 @@ def clinical_sections(main: Element, results: ClinicalResults) -> None:
             paragraph(parent, sentence)
         for shown in one.tables:
             if shown.rows:
-                table(parent, shown.caption, shown.header, shown.rows)
+                kind = "numbers titled" if shown.caption == one.title else "numbers"
+                table(parent, shown.caption, shown.header, shown.rows, kind)
         notes(parent, one.notes)

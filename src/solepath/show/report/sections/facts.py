@@ -8,6 +8,8 @@ from math import fsum
 from attrs import frozen
 
 from ....body.gait.means import GaitParameters
+from ...outcomes.absences import Absences
+from ...outcomes.spread import LEFT_OUT
 from ..content import ReportContent
 from ..measures import Measure, measures
 from ..walk_summary import SWING_TIME, FootDifference, distance_in, foot_differences, gait_spans
@@ -57,10 +59,16 @@ class Facts:
         return [one for one in self.all_measures if one.running is (self.kind == "Run")][:5] or self.all_measures[:5]
 
     @property
-    def difference_words(self) -> str:
-        """Asymmetry in words; "" if it is not known."""
+    def left_out(self) -> str:
+        """Sentence on a large figure that is left out; "" for none."""
         swing = self.differences.get(SWING_TIME)
-        if swing is None:
+        return LEFT_OUT.format("asymmetry of swing time") if swing is not None and swing.is_vague else ""
+
+    @property
+    def difference_words(self) -> str:
+        """Asymmetry in words; "" if it is not known, or its interval says nothing."""
+        swing = self.differences.get(SWING_TIME)
+        if swing is None or swing.is_vague:
             return ""
         certain = f"{'right' if swing.value > 0.0 else 'left'} longer"
         words = certain if swing.is_certain else "within the error of measurement"
@@ -73,14 +81,17 @@ def facts_of(report: ReportContent) -> Facts:
     walking, running = walk.gait.of(False), walk.gait.of(True)
     differences = foot_differences(list(walk.newest_cycles), walking)
     swing = differences.get(SWING_TIME)
-    interval = None if swing is None else (100.0 * swing.value, 100.0 * swing.half_width)
+    interval = None if swing is None or swing.is_vague else (100.0 * swing.value, 100.0 * swing.half_width)
     found = [] if walking is None else measures(walking, interval)
     found += [] if running is None else measures(running)
     cycles = [one for found in walk.cycles.values() for one in found]
     distances = {foot: list(pairs) for foot, pairs in walk.distances.items() if foot in walk.measured_feet}
-    bouts = {}
+    bouts, absences = {}, Absences.of_walk(walk)
     for is_run, spans in gait_spans(walk.timeline.spans(report.clock.end), cycles).items():
-        duration, distance = fsum([end - start for start, end in spans]), distance_in(spans, distances) or None
+        duration, distance = (
+            fsum([end - start for start, end in spans]),
+            distance_in(spans, distances, absences) or None,
+        )
         count = len([one for one in cycles if any([start <= one.t <= end for start, end in spans])])
         if duration > 0.0 and (count or distance):
             bouts[is_run] = Bout(duration, distance, count)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element
 
 from ....body.gait.means import GaitParameters, StrideFigures
+from ....events import GaitCycleMeasured
 from ....types import Foot
-from ...tables.gait import MIN_STRIDES, gait_cells, gait_rows, strides_of
+from ...tables.gait import MIN_STRIDES, gait_cells, gait_rows, strides_of, sure_rows
 from ...tables.table import milliseconds, percent
 from ..markup import notes, table, terms
 from ..running import running_means
@@ -27,6 +28,8 @@ DEFINITIONS = {
     "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
 }
 """Short definition of each parameter; GaitCycleMeasured has the full definitions."""
+FOOT_PARAMETERS = ("clearance", "toe_off_angle", "heel_strike_angle")
+"""Parameters of how a foot moves, which no result of a walk test needs."""
 STEADY = ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or degraded")
 VARIATION = ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)")
 BOTH_FEET = ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)")
@@ -46,10 +49,13 @@ RUNNING = [
 ]
 
 
-def gait_table(parent: Element, parameters: GaitParameters) -> None:
-    """Add the table of walking or of running."""
+def gait_table(
+    parent: Element, parameters: GaitParameters, cycles: Iterable[GaitCycleMeasured], *, brief: bool
+) -> None:
+    """Add the table of walking or of running, of these gait cycles; a `brief` one has no FOOT_PARAMETERS."""
+    known, left_out = sure_rows(parameters, cycles, FOOT_PARAMETERS if brief else ())
     # the standard deviation is on a line of its own
-    rows = gait_cells(parameters, "\n\N{PLUS-MINUS SIGN}")
+    rows = gait_cells(parameters, "\n\N{PLUS-MINUS SIGN}", known)
     if (run := running_means(parameters)) is not None:
         contacts = [parameters.feet.get(foot, StrideFigures()).stance_time for foot in Foot]
         feet = ["-" if one is None else milliseconds(one.mean) for one in contacts]
@@ -63,16 +69,18 @@ def gait_table(parent: Element, parameters: GaitParameters) -> None:
     table(parent, caption, HEADER, rows, "numbers gait")
     if parameters.coordination is not None:
         notes(parent, [f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007)."])
+    notes(parent, left_out)
     count = sum([strides_of(parameters, foot) or 0 for foot in Foot])  # whole numbers
     if count < MIN_STRIDES:
         notes(parent, [f"Of {count} gait cycles: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."])
 
 
-def definitions(parent: Element, tables: Sequence[GaitParameters], *, difference: bool) -> None:
+def definitions(parent: Element, tables: Sequence[GaitParameters], *, difference: bool, brief: bool) -> None:
     """Add the definitions of the parameters that are shown, with their sources.
 
-    `difference` says that the left/right difference is shown."""
-    labels = {row.name: row.label for parameters in tables for row in gait_rows(parameters)}
+    `difference` says that the left/right difference is shown, `brief` that the tables have no FOOT_PARAMETERS."""
+    rows = [row for parameters in tables for row in gait_rows(parameters)]
+    labels = {row.name: row.label for row in rows if not brief or row.name not in FOOT_PARAMETERS}
     meanings = [(labels[name], meaning) for name, meaning in DEFINITIONS.items() if name in labels]
     meanings += [*(RUNNING if any([one.running for one in tables]) else []), STEADY]
     if any([len(parameters.feet) == len(Foot) for parameters in tables]):

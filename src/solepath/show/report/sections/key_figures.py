@@ -40,6 +40,7 @@ def key_figures(parent: Element, facts: Facts, bands: Mapping[str, Band]) -> Non
             _draw(card, measure, band)
             sources.setdefault(band.source, []).append(measure.label.lower())
     notes(parent, [f"Reference of {', '.join(labels)}: {source}" for source, labels in sources.items()])
+    notes(parent, filter(None, [facts.left_out]))
 
 
 def position_words(size: float, band: Band) -> str:

@@ -6,6 +6,7 @@ from xml.etree.ElementTree import Element
 
 from ...findings import Concern, texts
 from ...outcomes.clinic import ClinicalResults, WalkTest
+from ...outcomes.rows import OutcomeRow
 from ...tables.svg import add
 from ..content import ReportContent
 from ..figures.activity import activity_figure
@@ -13,7 +14,7 @@ from ..figures.pressure import pressure_figures
 from ..figures.space import space_figure
 from ..figures.stride import stride_figures
 from ..figures.track import plan_figure, track_figure
-from ..markup import paragraph, section, sentences, skeleton, table, whole_sentences
+from ..markup import keep_units, paragraph, section, sentences, skeleton, table, whole_sentences
 from ..words import LINK_HEADER, link_rows, overview, sensors
 from .clinical import clinical_sections
 from .comparison import comparison
@@ -22,14 +23,19 @@ from .gait_table import definitions, gait_table
 from .heading import add_heading, add_making, making_facts, title_of
 from .headline import headline
 from .key_figures import key_figures
-from .quality import STOP, judgements, overall, quality_box, warning
+from .quality import BEFORE, STOP, judgements, overall, quality_box, warning
 
 NO_PLACE = "Where on the floor plan the wearer was is not known."
 NO_TRACK = "There is no track: no foot with a motion sensor took two strides."
-CONCERNING = ["samples", "plausibility", "wearing"]
-"""Parts of the quality that concern the result of every test.
+CONCERNING = {
+    WalkTest.SIX_MINUTE: ["samples", "strides", "plausibility", "wearing", BEFORE],
+    WalkTest.UP_AND_GO: ["plausibility"],
+    WalkTest.WALK: ["gait cycles", "samples", "strides", "plausibility", "wearing", BEFORE],
+}
+"""Parts of the quality that concern the result of each test.
 
-None needs clocks that agree, and only the speed of a walk needs gait cycles."""
+None needs clocks that agree, and only the speed of a walk needs gait cycles. The time of an up and go is that between
+two marks, whatever the sensors missed."""
 FOUND = {
     "Cannot be right": (Concern.DATA,),
     "Missing or wrong": (Concern.WEAR, Concern.LINK, Concern.STRIDES),
@@ -41,33 +47,41 @@ FOUND = {
 def page_of(report: ReportContent) -> Element:
     """Return the page of a report as an <html> element."""
     facts, walk = facts_of(report), report.walk
-    outcomes = _outcomes_of(report)
+    outcomes, before = _outcomes_of(report), None if report.before is None else facts_of(report.before)
+    earlier = _outcomes_of(report.before)
     test = None if report.outcomes is None else report.outcomes.test
     title = title_of(report.details, report.when, facts.kind if test is None else test.title)
     html, main = skeleton(title)
+    main.set("class", "" if test is None else "test")
     add_heading(main, title, report)
     if test is not None and outcomes is not None:
-        add(main, "<p class='headline'>{}</p>", " ".join(outcomes.answer(_outcomes_of(report.before))))
+        add(main, "<p class='headline'>{}</p>", " ".join(outcomes.answer(earlier)))
     add(main, "<p class='{}'>{}</p>", "headline" if test is None else "beside", headline(facts))
-    concerning = [*CONCERNING, "gait cycles"] if test is WalkTest.WALK else CONCERNING
-    judged = judgements(facts, concerning if test is not None else None)
+    judged = judgements(facts, before, None if test is None else CONCERNING[test])
     if words := warning(judged):
         stops = any([one.verdict is STOP for one in judged])
         add(main, "<p class='{}'>{}</p>", "warning" if stops else "warning look", words)
     if facts.measures:
-        key_figures(section(main, "figures", "Figures"), facts, report.bands)
+        usual_pace = report.outcomes is None or report.outcomes.usual_pace
+        bands = {name: band for name, band in report.bands.items() if usual_pace or not band.is_mean}
+        key_figures(section(main, "figures", "Figures"), facts, bands)
     if judged:
         quality_box(section(main, "quality", f"Quality: {overall(judged)}"), judged)
     if len(report.track) >= 2 or report.plan is not None:
         _ways(section(main, "track-part", "Where the wearer went"), report)
-    if walk.event_span is not None:
-        _course(section(main, "course", "Course of the recording"), report, facts, activities=test is None)
     has_strides = any([cycles.count for cycles in walk.cycles.values()])
-    details = add(main, "<div class='{}'/>", "second-page" if has_strides and report.before is None else "")
-    if report.before is not None:
-        comparison(details, report.before, report, facts, tracks=test is None)
+    has_page = has_strides and report.before is None and test is None
+    if test is None:
+        _course(main, report, facts)
+    details = add(main, "<div class='{}'/>", "second-page" if has_page else "")
+    if report.before is not None and before is not None:
+        results = [one.result for one in (earlier, outcomes) if one is not None]
+        rows = [one for one in results if isinstance(one, OutcomeRow)]
+        comparison(details, report.before, report, facts, before, rows)
     if outcomes is not None:
         clinical_sections(details, outcomes)
+    if test is not None:
+        _course(details, report, facts)
     if has_strides:
         _gait(section(details, "gait", "Gait"), report, facts, figures=test is None)
     if test is None and any([sole.samples for sole in walk.soles.values()]):
@@ -77,8 +91,9 @@ def page_of(report: ReportContent) -> Element:
         _health(section(details, "health", "Sensors and links"), report)
     if facts.means:
         parent = section(details, "definitions", "Definitions and sources")
-        definitions(parent, facts.means, difference=bool(facts.difference_words))
+        definitions(parent, facts.means, difference=bool(facts.difference_words), brief=test is not None)
     add_making(section(details, "making", "How this report was made"), _making(report))
+    keep_units(html)
     return html
 
 
@@ -100,18 +115,20 @@ def _ways(parent: Element, report: ReportContent) -> None:
 
 def _gait(parent: Element, report: ReportContent, facts: Facts, *, figures: bool) -> None:
     for means in facts.means:
-        gait_table(parent, means)
+        gait_table(parent, means, report.walk.newest_cycles, brief=not figures)
     if figures:
         drawn = add(parent, "<div class='figures'/>")
         stride_figures(drawn, [one for cycles in report.walk.cycles.values() for one in cycles], report.clock)
 
 
-def _course(parent: Element, report: ReportContent, facts: Facts, *, activities: bool) -> None:
-    """Add the course of the recording: its sentences, and a drawing of the `activities` unless those of a test."""
+def _course(parent: Element, report: ReportContent, facts: Facts) -> None:
+    """Add the course of the recording: its sentences, and a drawing of the activities unless there was a test."""
     walk, clock = report.walk, report.clock
-    figures = add(parent, "<div class='figures'/>")
+    if walk.event_span is None:
+        return
+    figures = add(section(parent, "course", "Course of the recording"), "<div class='figures'/>")
     sentences(figures, overview(walk, facts.duration, clock.end))
-    if activities:
+    if report.outcomes is None or report.outcomes.test is None:
         activity_figure(figures, walk.timeline.spans(clock.end), clock)
     if walk.placed.count:
         track_figure(figures, report, wide=False)
