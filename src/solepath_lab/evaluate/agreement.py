@@ -76,8 +76,8 @@ def compare(job: tuple[str, Path]) -> list[PairCells]:
 
 
 def table_rows(name: str, agreement: Any) -> Iterator[list[str]]:
-    """Yield the rows of the table of a data set."""
-    for one in agreement.itertuples():
+    """Yield the rows of the table of a data set, without what a finding withholds in all of it."""
+    for one in agreement[agreement.n > 0].itertuples():
         known = next(known for ending, known in UNITS.items() if one.parameter.endswith(ending))
         unit, difference, factor, digits = known
         truth, bias, lower, upper = [
