@@ -4,6 +4,8 @@ Plan frame: x and y in the plan's plane, z up, right handed, m (protocol/floorpl
 
 from __future__ import annotations
 
+from math import fsum
+
 from ..types import Vec3
 from ..types.attrs import frozen
 from .happening import BaseEvent
@@ -56,6 +58,11 @@ class Placed(BaseEvent):
     def decided(self) -> bool:
         """True when one candidate has 99.5 % of the weight, so that level, position and room are the wearer's."""
         return any([candidate.weight >= DECIDED_WEIGHT for candidate in self.candidates])
+
+    @property
+    def level_decided(self) -> bool:
+        """True when the candidates on `level` together have 99.5 % of the weight, so that the level is the wearer's."""
+        return fsum([one.weight for one in self.candidates if one.level == self.level]) >= DECIDED_WEIGHT
 
 
 @frozen(kw_only=True)

@@ -22,9 +22,9 @@ class PlaceCounts:
     first_decided: tuple[int, float] | None = None
     """Number of strides before the first decided place, and its time, s."""
     level_starts: list[tuple[float, str]] = field(factory=list)
-    """Time and level of the first decided place, and of the first MAX_LISTED changes of level."""
+    """Time and level of the first place whose level is decided, and of the first MAX_LISTED changes of level."""
     level: str | None = None
-    """Level of the last decided place."""
+    """Level of the last place whose level is decided (Placed.level_decided)."""
     level_changes: int = 0
     """Number of changes of `level`."""
     first_losses: list[tuple[float, str]] = field(factory=list)
@@ -42,7 +42,10 @@ class PlaceCounts:
                 self.last = event
                 self.places += 1
                 if event.decided:
-                    self._add_decided(event)
+                    self.decided_count += 1
+                    self.first_decided = self.first_decided or (self.strides, event.t)
+                if event.level_decided and event.level != self.level:
+                    self._start_level(event)
             case PlaceLost():
                 self.loss_count += 1
                 if len(self.first_losses) < MAX_LISTED:
@@ -51,12 +54,8 @@ class PlaceCounts:
             case _:
                 pass
 
-    def _add_decided(self, event: Placed) -> None:
-        self.decided_count += 1
-        if self.first_decided is None:
-            self.first_decided = (self.strides, event.t)
-        if event.level != self.level:
-            self.level_changes += self.level is not None
-            self.level = event.level
-            if len(self.level_starts) <= MAX_LISTED:
-                self.level_starts.append((event.t, event.level))
+    def _start_level(self, event: Placed) -> None:
+        self.level_changes += self.level is not None
+        self.level = event.level
+        if len(self.level_starts) <= MAX_LISTED:
+            self.level_starts.append((event.t, event.level))

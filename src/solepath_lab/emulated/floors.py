@@ -3,9 +3,9 @@
     solepath-lab emulated floors [--walks N] [--seed S] [--only KIND]
 
 prints the tables of docs/accuracy.md as Markdown: with a known start, walks that end on the right floor within 3 m of
-the wearer, and those of which a place was decided on a floor where the wearer never was, as when a flight is counted
-twice; without a start, walks with the true place among the candidates at the end. A wearer is drawn for each walk,
-comes to a connector of the house, takes it up or down, and walks away."""
+the wearer, walks whose floor is decided at the end and right, and walks with a floor that was decided and wrong, at
+the end or, as when a flight is counted twice, anywhere; without a start, walks with the true place among the candidates
+at the end. A wearer is drawn for each walk, comes to a connector of the house, takes it up or down, and walks away."""
 
 from __future__ import annotations
 
@@ -188,8 +188,10 @@ class FloorScore:
     walks: int = 0
     right: int = 0
     """With a known start, the last place is the true one."""
-    elsewhere: int = 0
-    """With a known start, a place was decided on a level of which the walk has none."""
+    decided: int = 0
+    """With a known start, the level at the end is decided (Placed.level_decided) and the true one."""
+    wrong: int = 0
+    """With a known start, a level is decided that is not the true one at the end, or that is not in the walk at all."""
     found: int = 0
     """Without a start, the true place is among the last candidates."""
 
@@ -212,18 +214,20 @@ def score_walk(recipe: str, job: tuple[str, int]) -> tuple[str, FloorScore]:
     walk = emulate(way.course.route, wearer=wearer, devices=devices, seed=seed)
     end, plan = way.course.place(walk.walker, walk.truth.duration), IndexedPlan(HOUSE)
 
-    def places(start: Start | None) -> tuple[tuple[Candidate, ...], set[str]]:
-        """Return the last candidates, and the levels on which a place was decided."""
+    def places(start: Start | None) -> tuple[tuple[Candidate, ...], list[str]]:
+        """Return the last candidates, and the levels that were decided, "" at the end if none is then."""
         session = Session(recipes.by_name(recipe), floorplan=plan, start=start)
         placed = [one for one in session.feed(walk.packets) + session.finish() if isinstance(one, Placed)]
-        decided = {one.level for one in placed if one.decided}
-        return () if session.place is None else session.place.candidates, decided
+        decided = [one.level for one in placed if one.level_decided]
+        last = session.place
+        return () if last is None else last.candidates, [*decided, last.level if last and last.level_decided else ""]
 
     last, decided = places(way.course.start)
     others = places(None)[0] if len(way.levels) > 1 else last  # nothing tells a place without stairs or lifts
     is_true = [is_near(one, way.levels[-1], *end) for one in others]
     is_right = bool(last) and is_near(last[0], way.levels[-1], *end)
-    return kind, FloorScore(1, is_right, not decided <= set(way.levels), any(is_true))
+    is_wrong = decided[-1] not in ("", way.levels[-1]) or not set(decided) <= {"", *way.levels}
+    return kind, FloorScore(1, is_right, decided[-1] == way.levels[-1], is_wrong, any(is_true))
 
 
 def run(options: Namespace) -> int:
@@ -235,9 +239,9 @@ def run(options: Namespace) -> int:
         for kind, one in run_jobs(partial(score_walk, recipe), jobs, processes=options.processes):
             scores[kind] += one
         rows = [
-            [kind, *[f"{part} of {one.walks}" for part in (one.right, one.elsewhere, one.found)]]
+            [kind, *[f"{part} of {one.walks}" for part in (one.right, one.decided, one.wrong, one.found)]]
             for kind, one in scores.items()
         ]
-        columns = ("right floor and place at the end", "decided on another floor", "no start: true place kept")
+        columns = ("right place at the end", "right floor decided", "wrong floor decided", "no start: true place kept")
         print("\n".join([*markdown.table([TITLES[recipe], *columns], rows), ""]), flush=True)
     return 0

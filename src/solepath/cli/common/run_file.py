@@ -2,7 +2,8 @@
 
 It is JSON: {"solepath": version, "recipe": name, "recipe_sha256", "inputs": [{"name", "sha256"}], "options": {...},
 "command_line": [...], "sites": {"left_foot": {"samples", "missing", "missing_s", "missing_share", "absent_s"}},
-"findings": [{"code", "site", "text"}], "place": {"level", "room", "x_m", "y_m", "within_m", "candidates", "decided"}}.
+"findings": [{"code", "site", "text"}], "place": {"level", "room", "x_m", "y_m", "within_m", "candidates", "decided",
+"level_decided"}}.
 The place is that at the end, on the floor plan; null without one. walk/links.py defines the figures of a site,
 show/findings.py the findings; the site of one about both feet or the whole session is ""."""
 
@@ -67,7 +68,8 @@ def _place(place: Placed) -> dict[str, Any]:
     """Return the place at the end; `decided` is the rule of summary, page, picture and report."""
     x, y, _ = place.position
     where = {"level": place.level, "room": place.room, "x_m": x, "y_m": y, "within_m": round(place.spread, 3)}
-    return where | {"candidates": len(place.candidates), "decided": place.decided}
+    decided = {"decided": place.decided, "level_decided": place.level_decided}
+    return where | {"candidates": len(place.candidates)} | decided
 
 
 def _given(options: argparse.Namespace) -> dict[str, Any]:

@@ -220,8 +220,12 @@ class PlanPicture:
                 add(lines, "<polyline points='{},{} {},{}' stroke='{}'/>", *ends, colour)
         decided = [place for place in places if _is_decided(place)]
         first = "start" if decided[:1] == places[:1] else "found"
-        last = "end" if all(map(_is_decided, [*self.events][-1:])) else "last known"
-        marked = [(decided[0], START_COLOUR, first), (decided[-1], END_COLOUR, last)] if decided else []
+        marked = [(decided[0], START_COLOUR, first)] if decided else []
+        match [*self.events][-1:]:
+            case [Placed(level_decided=True) as end]:
+                marked.append((end, END_COLOUR, "end" if end.decided else "likely end"))
+            case [_] if decided:
+                marked.append((decided[-1], END_COLOUR, "last known"))
         for place, colour, word in marked:
             if place.level == level:
                 x, y = view.at(place.position[:2])

@@ -101,8 +101,10 @@ def place_lines(counts: PlaceCounts) -> list[str]:
 
 def end_line(place: Placed) -> str:
     """Return a line with the place at the end, which says if it is not decided."""
-    several = "" if place.decided else f", one of {counted(len(place.candidates), 'candidate')}"
-    return f"at the end: {_where(place)}{several}"
+    if place.decided:
+        return f"at the end: {_where(place)}"
+    there = "all on this level" if place.level_decided else "on several levels"
+    return f"at the end: {_where(place)}, one of {counted(len(place.candidates), 'candidate')}, {there}"
 
 
 def place_line(place: Placed) -> str:

@@ -31,7 +31,7 @@ class WearerScene:
     track: GrowingList[TrackPoint] = field(factory=new_track)
     places: GrowingList[PlacePoint] = field(factory=lambda: GrowingList(thins=True))
     level: str | None = None
-    """Level of the last decided place; None after the place was lost."""
+    """Level of the last place whose level is decided; None after the place was lost."""
     _place_frame: tuple[Placed | None, dict[str, Any] | None] = field(default=(None, None), metadata=NOT_SAVED)
 
     def add_position(self, event: WearerMoved) -> None:
@@ -67,13 +67,14 @@ class WearerScene:
             self.places.replace([*places[:end], (t_start, level, x, y, z), (t, level, x, y, round(z + height, 3))])
 
     def add_place(self, event: Placed) -> bool:
-        """Add a place on the plan if it is decided; return whether its level is another one than before."""
-        if not event.decided:
-            return False
-        x, y, z = event.position
-        self.places.add((round(event.t, 3), event.level, round(x, 3), round(y, 3), round(z, 3)))
-        before, self.level = self.level, event.level
-        return event.level != before
+        """Add a place on the plan if it is decided; return whether another level than before is."""
+        if event.decided:
+            x, y, z = event.position
+            self.places.add((round(event.t, 3), event.level, round(x, 3), round(y, 3), round(z, 3)))
+        before = self.level
+        if event.level_decided:
+            self.level = event.level
+        return self.level != before
 
     def wearer_frame(self) -> dict[str, Any] | None:
         """Return the member "wearer" of a frame."""
