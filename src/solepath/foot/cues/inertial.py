@@ -82,7 +82,8 @@ class Impact:
         t_HS = m - s,  m = sum t |j|^2 dt / sum |j|^2 dt,  s^2 = sum (t - m)^2 |j|^2 dt / sum |j|^2 dt.
 
     This needs no threshold on the force and works for any mounting and rate. It is not early when the sole turns down
-    well before it bears weight. "Shock" is the integral of the squared jerk, m^2/s^5."""
+    well before it bears weight. It is never before the foot has begun to turn down (LANDING_RATE): what shook the leg
+    in the swing is no impact. "Shock" is the integral of the squared jerk, m^2/s^5."""
 
     shock: float = 0.0
     """Recent shock, m^2/s^5."""
@@ -258,7 +259,7 @@ class InertialCues:
     def _stopped(self, t: float, dt: float, speed: float, previous_rate: float) -> float | None:
         """Return the onset of the impact of a foot that stands still: of the landing, or the largest of the swing."""
         if self.landing_at is not None:
-            return self.impact.onset
+            return max(self.landing_at, self.impact.onset)
         t_stood = self._stood(t, dt, speed, previous_rate)
         return self.impact.peak_onset if t_stood is not None and self.impact.peak_shock > 0.0 else t_stood
 
@@ -266,8 +267,9 @@ class InertialCues:
         """Return the onset of the impact of a landing, or of a foot that has become slow, once it is final."""
         landing_at, rate, impact = self.landing_at, self.sagittal, self.impact
         if landing_at is not None:
-            settled = t - impact.onset >= IMPACT_SETTLING_TIME - TIME_EPSILON
-            return impact.onset if settled or t - landing_at >= LONGEST_IMPACT_TIME - TIME_EPSILON else None
+            onset = max(landing_at, impact.onset)
+            settled = t - onset >= IMPACT_SETTLING_TIME - TIME_EPSILON
+            return onset if settled or t - landing_at >= LONGEST_IMPACT_TIME - TIME_EPSILON else None
         if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING_TIME - TIME_EPSILON:
             return None
         if previous_rate < LANDING_RATE <= rate and self.lowest_rate < 0.0 and self.axis is not None:
