@@ -1,7 +1,7 @@
 // State of each sensor's link: one sentence, and what is known of each below it, which opens when something is wrong.
 
 import { isBroken } from "./trust.js";
-import { LINKS, capital, child, element, fixed, note, percent, setData, span, wordOf, write } from "./words.js";
+import { LINKS, capital, child, element, fixed, note, percent, sentence, setData, span, wordOf, write } from "./words.js";
 
 const HIGH_LOSS = 0.05; // share of samples missing from which on a link is marked; accuracy is stated for up to so much
 const LOW_BATTERY = 0.15; // charge from which down the battery may be why nothing comes
@@ -20,7 +20,7 @@ export function problems({ links, finished, source }) {
     const charged = battery > LOW_BATTERY ? " and switched on?" : ", switched on and charged?";
     return `${capital(name)}: no data${since}.${source === "live" ? ` Is the sensor near${charged}` : ""}`;
   });
-  return [...lost, ...those(links, isFaulty).map((name) => `${capital(name)}: ${links[name].trouble}.`)];
+  return [...lost, ...those(links, isFaulty).map((name) => sentence(`${name}: ${links[name].trouble}`))];
 }
 
 // One sentence on all links.
@@ -62,7 +62,7 @@ const FIGURES = {
 };
 
 export class Links {
-  uses = ["links", "findings", "playback", "scene"];
+  uses = ["links", "findings", "playback", "situation", "scene"];
   #opened = false; // by itself
   #shown = new Map();
 
