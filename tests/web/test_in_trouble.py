@@ -52,6 +52,8 @@ STRIDES = "(solepath.state.feet.left?.strides ?? 0) + (solepath.state.feet.right
 async def test_without_bluetooth_the_page_names_browsers_that_have_it(chromium: Browser, site: Path) -> None:
     with serving(site) as url:
         async with window(chromium, url, width=360, script="delete Navigator.prototype.bluetooth;") as view:
+            await ready(view)
+            await view.until("document.getElementById('activity').textContent === 'No Bluetooth'")
             assert await view.tab.locator("#connect").is_hidden() and await view.tab.locator("#demo").is_visible()
             assert "Chrome on Linux lets a page" in await view.text("first")
             words = await view.tab.evaluate(WORDS_FOR, IPHONE)

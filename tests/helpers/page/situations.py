@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator
 from pathlib import Path
+from typing import Any
 
 from browsers import Browser, Window, window
 from web_bluetooth import WebBluetooth, web_bluetooth
@@ -23,6 +24,24 @@ SITUATIONS = (
     "computing", "playing", "paused", "failed",
 )  # fmt: skip
 """All situations, in the order in which they are shown here."""
+WITH_SHEET = ("choosing", "walking", "finished")
+"""Situations in which the sheet of controls is worth a look."""
+SAID = {
+    "computing": "One moment",
+    "no-bluetooth": "No Bluetooth",
+    "choosing": "Choose a sensor",
+    "refused": "No sensor was chosen",
+    "connecting": "Connecting",
+    "connected": "no data yet",
+    "walking": "Both sensors connected",
+    "lost": "Left foot: no data",
+    "resumed": "The walk goes on",
+    "playing": "Both sensors emulated",
+    "paused": "Paused at",
+    "finished": "Finished",
+    "failed": "has stopped",
+}
+"""Words that the site says in one situation alone, of those that it says of itself."""
 WITHOUT_BLUETOOTH = "delete Navigator.prototype.bluetooth;"
 STRIDES = "['left', 'right'].every((foot) => (solepath.state.feet[foot]?.strides ?? 0) >= {})"
 HOLD_DEMO = """(hold) => {
@@ -50,16 +69,20 @@ async def is_shown(view: Window, name: str) -> None:
     await asyncio.sleep(0.6)
 
 
-async def situations(chromium: Browser, site: Path, **given: object) -> AsyncIterator[tuple[str, Window]]:
-    """Yield the name of each situation with the window that shows it, in the order of SITUATIONS."""
+async def situations(
+    chromium: Browser, site: Path, *, script: str = "", **given: Any
+) -> AsyncIterator[tuple[str, Window]]:
+    """Yield the name of each situation with the window that shows it, in the order of SITUATIONS.
+
+    `script` runs in the page before any other; `given` are options of `window`."""
     with serving(site) as url:
-        async with window(chromium, url, script=WITHOUT_BLUETOOTH, **given) as view:  # type: ignore[arg-type]
+        async with window(chromium, url, script=f"{WITHOUT_BLUETOOTH}{script}", **given) as view:
             await ready(view)
             await is_shown(view, "no-bluetooth")
             yield "no-bluetooth", view
         bench = Bench(Route().stand(3.0).walk(60.0), seed=3)
         bench.prepare()
-        async with window(chromium, url, **given) as view:  # type: ignore[arg-type]
+        async with window(chromium, url, script=script, **given) as view:
             await ready(view)
             async with web_bluetooth(view, bench.peripherals) as radio:
                 async for name in _of_a_walk(view, radio, bench, url):
@@ -102,6 +125,7 @@ async def _of_a_walk(view: Window, radio: WebBluetooth, bench: Bench, url: str) 
     await view.tab.evaluate(HOLD_DEMO, True)
     await view.tab.locator("#sheet [data-do=demo]").click()
     yield "computing"
+    await view.tab.evaluate("scrollTo(0, 0)")
     await view.tab.reload()
     await ready(view)
     await view.tab.locator("#demo").click()
