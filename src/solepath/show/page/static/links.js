@@ -35,7 +35,7 @@ export function linksText({ links, source, finished }) {
   const some = `${all} ${source === "recording" || finished ? "recorded" : source === "demo" ? "emulated" : "connected"}`;
   const sum = (key) => names.reduce((total, name) => total + links[name][key], 0);
   const most = mostLost(links);
-  if (!finished && most > 0) return `${some}, ${lossText(most)}`;
+  if (!finished && most > 0) return `${some}, ${shareText(most)} missing`;
   if (finished && sum("missing") > 0) return `${some}, ${counted(sum("missing"), "sample")} missing`;
   if (finished && sum("absent") > 0) return `${some}, absent for ${fixed(sum("absent"), 1)} s`;
   if (sum("missing") + sum("absent") === 0) return `${some}, no data lost`;
@@ -43,7 +43,7 @@ export function linksText({ links, source, finished }) {
 }
 
 const mostLost = (links) => Math.max(0, ...Object.values(links).map(({ recent_share }) => recent_share ?? 0));
-const lossText = (share) => `${percent(share, share < 0.0995 ? 1 : 0)} of samples missing`;
+const shareText = (share) => percent(share, share < 0.0995 ? 1 : 0);
 const counted = (count, word) => `${fixed(count)} ${word}${count === 1 ? "" : "s"}`;
 
 // True while more samples are missing than the stated limit.
@@ -52,7 +52,7 @@ export const losesMany = ({ links, finished }) => !finished && mostLost(links) >
 // What is known of a link; false where there is nothing to say.
 const FIGURES = {
   rate: ({ rate }) => rate !== null && `${fixed(rate)} samples a second`,
-  recent: ({ recent_share }) => recent_share !== null && lossText(recent_share),
+  recent: ({ recent_share }) => recent_share !== null && `${shareText(recent_share)} of samples missing`,
   missing: ({ missing: n, missing_share: share }) => n > 0 && `${counted(n, "sample")} missing since the start (${percent(share, 1)})`,
   gaps: ({ gaps }) => gaps > 0 && counted(gaps, "interruption"),
   absent: ({ absent }) => absent > 0 && `absent for ${fixed(absent, 1)} s`,
