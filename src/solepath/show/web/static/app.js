@@ -41,7 +41,7 @@ for (const button of document.querySelectorAll("[data-do]")) {
 const ACTIONS = {
   connect: () => addSensor(element("worn").value || null, element("choose-kind").value || null),
   demo: async () => {
-    await computing("The demonstration", () => computer.call("demo", "A demonstration: an emulated walk"));
+    await computing("The demonstration", () => computer.call("demo", "A demonstration"));
     showReportOf("", "demonstration");
   },
   open: async () => element("file").click(),

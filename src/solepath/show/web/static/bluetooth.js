@@ -2,7 +2,7 @@
 
 import { computer } from "./computer.js";
 import { bytes, clock, hex, notified, running, send, startWalk } from "./live.js";
-import { capital, sentence } from "./words.js";
+import { sentence } from "./words.js";
 
 const ANSWER_TIME = 20_000; // ms that a sensor has for an answer, and a person to allow a pairing meanwhile
 const FIRST_PAUSE = 250; // ms from a lost connection to the next attempt; each further one is twice as long
@@ -86,7 +86,7 @@ class Sensor {
   }
 
   get name() {
-    return this.device.name || "a sensor without a name";
+    return this.device.name || "sensor without a name";
   }
 
   get connected() {
@@ -96,7 +96,7 @@ class Sensor {
   // What the page says of it.
   get words() {
     const worn = this.site === null ? "" : ` ${wornWords(this.site)}`;
-    return `${capital(this.name)}${worn}: ${this.#connected ? "connected" : "connecting"}`;
+    return `${this.name}${worn}: ${this.#connected ? "connected" : "connecting"}`;
   }
 
   reconnect() {
