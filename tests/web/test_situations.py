@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from browsers import Browser
-from measures import SCRIPT, axe_faults, shifts, tab_faults
+from measures import NEXT_FRAME, SCREENS, SCRIPT, axe_faults, shifts, tab_faults
 from situations import SAID, situations
 
 TEXT = "['.top', '#site', '.hero'].map((one) => document.querySelector(one).innerText).join(' ')"
@@ -16,6 +16,9 @@ BUTTONS = """[...document.querySelectorAll('.site-buttons [data-in]')]
     .filter((one) => one.checkVisibility()).map((one) => one.textContent)"""
 IS_FIRST = """['activity', 'speed', 'distance', 'track']
     .every((one) => document.getElementById(one).getBoundingClientRect().bottom <= innerHeight)"""
+TEXT_FAULTS = """[...measured.overlapping(), ...measured.cut(), ...measured.shortened(), ...measured.wide()]
+    .filter((words) => !words.endsWith('in #title'))"""
+"""Texts that cannot be read; the name of a walk may be as long as its file's, and ends in an ellipsis."""
 CHOICES = {
     "no-bluetooth": ["Demonstration", "Open a file"],
     "choosing": ["Connect a sensor", "Demonstration"],
@@ -48,6 +51,12 @@ async def test_each_situation_has_its_own_words_and_those_of_no_other(chromium: 
             faults["buttons"] = buttons
         if name in ("walking", "lost", "playing", "finished") and not await view.tab.evaluate(IS_FIRST):
             faults["first screen"] = "status, two figures and the track are not all on it"
+        for width, height in SCREENS.items():
+            await view.tab.set_viewport_size({"width": width, "height": height})
+            await view.tab.evaluate(NEXT_FRAME)
+            faults |= {f"text, {width} px": one} if (one := await view.tab.evaluate(TEXT_FAULTS)) else {}
+        await view.tab.set_viewport_size({"width": 390, "height": 844})
+        await view.tab.evaluate(NEXT_FRAME)
         if name != "failed":  # what has stopped is dimmed
             faults |= {"axe": one} if (one := await axe_faults(view)) else {}
             faults |= {"tab": one} if (one := await tab_faults(view)) else {}

@@ -35,7 +35,7 @@ SAID = {
     "connected": "no data yet",
     "walking": "Both sensors connected",
     "lost": "Left foot: no data",
-    "resumed": "The walk goes on",
+    "resumed": "Walk goes on",
     "playing": "Both sensors emulated",
     "paused": "Paused at",
     "finished": "Finished",

@@ -49,7 +49,7 @@ export function happening({ known, links, playback, program, source, strides }) 
   return isConnected ? "link" : sensors?.length === 0 ? "idle" : "connect";
 }
 
-// The words: of the line at the top, the heading, the lines below it, and what a person may do, in place of the figures.
+// The words: of the line at the top (a banner is over it when all has failed), the heading, the lines below it, and what a person may do, in place of the figures.
 const PURPOSE = "solepath measures how you walk, and where, with sensors in your shoes.";
 const FIRST = "Stand still for a moment, then walk. The figures come with the first strides.";
 
@@ -74,10 +74,10 @@ const SHOWN = {
   },
   connected: () => ({ line: "Connected, no data yet", headline: "Connected", where: "no data yet", help: "The first data come in a moment." }),
   walking: (state) => ({ line: linksText(state), headline: doing(state), where: place(state), help: hasFigures(state) ? "" : FIRST }),
-  lost: (state) => ({ line: linksText(state), headline: doing(state), where: place(state), help: "" }),
+  lost: (state) => ({ line: linksText(state), headline: isReady(state) ? "No data" : doing(state), where: place(state), help: "" }),
   resumed: () => ({
     line: "No sensor is connected",
-    headline: "The walk goes on",
+    headline: "Walk goes on",
     where: "connect the sensors again",
     help: "This page was closed meanwhile. Connect each sensor again, worn as it was.",
   }),
@@ -89,7 +89,7 @@ const SHOWN = {
     where: state.strides > 0 ? `after ${lasted(state)}` : summary(state),
     help: state.strides > 0 ? "" : "No stride was found.",
   }),
-  failed: ({ strides }) => ({ line: WORDS.failed, headline: WORDS.failed, where: strides > 0 ? "what you see is the last of it" : "", help: "" }),
+  failed: ({ strides }) => ({ line: "", headline: WORDS.failed, where: strides > 0 ? "what you see is the last of it" : "", help: "" }),
 };
 
 export const SITUATIONS = Object.keys(SHOWN);
