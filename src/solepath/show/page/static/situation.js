@@ -49,7 +49,8 @@ export function happening({ known, links, playback, program, source, strides }) 
   return isConnected ? "link" : sensors?.length === 0 ? "idle" : "connect";
 }
 
-// The words: of the line at the top (a banner is over it when all has failed), the heading, the lines below it, and what a person may do, in place of the figures.
+// The words: of the line at the top (a banner is over it when all has failed), the heading, the line below it, and what a
+// person may do, in place of the figures.
 const PURPOSE = "solepath measures how you walk, and where, with sensors in your shoes.";
 const FIRST = "Stand still for a moment, then walk. The figures come with the first strides.";
 
