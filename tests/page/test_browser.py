@@ -85,7 +85,7 @@ async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong
             scene.take(None, [place(t, 5.0 + walked, ground, 25.0 + walked)])
         await view.until(f"{seen}.view === 'plan' && {seen}.points === '4' && {seen}.since === '0'")
         name = BUILDING.levels[0].name or ground
-        await view.until(f"{note} === 'The wearer could be at 2 places; most likely (60 %) {name}.'")
+        await view.until(f"{note} === 'Probably {name}, 60 %; another place is possible.'")
         scene.take(None, [place(5.0, 27.4, ground)])
         await view.until(f"{seen}.since === '4' && document.getElementById('track-note').hidden")
         await view.until("document.getElementById('track').ariaLabel.includes('The wearer is on')")

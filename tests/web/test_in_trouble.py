@@ -52,8 +52,10 @@ STRIDES = "(solepath.state.feet.left?.strides ?? 0) + (solepath.state.feet.right
 async def test_without_bluetooth_the_page_names_browsers_that_have_it(chromium: Browser, site: Path) -> None:
     with serving(site) as url:
         async with window(chromium, url, width=360, script="delete Navigator.prototype.bluetooth;") as view:
+            await ready(view)
+            await view.until("document.getElementById('activity').textContent === 'No Bluetooth'")
             assert await view.tab.locator("#connect").is_hidden() and await view.tab.locator("#demo").is_visible()
-            assert "Chrome on Linux lets a page" in await view.text("bluetooth-words")
+            assert "Chrome on Linux lets a page" in await view.text("first")
             words = await view.tab.evaluate(WORDS_FOR, IPHONE)
             assert "No browser on an iPhone or iPad" in words and "the demonstration can be played here" in words
 
@@ -115,7 +117,7 @@ async def check_tabs(view: Window, url: str) -> None:
 
 async def check_sharing(view: Window, folder: Path) -> None:
     """A walk goes to the downloads where the browser has no list of apps."""
-    await view.tab.locator("#walks-part summary").click()
+    await view.tab.locator("#more").click()
     async with view.tab.expect_download() as downloading:
         await view.tab.get_by_role("button", name="Share walk-").click()
     await (await downloading.value).save_as(folder / "walk.jsonl")

@@ -28,7 +28,7 @@ LOST, NARROWED, DECIDED, LATE = 17.0, 26.0, 45.0, 60.0
 """Times of the walk, s: in front of the lift, on the corridors, after the walls have decided, and later."""
 STATE = "({ recipe: solepath.state.recipe, place: solepath.state.place })"
 NOTE = "solepath.track.note.innerText"
-RECORDED = """computer.call('get', document.querySelector('#walks .row-name').textContent.split(',')[0] + '.jsonl')
+RECORDED = """computer.call('get', document.querySelector('#walks li').dataset.name)
     .then((file) => file.text())"""
 
 
@@ -76,7 +76,8 @@ async def test_a_phone_shows_the_candidates_with_their_weights_until_one_is_left
             await view.tab.set_viewport_size({"width": 360, "height": 740})
             await view.tab.locator("#file").set_input_files([written_plan(tmp_path)])
             await view.until(f"{WORDS}.includes('floor plan is used from now on') && solepath.state.plan !== null")
-            await view.tab.locator(".choices summary").click()
+            await view.tab.locator("#more").click()
+            await view.tab.locator("#advanced summary").click()
             await view.tab.locator("#choose-recipe").select_option(RECIPE)
             await view.until(f"{WORDS}.includes('{RECIPE} is used from now on')")
             await connect(view, emulated.packets, PROFILE_20HZ)
@@ -90,7 +91,9 @@ async def test_a_phone_shows_the_candidates_with_their_weights_until_one_is_left
             assert 2 <= len(candidates) < len(before["place"]["candidates"])
             assert abs(sum(one["weight"] for one in candidates) - 1.0) < 0.01
             room, weight = narrowed["place"]["room"], round(100.0 * max(one["weight"] for one in candidates))
-            words = f"The wearer could be at {len(candidates)} places; most likely ({weight} %) ground floor, {room}."
+            sure = "Probably" if weight >= 50 else "Perhaps"
+            others = "another place is" if len(candidates) == 2 else f"{len(candidates) - 1} other places are"
+            words = f"{sure} ground floor, {room}, {weight} %; {others} possible."
             await view.until(f"{NOTE} === '{words}'")
             await check_pocket(view)
             decided = await shown(view, DECIDED)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from browsers import Browser, Window
 from web_bluetooth import web_bluetooth
-from web_pages import PATIENCE, READY, WORDS, open_site, ready
+from web_pages import PATIENCE, READY, open_site, ready
 
 from solepath import Connected, Packet, PacketRejected, Session, StrideTaken
 from solepath.emulate.devices.bench import Bench
@@ -31,8 +31,8 @@ SHOWN = f"({{ strides: {STRIDES}, track: solepath.state.tracks.left }})"
 async def recorded(view: Window, folder: Path) -> tuple[Packet, ...]:
     """Return the packets of the recording of the walk that was ended."""
     await view.until("document.querySelectorAll('#walks li').length === 1")
-    name = (await view.tab.evaluate("document.querySelector('#walks .row-name').textContent")).partition(",")[0]
-    text = await view.tab.evaluate(f"computer.call('get', '{name}.jsonl').then((file) => file.text())")
+    name = await view.tab.evaluate("document.querySelector('#walks li').dataset.name")
+    text = await view.tab.evaluate(f"computer.call('get', '{name}').then((file) => file.text())")
     path = folder / "walk.jsonl"
     path.write_text(text)
     return tuple(read_packets(path))
@@ -70,7 +70,7 @@ async def test_two_insoles_walk_are_lost_and_go_on_after_the_tab_was_killed(
             view.tab = await view.tab.context.new_page()
             await view.tab.goto(url)
             await ready(view)
-            await view.until(f"{WORDS}.includes('connect the sensors again')")
+            await view.until("document.getElementById('where').textContent === 'connect the sensors again'")
             await radio.choose(left)
             await radio.choose(right)
             more = [count + 2 for count in before["strides"]]

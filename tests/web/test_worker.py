@@ -102,3 +102,15 @@ def test_a_recording_is_played_and_may_be_controlled(worker: Worker) -> None:
     report = call(worker, "report", "", "a walk")
     assert "left foot took" in report and "solepath 1.2.3" in report
     assert report == call(worker, "report", "walk.jsonl", "a walk")
+
+
+def test_the_report_answers_the_test_that_a_person_ordered_and_a_slip_of_the_pen_is_named(worker: Worker) -> None:
+    recorded(Path("walk.jsonl"), insoles().packets)
+    given = {"test": "tug", "marks": "1.0, 7.5", "age": "72", "sex": "female", "subject": "P 07", "outcomes": True}
+    report = call(worker, "report", "walk.jsonl", "a walk", given)
+    assert "6.5" in report and "P 07" in report and "healthy people" in report.lower()
+    assert "Walking bouts" in report and "Walking bouts" not in call(worker, "report", "walk.jsonl", "a walk")
+    short = call(worker, "report", "walk.jsonl", "a walk", given | {"marks": "1.0"})
+    assert short.startswith("tug=1.0 is not six-minute")
+    small = call(worker, "report", "walk.jsonl", "a walk", given | {"height": "1.62", "weight": "68"})
+    assert small.startswith("72,female,1.62,68 is not AGE,SEX[,CM,KG]")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
+from math import isfinite, nan
 from pathlib import Path
 from typing import BinaryIO
 
@@ -73,6 +74,14 @@ Report = Callable[[str], None]
 def warn(sentence: str) -> None:
     """Issue a sentence as a RecordingWarning, as the default report does."""
     warnings.warn(sentence, RecordingWarning, stacklevel=3)
+
+
+def finite(text: str) -> float:
+    """Return the finite number in `text`; raise ValueError for any other text."""
+    value = nan if "_" in text else float(text)  # Python reads 1_0 as ten
+    if not isfinite(value):
+        raise ValueError(f"{text!r} is no number")
+    return value
 
 
 def printable(text: str, max_length: int = 200) -> str:

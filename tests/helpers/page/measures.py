@@ -89,9 +89,20 @@ async def focused(view: Window) -> Focus | None:
     return None if found is None else Focus(**{**found, "box": tuple(found["box"])})
 
 
+TO_THE_START = """() => {
+    const first = document.createElement("a");
+    first.tabIndex = 0;
+    document.body.prepend(first);
+    first.focus();
+    first.remove();
+    scrollTo(0, 0);
+}"""
+"""Lets the next Tab begin at the start of the page, also after a click elsewhere."""
+
+
 async def tab_through(view: Window) -> tuple[list[Focus], bool]:
     """Return what has the focus after each press of Tab from the start of the page, and whether Tab leaves the page."""
-    await view.tab.evaluate("document.activeElement?.blur(); scrollTo(0, 0)")
+    await view.tab.evaluate(TO_THE_START)
     path: list[Focus] = []
     for _ in range(2 * len(await controls(view)) + 10):
         await view.tab.keyboard.press("Tab")

@@ -66,6 +66,8 @@ class WebBluetooth:
         self.sensors = {device.address: EmulatedSensor(device) for device in devices}
         self.reachable = True
         """False while the devices are too far away for a connection."""
+        self.silent = False
+        """True while the devices send no frame."""
         self._tasks: set[asyncio.Task[None]] = set()
         self._devtools: Any = None
 
@@ -175,7 +177,7 @@ class WebBluetooth:
             for one in self.sensors.values():
                 if one.connected:
                     for outgoing in one.device.poll(now):
-                        if outgoing.channel == STREAM:
+                        if outgoing.channel == STREAM and not self.silent:
                             one.unread.append(outgoing.value)
                             one.arrived.set()
             await asyncio.sleep(0.002)

@@ -56,6 +56,7 @@ async def test_all_is_readable_reached_by_keys_and_without_violation_by_axe(
             await view.tab.evaluate(OPEN_ALL)
             await view.tab.evaluate("document.getElementById('notice-list').showPopover()")
             found["all is open"] = await axe_faults(view)
+            await view.tab.evaluate("document.getElementById('notice-list').hidePopover()")
         if name in OPERATED and screens is ALL:
             found["keys"] = await key_faults(view)
     assert {where: faults for where, faults in found.items() if faults} == {}

@@ -8,9 +8,10 @@ from collections.abc import Iterable
 from contextlib import suppress
 from functools import partial
 from importlib.util import find_spec
-from math import inf, isfinite, nan, radians
+from math import inf, radians
 
 from ...recording import printable
+from ...recording.errors import finite
 from ...show.tables.progress import print_above
 from ...types.extras import install_hint
 
@@ -61,14 +62,6 @@ def reject_options(options: Namespace, names: Iterable[str], why: str) -> None:
     for name in names:
         if getattr(options, name, None) not in (None, False, []):
             raise Failure(f"--{name.replace('_', '-')} {why}")
-
-
-def finite(text: str) -> float:
-    """Return the finite number in `text`; raise ValueError for any other text."""
-    value = nan if "_" in text else float(text)  # Python reads 1_0 as ten
-    if not isfinite(value):
-        raise ValueError(f"{text!r} is no number")
-    return value
 
 
 def parse_number(what: str, least: float, most: float, text: str) -> float:

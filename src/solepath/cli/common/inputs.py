@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, Any
 from ...calibration import Calibration
 from ...link.kinds import DeviceKinds, make_kinds
 from ...recording import RecordingError, Source, TableMapping, open_source, printable
+from ...recording.errors import finite
 from ...types import Foot, Sample
 from ...types.registry import TABLE
 from .closest import unknown
-from .failure import Failure, finite, note, parse_degrees, parse_offset, parse_span
+from .failure import Failure, note, parse_degrees, parse_offset, parse_span
 from .parser import Option, one_of, option, together
 
 if TYPE_CHECKING:

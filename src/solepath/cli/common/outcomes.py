@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 from argparse import ArgumentTypeError, Namespace
-from contextlib import suppress
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
-from ...recording import printable
-from .failure import Failure, finite
+from ...show.outcome_options import MARKS, parse_marks, parse_person, parse_test
+from .failure import Failure
 from .parser import option, together
 
 if TYPE_CHECKING:
     from ...show.outcomes.clinic import OutcomeRequest
     from ...show.outcomes.references import Person
 
-MAX_AGE, HEIGHTS, WEIGHTS = 120.0, (50.0, 250.0), (10.0, 400.0)
-"""Oldest age, years, and the heights, cm, and weights, kg, that --reference takes; others are slips of the pen."""
-TWO_MARKS = 2
-"""Number of marks of a timed up and go."""
-MARKS = {"six-minute": (0, 1), "tug": (TWO_MARKS,), "walk": (0,)}
-"""Numbers of marks that each test may have."""
+T = TypeVar("T")
 
 
 def has_outcomes(options: Namespace) -> bool:
@@ -72,54 +68,23 @@ def person_of(options: Namespace) -> Person | None:
     return next((one for one in options.reference if not isinstance(one, Path)), None)
 
 
-def _test(text: str) -> tuple[str, tuple[float, ...]]:
-    """Parse --test: the name of a test, and the marks of an observer."""
-    name, _, marks = text.partition("=")
-    with suppress(ValueError):
-        times = _marks(marks)
-        if len(times) in MARKS.get(name, ()):
-            return name, times
-    raise ArgumentTypeError(f"{printable(text, 80)} is not six-minute, six-minute=START, tug=START,STOP or walk")
-
-
-def _marks(text: str) -> tuple[float, ...]:
-    """Parse the marks of an observer, s: none, a start, or a start and a later stop."""
-    times = tuple([finite(time) for time in text.split(",")]) if text else ()
-    if len(times) > TWO_MARKS or list(times) != sorted(set(times)):
-        raise ValueError
-    return times
-
-
-def _marks_before(text: str) -> tuple[float, ...]:
-    """Parse --test-before."""
-    with suppress(ValueError):
-        if times := _marks(text):
-            return times
-    raise ArgumentTypeError(f"{printable(text, 80)} is not START or START,STOP, as in 12.5,24.1")
+def _parsed(parse: Callable[[str], T], text: str) -> T:
+    """Return what a text orders, by a parser of show/outcome_options.py, with its sentence for argparse."""
+    try:
+        return parse(text)
+    except ValueError as error:
+        raise ArgumentTypeError(str(error)) from None
 
 
 def _reference(text: str) -> Person | Path:
     """Parse a value of --reference: a person, or a file of bands."""
-    if text.lower().endswith((".json", ".csv")):
-        return Path(text)
-    from ...show.outcomes.references import Person, Sex
-
-    try:
-        age, sex, *size = text.split(",")
-        height, weight = map(finite, size or ("0", "0"))
-        person = Person(finite(age), Sex(sex), *([height / 100.0, weight] if size else []))
-        in_limits = not size or HEIGHTS[0] <= height <= HEIGHTS[1] and WEIGHTS[0] <= weight <= WEIGHTS[1]
-        if 0.0 < person.age <= MAX_AGE and in_limits:
-            return person
-    except ValueError:
-        pass
-    raise ArgumentTypeError(f"{printable(text, 80)} is not AGE,SEX[,CM,KG], as in 72,female,162,68")
+    return Path(text) if text.lower().endswith((".json", ".csv")) else _parsed(parse_person, text)
 
 
 add_test = option(
     "--test",
     metavar="NAME[=MARKS]",
-    type=_test,
+    type=partial(_parsed, parse_test),
     help="the test that was ordered: six-minute, from its first step, or six-minute=START; tug=START,STOP, the timed "
     "up and go; walk, at the usual pace; marks are s of the recording's clock. Its result comes first",
 )
@@ -136,7 +101,7 @@ add_outcomes = together(
     option(
         "--test-before",
         metavar="MARKS",
-        type=_marks_before,
+        type=partial(_parsed, parse_marks),
         help="the marks of the test in the recording of --compare: START, or START,STOP",
     ),
     option(

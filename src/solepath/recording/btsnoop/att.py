@@ -9,7 +9,6 @@ from collections import Counter
 from collections.abc import Iterator
 from enum import IntEnum
 from typing import Any
-from uuid import UUID
 
 from attrs import define, frozen
 from construct import Bytes, GreedyBytes, GreedyRange, Int8ul, Int16ul, Prefixed, Struct, Switch, this
@@ -100,7 +99,8 @@ def uuid_text(octets: bytes) -> str:
         return f"0000{octets[1]:02x}{octets[0]:02x}-0000-1000-8000-00805f9b34fb"
     if len(octets) != 16:
         raise malformed(f"a UUID of {len(octets)} bytes")
-    return str(UUID(bytes=octets[::-1]))
+    digits = octets[::-1].hex()
+    return "-".join((digits[:8], digits[8:12], digits[12:16], digits[16:20], digits[20:]))
 
 
 @define

@@ -22,6 +22,8 @@ ROOMS = (types, events, saving, calibration, floorplan, wire, link, foot, body, 
 """Rooms of which every module goes to the site: a device or a file may need any of them."""
 LEFT_OUT = ("solepath.show.page.server", "solepath.show.page.player.player_loop")
 """Modules that serve the page, for which the site has no use."""
+UNUSED = "/ssl.py"
+"""Module without which asyncio works, and the site too: its requests are the browser's."""
 ENCODINGS = ("utf_8", "utf_8_sig", "ascii", "latin_1", "cp437", "utf_16", "cp1252", "iso8859_15")
 """Encodings of texts in files of other programs."""
 WITHOUT_DOCSTRINGS = 2
@@ -48,7 +50,8 @@ def load_all() -> list[str]:
     traceback.format_exc()
     specs = [getattr(module, "__spec__", None) for module in [*sys.modules.values()]]
     origins = {spec.origin for spec in specs if spec is not None and spec.origin}
-    return sorted(origin for origin in origins if origin.endswith(".py") and origin not in OWN)
+    needed = origins.difference(OWN)
+    return sorted(origin for origin in needed if origin.endswith(".py") and not origin.endswith(UNUSED))
 
 
 def compile_files(files: list[str], source: str, target: str) -> None:

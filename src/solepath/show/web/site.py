@@ -120,6 +120,7 @@ def _library(build: Path, package: Mapping[str, bytes]) -> bytes:
     for name in OWN_PACKAGES:
         folder = Path(str(import_module(name).__file__)).parent
         shutil.copytree(folder, build / "source" / name, ignore=shutil.ignore_patterns("__pycache__", "static"))
+    (build / "source" / "pdb.py").touch()  # construct imports the debugger, of which the site has no use
     shutil.copy(HERE / "node" / "prepare.mjs", build)
     run_node("node", str(build / "prepare.mjs"), str(build))
     packed = _files_below(build / "compiled", "**/*.pyc")

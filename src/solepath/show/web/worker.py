@@ -6,7 +6,7 @@ chosen by hand and not swept."""
 from __future__ import annotations
 
 import json
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from time import monotonic
@@ -27,12 +27,16 @@ from ...recording import RecordingError, read_packets
 from ...saving.codec import SnapshotError
 from ...session import Session
 from ...session.json_host import filters
+from ...walk.walk import Walk
+from ..outcome_options import parse_person, parse_test
+from ..outcomes.clinic import OutcomeRequest, WalkTest
 from ..page.live_commands import position_of
 from ..page.messages import CommandError, encode, parse_command
 from ..page.player.player import Player
 from ..page.scene.scales import newtons_of
 from ..page.scene.scene import Follower, Scene
-from ..report import Report
+from ..report import Report, ReportDetails
+from ..report.bands import mean_bands
 from .live_walk import LiveWalk
 from .opening import NOTE_COUNT, OpenedRecording, kind_of, open_recording
 
@@ -45,12 +49,49 @@ class UnknownRecipe(Exception):
     """Error for a recipe that is chosen by a name that no recipe has."""
 
 
-PROBLEMS = (RecordingError, CalibrationError, FloorPlanError, SnapshotError, WalkRunning, UnknownRecipe, OSError)
+class WrongOption(Exception):
+    """Error for an option of a report that a person wrote wrongly."""
+
+
+PROBLEMS = (
+    RecordingError,
+    CalibrationError,
+    FloorPlanError,
+    SnapshotError,
+    WalkRunning,
+    UnknownRecipe,
+    WrongOption,
+    OSError,
+)
 """Errors whose texts are sentences for a person."""
 ITEMS_PER_STEP = 64
 """Number of packets that a long task handles before the worker may do something else."""
 Task = Generator[float, None, Any]
 """A task that yields the share that is done, 0 to 1, and returns its result."""
+
+
+DETAILS = ("title", "subject", "date", "device")
+"""Options that only the head of a report shows."""
+SIZE = ("height", "weight")
+"""Options of a person's size, which go together."""
+
+
+def ordered(options: Mapping[str, Any]) -> OutcomeRequest:
+    """Return the outcomes that the options of a report order; raise WrongOption, with a sentence."""
+    values = {name: str(value) for name, value in options.items()}
+    test, marks = values.get("test", ""), values.get("marks", "").replace(" ", "")
+    size = [values.get(name, "") for name in SIZE]
+    person = [values.get("age", ""), values.get("sex", ""), *(size if any(size) else [])]
+    try:
+        name, times = parse_test(f"{test}={marks}" if marks else test) if test else (None, ())
+        return OutcomeRequest(
+            outcomes=bool(options.get("outcomes")),
+            test=None if name is None else WalkTest(name),
+            marks=times,
+            person=parse_person(",".join(person)) if any(person) else None,
+        )
+    except ValueError as error:
+        raise WrongOption(f"{error}: it stands under what a report has") from None
 
 
 @define
@@ -222,15 +263,31 @@ class Worker:
             end = monotonic() + budget
             self.player.feed_due(lambda: monotonic() >= end)
 
-    def report(self, name: str, title: str) -> Task:
-        """Return the report of a recording of the working folder, or of what is played if `name` is empty, as HTML."""
+    def report(self, name: str, title: str, options: Mapping[str, Any] = {}) -> Task:
+        """Return the report of a recording of the working folder, or of what is played if `name` is empty, as HTML.
+
+        `options` has what a person filled in, as texts: the head (title, subject, date, device), the person (age, sex,
+        height, weight), test and marks; `outcomes` is a flag."""
+        head = ReportDetails(**{name: options.get(name, "") for name in DETAILS})
+        request = ordered(options)
         recording = self.recording
         if name:
             recording = yield from open_recording(Path(name))
         if recording is None:
             raise RecordingError("report", "there is no walk to report on")
         session, version = self._session(), self.version
-        report = Report(title, plan=self._drawn_plan, recipe=self.recipe.name, when=recording.when, version=version)
+        report = Report(
+            title,
+            plan=self._drawn_plan,
+            recipe=self.recipe.name,
+            when=recording.when,
+            version=version,
+            walk=Walk(limit=None) if request.outcomes or request.test else Walk(),
+            details=head,
+            bands=mean_bands(request.person),
+            calibrated=self.calibration is not None,
+            outcomes=request if request.outcomes or request.test else None,
+        )
         items = recording.items
         for number in range(len(items)):
             item = items[number]

@@ -1,9 +1,9 @@
 // Announcements for a screen reader: activity, the end of a walk, lost and restored links, what the checks found, the
 // level, reported positions and what came of them, and the page's own connection.
 
-import { summary } from "./activity.js";
 import { findingText } from "./notice.js";
 import { whereOf } from "./position.js";
+import { summary } from "./situation.js";
 import { isBroken } from "./trust.js";
 import { activityText, capital, element } from "./words.js";
 

@@ -7,12 +7,11 @@ const ENDED_CODE = 1001; // close code (protocol/page.md)
 const IDLE_LIMIT = 6; // s without a message, though one comes at least every second: the connection is dead
 const TOKEN_KEY = "solepath-token";
 
-// What the page says of the connection.
+// What the page says of the program behind it.
 export const WORDS = {
-  open: "connected",
-  connecting: "connecting",
-  closed: "not connected",
-  ended: "ended",
+  starting: "Connecting to solepath",
+  startHelp: "",
+  failed: "Not connected",
   whyClosed: "solepath cannot be reached",
   whyEnded: "solepath has ended",
   lost: "The connection to solepath is lost",

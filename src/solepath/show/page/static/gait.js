@@ -13,18 +13,19 @@ const EVEN = 0.02;
 const EVEN_OF_A_STRIDE = 0.012;
 const PARTS = ["initial_double_support", "terminal_double_support"];
 
-// Each row: its name and label; the unit while nothing is known; what it is called beside “left and right”, and how the
-// longer side is.
+const LEAST_STRIDES = 10; // of each foot, from which on the feet are compared: fewer differ by chance; chosen by hand
+// Each row: its name and label; the unit while nothing is known; what is said of the foot that has more of it, where that
+// can be said of a foot.
 const MAIN = [
-  { name: "stride_length", label: "stride length", unit: "m" },
-  { name: "speed", label: "speed", unit: "m/s", more: "faster" },
-  { name: "stride_time", label: "stride time", unit: "s" },
-  { name: "stance_time", label: "foot on the ground", unit: "%", short: "ground time" },
-  { name: "double_support", label: "both on the ground", unit: "%", short: "both down" },
+  { name: "stride_length", label: "stride length", unit: "m", more: "stride longer" },
+  { name: "speed", label: "speed", unit: "m/s", more: "foot faster" },
+  { name: "stride_time", label: "stride time", unit: "s", more: "stride slower" },
+  { name: "stance_time", label: "foot on the ground", unit: "%", more: "foot longer down" },
+  { name: "double_support", label: "both on the ground", unit: "%" },
 ];
 
 export class Gait {
-  uses = ["gait", "spoilt", "findings", "playback", "activity", "scene"];
+  uses = ["gait", "spoilt", "findings", "situation", "activity", "scene"];
   all = new Map();
   main = mainRows([]).map(() => new Row("gait-main-rows", false)); // there from the start, so that nothing moves later
 
@@ -42,15 +43,19 @@ export class Gait {
     write("gait-coordination", some && gait.coordination !== null ? `Phase coordination index ${percent(gait.coordination, 1)}.` : "");
     // What needs both feet is not known while the data of one of them are wrong.
     const unknown = isWrong(state) ? "double_support" : "";
-    mainRows(rows).forEach((row, k) => this.main[k].show(row.name === unknown ? { ...row, ...NONE } : row));
+    const compared = isCompared(gait);
+    mainRows(rows).forEach((row, k) => this.main[k].show(row.name === unknown ? { ...row, ...NONE } : row, compared));
     const all = some ? [{ name: "strides", label: "strides", digits: 0, ...gait.strides }, ...rows] : [];
     if (all.map(({ name }) => name).join() !== [...this.all.keys()].join()) {
       element("gait-rows").replaceChildren();
       this.all = new Map(all.map(({ name }) => [name, new Row("gait-rows", true)]));
     }
-    for (const row of all) this.all.get(row.name).show(row);
+    for (const row of all) this.all.get(row.name).show(row, compared);
   }
 }
+
+// True once there are strides enough of both feet to compare them.
+export const isCompared = (gait) => gait !== null && FEET.every((foot) => gait.strides[foot] >= LEAST_STRIDES);
 
 const countsOf = ({ strides }) => FEET.map((foot) => strides[foot]).filter(Number.isFinite);
 
@@ -65,7 +70,8 @@ function few(gait, finished) {
   const counts = countsOf(gait);
   const least = Math.ceil(gait.enough / counts.length);
   if (counts.reduce((sum, one) => sum + one, 0) >= gait.enough) return "";
-  return finished ? `Few strides: means are good from ${least} strides of each foot on.` : `The figures settle with ${least} and more strides of each foot.`;
+  const compared = isCompared(gait) ? "" : ` The feet are compared from ${LEAST_STRIDES} on.`;
+  return finished ? `Few strides: means are good from ${least} strides of each foot on.` : `The figures settle with ${least} and more strides of each foot.${compared}`;
 }
 
 class Row {
@@ -93,7 +99,8 @@ class Row {
     this.share = child(lean, "span", "share");
   }
 
-  show(row) {
+  // compared: its difference between the feet is shown
+  show(row, compared) {
     const { name, label, digits = 2, left, right, both, sd, cv } = row;
     const unit = UNITS[row.unit] ?? row.unit ?? "";
     setData(this.element, { row: name });
@@ -104,9 +111,9 @@ class Row {
     write(this.mean, fixed(both, digits));
     if (this.sd) write(this.sd, Number.isFinite(sd) ? `± ${fixed(sd, digits)}` : "");
     if (this.cv) write(this.cv, Number.isFinite(cv) ? fixed(100 * cv, 1) : "–");
-    const turned = Number.isFinite(row.difference); // an angle has a difference, since a share of an angle says nothing
+    const turned = compared && Number.isFinite(row.difference); // an angle has a difference, since a share of an angle says nothing
     const { share, points } = difference(row);
-    const known = turned || Number.isFinite(share);
+    const known = turned || (compared && Number.isFinite(share));
     const words = turned ? `${signed(row.difference, digits)}${unit}` : known ? `${signed(100 * share, 1)} ${points ? "points" : "%"}` : "–";
     write(this.share, words);
     show(this.track, known);
@@ -140,12 +147,11 @@ export function difference({ unit, left, right, asymmetry }) {
   return { share, points, size: Math.abs(share) / (points ? EVEN_OF_A_STRIDE : EVEN) };
 }
 
-// The row that differs most, in multiples of what counts as none: {name, share, points, even, more}; undefined while none
-// is known.
+// The row that differs most, in multiples of what counts as none: {share, even, more}; undefined while none is known.
 export function mostDifferent(rows) {
   return mainRows(rows)
     .map((row) => ({ ...row, ...difference(row) }))
-    .filter(({ size }) => Number.isFinite(size))
-    .map(({ label, short = label, more = "longer", share, points, size }) => ({ name: short, share, points, size, even: size <= 1, more }))
+    .filter(({ more, size }) => more && Number.isFinite(size))
+    .map(({ more, share, size }) => ({ more, share, size, even: size <= 1 }))
     .sort((a, b) => b.size - a.size)[0];
 }

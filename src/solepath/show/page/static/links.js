@@ -1,7 +1,7 @@
 // State of each sensor's link: one sentence, and what is known of each below it, which opens when something is wrong.
 
 import { isBroken } from "./trust.js";
-import { LINKS, capital, child, element, fixed, note, percent, setData, span, wordOf, write } from "./words.js";
+import { LINKS, capital, child, element, fixed, note, percent, sentence, setData, span, wordOf, write } from "./words.js";
 
 const HIGH_LOSS = 0.05; // share of samples missing from which on a link is marked; accuracy is stated for up to so much
 const LOW_BATTERY = 0.15; // charge from which down the battery may be why nothing comes
@@ -20,7 +20,7 @@ export function problems({ links, finished, source }) {
     const charged = battery > LOW_BATTERY ? " and switched on?" : ", switched on and charged?";
     return `${capital(name)}: no data${since}.${source === "live" ? ` Is the sensor near${charged}` : ""}`;
   });
-  return [...lost, ...those(links, isFaulty).map((name) => `${capital(name)}: ${links[name].trouble}.`)];
+  return [...lost, ...those(links, isFaulty).map((name) => sentence(`${name}: ${links[name].trouble}`))];
 }
 
 // One sentence on all links.
@@ -35,7 +35,7 @@ export function linksText({ links, source, finished }) {
   const some = `${all} ${source === "recording" || finished ? "recorded" : source === "demo" ? "emulated" : "connected"}`;
   const sum = (key) => names.reduce((total, name) => total + links[name][key], 0);
   const most = mostLost(links);
-  if (!finished && most > 0) return `${some}, ${lossText(most)}`;
+  if (!finished && most > 0) return `${some}, ${shareText(most)} missing`;
   if (finished && sum("missing") > 0) return `${some}, ${counted(sum("missing"), "sample")} missing`;
   if (finished && sum("absent") > 0) return `${some}, absent for ${fixed(sum("absent"), 1)} s`;
   if (sum("missing") + sum("absent") === 0) return `${some}, no data lost`;
@@ -43,7 +43,7 @@ export function linksText({ links, source, finished }) {
 }
 
 const mostLost = (links) => Math.max(0, ...Object.values(links).map(({ recent_share }) => recent_share ?? 0));
-const lossText = (share) => `${percent(share, share < 0.0995 ? 1 : 0)} of samples missing`;
+const shareText = (share) => percent(share, share < 0.0995 ? 1 : 0);
 const counted = (count, word) => `${fixed(count)} ${word}${count === 1 ? "" : "s"}`;
 
 // True while more samples are missing than the stated limit.
@@ -52,7 +52,7 @@ export const losesMany = ({ links, finished }) => !finished && mostLost(links) >
 // What is known of a link; false where there is nothing to say.
 const FIGURES = {
   rate: ({ rate }) => rate !== null && `${fixed(rate)} samples a second`,
-  recent: ({ recent_share }) => recent_share !== null && lossText(recent_share),
+  recent: ({ recent_share }) => recent_share !== null && `${shareText(recent_share)} of samples missing`,
   missing: ({ missing: n, missing_share: share }) => n > 0 && `${counted(n, "sample")} missing since the start (${percent(share, 1)})`,
   gaps: ({ gaps }) => gaps > 0 && counted(gaps, "interruption"),
   absent: ({ absent }) => absent > 0 && `absent for ${fixed(absent, 1)} s`,
@@ -62,7 +62,7 @@ const FIGURES = {
 };
 
 export class Links {
-  uses = ["links", "findings", "playback", "scene"];
+  uses = ["links", "findings", "playback", "situation", "scene"];
   #opened = false; // by itself
   #shown = new Map();
 

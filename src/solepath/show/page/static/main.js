@@ -20,12 +20,13 @@ import { Looking } from "./looking.js";
 import { Notice, logPanel } from "./notice.js";
 import { Playback } from "./playback.js";
 import { Ribbon } from "./ribbon.js";
+import { happening, next } from "./situation.js";
 import { Soles } from "./soles.js";
 import { Space } from "./space.js";
 import { State } from "./state.js";
 import { startTheme } from "./theme.js";
 import { Track } from "./track.js";
-import { capital, element, setData, show, wordOf, write } from "./words.js";
+import { element, setData, show, wordOf, write } from "./words.js";
 
 const SOURCES = { live: "live sensors", demo: "an emulated walk", recording: "a recording" };
 
@@ -68,11 +69,10 @@ function mark(...names) {
 
 function draw(now) {
   frameRequested = false;
-  if (!state.known) return;
   const news = changed;
   changed = new Set();
   let drew = false;
-  for (const panel of isGuided() ? whileGuiding : panels) {
+  for (const panel of !state.known ? [notice, activityPanel] : isGuided() ? whileGuiding : panels) {
     const due = panel.uses.filter((name) => news.has(name));
     if (due.length === 0 && !panel.moving) continue;
     const interval = (reducedMotion.matches && panel.slow) || panel.interval || 0;
@@ -84,6 +84,7 @@ function draw(now) {
     drawnAt.set(panel, now);
     drew = true;
   }
+  if (!state.known) return;
   looking.draw(state);
   if (news.has("scene")) writeHeading();
   chooseRegions();
@@ -111,30 +112,43 @@ function chooseRegions() {
   if (state.soles !== "unknown" && dataset.soles !== "cells") setData(document.body, { soles: state.soles });
 }
 
+// What the program behind the page says of itself, and what happened besides. The page shows the situation that follows.
+function tell(news, happened) {
+  Object.assign(state.program, news);
+  settle(happened);
+  mark("situation");
+}
+
+function settle(happened) {
+  const before = state.situation;
+  for (const one of [happened, happening(state)]) if (one) state.situation = next(state.situation, one);
+  if (state.situation === before) return;
+  document.body.dataset.situation = state.situation;
+  for (const one of document.querySelectorAll("[data-in]")) show(one, one.dataset.in.split(" ").includes(state.situation));
+  mark("situation");
+}
+
 let broken = ""; // "closed" or "ended" until the connection is there again; "" before the first one and while it is
 let countdown = 0;
 
 // wait: s until the connection is tried again
-function showConnection(how, wait) {
+function showConnection(link, wait) {
   clearInterval(countdown);
-  const isBroken = how === "closed" || how === "ended";
-  if (isBroken && how !== broken) announce(how === "ended" ? WORDS.whyEnded : WORDS.lost);
-  if (how === "open" && broken) announce(WORDS.again);
-  if (how !== "connecting") broken = isBroken ? how : "";
+  const isBroken = link === "closed" || link === "ended";
+  if (isBroken && link !== broken) announce(link === "ended" ? WORDS.whyEnded : WORDS.lost);
+  if (link === "open" && broken) announce(WORDS.again);
+  if (link !== "connecting") broken = isBroken ? link : "";
   const ended = broken === "ended";
-  if (how !== "closed" && how !== "connecting") state.over = ended && WORDS.finishes;
-  setData("connection", { state: how });
+  setData("connection", { state: link });
   setData("offline", { why: ended ? "ended" : "closed" });
   show("offline", broken !== ""); // while the first connection is tried, no alarm is needed
-  notice.connection = how === "open" ? "" : capital(WORDS[how]);
-  if (!state.known) write("notice-quiet", notice.connection);
-  document.body.classList.toggle("old", how !== "open" && state.known);
-  mark("links", "activity");
+  document.body.classList.toggle("old", link !== "open" && state.known);
+  tell({ link });
   const at = performance.now() + 1000 * wait;
   const writeWords = () => {
     const old = !state.known ? "" : ended ? "; what you see is the last of it" : "; what you see is old";
     const left = Math.ceil((at - performance.now()) / 1000);
-    const next = how === "ended" ? "" : how === "connecting" || left < 1 ? " Trying now." : ` Trying again in ${left} s.`;
+    const next = link === "ended" ? "" : link === "connecting" || left < 1 ? " Trying now." : ` Trying again in ${left} s.`;
     write("offline-words", `${ended ? WORDS.whyEnded : WORDS.whyClosed}${old}.${next}`);
   };
   writeWords();
@@ -144,16 +158,17 @@ function showConnection(how, wait) {
 const connection = new Connection((message) => {
   const news = state.take(message);
   seen.messages += 1;
+  settle();
   if (news.size === 0) return;
   announcer.update(state, news);
   mark(...news);
-}, showConnection);
+}, showConnection, tell);
 
 write("retry", WORDS.retry);
 element("retry").addEventListener("click", () => connection.retry());
 document.addEventListener("visibilitychange", () => {
   frameRequested = false; // a frame that was requested before may never have come
-  if (!document.hidden) mark("scene", "theme", "feet", "links", "gait", "activity");
+  if (!document.hidden) mark("scene", "theme", "feet", "links", "gait", "activity", "situation");
 });
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey || event.defaultPrevented) return;

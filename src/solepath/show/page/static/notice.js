@@ -1,19 +1,21 @@
 // The line at the top: what needs attention, in words, the worst first; else one sentence on the links. Its height never
 // changes, so that nothing below it moves: all of it is in a list above the page. And the log of what happened.
 
-import { linksText, losesMany, problems } from "./links.js";
+import { losesMany, problems } from "./links.js";
+import { words } from "./situation.js";
 import { capital, child, clock, element, setData, show, write } from "./words.js";
 
+const IDLE = ["computing", "no-bluetooth", "choosing", "refused", "connecting", "resumed", "failed"]; // nothing comes that could be wrong
+
 export class Notice {
-  uses = ["links", "findings", "playback", "scene"];
-  connection = "connecting"; // words while the page has no connection, "" while it has
+  uses = ["links", "findings", "playback", "situation", "scene"];
   #listed = "";
 
   draw(state) {
     const all = attention(state);
     const level = all.some(({ act }) => act) ? "bad" : all.length > 0 ? "note" : "quiet";
     setData("notice", { level, loss: losesMany(state) });
-    write("notice-quiet", this.connection || linksText(state));
+    write("notice-quiet", words(state).line);
     // Other words are a new element: in one, a browser would count a second line as a move of the first.
     const old = element("notice-words");
     const said = Object.assign(old.cloneNode(false), { textContent: all[0]?.brief ?? "" });
@@ -37,6 +39,7 @@ export class Notice {
 // {brief, words, act}: what the checks found, and what is wrong with the links; what must be acted on first. brief is one
 // plain sentence for the line at the top.
 function attention(state) {
+  if (IDLE.includes(state.situation)) return [];
   const found = state.findings.map(({ site, brief, what, act }) => ({ brief: capital(brief), words: findingText(site, what), act }));
   // a link repeats a defect as its trouble
   const links = problems(state).filter((words) => !found.some((one) => words.startsWith(one.words)));

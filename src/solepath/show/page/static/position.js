@@ -7,6 +7,8 @@ import { fixed, percent } from "./words.js";
 // The wearer is between the feet; a foot's line has a point a stride, and nothing measures the distance between the feet.
 const EACH_FOOT = "Each foot’s own path: they differ by what the sensors cannot know, most at turns. The wearer is between them.";
 
+const [SURE, PROBABLE] = [0.9, 0.5]; // least weights of a place that is called almost sure, and probable
+
 export const nameOf = (plan, id) => plan?.levels.find((level) => level.id === id)?.name ?? id;
 
 // A name that is a mere number is that of a door.
@@ -22,9 +24,18 @@ export function noteOnPlan(state, level) {
   const { place, places, plan } = state;
   if (!place) return places.length > 0 ? "The place was lost; the track by itself goes on." : "Where on the plan is not known yet.";
   if (place.decided) return place.level === level.id ? trustWords(state) : `The wearer is on ${whereOf(plan, place)}.`;
-  const best = percent(Math.max(0, ...place.candidates.map((one) => one.weight)));
-  return `The wearer could be at ${place.candidates.length} places; most likely (${best}) ${whereOf(plan, place)}.`;
+  const others = place.candidates.length - 1;
+  const rest = others > 1 ? `${others} other places are` : "another place is";
+  return `${likeliestOf(plan, place)}${others > 0 && !isSure(place) ? `; ${rest} possible` : ""}.`;
 }
+
+// The likeliest of several places by its weight, which says how the words begin.
+export function likeliestOf(plan, place) {
+  const { weight } = place.candidates[0];
+  return `${isSure(place) ? "Almost surely" : weight >= PROBABLE ? "Probably" : "Perhaps"} ${whereOf(plan, place)}, ${percent(weight)}`;
+}
+
+const isSure = ({ candidates }) => candidates[0].weight >= SURE;
 
 // Note on the track without a plan.
 export function noteAlone(state, feetShown) {

@@ -13,11 +13,20 @@ const OF_THE_WEARER = ["feet", "wearer", "place", "activity", "pace", "support",
 const VALUES = ["t", ...OF_THE_WEARER, "scales", "spoilt", "findings", "links", "playback", "posture"];
 const LISTS = ["tracks", "places", "phases", "log", "reports"];
 
-// Nothing but the next three is there before the first scene.
 export class State {
   known = false; // a scene came
-  over = false; // the program behind the page has ended its session
   generation = 0; // number of scenes that came
+  situation = "computing"; // situation.js
+  // What the program behind the page says of itself. The site also says: walk, {resumed} or null while none is measured;
+  // sensors, [{name, connected}]; whether there is Bluetooth, and why there is none; what is computed; why a sensor was
+  // refused; whether the walk that was measured last is stored.
+  program = { link: "connecting", walk: {}, sensors: null, bluetooth: true, why: "", task: "", refusal: "", kept: false };
+
+  constructor() {
+    for (const name of VALUES) this[name] = null;
+    this.#empty();
+    Object.assign(this, { t: 0, title: "", recipe: "", source: "", plan: null, links: {}, findings: [], spoilt: [] });
+  }
 
   // Whether there are pressure cells: "cells", "none", or "unknown" while too little has come to say it.
   get soles() {
@@ -29,7 +38,7 @@ export class State {
 
   // True when nothing more comes: the recording is at its end, or the session has ended.
   get finished() {
-    return this.playback === null ? this.over : this.playback.state === "ended";
+    return this.situation === "finished";
   }
 
   // Number of strides of each foot, or null before any foot has sent anything: that of the foot which has more.
@@ -55,6 +64,11 @@ export class State {
     this.generation += 1;
     Object.assign(this, { title, recipe, source, control, layouts, plan: plan?.levels.length ? plan : null });
     for (const level of this.plan?.levels ?? []) level.name ||= level.id;
+    this.#empty();
+    return this.#frame({ ...frame, ...lists });
+  }
+
+  #empty() {
     this.start = null; // session time that is shown as 0:00, s; null before anything was received
     this.feet = {};
     this.trails = { left: [], right: [] };
@@ -64,7 +78,6 @@ export class State {
     this.places = [];
     this.log = [];
     this.reports = [];
-    return this.#frame({ ...frame, ...lists });
   }
 
   #frame(message) {

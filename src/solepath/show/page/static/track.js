@@ -22,7 +22,7 @@ const GLIDE_TIMES = [150, 900]; // ms, least and longest time in which the mark 
 const SPARE = 0.14; // share of the picture that is left for new parts of the track
 
 export class Track {
-  uses = ["tracks", "places", "reports", "feet", "wearer", "place", "spoilt", "findings", "links", "scene", "theme"];
+  uses = ["tracks", "places", "reports", "feet", "wearer", "place", "spoilt", "findings", "links", "situation", "scene", "theme"];
   slow = 200; // ms between pictures with reduced motion
   pointing = false; // true while a person chooses a place on the drawing
   level = null; // chosen by hand; null follows the wearer
@@ -227,7 +227,7 @@ export class Track {
     if (wearer?.covariance && !wrong) {
       const { long, wide, angle } = axes(wearer.covariance);
       const area = { long: long * scale, wide: wide * scale, angle };
-      isAreaShown = drawArea(context, px(wearer.position), area, this.trust === "old");
+      isAreaShown = drawArea(context, px(at), area, this.trust === "old"); // they move together
     }
     for (const foot of this.feetShown ? FEET : []) {
       const place = feet[foot]?.position;

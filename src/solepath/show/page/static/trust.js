@@ -5,10 +5,11 @@ import { FEET, capital } from "./words.js";
 const siteOf = (foot) => `${foot} foot`;
 const isFaulty = ({ spoilt }, foot) => spoilt.includes(foot);
 export const isBroken = (link) => link?.state === "lost" || link?.state === "silent";
-export const isGone = ({ links }, foot) => isBroken(links[siteOf(foot)]);
+const OVER = ["finished", "computing"]; // situations in which nothing is expected of a foot
+export const isGone = ({ links, situation }, foot) => !OVER.includes(situation) && isBroken(links[siteOf(foot)]);
 
 // Feet whose data cannot be right, or which send nothing now.
-export const unsound = (state) => FEET.filter((foot) => isFaulty(state, foot) || (!state.finished && isGone(state, foot)));
+export const unsound = (state) => FEET.filter((foot) => isFaulty(state, foot) || isGone(state, foot));
 
 // True while a foot sends what cannot be right: then the place is not right either.
 export const isWrong = (state) => FEET.some((foot) => isFaulty(state, foot) && !isGone(state, foot));

@@ -12,6 +12,8 @@ export const wordOf = (words, key) => words[key] ?? String(key ?? "").toLowerCas
 // Activity of the wearer in words; it is not known while no foot sends.
 export const activityText = ({ now, last }) =>
   last === null ? capital(wordOf(ACTIVITIES, now)) : `Not known, last: ${wordOf(ACTIVITIES, last)}`;
+// A sentence, with one full stop, of words that may end with one.
+export const sentence = (words) => `${capital(words.replace(/[.\s]+$/, ""))}.`;
 export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
 export const fixed = (value, digits = 0) => {

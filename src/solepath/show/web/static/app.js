@@ -1,10 +1,11 @@
 // The site's own controls: demonstration, files, walks on this device, report; what the page cannot do, in words.
 
-import { addSensor, bluetoothWords, sensors, wornWords } from "./bluetooth.js";
+import { addSensor, bluetoothWords, wornWords } from "./bluetooth.js";
 import { computer } from "./computer.js";
 import { running } from "./live.js"; // loaded first: it hears of a walk that goes on before anybody connects a sensor
 import "./pocket.js";
-import { child, element, note, show, write } from "./words.js";
+import { distance } from "./trust.js";
+import { child, element, fixed, setData, show, span, write } from "./words.js";
 
 const SITES = ["left_foot", "right_foot", "pelvis", "left_thigh", "right_thigh", "left_shank", "right_shank"];
 const KEPT_TIME = 60_000; // ms for which a file waits to be downloaded
@@ -13,8 +14,8 @@ function sayToo(text) {
   const before = element("site-words").textContent;
   if (!before.includes(text)) say(`${before} ${text}`.trim());
 }
-let shown = ""; // name of what is played
-let walks = []; // {name, size} of the recordings on this device
+let shown = { name: "", title: "" }; // what the report is of: title, and the name of its file, "" for what is played
+let walks = []; // {name, began, seconds, metres} of the recordings on this device
 let measured; // name of the one that is written now
 
 function enable(enabled) {
@@ -31,24 +32,38 @@ async function act(what) {
 const on = (id, kind, what) => element(id).addEventListener(kind, () => act(what));
 const since = () => (running() ? "by the next walk" : "from now on");
 
-on("connect", "click", () => addSensor(element("worn").value || null, element("choose-kind").value || null));
-on("demo", "click", async () => {
-  await computer.call("demo", "A demonstration: an emulated walk");
-  played("demonstration");
-});
-on("end", "click", async () => say((await computer.call("end")) ? "The walk is on this device." : ""));
-on("report", "click", () => report("", shown));
+for (const button of document.querySelectorAll("[data-do]")) {
+  button.addEventListener("click", () => {
+    element("sheet").hidePopover();
+    act(ACTIONS[button.dataset.do]);
+  });
+}
+const ACTIONS = {
+  connect: () => addSensor(element("worn").value || null, element("choose-kind").value || null),
+  demo: async () => {
+    await computing("The demonstration", () => computer.call("demo", "A demonstration"));
+    showReportOf("", "demonstration");
+  },
+  open: async () => element("file").click(),
+  end: async () => {
+    const { state } = window.solepath;
+    const { title } = state;
+    const name = await computer.call("end", state.strides > 0 ? distance(state) : null);
+    showReportOf(name, title);
+    computer.emit("happened", { kept: name !== "" });
+  },
+  report: () => report(shown.name, shown.title),
+};
 on("choose-recipe", "change", async () => {
   const { value } = element("choose-recipe");
   await computer.call("choose", value);
   say(`The recipe ${value} is used ${since()}.`);
 });
-element("open").addEventListener("click", () => element("file").click());
 on("file", "change", async () => {
   const sentences = [];
   for (const file of element("file").files) {
-    const { kind, notes } = await computer.call("open", file);
-    if (kind === "recording") played(file.name);
+    const { kind, notes } = await computing(file.name, () => computer.call("open", file));
+    if (kind === "recording") showReportOf("", file.name);
     else sentences.push(`${file.name}: this ${kind === "plan" ? "floor plan" : "calibration"} is used ${since()}.`);
     sentences.push(...notes);
   }
@@ -56,14 +71,22 @@ on("file", "change", async () => {
   say(sentences.join(" "));
 });
 
-function played(name) {
-  shown = name;
-  show("report", true);
+// Lets the page say what is computed.
+async function computing(task, what) {
+  element("sheet").hidePopover();
+  computer.emit("happened", { task, kept: false });
+  return what().finally(() => computer.emit("happened", { task: "" }));
+}
+
+function showReportOf(name, title) {
+  shown = { name, title };
   show("report-file", false);
 }
 
 async function report(name, title) {
-  const text = await computer.call("report", name, title);
+  element("sheet").hidePopover();
+  const options = [...element("report-options").querySelectorAll("[name]")].map((one) => [one.name, one.type === "checkbox" ? one.checked : one.value.trim()]);
+  const text = await computer.call("report", name, title, Object.fromEntries(options));
   const file = new File([text], `${title.replace(/\.jsonl(\.gz)?$/, "")}.html`, { type: "text/html" });
   const link = element("report-link");
   URL.revokeObjectURL(link.href);
@@ -92,10 +115,7 @@ computer.on("recipe", (name) => (element("choose-recipe").value = name));
 computer.on("walk", (walk) => {
   measured = walk?.name;
   listWalks();
-  show("end", walk !== null);
-  show("demo", walk === null);
-  if (walk !== null) show("report", false);
-  if (walk?.resumed && sensors.size === 0) sayToo("The walk goes on: connect the sensors again.");
+  if (walk !== null) show("report-file", false);
   keepAwake();
 });
 computer.on("walks", (list) => {
@@ -132,18 +152,20 @@ function fill(id, names) {
 function listWalks() {
   element("walks").replaceChildren();
   const others = walks.filter(({ name }) => name !== measured); // what is written now can be neither played nor deleted
-  show("walks-part", others.length > 0);
-  for (const { name, size } of others) {
-    const title = name.replace(/\.jsonl$/, "");
+  show("no-walks", others.length === 0);
+  for (const { name, began, seconds, metres } of others) {
+    const date = began ? new Date(began).toLocaleString([], { dateStyle: "medium", timeStyle: "short" }) : name;
+    const title = `Walk of ${date}`;
+    const figures = [Number.isFinite(seconds) && span(seconds), Number.isFinite(metres) && `${fixed(metres)} m`];
     const get = () => computer.call("get", name);
-    addRow("walks", name, `${title}, ${(size / 1_000_000).toFixed(1)} MB`, {
+    addRow("walks", name, [date, ...figures].filter(Boolean).join(" · "), {
       Play: async () => {
-        await computer.call("open", await get());
-        played(name);
+        await computing(title, async () => computer.call("open", await get()));
+        showReportOf("", title);
       },
       Report: () => report(name, title),
       Share: async () => offer(await get()),
-      Delete: async () => confirm(`Delete ${name} from this device for ever?`) && computer.call("remove", name),
+      Delete: async () => confirm(`Delete the ${title.toLowerCase()} from this device for ever?`) && computer.call("remove", name),
     });
   }
 }
@@ -151,6 +173,7 @@ function listWalks() {
 // Adds a line to a list, with a button for each action.
 function addRow(list, name, text, actions) {
   const item = child(element(list), "li");
+  setData(item, { name });
   child(item, "span", "row-name", text);
   for (const [label, what] of Object.entries(actions)) {
     const button = child(item, "button", "", label);
@@ -177,9 +200,8 @@ async function updateLock() {
 }
 
 document.addEventListener("visibilitychange", keepAwake);
+setData("site", { bluetooth: bluetoothWords() === "" });
 for (const site of SITES) element("worn").add(new Option(wornWords(site), site));
-show("connect-part", bluetoothWords() === "");
-note("bluetooth-words", bluetoothWords());
 if ("serviceWorker" in navigator) {
   navigator.serviceWorker.register("sw.js").catch((error) => say(`The page cannot be used offline: ${error.message}`));
 }

@@ -2,6 +2,7 @@
 
 import { computer } from "./computer.js";
 import { bytes, clock, hex, notified, running, send, startWalk } from "./live.js";
+import { sentence } from "./words.js";
 
 const ANSWER_TIME = 20_000; // ms that a sensor has for an answer, and a person to allow a pairing meanwhile
 const FIRST_PAUSE = 250; // ms from a lost connection to the next attempt; each further one is twice as long
@@ -37,15 +38,21 @@ export function bluetoothWords() {
 // sensor that shows its kind.
 export async function addSensor(site, profile) {
   const { filters, services } = computer.filters;
+  computer.emit("happened", { what: "choose" });
   const device = await navigator.bluetooth
     .requestDevice({ filters: filters.map(filterOf), optionalServices: services })
-    .catch((error) => {
-      throw new Error(chooserWords(error));
-    });
+    .catch((error) => refuse(chooserWords(error)));
+  if (!device) return;
   await startWalk();
   await sensors.get(device.id)?.end();
   sensors.set(device.id, new Sensor(device, site, profile));
   computer.emit("sensors", sensors);
+}
+
+// The page says why in its place for that while nothing is measured, and below its buttons during a walk.
+function refuse(refusal) {
+  computer.emit("happened", { what: "refuse", refusal });
+  if (running() && sensors.size > 0) computer.emit("words", refusal);
 }
 
 export const wornWords = (site) => `on the ${site.replace("_", " ")}`;
@@ -79,13 +86,17 @@ class Sensor {
   }
 
   get name() {
-    return this.device.name ?? "";
+    return this.device.name || "sensor without a name";
+  }
+
+  get connected() {
+    return this.#connected;
   }
 
   // What the page says of it.
   get words() {
     const worn = this.site === null ? "" : ` ${wornWords(this.site)}`;
-    return `${this.name || "Sensor without a name"}${worn}: ${this.#connected ? "connected" : "connecting"}`;
+    return `${this.name}${worn}: ${this.#connected ? "connected" : "connecting"}`;
   }
 
   reconnect() {
@@ -107,13 +118,13 @@ class Sensor {
     if (type === "error" && order.of === "add") {
       const isNowhere = this.site === null && !["insole", null].includes(this.profile); // a kind that names no foot
       const help = isNowhere ? "Choose how it is worn before you connect it." : "Disconnect another one first.";
-      computer.emit("words", `${this.name} cannot be added: ${reason}. ${help}`);
       this.end();
+      refuse(`${sentence(`${this.name} cannot be added: ${reason}`)} ${help}`);
     }
     if (order.connection !== this.#connection) return; // it was meant for a connection that has ended
     if (type === "disconnect") {
-      if (order.wrong) computer.emit("words", `${reason}. Choose how it is worn before you connect it.`);
       this.#ended ||= order.wrong;
+      if (order.wrong) refuse(`${sentence(reason)} Choose how it is worn before you connect it.`);
       this.device.gatt.disconnect();
     } else if (["read", "subscribe", "write"].includes(type)) {
       this.#requests = this.#requests.then(() => this.#do(order));
@@ -157,7 +168,7 @@ class Sensor {
         }
       if (!running() || this.#ended) return;
       this.#connection += 1;
-      this.#send({ type: "connected", connection: this.#connection, name: this.name, characteristics });
+      this.#send({ type: "connected", connection: this.#connection, name: this.device.name ?? "", characteristics });
       this.#setConnected(true);
       if (server.connected) await lost;
     } finally {

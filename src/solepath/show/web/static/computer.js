@@ -21,7 +21,8 @@ class Computer {
     setInterval(() => this.#watch(), 1000);
   }
 
-  // kinds: "text" of a message for the page, "state", "walk", "walks", "words", "progress", "recipe", "orders", "sensors"
+  // kinds: "text" of a message for the page, "state", "walk", "walks", "words", "progress", "recipe", "orders", "sensors",
+  // and "happened": {what: a row of the table of situation.js, and members of the state's `program`}
   on(kind, listener) {
     this.#listeners.push({ kind, listener });
   }

@@ -1,13 +1,13 @@
 // The place of the server's WebSocket: here the library runs in a worker of the page itself.
 
+import { bluetoothWords } from "./bluetooth.js";
 import { computer } from "./computer.js";
 
 // What the page says of the worker.
 export const WORDS = {
-  open: "ready",
-  connecting: "loading",
-  closed: "stopped",
-  ended: "stopped",
+  starting: "Python starts in this browser",
+  startHelp: "The first start takes some seconds. From then on no network is needed.",
+  failed: "Stopped",
   whyClosed: "The part of this page that computes has stopped",
   whyEnded: "The part of this page that computes has stopped",
   lost: "The part of this page that computes has stopped",
@@ -18,10 +18,20 @@ export const WORDS = {
 };
 
 export class Connection {
-  // take(message), changed(state, s until the next try)
-  constructor(take, changed) {
+  // take(message), changed(link, s until the next try), tell(what the program says of itself, what happened)
+  constructor(take, changed, tell) {
+    const why = bluetoothWords();
+    let walk = null;
+    tell({ walk, sensors: [], bluetooth: why === "", why });
     computer.on("text", (text) => take(JSON.parse(text)));
     computer.on("state", (state) => changed({ ready: "open", loading: "connecting", dead: "ended" }[state], 0));
+    computer.on("walk", (value) => tell({ walk: (walk = value && { resumed: value.resumed }) }));
+    computer.on("sensors", (sensors) => {
+      const list = [...sensors.values()].map(({ name, connected }) => ({ name, connected }));
+      if (walk !== null && list.some(({ connected }) => connected)) walk.resumed = false; // from now on they come and go
+      tell({ sensors: list });
+    });
+    computer.on("happened", ({ what, ...news }) => tell(news, what));
     computer.start();
   }
 

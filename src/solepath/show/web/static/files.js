@@ -1,9 +1,11 @@
 // Files in the worker: those that a person opens, and the recordings of walks on this device.
 
 import { Problem, unpacked } from "./python.js";
-import { walksFolder } from "./recording.js";
+import { MAX_LINE, walksFolder } from "./recording.js";
+import { store } from "./store.js";
 
 const DEMO = "demo.jsonl";
+export const METRES = "metres"; // of the walks on this device, by name, as the page showed them at the end
 const MAX_SIZE = 400_000_000; // bytes of a file that is opened; an hour of two insoles takes 240 MB
 
 export class Files {
@@ -45,9 +47,9 @@ export class Files {
   }
 
   // Returns the report, as HTML, of a walk on this device, or of what is played.
-  async report(name, title) {
-    if (!name) return this.#run("report", ["", title]);
-    return this.#runWith(name, await unpacked(await this.get(name)), "report", [name, title]);
+  async report(name, title, options) {
+    if (!name) return this.#run("report", ["", title, options]);
+    return this.#runWith(name, await unpacked(await this.get(name)), "report", [name, title, options]);
   }
 
   get(name) {
@@ -64,9 +66,9 @@ export class Files {
   async list() {
     const walks = [];
     try {
+      const metres = (await store.get(METRES)) ?? {};
       for await (const [name, handle] of (await walksFolder()).entries()) {
-        const { size } = await handle.getFile();
-        walks.push({ name, size });
+        walks.push({ name, metres: metres[name], ...(await timesOf(await handle.getFile())) });
       }
     } catch {
       // storage may be forbidden: there are none
@@ -86,6 +88,17 @@ export class Files {
 
   #run(call, values) {
     return this.python.run(call, values, (share) => this.post({ progress: share })).finally(() => this.post({ progress: 1 }));
+  }
+}
+
+// When a recording began, and how long it is, s; nothing of a file that is none.
+async function timesOf(file) {
+  const lines = async (part) => (await part.text()).trim().split("\n");
+  try {
+    const [[header], end] = await Promise.all([file.slice(0, MAX_LINE), file.slice(-MAX_LINE)].map(lines));
+    return { began: JSON.parse(header).began, seconds: JSON.parse(end.at(-1)).t };
+  } catch {
+    return {};
   }
 }
 

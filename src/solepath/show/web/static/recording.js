@@ -4,7 +4,7 @@ import { ownName } from "./store.js";
 
 const MAX_WAITING = 20_000_000; // bytes that wait in memory while nothing can be written
 const RETRY_INTERVAL = 2000; // ms from a write that failed to the next
-const MAX_LINE = 65_536; // bytes
+export const MAX_LINE = 65_536; // bytes
 const LINE_FEED = 10;
 const WHY = {
   QuotaExceededError: "the storage of this device is full",

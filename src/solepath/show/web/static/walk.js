@@ -1,6 +1,7 @@
 // The walk that is measured now: packets go to Python and to the recording, and all of it is saved again and again.
 
 import { now } from "./clock.js";
+import { METRES } from "./files.js";
 import { Problem } from "./python.js";
 import { openRecording, storageWords } from "./recording.js";
 import { ownName, store } from "./store.js";
@@ -47,12 +48,14 @@ export class Walk {
     this.#announce();
   }
 
-  // Ends the walk; its recording stays.
-  async end() {
+  // Ends the walk of so many metres; its recording stays.
+  async end(metres = null) {
     if (!this.running) return "";
     const { name } = this.#record;
     await this.python.run("finish_walk", []);
     const recorded = this.#recording?.count > 0;
+    const known = await store.get(METRES).catch(() => {});
+    await store.put(METRES, { ...known, [name]: metres }).catch(() => {});
     await this.#forget();
     await this.files.list();
     return recorded ? name : "";

@@ -55,7 +55,9 @@ function receive(messages) {
 async function answer({ call, values, id }) {
   try {
     const target = call in loaded.files ? loaded.files : loaded.walk;
-    postMessage({ answer: { id, result: await target[call](...values) } });
+    const result = await target[call](...values);
+    if (seen) show(); // what it changed, before anybody acts on the answer
+    postMessage({ answer: { id, result } });
   } catch (error) {
     // After an error that Python did not expect what it holds is not to be trusted; a browser's own refusals end nothing.
     if (error.constructor.name === "PythonError" || error instanceof WebAssembly.RuntimeError) throw error;
@@ -79,6 +81,12 @@ function draw() {
   playedAt = now;
   if (!seen) return;
   python.play(passed, BUDGET);
+  show();
+}
+
+function show() {
+  const { python } = loaded;
+  const now = performance.now();
   const text = python.message() ?? (now - sentAt >= HEARTBEAT_INTERVAL ? python.heartbeat() : undefined);
   if (text === undefined) return;
   postMessage({ text });

@@ -1,0 +1,137 @@
+"""Drives the site into each of its thirteen situations, for a test and for pictures.
+
+Sensors are emulated insoles behind Chromium's own Bluetooth stack (web_bluetooth.py). Two things stand in for what a
+person cannot time: the demonstration is held back while it is computed, and the worker is killed for a failure."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from pathlib import Path
+from typing import Any
+
+from browsers import Browser, Window, window
+from web_bluetooth import WebBluetooth, web_bluetooth
+from web_pages import PATIENCE, ready
+
+from solepath.emulate import Route
+from solepath.emulate.devices.bench import Bench
+from solepath.show.web.serve import serving
+
+SITUATION = "document.body.dataset.situation"
+SITUATIONS = (
+    "no-bluetooth", "choosing", "refused", "connecting", "connected", "walking", "lost", "resumed", "finished",
+    "computing", "playing", "paused", "failed",
+)  # fmt: skip
+"""All situations, in the order in which they are shown here."""
+WITH_SHEET = ("choosing", "walking", "finished")
+"""Situations in which the sheet of controls is worth a look."""
+SAID = {
+    "computing": "One moment",
+    "no-bluetooth": "No Bluetooth",
+    "choosing": "Choose a sensor",
+    "refused": "No sensor was chosen",
+    "connecting": "Connecting",
+    "connected": "no data yet",
+    "walking": "Both sensors connected",
+    "lost": "Left foot: no data",
+    "resumed": "Walk goes on",
+    "playing": "Both sensors emulated",
+    "paused": "Paused at",
+    "finished": "Finished",
+    "failed": "has stopped",
+}
+"""Words that the site says in one situation alone, of those that it says of itself."""
+WITHOUT_BLUETOOTH = "delete Navigator.prototype.bluetooth;"
+STRIDES = "['left', 'right'].every((foot) => (solepath.state.feet[foot]?.strides ?? 0) >= {})"
+HOLD_DEMO = """(hold) => {
+    computer.held ??= computer.call.bind(computer);
+    computer.call = hold ? () => new Promise(() => {}) : computer.held;
+}"""
+"""Lets what is computed never end, or end again."""
+
+
+async def cancel_chooser(view: Window) -> None:
+    """Tap "connect", and leave the browser's list of devices without a choice."""
+    devtools = await view.tab.context.new_cdp_session(view.tab)
+    prompted: asyncio.Future[str] = asyncio.get_running_loop().create_future()
+    devtools.on("DeviceAccess.deviceRequestPrompted", lambda got: prompted.done() or prompted.set_result(got["id"]))
+    await devtools.send("DeviceAccess.enable")
+    await view.tab.locator("#connect").click()
+    await devtools.send("DeviceAccess.cancelPrompt", {"id": await asyncio.wait_for(prompted, 20.0)})
+    await devtools.detach()
+
+
+async def is_shown(view: Window, name: str) -> None:
+    """Wait until the site is in a situation, and what it says of it is drawn."""
+    await view.until(f"{SITUATION} === '{name}'", patience=PATIENCE)
+    await view.tab.evaluate("scrollTo(0, 0)")
+    await asyncio.sleep(0.6)
+
+
+async def situations(
+    chromium: Browser, site: Path, *, script: str = "", **given: Any
+) -> AsyncIterator[tuple[str, Window]]:
+    """Yield the name of each situation with the window that shows it, in the order of SITUATIONS.
+
+    `script` runs in the page before any other; `given` are options of `window`."""
+    with serving(site) as url:
+        async with window(chromium, url, script=f"{WITHOUT_BLUETOOTH}{script}", **given) as view:
+            await ready(view)
+            await is_shown(view, "no-bluetooth")
+            yield "no-bluetooth", view
+        bench = Bench(Route().stand(3.0).walk(60.0), seed=3)
+        bench.prepare()
+        async with window(chromium, url, script=script, **given) as view:
+            await ready(view)
+            async with web_bluetooth(view, bench.peripherals) as radio:
+                async for name in _of_a_walk(view, radio, bench, url):
+                    await is_shown(view, name)
+                    yield name, view
+
+
+async def _of_a_walk(view: Window, radio: WebBluetooth, bench: Bench, url: str) -> AsyncIterator[str]:
+    left, right = (device.address for device in bench.peripherals)
+    yield "choosing"
+    await cancel_chooser(view)
+    yield "refused"
+    radio.reachable = False
+    await radio.choose(left)
+    yield "connecting"
+    radio.reachable, radio.silent = True, True
+    yield "connected"
+    radio.silent = False
+    await radio.choose(right)
+    bench.walk_from(asyncio.get_running_loop().time())
+    await view.until(STRIDES.format(6), patience=PATIENCE)
+    yield "walking"
+    radio.reachable = False
+    await radio.lose(left)
+    yield "lost"
+    radio.reachable = True
+    await view.until("solepath.state.links['left foot'].state === 'ok'", patience=PATIENCE)
+    await view.tab.evaluate("computer.call('save')")
+    await radio.kill_tab()
+    size = view.tab.viewport_size
+    view.tab = await view.tab.context.new_page()
+    assert size is not None
+    await view.tab.set_viewport_size(size)
+    await view.tab.goto(url)
+    await ready(view)
+    yield "resumed"
+    await view.tab.locator("#end").click()
+    yield "finished"
+    await view.tab.locator("#more").click()
+    await view.tab.evaluate(HOLD_DEMO, True)
+    await view.tab.locator("#sheet [data-do=demo]").click()
+    yield "computing"
+    await view.tab.evaluate("scrollTo(0, 0)")
+    await view.tab.reload()
+    await ready(view)
+    await view.tab.locator("#demo").click()
+    await view.until(STRIDES.format(1), patience=PATIENCE)
+    yield "playing"
+    await view.tab.locator("#play").click()
+    yield "paused"
+    await view.tab.evaluate("computer.kill()")
+    yield "failed"
