@@ -283,6 +283,35 @@ def test_everything_on_a_level_has_an_id_of_its_own_which_is_its_name_where_no_o
         NAMED.landmark("WC", "0")
 
 
+few_names = st.sampled_from(
+    ["", " ", "WC", "WC 1", "WC 2", "WC  2", "lift", "lift 1", "room", "room 1", "door 1", "stairs"]
+)
+any_names = st.lists(few_names | st.text(max_size=6), max_size=8)
+
+
+@given(any_names, any_names, any_names)
+def test_nothing_is_dropped_and_no_two_things_on_a_level_have_one_id_whatever_their_names_are(
+    rooms: list[str], doors: list[str], lifts: list[str]
+) -> None:
+    stops = (ConnectorStop("0", (1.0, 1.0)), ConnectorStop("1", (1.0, 1.0)))
+    joined = tuple([Connector(ConnectorKind.LIFT, name, stops) for name in lifts])
+    plan = FloorPlan("", (named("0", *rooms, doors=doors), named("1", *rooms)), joined)
+    places = plan.places("0")
+    assert [len(places[kind]) for kind in ("room", "door", "connector")] == [len(rooms), len(doors), len(lifts)]
+    ids = [name for found in places.values() for name in found]
+    assert len(set(ids)) == len(ids)
+    assert all(" ".join(name.split()) == name != "" for name in ids)
+    assert list(plan.places("1")["connector"]) == list(places["connector"]), "a lift has one id on all its levels"
+    for found in places.values():
+        for name, place in found.items():
+            assert plan.landmark(name, "0") == place == plan.start(name, "0").place
+
+
+def test_a_name_that_a_room_and_a_door_have_is_the_id_of_neither_and_white_space_is_one_space() -> None:
+    places = FloorPlan("", (named("0", "hall door", "Classroom \n 8", doors=("hall door",)),)).places("0")
+    assert list(places["room"]) == ["hall door 1", "Classroom 8"] and list(places["door"]) == ["hall door 2"]
+
+
 def test_a_start_may_be_a_room_which_is_as_uncertain_as_the_room_is_large() -> None:
     assert NAMED.start("attic", heading=1.0) == Start("1", (2.0, 1.5), 1.0, math.sqrt(25.0 / 12.0))
     assert NAMED.start("office", "1").place == (6.0, 1.5)

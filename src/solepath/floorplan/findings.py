@@ -14,7 +14,7 @@ from .checks import find_fault, scale_cells
 from .doors import MAX_DOOR_OFFSET
 from .enclosure import OUTSIDE, Enclosure
 from .geometry import direction, distance, edges, touch
-from .plan import Door, FloorPlan, Level, Point, make_ids
+from .plan import Door, FloorPlan, Level, Point
 from .rooms import EDGE_SHARE, Rooms
 from .walls import Walls
 
@@ -78,8 +78,7 @@ def _find(plan: FloorPlan, has_start: bool, reach: bool) -> Iterator[PlanFinding
         yield from _find_unreachable(plan, level, inner, enclosure) if reach else ()
     if not connectors and not has_start:
         yield PlanFinding("the plan has no stairs and no lifts: the place on it is known by a start only")
-    ids = make_ids([(one.name, one.kind.value) for one in connectors])
-    for name, connector in zip(ids, connectors, strict=True):
+    for name, connector in zip(plan.connector_ids, connectors, strict=True):
         what, stops = f"{connector.kind.value} {name!r}", connector.stops
         if len(stops) == 1:
             text = f"{what}: stops at level {stops[0].level!r} only, at {_at(stops[0].place)}"

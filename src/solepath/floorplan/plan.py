@@ -171,28 +171,34 @@ class FloorPlan:
     def places(self, level: str) -> dict[str, dict[str, Point]]:
         """Return where the rooms, stairs and lifts, and doors of a level are, m, by kind and id.
 
-        An id is a name that no other of its kind has, else the name, or the kind, with a number. The place of a room is
-        inside it, that of stairs or a lift is where a person steps on and off, that of a door is its middle. Raises
-        FloorPlanError when there is no such level."""
+        An id is a name that nothing else on its level has, else the name, or the kind, with a number; stairs and lifts
+        have the same id on all levels. White space in an id is one space. The place of a room is inside it, that of
+        stairs or a lift is where a person steps on and off, that of a door is its middle. Raises FloorPlanError when
+        there is no such level."""
         from .geometry import find_inner_point
 
         drawn = self.level(level)
-        names = drawn.room_names or ("",) * len(drawn.rooms)
-        connectors = make_ids([(one.name, one.kind.value) for one in self.connectors])
+        connectors = self.connector_ids
+        names = [(name, "room") for name in drawn.room_names or ("",) * len(drawn.rooms)]
+        ids = make_ids([*names, *[(door.name, "door") for door in drawn.doors]], connectors)
+        count = len(names)
         return {
             "connector": {name: stop.place for name, one in zip(connectors, self.connectors, strict=True)
                           for stop in one.stops if stop.level == level},
-            "room": dict(zip(make_ids([(name, "room") for name in names]), map(find_inner_point, drawn.rooms),
-                             strict=True)),
-            "door": dict(zip(make_ids([(door.name, "door") for door in drawn.doors]),
-                             [door.middle for door in drawn.doors], strict=True)),
+            "room": dict(zip(ids[:count], map(find_inner_point, drawn.rooms), strict=True)),
+            "door": dict(zip(ids[count:], [door.middle for door in drawn.doors], strict=True)),
         }  # fmt: skip
+
+    @property
+    def connector_ids(self) -> list[str]:
+        """Ids of the stairs and lifts (`places`)."""
+        return make_ids([(one.name, one.kind.value) for one in self.connectors])
 
     def landmark(self, name: str, level: str) -> Point:
         """Return the place of the stairs or lift, the room or the door with this id on a level (`places`), m.
 
         Raises FloorPlanError when there is no such level, or nothing with this id on it."""
-        places = self.places(level)
+        places, name = self.places(level), one_space(name)
         for found in places.values():
             if name in found:
                 return found[name]
@@ -205,7 +211,7 @@ class FloorPlan:
         `level` may be left out when only one level has such a place. `heading` is the wearer's first heading, rad,
         counter-clockwise from +x. In a room the place is uncertain by the size of the room. Raises FloorPlanError when
         there is no such place, or several."""
-        levels = [one.id for one in self.levels] if level is None else [level]
+        levels, name = [one.id for one in self.levels] if level is None else [level], one_space(name)
         on = [one for one in levels if any([name in found for found in self.places(one).values()])]
         if len(on) > 1:
             raise FloorPlanError(f"{name!r} is on several levels: {', '.join(map(repr, on))}")
@@ -231,14 +237,25 @@ class FloorPlan:
         return Tangent(self.anchor).degrees(point)
 
 
-def make_ids(names: Sequence[tuple[str, str]]) -> list[str]:
-    """Return an id for each name and kind: a name that is there once, else name or kind with a number."""
-    counts = Counter([name for name, _ in names])
+def one_space(name: str) -> str:
+    """Return a name with one space in place of any white space within it."""
+    return " ".join(name.split())
+
+
+def make_ids(names: Sequence[tuple[str, str]], taken: Sequence[str] = ()) -> list[str]:
+    """Return an id for each name and kind, all different and none of them taken.
+
+    It is a name that is there once, else name or kind with a number. White space in it is one space."""
+    named = [(one_space(name), kind) for name, kind in names]
+    counts = Counter([*taken, *[name for name, _ in named]])
     numbers: Counter[str] = Counter()
     ids = []
-    for name, kind in names:
-        numbers[name or kind] += 1
-        ids.append(name if name and counts[name] == 1 else f"{name or kind} {numbers[name or kind]}")
+    for name, kind in named:
+        one, stem = name, name or kind
+        while not one or counts[one] > (one == name):
+            numbers[stem] += 1
+            one = f"{stem} {numbers[stem]}"
+        ids.append(one)
     return ids
 
 
