@@ -53,7 +53,7 @@ def box(x0: float, y0: float, x1: float, y1: float) -> tuple[Wall, ...]:
 UNUSABLE = [
     (evolve(HOUSE, levels=()), "the plan has no levels"),
     (with_level(elevation=4.0), "level '1' comes after level '0' and lies below it"),
-    (with_level(walls=(Wall((1.0, 2.0), (math.nan, 2.0)),)), "level '0': wall 0 is at (nan, 2)"),
+    (with_level(walls=(Wall((1.0, 2.0), (math.nan, 2.0)),)), "level '0': wall 1 is at (nan, 2)"),
     (stairs(ConnectorStop("2", (1.0, 1.0))), "stairs 'A': stops at level '2', which the plan does not have"),
     (
         stairs(ConnectorStop("1", (1.0, 1.0)), ConnectorStop("0", (1.0, 1.0))),

@@ -15,8 +15,7 @@ from .common.files import PLAN_KINDS, OutputFile, add_force, check_outputs
 from .common.parser import command, option
 
 if TYPE_CHECKING:
-    from ..floorplan.findings import PlanFinding
-    from ..floorplan.plan import FloorPlan
+    from ..floorplan.plan import FloorPlan, PlanFinding
 
 LEVEL_SIZE = 1400.0
 """Largest width and height of the drawing of a level, px: ids of a building of 100 m can be read."""

@@ -82,7 +82,7 @@ class Connector:
     @property
     def label(self) -> str:
         """Kind and name, for messages."""
-        return f"{self.kind.value} {self.name!r}"
+        return f"{self.kind.value} {self.name!r}" if self.name else f"{self.kind.value} without a name"
 
 
 @frozen
@@ -115,20 +115,43 @@ def with_rooms(level: Level, rooms: Sequence[tuple[tuple[Point, ...], str]]) -> 
 
 
 @frozen
+class PlanFinding:
+    """One thing that is wrong with a floor plan.
+
+    `text` is a sentence that names level, place and id. `act`: places will be wrong until somebody mends it. `level` is
+    the id of a level and `place` is in m, plan frame, where there is such a place."""
+
+    text: str
+    act: bool = False
+    level: str = ""
+    place: Point | None = None
+
+
+def on_level(level: str, what: str, place: Point | None = None, *, act: bool = True) -> PlanFinding:
+    """Return what is wrong on a level; its sentence begins with the level."""
+    return PlanFinding(f"level {level!r}: {what}", act, level, place)
+
+
+def at(place: Point) -> str:
+    """Return a place, m, for messages."""
+    return f"({place[0]:.1f}, {place[1]:.1f})"
+
+
+@frozen
 class FloorPlan:
     """A building with levels and connectors.
 
     `levels` go from the lowest to the highest. `connectors` join them. `anchor` is None when the position on the Earth
     is unknown; nothing requires it. `heights_known` is False when the file has no elevations and the importer assumed
-    the height between levels: then heights must not be corrected by elevations. `remarks` are lines about faults that
-    the importer tolerated; comparisons of plans ignore them."""
+    the height between levels: then heights must not be corrected by elevations. `remarks` are faults that the
+    importer tolerated; comparisons of plans ignore them."""
 
     name: str
     levels: tuple[Level, ...]
     connectors: tuple[Connector, ...] = ()
     anchor: Anchor | None = None
     heights_known: bool = True
-    remarks: tuple[str, ...] = field(default=(), eq=False)
+    remarks: tuple[PlanFinding, ...] = field(default=(), eq=False)
 
     def __deepcopy__(self, memo: object) -> FloorPlan:
         """Return the plan itself: nothing in it can change, and it may have 100,000 walls."""
@@ -147,7 +170,7 @@ class FloorPlan:
             walls = ((wall.start, wall.end) for wall in level.walls)
             doors = ((door.start, door.end) for door in level.doors)
             for kind, drawn in (("wall", walls), ("room", level.rooms), ("door", doors)):
-                for i, points in enumerate(drawn):
+                for i, points in enumerate(drawn, 1):
                     yield kind, f"level {level.id!r}: {kind} {i}", points
         for connector in self.connectors:
             for stop in connector.stops:

@@ -26,6 +26,7 @@ from ..plan import (
     FloorPlanError,
     Level,
     Line,
+    PlanFinding,
     Point,
     Wall,
     with_rooms,
@@ -122,7 +123,7 @@ class Drawing:
     name: str = ""
     storeys: dict[str, Storey] = field(factory=dict)
     parts: list[ConnectorPart] = field(factory=list)
-    remarks: list[str] = field(factory=list)
+    remarks: list[PlanFinding] = field(factory=list)
 
     def plan(self, anchor: Anchor, height: float) -> FloorPlan:
         """Return the plan; `height` is that assumed from one level to the next, m.

@@ -16,8 +16,7 @@ from xml.etree.ElementTree import Element, ElementTree, indent
 from attrs import define, evolve
 
 from ...events import Placed, PlaceLost
-from ...floorplan.findings import PlanFinding
-from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level
+from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, PlanFinding
 from ..output import os_errors_naming
 from .svg import STEPS, View, add, colour_bar, grid, line, px, shade, square_ticks, write
 
