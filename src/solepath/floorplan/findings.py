@@ -61,6 +61,11 @@ def _find(plan: FloorPlan, has_start: bool, reach: bool) -> Iterator[PlanFinding
     levels = plan.levels
     if not plan.heights_known and len(levels) > 1:
         yield PlanFinding("the plan does not say how high its levels lie")
+    if plan.anchor is not None and not plan.has_degrees:
+        x, y = plan.origin
+        yield PlanFinding(
+            f"the plan has no longitude and latitude: its anchor is at (0, 0), and ({x:.0f}, {y:.0f}) is far"
+        )
     yield from _find_unit_faults(plan)
     named = [(f"{one.kind.value} {name!r}", one)
              for name, one in zip(plan.connector_ids, plan.connectors, strict=True)]  # fmt: skip

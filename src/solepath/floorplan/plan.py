@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from enum import Enum
-from math import dist, fsum, sqrt
+from math import dist, fsum, hypot, sqrt
 
 from ..saving.codec import checksum, save
 from ..types.attrs import evolve, field, frozen, limited, limits
@@ -248,6 +248,16 @@ class FloorPlan:
         ring = drawn.rooms[list(rooms).index(name)]
         # of a rectangle, the mean square distance from its middle is a third of that of its corners
         return Start(at, place, heading, sqrt(fsum([dist(place, corner) ** 2 for corner in ring]) / len(ring) / 3.0))
+
+    @property
+    def has_degrees(self) -> bool:
+        """Whether all that is drawn has longitude and latitude: there is an anchor, and near enough.
+
+        It is computed at each access, in a time that grows with the plan."""
+        from .earth import MAX_ANCHOR_DISTANCE
+
+        farthest = max([hypot(*point) for _, _, points in self.shapes() for point in points], default=0.0)
+        return self.anchor is not None and farthest <= MAX_ANCHOR_DISTANCE
 
     def to_wgs84(self, point: Point) -> tuple[float, float]:
         """Return longitude and latitude, degrees, of a point of the plan, m; right to 0.1 mm within 20 km.
