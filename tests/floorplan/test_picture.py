@@ -57,7 +57,7 @@ def offices(count: int, name: str = "office", *, corner: tuple[float, float] = (
         doors += [Door((x + 0.2, y), (x + 1.2, y)) for y in (y0, y0 + 4.0)]
         rooms.append(((x, y0), (x + 3.0, y0), (x + 3.0, y0 + 4.0), (x, y0 + 4.0)))
         stops = (ConnectorStop("0", (x + 1.5, y0 + 2.5)),)
-        lifts.append(Connector(ConnectorKind.LIFT, f"goods lift {k}", stops))
+        lifts.append(Connector(ConnectorKind.LIFT, f"lift {k}", stops))
     names = tuple([f"{name} {k}" for k in range(count)])
     wall = Wall((x0, y0), (x0 + 3.0 * count, y0))
     return FloorPlan("", (Level("0", "", 0, 0.0, (wall,), tuple(doors), tuple(rooms), names),), tuple(lifts))

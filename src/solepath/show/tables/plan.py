@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TypeGuard
 from xml.etree.ElementTree import Element, ElementTree, indent
 
-from attrs import define, evolve
+from attrs import define, evolve, field
 
 from ...events import Placed, PlaceLost
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, PlanFinding
@@ -89,8 +89,8 @@ FINDING_COLOUR, FINDING_SHIFT = "#c62828", 12.0
 """Colour of that mark, and how far above the place it is, px."""
 MAX_GRID_LINES, GRID_GAP = 16, 12.0
 """Largest number of lines of the grid along x of a small level, and height of its labels, px."""
-GRID_SPACING, MARK_WIDTH = 80.0, 110.0
-"""Least distance of the lines of the grid of a large level, and width of a word of the legend, px."""
+GRID_SPACING, MARK_WIDTH, MAX_MARKS = 80.0, 110.0, 6
+"""Least distance of the lines of the grid of a large level, px, width of a word of the legend, px, and most words."""
 TEXT, AREA = "<text x='{}' y='{}'>{}</text>", "<path d='{}' fill='{}'/>"
 END = (
     "<g><circle cx='{}' cy='{}' r='6' fill='{}' stroke='white' stroke-width='2'/><text x='{}' y='{}' font-size='11' "
@@ -125,6 +125,8 @@ class PlanPicture:
     """Whether there are a grid in m, and the ids of rooms, stairs, lifts and doors (`FloorPlan.places`)."""
     findings: Sequence[PlanFinding] = ()
     """What is wrong with the plan: each has its number, from 1 on, at its place."""
+    left_out: int = field(init=False, default=0)
+    """Number of ids in the drawing that have no room."""
 
     @property
     def places(self) -> list[Placed]:
@@ -148,7 +150,7 @@ class PlanPicture:
         count = max(len(levels), 1)
         columns = self.columns or min(count, 3)
         width = MARGIN + margin + columns * view.width + (columns - 1) * PANEL_GAP
-        width = max(width, 2.0 * MARGIN + MARK_WIDTH * len(self._marks(1)) * self.ids)
+        width = max(width, 2.0 * MARGIN + MARK_WIDTH * MAX_MARKS * self.ids)
         rows = [views[k : k + columns] for k in range(0, count, columns)]
         heights = [max([one.height for one in row], default=view.height) for row in rows]
         bottom = SPACE_ABOVE + fsum(heights) + len(heights) * gap
@@ -159,18 +161,18 @@ class PlanPicture:
         svg.set("xmlns", "http://www.w3.org/2000/svg")
         if self.ids:
             add(svg, STYLE)
-        left_out = 0
+        self.left_out = 0
         for k, level in enumerate(levels):
             left = margin + (k % columns) * (view.width + PANEL_GAP)
             top = SPACE_ABOVE + fsum(heights[: k // columns]) + k // columns * gap
             name = f"level {level.id}" if level.name in ("", level.id) else f"{level.name} ({level.id})"
             panel, box = add(svg, "<g/>"), evolve(views[k], left=left, top=top)
-            left_out += self._level(panel, level, box, f"{cut(name, MAX_TITLE_LETTERS)}, {level.elevation:.1f} m")
+            self._level(panel, level, box, f"{cut(name, MAX_TITLE_LETTERS)}, {level.elevation:.1f} m")
             for number, finding in enumerate(self.findings, 1):
                 if finding.level == level.id and finding.place is not None:
                     x, y = box.at(finding.place)
                     add(panel, FINDING, x, y - FINDING_SHIFT, finding.text, f"{number}")
-        self._legend(svg, None if self.ids else view.scale, width, bottom + 14.0, self._marks(left_out))
+        self._legend(svg, None if self.ids else view.scale, width, bottom + 14.0)
         return svg
 
     def _view(self, levels: Sequence[Level]) -> View:
@@ -187,9 +189,7 @@ class PlanPicture:
             width = height = min(max(size, MIN_ID_WIDTH), MAX_ID_WIDTH)
         return View.fit(points, width, height, MARGIN_SHARE, MIN_MARGIN)
 
-    def _level(self, panel: Element, level: Level, view: View, title: str) -> int:
-        """Draw a level; return the number of ids that have no room."""
-        left_out = 0
+    def _level(self, panel: Element, level: Level, view: View, title: str) -> None:
         add(
             panel,
             "<text x='{}' y='{}' font-size='13' fill='{}'>{}</text>",
@@ -220,31 +220,32 @@ class PlanPicture:
         self._candidates(panel, level.id, view)
         if self.ids:
             grid(panel, *view.axes, *_ticks(view)[:2])
-            left_out = self._ids(panel, level, view)
+            self._ids(panel, level, view)
         else:
             _room_names(panel, level, view)
         self._track(panel, level.id, view)
-        return left_out
 
-    def _ids(self, panel: Element, level: Level, view: View) -> int:
-        """Write the ids that have room; the other ones are dots. Return their number."""
-        left_out = 0
+    def _ids(self, panel: Element, level: Level, view: View) -> None:
+        """Write the ids that have room; the other ones are dots."""
         places = self.plan.places(level.id)
         labels = Labels(view.left, view.left + view.width, view.top + view.height, ID_LETTER, ID_HEIGHT)
         for door in level.doors:
             xs, ys = zip(*map(view.at, (door.start, door.end)), strict=True)
             labels.keep((min(xs) - LINE_SIZE, max(xs) + LINE_SIZE, min(ys) - LINE_SIZE, max(ys) + LINE_SIZE))
-        for x, y in map(view.at, places["connector"].values()):
+        marks = [view.at(place) for place in places["connector"].values()]
+        for one in self.findings:
+            if one.level == level.id and one.place is not None:
+                marks.append((view.at(one.place)[0], view.at(one.place)[1] - FINDING_SHIFT))
+        for x, y in marks:
             labels.keep((x - MARK_SIZE, x + MARK_SIZE, y - MARK_SIZE, y + MARK_SIZE))
         for kind, around in ID_PLACES.items():
             for name, place in places[kind].items():
                 point = view.at(place)
                 if not labels.add(panel, point, cut(name, MAX_ID_LETTERS), f"id {kind}", places=around):
-                    left_out += 1
+                    self.left_out += 1
                     add(panel, UNNAMED, *point, UNNAMED_COLOUR, name)
-        return left_out
 
-    def _marks(self, left_out: int) -> dict[str, str]:
+    def _marks(self) -> dict[str, str]:
         """Return the colours of the marks that there are, by their names."""
         kinds = {connector.kind for connector in self.plan.connectors}
         marks = {kind.value: colour for kind, (colour, _) in CONNECTORS.items() if kind in kinds}
@@ -252,7 +253,9 @@ class PlanPicture:
             return {"candidate": CANDIDATE_COLOUR} | marks
         doors = {"door": DOOR_COLOUR} if any(level.doors for level in self.plan.levels) else {}
         wrong = {"wrong": FINDING_COLOUR} if any(one.place for one in self.findings) else {}
-        return {"wall": WALL_COLOUR} | doors | marks | ({"id on hover": UNNAMED_COLOUR} if left_out else {}) | wrong
+        return (
+            {"wall": WALL_COLOUR} | doors | marks | ({"id on hover": UNNAMED_COLOUR} if self.left_out else {}) | wrong
+        )
 
     def _candidates(self, panel: Element, level: str, view: View) -> None:
         undecided = [place for place in self.places if not place.decided]
@@ -281,7 +284,7 @@ class PlanPicture:
                 x, y = view.at(place.position[:2])
                 add(panel, END, x, y, colour, x + 9.0, y + 4.0, colour, word)
 
-    def _legend(self, svg: Element, scale: float | None, width: float, top: float, marks: dict[str, str]) -> None:
+    def _legend(self, svg: Element, scale: float | None, width: float, top: float) -> None:
         """Draw the scale, the times, the meaning of the marks, and an arrow to north if the plan has an anchor.
 
         `scale` is the size of a metre, px; with None there is a grid instead."""
@@ -296,7 +299,7 @@ class PlanPicture:
             colour_bar(svg, TRACK_COLOURS, TIMES_LEFT, top + 2.0, 120.0)
             add(svg, TEXT, TIMES_LEFT, top + 28.0, f"{self.places[0].t:.0f} s")
             add(svg, TEXT, TIMES_LEFT + 90.0, top + 28.0, f"{self.places[-1].t:.0f} s")
-        for k, (word, colour) in enumerate(marks.items()):
+        for k, (word, colour) in enumerate(self._marks().items()):
             left = MARGIN + MARK_WIDTH * k
             add(svg, DOT, left + 5.0, top + 57.0, colour, left + 15.0, top + 61.0, word)
         if self.plan.anchor is not None:
