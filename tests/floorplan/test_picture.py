@@ -14,7 +14,7 @@ from recordings import recorded
 from walks import insoles
 
 from solepath.floorplan.findings import find_findings
-from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Wall
+from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, PlanFinding, Wall
 from solepath.show.tables.plan import PlanPicture
 
 any_text = st.text(st.characters(), min_size=1, max_size=12) | st.sampled_from(
@@ -63,8 +63,8 @@ def offices(count: int, name: str = "office", *, corner: tuple[float, float] = (
     return FloorPlan("", (Level("0", "", 0, 0.0, (wall,), tuple(doors), tuple(rooms), names),), tuple(lifts))
 
 
-def drawn(plan: FloorPlan) -> ElementTree.Element:
-    return PlanPicture(plan, columns=1, ids=True, findings=find_findings(plan)).drawn("plan")
+def drawn(plan: FloorPlan, *findings: PlanFinding) -> ElementTree.Element:
+    return PlanPicture(plan, columns=1, ids=True, findings=findings).drawn("plan")
 
 
 def texts(svg: ElementTree.Element, kind: str) -> list[tuple[float, float, str]]:
@@ -105,7 +105,7 @@ def test_the_numbers_of_the_grid_are_whole_wherever_the_plan_lies(corner: tuple[
 
 def test_the_legend_has_what_is_drawn_and_wrong_only_where_something_is() -> None:
     whole = offices(3)
-    words = [one.text for one in drawn(whole).iter("text")]
+    words = [one.text for one in drawn(whole, *find_findings(whole)).iter("text")]
     assert {"wall", "door", "lift", "grid: x and y, m"} <= set(words) and "wrong" in words
-    words = [one.text for one in PlanPicture(whole, ids=True, columns=1).drawn("plan").iter("text")]
+    words = [one.text for one in drawn(whole).iter("text")]
     assert "wrong" not in words and "stairs" not in words
