@@ -36,6 +36,8 @@ smaller one lies within the other; less is the thickness of a wall. Chosen by ha
 MAX_NAMES = 4
 """Largest number of rooms, stairs and lifts that a sentence names."""
 
+Places = dict[str, Point]
+"""Places of what has these ids, m."""
 Stop = tuple[str, Connector, ConnectorStop]
 """A stop with the kind and the id of its stairs or lift."""
 
@@ -88,10 +90,11 @@ def _find(plan: FloorPlan, has_start: bool, reach: bool) -> Iterator[PlanFinding
         for what, place in outer[:1]:
             others = _others(", and so are", [name for name, _ in outer])
             yield on_level(level.id, f"{what} at {at(place)} is outside of all walls and rooms{others}", place)
-        yield from _find_door_faults(plan, level, walls)
+        places = plan.places(level.id)
+        yield from _find_door_faults(places["door"], level, walls)
         if reach:
-            yield from _find_overlaps(plan, level, enclosure)
-            yield from _find_unreachable(plan, level, stops, walls, enclosure)
+            yield from _find_overlaps(places["room"], level, enclosure)
+            yield from _find_unreachable(places["room"], level, stops, walls, enclosure)
     if not plan.connectors and not has_start:
         yield PlanFinding("the plan has no stairs and no lifts: the place on it is known by a start only")
     for what, one in named:
@@ -104,12 +107,11 @@ def _find(plan: FloorPlan, has_start: bool, reach: bool) -> Iterator[PlanFinding
 
 def _find_unit_faults(plan: FloorPlan) -> Iterator[PlanFinding]:
     """Yield the middle one of all doors, in the order of their widths, if no door is so wide."""
-    doors = sorted([(dist(door.start, door.end), level.id, name)
-                    for level in plan.levels
-                    for name, door in zip(plan.places(level.id)["door"], level.doors, strict=True)])  # fmt: skip
-    for width, level, name in doors[len(doors) // 2 :][:1]:
+    doors = sorted([(dist(door.start, door.end), level.id, number)
+                    for level in plan.levels for number, door in enumerate(level.doors)])  # fmt: skip
+    for width, level, number in doors[len(doors) // 2 :][:1]:
         if not MIN_DOOR_WIDTH <= width <= MAX_DOOR_WIDTH:
-            place = plan.landmark(name, level)
+            name, place = [*plan.places(level)["door"].items()][number]
             what = f"door {name!r} at {at(place)} is {width:.3g} m wide, as most are"
             yield on_level(level, f"{what}; a plan must be in metres, is it in centimetres or another unit?", place)
 
@@ -140,10 +142,10 @@ def _find_openings(level: Level, enclosure: Enclosure, rooms: Rooms) -> dict[Poi
     return {place: f": room {name!r} is open to the outside" if name else "" for name, place in found.items()}
 
 
-def _find_door_faults(plan: FloorPlan, level: Level, walls: Walls) -> Iterator[PlanFinding]:
+def _find_door_faults(places: Places, level: Level, walls: Walls) -> Iterator[PlanFinding]:
     """Yield doors that a wall crosses, and doors that are in no wall and on no outline of a room."""
     borders = Walls([edge for ring in level.rooms for edge in edges(ring) if edge[:2] != edge[2:]], walls.scale)
-    for (name, middle), door in zip(plan.places(level.id)["door"].items(), level.doors, strict=True):
+    for (name, middle), door in zip(places.items(), level.doors, strict=True):
         what = f"door {name!r} at {at(middle)}"
         (ax, ay), (bx, by) = door.start, door.end
         dx, dy = EDGE_SHARE * (bx - ax), EDGE_SHARE * (by - ay)
@@ -160,15 +162,15 @@ def _find_door_faults(plan: FloorPlan, level: Level, walls: Walls) -> Iterator[P
             yield on_level(level.id, f"{what} is in no wall", middle, act=False)
 
 
-def _find_overlaps(plan: FloorPlan, level: Level, enclosure: Enclosure) -> Iterator[PlanFinding]:
+def _find_overlaps(places: Places, level: Level, enclosure: Enclosure) -> Iterator[PlanFinding]:
     """Yield rooms that lie over each other, neither within the other one as a booth in a hall."""
     points = {name: enclosure.find_points(ring)
-              for name, ring in zip(plan.places(level.id)["room"], level.rooms, strict=True)}  # fmt: skip
+              for name, ring in zip(places, level.rooms, strict=True)}  # fmt: skip
     rooms: dict[Cell, list[str]] = {}
     for name, own in points.items():
         for point in own:
             rooms.setdefault(point, []).append(name)
-    shared: dict[tuple[str, ...], list[Cell]] = {}
+    shared: dict[tuple[str, str], list[Cell]] = {}
     for point, names in rooms.items():
         for pair in combinations(names, 2):
             shared.setdefault(pair, []).append(point)
@@ -182,7 +184,7 @@ def _find_overlaps(plan: FloorPlan, level: Level, enclosure: Enclosure) -> Itera
 
 
 def _find_unreachable(
-    plan: FloorPlan, level: Level, stops: list[Stop], walls: Walls, enclosure: Enclosure
+    places: Places, level: Level, stops: list[Stop], walls: Walls, enclosure: Enclosure
 ) -> Iterator[PlanFinding]:
     """Yield rooms and stops to which no way leads.
 
@@ -192,16 +194,16 @@ def _find_unreachable(
     for door in level.doors:
         joined = {groups[region] for region in _find_sides(door, walls, enclosure)}
         groups = [min(joined) if group in joined else group for group in groups]
-    places, rooms = plan.places(level.id)["room"], dict[int, list[str]]()
+    rooms = dict[int, list[str]]()
     for name, ring in zip(places, level.rooms, strict=True):
         # a room is where most of it is: another region in it is a shaft or a pillar
         for region, _ in enclosure.count_regions(ring).most_common(1):
             rooms.setdefault(groups[region], []).append(name)
     entered = {groups[OUTSIDE]}
     for what, one, stop in stops:
-        region = enclosure.region(*stop.place)
+        here = enclosure.region(*stop.place)
         around = {groups[one] for one in (enclosure.count_regions(stop.outline) if stop.outline else ())}
-        around |= set() if region is None else {groups[region]}
+        around |= set() if here is None else {groups[here]}
         entered |= around if len(one.stops) > 1 else set()
         if around.isdisjoint({groups[OUTSIDE], *rooms}) and around and level.rooms:
             yield on_level(level.id, f"no way leads to {what} at {at(stop.place)}", stop.place)

@@ -243,7 +243,7 @@ class FloorPlan:
         at = (on or levels)[0]
         place = self.landmark(name, at)
         rooms, drawn = self.places(at)["room"], self.level(at)
-        if rooms.get(name) != place:
+        if name not in rooms:
             return Start(at, place, heading)
         ring = drawn.rooms[list(rooms).index(name)]
         # of a rectangle, the mean square distance from its middle is a third of that of its corners
