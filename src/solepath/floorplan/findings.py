@@ -33,6 +33,8 @@ doors at both ends and a step before each."""
 MIN_SHARED_POINTS, MIN_SHARED, NESTED = 4, 0.25, 0.9
 """Points of the lattice, and share of the smaller room's, from which on two rooms overlap, and share from which on the
 smaller one lies within the other; less is the thickness of a wall. Chosen by hand."""
+MAX_LAYERS = 8
+"""Largest number of rooms at one point that are compared."""
 MAX_NAMES = 4
 """Largest number of rooms, stairs and lifts that a sentence names."""
 
@@ -172,7 +174,7 @@ def _find_overlaps(places: Places, level: Level, enclosure: Enclosure) -> Iterat
             rooms.setdefault(point, []).append(name)
     shared: dict[tuple[str, str], list[Cell]] = {}
     for point, names in rooms.items():
-        for pair in combinations(names, 2):
+        for pair in combinations(names[:MAX_LAYERS], 2):
             shared.setdefault(pair, []).append(point)
     for pair, both in shared.items():
         less, more = sorted([len(points[name]) for name in pair])
