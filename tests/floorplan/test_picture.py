@@ -6,6 +6,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from attrs import evolve
 from commands import run
 from floorplans import FILES
 from hypothesis import given
@@ -93,6 +94,17 @@ def test_a_drawing_grows_with_the_plan_so_that_ids_of_the_same_rooms_stay_readab
     small, large = [float(drawn(offices(count)).get("width", "")) for count in (20, 80)]
     assert 3.0 < large / small < 4.5
     assert len(texts(drawn(offices(80)), "id room")) == 80
+
+
+@pytest.mark.parametrize("columns", [1, 3])
+def test_names_of_plans_and_levels_stay_within_their_panels(columns: int) -> None:
+    level = evolve(offices(2).levels[0], name="W" * 300)
+    plan = evolve(offices(2), levels=tuple([evolve(level, id=f"{k}") for k in range(3)]), connectors=())
+    svg = PlanPicture(plan, width=240.0, columns=columns).drawn("M" * 300)
+    for one in svg.iter("text"):
+        size, letters = float(one.get("font-size", "12")), len(one.text or "")
+        if size >= 13.0:
+            assert 0.55 * size * letters < float(svg.get("width", "")) / (columns if size < 17.0 else 1)
 
 
 @pytest.mark.parametrize("corner", [(0.0, 0.0), (691_000.0, 5_333_000.0), (-123_456.0, -1e6)])

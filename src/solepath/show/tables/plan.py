@@ -65,8 +65,10 @@ STYLE = (
 """Style of the grid and the ids."""
 ID_SCALE, MIN_ID_WIDTH, MAX_ID_WIDTH = 20.0, 900.0, 12_000.0
 """Size of a metre of a level with ids, px, and the least and the largest size of its longer side, px."""
-ID_LETTER, ID_HEIGHT, MAX_ID_LETTERS, MAX_TITLE_LETTERS = 6.3, 13.0, 28, 90
-"""Width of a letter of an id and its height with the space around it, px; most letters of an id and of a title."""
+ID_LETTER, ID_HEIGHT, MAX_ID_LETTERS = 6.3, 13.0, 28
+"""Width of a letter of an id and its height with the space around it, px; most letters of an id."""
+HEADING_LETTER, TITLE_LETTER = 10.0, 9.0
+"""Width of a letter of the heading, and that of a level's title with the space for its height, px."""
 ID_PLACES = {
     "connector": [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0)],
     "room": [(0.0, 0.0), *AROUND[:2]],
@@ -145,8 +147,8 @@ class PlanPicture:
         levels = self.plan.levels
         views = [self._view([level]) for level in levels] if self.ids else [self._view(levels)] * len(levels)
         view, gap = max(views, key=lambda one: one.width, default=self._view(levels)), PANEL_GAP + GRID_GAP * self.ids
-        digits = max([len(words) for one in views for words in _ticks(one)[1].values()], default=0) * self.ids
-        margin = max(MARGIN, 12.0 + TICK_WIDTH * digits)
+        digits = [len(words) for one in views if self.ids for words in _ticks(one)[1].values()]
+        margin = max(MARGIN, 12.0 + TICK_WIDTH * max(digits, default=0))
         count = max(len(levels), 1)
         columns = self.columns or min(count, 3)
         width = MARGIN + margin + columns * view.width + (columns - 1) * PANEL_GAP
@@ -155,9 +157,8 @@ class PlanPicture:
         heights = [max([one.height for one in row], default=view.height) for row in rows]
         bottom = SPACE_ABOVE + fsum(heights) + len(heights) * gap
         height = bottom + SPACE_BELOW
-        svg = add(
-            Element("figure"), PICTURE, width, height, width, height, title, MARGIN, cut(title, MAX_TITLE_LETTERS)
-        )
+        heading, most = cut(title, int(width / HEADING_LETTER)), int(width / columns / TITLE_LETTER)
+        svg = add(Element("figure"), PICTURE, width, height, width, height, title, MARGIN, heading)
         svg.set("xmlns", "http://www.w3.org/2000/svg")
         if self.ids:
             add(svg, STYLE)
@@ -167,7 +168,7 @@ class PlanPicture:
             top = SPACE_ABOVE + fsum(heights[: k // columns]) + k // columns * gap
             name = f"level {level.id}" if level.name in ("", level.id) else f"{level.name} ({level.id})"
             panel, box = add(svg, "<g/>"), evolve(views[k], left=left, top=top)
-            self._level(panel, level, box, f"{cut(name, MAX_TITLE_LETTERS)}, {level.elevation:.1f} m")
+            self._level(panel, level, box, f"{cut(name, most)}, {level.elevation:.1f} m")
             for number, finding in enumerate(self.findings, 1):
                 if finding.level == level.id and finding.place is not None:
                     x, y = box.at(finding.place)
