@@ -142,7 +142,11 @@ def test_a_plan_in_a_national_grid_has_metres_though_it_has_an_anchor(tmp_path: 
     assert done.returncode == 2 and "needs longitude and latitude" in done.stderr.splitlines()[-1]
     assert not out.exists(), "it is said before the walk is computed"
     listed = run("plan", file, "--out", tmp_path / "far.svg").stdout
-    assert finding in listed and "x 0, y 0 is at latitude" not in listed
+    assert (
+        finding in listed
+        and "no longitude and latitude, which .gpx and .kml need" in listed
+        and "x 0, y 0 is at latitude" not in listed
+    )
 
 
 def test_without_a_plan_the_way_is_the_track_from_the_start(tmp_path: Path) -> None:

@@ -68,6 +68,8 @@ def _places(plan: FloorPlan) -> Iterator[str]:
     if plan.has_degrees:
         longitude, latitude = plan.to_wgs84((0.0, 0.0))
         yield f"x 0, y 0 is at latitude {latitude:.7f}, longitude {longitude:.7f}"
+    else:
+        yield "no longitude and latitude, which .gpx and .kml need"
 
 
 def _verdict(findings: list[PlanFinding]) -> Iterator[str]:

@@ -28,7 +28,9 @@ from .output import os_errors_naming
 DIGITS = 9
 """Digits after the point of a degree: 0.1 mm. Metres have three."""
 GPX, KML = "http://www.topografix.com/GPX/1/1", "http://www.opengis.net/kml/2.2"
-LOCAL_NOTE = "coordinates are x and y in metres, not longitude and latitude, as there is no plan with an anchor in it"
+LOCAL_NOTE = (
+    "coordinates are x and y in metres, not longitude and latitude, as there is no plan with an anchor within 20 km"
+)
 """What a GeoJSON file without longitude and latitude says."""
 
 
@@ -63,7 +65,9 @@ def way_error(ending: str, plan: FloorPlan | None) -> str | None:
     if ending not in WRITERS:
         return f"its name must end in {', '.join(WRITERS)}"
     if ending != ".geojson" and not has_degrees(plan):
-        return f"{ending} needs longitude and latitude, so a floor plan with an anchor in it; .geojson takes metres"
+        return (
+            f"{ending} needs longitude and latitude, so a floor plan with an anchor within 20 km; .geojson takes metres"
+        )
     return None
 
 
