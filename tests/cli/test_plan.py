@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -10,6 +11,8 @@ from attrs import evolve
 from commands import run, run_failing
 from floorplans import FILES
 from plan_files import format_floorplan
+from recordings import recorded
+from walks import insoles
 
 from solepath import read_floorplan
 
@@ -42,6 +45,7 @@ def test_levels_are_chosen_and_other_files_stay(tmp_path: Path) -> None:
     picture.write_text("<svg/>")
     assert "--force replaces it" in run_failing("plan", HOUSE, "--out", picture)
     assert "there is no level '7'; there are: 0, 1" in run_failing("plan", HOUSE, "--levels", "0,7")
+    assert "must end in .svg" in run_failing("plan", HOUSE, "--out", tmp_path / "x.png")
     assert "there is no such file" in run_failing("plan", tmp_path / "none.geojson")
 
 
@@ -59,3 +63,27 @@ def test_what_must_be_mended_comes_first_with_its_number_in_the_picture_and_stat
     marks = [one for one in ElementTree.parse(picture).iter() if one.text and one.text == first[5:]]
     assert len(marks) == 1, "the mark says what is wrong when one points at it"
     assert "the plan does not say how high its levels lie" in may
+
+
+def test_a_number_that_is_a_name_of_another_room_is_no_fault_in_plan_or_track(tmp_path: Path) -> None:
+    house = read_floorplan(HOUSE)
+    ground = evolve(house.levels[0], room_names=("WC", "Corridor", "WC", "WC 2", ""))
+    file = tmp_path / "names.geojson"
+    file.write_text(format_floorplan(evolve(house, levels=(ground, *house.levels[1:]))))
+    done = run("plan", file, "--out", tmp_path / "names.svg")
+    rooms = [line.split("  ")[2:] for line in done.stdout.splitlines() if line.startswith("  room")]
+    assert done.stderr == "" and len(rooms) == sum([len(level.rooms) for level in house.levels])
+    assert all(name in done.stdout for name in ("WC 1 ", "WC 2 ", "WC 3 ", "room 1 "))
+    walk = recorded(tmp_path / "walk.jsonl", insoles().packets[:400])
+    assert run("track", walk, "--floorplan", file, "--start", "WC 3").returncode == 0
+
+
+def test_what_an_importer_found_is_shown_with_its_level_only(tmp_path: Path) -> None:
+    content = json.loads(HOUSE.read_text())
+    ring = next(one for one in content["features"] if one["properties"].get("name") == "AB")
+    ring["geometry"]["coordinates"][0].pop()
+    file, picture = tmp_path / "open.geojson", tmp_path / "open.svg"
+    file.write_text(json.dumps(content))
+    assert "its outline does not close" not in run("plan", file, "--levels", "0", "--out", picture).stdout
+    done = run("plan", file, "--levels", "1", "--out", picture)
+    assert done.returncode == 1 and "1. level '1': room 'AB' at (" in done.stdout

@@ -3,6 +3,7 @@
 from functools import cache
 from itertools import pairwise
 from math import hypot, pi
+from typing import Any
 
 import numpy as np
 import pytest
@@ -101,6 +102,19 @@ def test_own_stairs_lead_as_high_and_as_far_as_their_risers_and_treads(
     assert course.level == ("1" if up else "-1")
     assert course.position == pytest.approx(end, abs=1e-6)
     assert course.place(walker, walker.duration) == pytest.approx(end, abs=0.05)
+
+
+@pytest.mark.parametrize("wrong", [0, -1, 1.5, "16", True, None])
+def test_flights_and_risers_that_cannot_be_are_named_before_anything_is_walked(wrong: Any) -> None:
+    course = Course("0", (1.0, 1.0), 0.0)
+    before = course.route, course.position
+    with pytest.raises(ValueError, match=r"stairs: flights: a whole number of 1 or more, got "):
+        course.stairs("1", 16, flights=wrong)
+    with pytest.raises(ValueError, match=r"stairs: risers: a whole number of 1 or more, got "):
+        course.stairs("1", wrong)
+    with pytest.raises(ValueError, match=r"stairs: steps: a whole number of 1 or more, got "):
+        course.route.stairs(wrong)
+    assert (course.route, course.position, course.level) == (*before, "0")
 
 
 def test_corners_that_are_close_together_are_walked_too() -> None:

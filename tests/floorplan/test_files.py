@@ -19,7 +19,7 @@ from solepath.floorplan.geometry import contains, edges
 from solepath.floorplan.importers import reading
 from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, FloorPlanError
+from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, FloorPlanError, PlanFinding
 
 HOUSE = read_floorplan(FILES / "house.geojson")
 INVALID = json.loads((FILES / "invalid.json").read_text(encoding="utf-8"))
@@ -129,7 +129,7 @@ def test_a_name_is_a_text_or_a_number_that_can_be_one(kind: str, value: Any, tex
              "lift": feature("lift", "Point", [1, 1], name=value, connector="a")}[kind]  # fmt: skip
     data = geojson(feature("wall", "Polygon", [SQUARE]), named)
     if text is None:
-        with pytest.raises(FloorPlanError, match="feature 2: its name is .*, not a text"):
+        with pytest.raises(FloorPlanError, match=" at .*: its name is .*, not a text"):
             parse_floorplan(data)
         return
     plan = parse_floorplan(data)
@@ -168,8 +168,8 @@ def test_a_room_with_a_hole_does_not_hold_what_is_in_the_hole() -> None:
 def test_an_outline_that_does_not_close_is_a_room_and_remarked() -> None:
     room = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 1]]
     plan = parse_floorplan(geojson(feature("wall", "Polygon", [SQUARE]), feature("room", "Polygon", [room])))
-    remark = "feature 2 on level '0': its outline does not close, it ends 1.00 m from where it begins"
-    assert plan.remarks == (remark,)
+    remark = "level '0': room at (0, 0): its outline does not close, it ends at (0.0, 1.0), 1.00 m from where it begins"
+    assert plan.remarks == (PlanFinding(remark, True, "0", (0.0, 1.0)),)
     assert remark in find_warnings(plan)
     assert IndexedPlan(plan).inside(0, 5.0, 5.0)
 

@@ -183,7 +183,7 @@ def test_a_map_exported_as_geojson_is_the_same_plan() -> None:
     ]
     text = json.dumps({"type": "FeatureCollection", "generator": "overpass-turbo", "features": features})
     assert parse_floorplan(text.encode()) == drawn.plan()
-    with pytest.raises(FloorPlanError, match="feature 1: a coordinate is 'x'"):
+    with pytest.raises(FloorPlanError, match="feature 'front': a coordinate is 'x'"):
         features[1]["geometry"] = {"type": "Point", "coordinates": ["x", 48.15]}
         parse_floorplan(json.dumps({"type": "FeatureCollection", "features": features}).encode())
 

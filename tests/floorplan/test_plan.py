@@ -53,7 +53,7 @@ def box(x0: float, y0: float, x1: float, y1: float) -> tuple[Wall, ...]:
 UNUSABLE = [
     (evolve(HOUSE, levels=()), "the plan has no levels"),
     (with_level(elevation=4.0), "level '1' comes after level '0' and lies below it"),
-    (with_level(walls=(Wall((1.0, 2.0), (math.nan, 2.0)),)), "level '0': wall 0 is at (nan, 2)"),
+    (with_level(walls=(Wall((1.0, 2.0), (math.nan, 2.0)),)), "level '0': wall 1 is at (nan, 2)"),
     (stairs(ConnectorStop("2", (1.0, 1.0))), "stairs 'A': stops at level '2', which the plan does not have"),
     (
         stairs(ConnectorStop("1", (1.0, 1.0)), ConnectorStop("0", (1.0, 1.0))),
@@ -281,6 +281,35 @@ def test_everything_on_a_level_has_an_id_of_its_own_which_is_its_name_where_no_o
     assert NAMED.landmark("lift", "1") == (1.0, 1.0), "the lift, not the room of this name"
     with pytest.raises(FloorPlanError, match="level '0' has no stairs, lift, room or door 'WC'; it has 'lift', 'st"):
         NAMED.landmark("WC", "0")
+
+
+few_names = st.sampled_from(
+    ["", " ", "WC", "WC 1", "WC 2", "WC  2", "lift", "lift 1", "room", "room 1", "door 1", "stairs"]
+)
+any_names = st.lists(few_names | st.text(max_size=6), max_size=8)
+
+
+@given(any_names, any_names, any_names)
+def test_nothing_is_dropped_and_no_two_things_on_a_level_have_one_id_whatever_their_names_are(
+    rooms: list[str], doors: list[str], lifts: list[str]
+) -> None:
+    stops = (ConnectorStop("0", (1.0, 1.0)), ConnectorStop("1", (1.0, 1.0)))
+    joined = tuple([Connector(ConnectorKind.LIFT, name, stops) for name in lifts])
+    plan = FloorPlan("", (named("0", *rooms, doors=doors), named("1", *rooms)), joined)
+    places = plan.places("0")
+    assert [len(places[kind]) for kind in ("room", "door", "connector")] == [len(rooms), len(doors), len(lifts)]
+    ids = [name for found in places.values() for name in found]
+    assert len(set(ids)) == len(ids)
+    assert all(" ".join(name.split()) == name != "" for name in ids)
+    assert list(plan.places("1")["connector"]) == list(places["connector"]), "a lift has one id on all its levels"
+    for found in places.values():
+        for name, place in found.items():
+            assert plan.landmark(name, "0") == place == plan.start(name, "0").place
+
+
+def test_a_name_that_a_room_and_a_door_have_is_the_id_of_neither_and_white_space_is_one_space() -> None:
+    places = FloorPlan("", (named("0", "hall door", "Classroom \n 8", doors=("hall door",)),)).places("0")
+    assert list(places["room"]) == ["hall door 1", "Classroom 8"] and list(places["door"]) == ["hall door 2"]
 
 
 def test_a_start_may_be_a_room_which_is_as_uncertain_as_the_room_is_large() -> None:

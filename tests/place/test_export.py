@@ -7,14 +7,20 @@ from collections.abc import Iterator
 from itertools import pairwise
 from math import dist, hypot
 from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 from commands import run, run_failing
 from floorplans import FILES, degrees
+from plan_files import format_floorplan
 from recordings import recorded
 from walks import insoles
 
 from solepath import Candidate, Event, Placed, PlaceLost, WearerMoved, read_floorplan
+from solepath.floorplan.findings import find_findings
+from solepath.floorplan.importers.reading import parse_floorplan
+from solepath.floorplan.plan import FloorPlan
 from solepath.show.export import write_way
 from solepath.walk import Walk
 
@@ -66,6 +72,21 @@ def from_kml(path: Path) -> Iterator[tuple[str, Line]]:
         yield one.name, [(x, y) for x, y, _ in one.geometry.coords]
 
 
+def moved(plan: FloorPlan, x: float, y: float) -> FloorPlan:
+    """Return the plan, so far to the right and up."""
+
+    def by(value: Any) -> Any:
+        return [value[0] + x, value[1] + y] if isinstance(value[0], int | float) else [by(one) for one in value]
+
+    content = json.loads(format_floorplan(plan))
+    for one in content["features"]:
+        if one["geometry"]:
+            one["geometry"]["coordinates"] = by(one["geometry"]["coordinates"])
+        if "place" in one["properties"]:
+            one["properties"]["place"] = by(one["properties"]["place"])
+    return parse_floorplan(json.dumps(content).encode())
+
+
 @pytest.mark.parametrize(("ending", "read"), [(".geojson", from_json), (".gpx", from_gpx), (".kml", from_kml)])
 def test_other_peoples_readers_find_the_same_points_to_a_centimetre(ending: str, read, tmp_path: Path) -> None:
     path = tmp_path / f"way{ending}"
@@ -95,6 +116,37 @@ def test_geojson_has_metres_and_says_so_where_the_plan_has_no_anchor(tmp_path: P
             write_way(tmp_path / f"way{ending}", Walk.of(EVENTS), local)
     with pytest.raises(ValueError, match="must end in .geojson, .gpx, .kml"):
         write_way(tmp_path / "way.shp", Walk.of(EVENTS), HOUSE)
+
+
+def test_every_file_says_how_it_came_about(tmp_path: Path) -> None:
+    made = {"solepath": "1", "recipe": "default", "recipe_sha256": "ab", "inputs": [{"name": "é.csv", "sha256": "cd"}]}
+    for ending in (".geojson", ".gpx", ".kml"):
+        write_way(tmp_path / f"way{ending}", Walk.of(EVENTS), HOUSE, made_by=made)
+    assert json.loads((tmp_path / "way.geojson").read_text())["solepath"] == made
+    for ending, name in ((".gpx", "{*}metadata/{*}desc"), (".kml", "{*}Document/{*}description")):
+        text = ElementTree.parse(tmp_path / f"way{ending}").findtext(name)
+        assert text is not None and json.loads(text) == made
+
+
+def test_a_plan_in_a_national_grid_has_metres_though_it_has_an_anchor(tmp_path: Path) -> None:
+    far = moved(HOUSE, 691_000.0, 5_333_000.0)
+    assert HOUSE.has_degrees and not far.has_degrees
+    (finding,) = [one.text for one in find_findings(far) if "longitude" in one.text]
+    assert finding.startswith("the plan has no longitude and latitude")
+    write_way(tmp_path / "way.geojson", Walk.of(EVENTS), far)
+    assert "metres" in json.loads((tmp_path / "way.geojson").read_text())["note"]
+    walk, file = recorded(tmp_path / "walk.jsonl", insoles().packets[:400]), tmp_path / "far.geojson"
+    file.write_text(format_floorplan(far))
+    out = tmp_path / "out"
+    done = run("track", walk, "--floorplan", file, "--out", out, "--export", tmp_path / "way.gpx")
+    assert done.returncode == 2 and "needs longitude and latitude" in done.stderr.splitlines()[-1]
+    assert not out.exists(), "it is said before the walk is computed"
+    listed = run("plan", file, "--out", tmp_path / "far.svg").stdout
+    assert (
+        finding in listed
+        and "no longitude and latitude, which .gpx and .kml need" in listed
+        and "x 0, y 0 is at latitude" not in listed
+    )
 
 
 def test_without_a_plan_the_way_is_the_track_from_the_start(tmp_path: Path) -> None:

@@ -15,11 +15,8 @@ from .common.files import PLAN_KINDS, OutputFile, add_force, check_outputs
 from .common.parser import command, option
 
 if TYPE_CHECKING:
-    from ..floorplan.findings import PlanFinding
-    from ..floorplan.plan import FloorPlan
+    from ..floorplan.plan import FloorPlan, PlanFinding
 
-LEVEL_SIZE = 1400.0
-"""Largest width and height of the drawing of a level, px: ids of a building of 100 m can be read."""
 ID_WIDTH = 32
 """Largest width of the column of the ids, characters."""
 
@@ -33,13 +30,15 @@ def run(options: Namespace) -> int:
     from ..show.tables.plan import PlanPicture
 
     path: Path = options.file
+    if options.out is not None and options.out.suffix.lower() != ".svg":
+        raise Failure(f"--out {options.out}: the picture is SVG, so its name must end in .svg")
     plan = read_floorplan(path)
     output = OutputFile(options.out or Path(f"{path.resolve().stem}.svg"), PLAN_KINDS[PLAN_FILE])
     check_outputs(options, [output])
     shown = set(_levels_of(options.levels, plan))
     findings = [one for one in find_findings(plan) if one.level in {"", *shown}]
     drawn = evolve(plan, levels=tuple([level for level in plan.levels if level.id in shown]))
-    picture = PlanPicture(drawn, (), LEVEL_SIZE, LEVEL_SIZE, 1, True, findings)
+    picture = PlanPicture(drawn, columns=1, ids=True, findings=findings)
     output.replace(lambda to: picture.write(to, plan.name or path.name))
     for line in (*_places(drawn), *_verdict(findings)):
         print(printable(line, MAX_LENGTH))
@@ -66,9 +65,11 @@ def _places(plan: FloorPlan) -> Iterator[str]:
         for kind, places in plan.places(level.id).items():
             for name, (x, y) in places.items():
                 yield f"  {'stairs, lift' if kind == 'connector' else kind:14}{name:{ID_WIDTH}}{x:10.1f}{y:10.1f}"
-    if plan.anchor is not None:
+    if plan.has_degrees:
         longitude, latitude = plan.to_wgs84((0.0, 0.0))
         yield f"x 0, y 0 is at latitude {latitude:.7f}, longitude {longitude:.7f}"
+    else:
+        yield "no longitude and latitude, which .gpx and .kml need"
 
 
 def _verdict(findings: list[PlanFinding]) -> Iterator[str]:

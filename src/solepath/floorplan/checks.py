@@ -63,8 +63,10 @@ def _find_faults(plan: FloorPlan) -> Iterator[str]:
     levels, connectors = plan.levels, plan.connectors
     if not levels:
         yield "the plan has no levels"
-    if len(levels) > MAX_LEVELS or sum(len(level.walls) for level in levels) > MAX_WALLS:
-        yield f"the plan has more than {MAX_LEVELS} levels or {MAX_WALLS} walls"
+    walls = sum(len(level.walls) for level in levels)
+    for count, most, what in ((len(levels), MAX_LEVELS, "levels"), (walls, MAX_WALLS, "walls")):
+        if count > most:
+            yield f"the plan has {count} {what}, more than {most} {what}"
     if max(len(connectors), sum(len(connector.stops) for connector in connectors)) > MAX_STOPS:
         yield f"the plan's stairs and lifts have more than {MAX_STOPS} stops"
     corners = sum(len(points) for kind, _, points in plan.shapes() if kind in ("room", "outline"))
@@ -87,28 +89,28 @@ def _find_faults(plan: FloorPlan) -> Iterator[str]:
         if kind == "wall" and points[0] == points[1]:
             yield f"{name} has no length, at {describe(points[0])}"
         if kind == "room" and len(points) < 3 or kind == "outline" and len(points) in (1, 2):
-            yield f"{name} has {len(points)} corners"
+            yield f"{name} has {len(points)} corners{f', at {describe(points[0])}' if points else ''}"
         lengths += [dist(a, b) for a, b in pairwise(points if kind in ("wall", "door") else points + points[:1])]
     yield from _find_faults_of_units(plan)
     for connector in connectors:
         yield from _find_faults_of_connector(connector, elevations)
     if fsum(lengths) > MAX_TOTAL_LENGTH:
-        yield (f"the walls, doors and rooms of the plan come to {fsum(lengths) / 1000.0:.0f} km; it can have "
-               f"{MAX_TOTAL_LENGTH / 1000.0:.0f}")  # fmt: skip
+        yield (f"the walls, doors and rooms of the plan come to {fsum(lengths) / 1000.0:.0f} km; they can have "
+               f"{MAX_TOTAL_LENGTH / 1000.0:.0f} km")  # fmt: skip
 
 
 def _find_faults_of_units(plan: FloorPlan) -> Iterator[str]:
     width = max(_measure(plan))
     if width > MAX_BUILDING_WIDTH:
-        yield f"the plan is {width:.0f} wide; it must be in metres, is it in millimetres or another unit?"
+        yield f"the plan is {width:.0f} m wide; it must be in metres, is it in millimetres or another unit?"
     if width < MIN_BUILDING_WIDTH and any(level.walls or level.rooms for level in plan.levels):
-        yield f"the plan is {width:.2g} wide; it must be in metres, is it in degrees or another unit?"
+        yield f"the plan is {width:.2g} m wide; it must be in metres, is it in degrees or another unit?"
     for below, above in pairwise(plan.levels):
         storey = above.elevation - below.elevation
         if storey < 0.0:
             yield f"level {above.id!r} comes after level {below.id!r} and lies below it"
         if storey > MAX_STOREY_HEIGHT:
-            yield (f"level {above.id!r} lies {storey:.0f} above level {below.id!r}; elevations must be in metres, "
+            yield (f"level {above.id!r} lies {storey:.0f} m above level {below.id!r}; elevations must be in metres, "
                    f"are they in millimetres or another unit?")  # fmt: skip
 
 

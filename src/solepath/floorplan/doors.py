@@ -15,6 +15,9 @@ MAX_DOOR_OFFSET = 0.3
 
 A map draws a door on one face of a wall, or between two rooms whose outlines are a wall's thickness apart."""
 
+MIN_DOOR_WIDTH, MAX_DOOR_WIDTH = 0.4, 20.0
+"""Range of the width of a door, m; other values are errors of units."""
+
 MIN_PIECE_LENGTH = 1e-3
 """Length of the shortest gap that is cut and of the shortest piece of wall that stays, m."""
 

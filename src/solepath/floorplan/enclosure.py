@@ -22,6 +22,8 @@ MAX_POINTS, MAX_POINTS_PER_PLAN = 30_000, 500_000
 _CLOSING_DISTANCE = MAX_DOOR_OFFSET + 0.05
 """Largest distance of a wall's end from a door's end at which the two are joined by a closing line, m."""
 
+Cell = tuple[int, int]
+"""Column and row of a point of the lattice."""
 OUTSIDE, ENCLOSED = 0, -1
 """Region of the points outside, and of those within that have no number yet."""
 
@@ -54,23 +56,24 @@ class Enclosure:
         """Ends of walls, doors and closing lines near the outside and near no other of these, m."""
         self._hull = _hull(ends) if self.open_ends else []
 
-    def _point(self, i: int, j: int) -> Point:
+    def point(self, i: int, j: int) -> Point:
+        """Return the place of a point of the lattice, m."""
         return self._left + i * self._space, self._bottom + j * self._space
 
-    def _find_nearest(self, x: float, y: float) -> tuple[int, int]:
+    def _find_nearest(self, x: float, y: float) -> Cell:
         return round((x - self._left) / self._space), round((y - self._bottom) / self._space)
 
-    def _flood(self, first: tuple[int, int], region: int) -> Iterator[tuple[Point, Point]]:
+    def _flood(self, first: Cell, region: int) -> Iterator[tuple[Point, Point]]:
         """Mark the points that no wall or door separates from the first one as of this region.
 
         Yields each of them after the first one, with the point from which it is reached."""
         self._regions[first] = region
         found = [first]
         for i, j in found:  # the list grows in the loop
-            place = self._point(i, j)
+            place = self.point(i, j)
             for near in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)):
                 if self._regions.get(near) == ENCLOSED:
-                    beside = self._point(*near)
+                    beside = self.point(*near)
                     if not self._barriers.crosses(*place, *beside):
                         self._regions[near] = region
                         found.append(near)
@@ -87,13 +90,16 @@ class Enclosure:
                 count += 1
         return count
 
-    def count_regions(self, ring: Ring) -> Counter[int]:
-        """Return of how many points of the lattice in the ring each region is."""
+    def find_points(self, ring: Ring) -> list[Cell]:
+        """Return the points of the lattice in the ring, each by its column and row."""
         lines, (xs, ys) = edges(ring), zip(*ring, strict=True)
         (left, bottom), (right, top) = self._find_nearest(min(xs), min(ys)), self._find_nearest(max(xs), max(ys))
         points = [(i, j) for i in range(left, right + 1) for j in range(bottom, top + 1)]
-        within = [one for one in points if one in self._regions and contains(lines, *self._point(*one))]
-        return Counter([self._regions[one] for one in within])
+        return [one for one in points if one in self._regions and contains(lines, *self.point(*one))]
+
+    def count_regions(self, ring: Ring) -> Counter[int]:
+        """Return of how many points of the lattice in the ring each region is."""
+        return Counter([self._regions[one] for one in self.find_points(ring)])
 
     def _find_open_ends(self, lines: list[Line]) -> Iterator[Point]:
         for line in lines:
@@ -118,7 +124,7 @@ class Enclosure:
         """Return the region of (x, y), m; None where walls and doors separate it from all points around it."""
         i, j = self._find_nearest(x, y)
         for near in ((i, j), (i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
-            if near in self._regions and not self._barriers.crosses(x, y, *self._point(*near)):
+            if near in self._regions and not self._barriers.crosses(x, y, *self.point(*near)):
                 return self._regions[near]
         return None
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from enum import Enum
-from math import dist, fsum, sqrt
+from math import dist, fsum, hypot, sqrt
 
 from ..saving.codec import checksum, save
 from ..types.attrs import evolve, field, frozen, limited, limits
@@ -82,7 +82,7 @@ class Connector:
     @property
     def label(self) -> str:
         """Kind and name, for messages."""
-        return f"{self.kind.value} {self.name!r}"
+        return f"{self.kind.value} {self.name!r}" if self.name else f"{self.kind.value} without a name"
 
 
 @frozen
@@ -115,20 +115,43 @@ def with_rooms(level: Level, rooms: Sequence[tuple[tuple[Point, ...], str]]) -> 
 
 
 @frozen
+class PlanFinding:
+    """One thing that is wrong with a floor plan.
+
+    `text` is a sentence that names level, place and id. `act`: places will be wrong until somebody mends it. `level` is
+    the id of a level and `place` is in m, plan frame, where there is such a place."""
+
+    text: str
+    act: bool = False
+    level: str = ""
+    place: Point | None = None
+
+
+def on_level(level: str, what: str, place: Point | None = None, *, act: bool = True) -> PlanFinding:
+    """Return what is wrong on a level; its sentence begins with the level."""
+    return PlanFinding(f"level {level!r}: {what}", act, level, place)
+
+
+def at(place: Point) -> str:
+    """Return a place, m, for messages."""
+    return f"({place[0]:.1f}, {place[1]:.1f})"
+
+
+@frozen
 class FloorPlan:
     """A building with levels and connectors.
 
     `levels` go from the lowest to the highest. `connectors` join them. `anchor` is None when the position on the Earth
     is unknown; nothing requires it. `heights_known` is False when the file has no elevations and the importer assumed
-    the height between levels: then heights must not be corrected by elevations. `remarks` are lines about faults that
-    the importer tolerated; comparisons of plans ignore them."""
+    the height between levels: then heights must not be corrected by elevations. `remarks` are faults that the
+    importer tolerated; comparisons of plans ignore them."""
 
     name: str
     levels: tuple[Level, ...]
     connectors: tuple[Connector, ...] = ()
     anchor: Anchor | None = None
     heights_known: bool = True
-    remarks: tuple[str, ...] = field(default=(), eq=False)
+    remarks: tuple[PlanFinding, ...] = field(default=(), eq=False)
 
     def __deepcopy__(self, memo: object) -> FloorPlan:
         """Return the plan itself: nothing in it can change, and it may have 100,000 walls."""
@@ -147,7 +170,7 @@ class FloorPlan:
             walls = ((wall.start, wall.end) for wall in level.walls)
             doors = ((door.start, door.end) for door in level.doors)
             for kind, drawn in (("wall", walls), ("room", level.rooms), ("door", doors)):
-                for i, points in enumerate(drawn):
+                for i, points in enumerate(drawn, 1):
                     yield kind, f"level {level.id!r}: {kind} {i}", points
         for connector in self.connectors:
             for stop in connector.stops:
@@ -171,28 +194,34 @@ class FloorPlan:
     def places(self, level: str) -> dict[str, dict[str, Point]]:
         """Return where the rooms, stairs and lifts, and doors of a level are, m, by kind and id.
 
-        An id is a name that no other of its kind has, else the name, or the kind, with a number. The place of a room is
-        inside it, that of stairs or a lift is where a person steps on and off, that of a door is its middle. Raises
-        FloorPlanError when there is no such level."""
+        An id is a name that nothing else on its level has, else the name, or the kind, with a number; stairs and lifts
+        have the same id on all levels. White space in an id is one space. The place of a room is inside it, that of
+        stairs or a lift is where a person steps on and off, that of a door is its middle. Raises FloorPlanError when
+        there is no such level."""
         from .geometry import find_inner_point
 
         drawn = self.level(level)
-        names = drawn.room_names or ("",) * len(drawn.rooms)
-        connectors = make_ids([(one.name, one.kind.value) for one in self.connectors])
+        connectors = self.connector_ids
+        names = [(name, "room") for name in drawn.room_names or ("",) * len(drawn.rooms)]
+        ids = make_ids([*names, *[(door.name, "door") for door in drawn.doors]], connectors)
+        count = len(names)
         return {
             "connector": {name: stop.place for name, one in zip(connectors, self.connectors, strict=True)
                           for stop in one.stops if stop.level == level},
-            "room": dict(zip(make_ids([(name, "room") for name in names]), map(find_inner_point, drawn.rooms),
-                             strict=True)),
-            "door": dict(zip(make_ids([(door.name, "door") for door in drawn.doors]),
-                             [door.middle for door in drawn.doors], strict=True)),
+            "room": dict(zip(ids[:count], map(find_inner_point, drawn.rooms), strict=True)),
+            "door": dict(zip(ids[count:], [door.middle for door in drawn.doors], strict=True)),
         }  # fmt: skip
+
+    @property
+    def connector_ids(self) -> list[str]:
+        """Ids of the stairs and lifts (`places`)."""
+        return make_ids([(one.name, one.kind.value) for one in self.connectors])
 
     def landmark(self, name: str, level: str) -> Point:
         """Return the place of the stairs or lift, the room or the door with this id on a level (`places`), m.
 
         Raises FloorPlanError when there is no such level, or nothing with this id on it."""
-        places = self.places(level)
+        places, name = self.places(level), one_space(name)
         for found in places.values():
             if name in found:
                 return found[name]
@@ -205,7 +234,7 @@ class FloorPlan:
         `level` may be left out when only one level has such a place. `heading` is the wearer's first heading, rad,
         counter-clockwise from +x. In a room the place is uncertain by the size of the room. Raises FloorPlanError when
         there is no such place, or several."""
-        levels = [one.id for one in self.levels] if level is None else [level]
+        levels, name = [one.id for one in self.levels] if level is None else [level], one_space(name)
         on = [one for one in levels if any([name in found for found in self.places(one).values()])]
         if len(on) > 1:
             raise FloorPlanError(f"{name!r} is on several levels: {', '.join(map(repr, on))}")
@@ -214,11 +243,21 @@ class FloorPlan:
         at = (on or levels)[0]
         place = self.landmark(name, at)
         rooms, drawn = self.places(at)["room"], self.level(at)
-        if rooms.get(name) != place:
+        if name not in rooms:
             return Start(at, place, heading)
         ring = drawn.rooms[list(rooms).index(name)]
         # of a rectangle, the mean square distance from its middle is a third of that of its corners
         return Start(at, place, heading, sqrt(fsum([dist(place, corner) ** 2 for corner in ring]) / len(ring) / 3.0))
+
+    @property
+    def has_degrees(self) -> bool:
+        """Whether all that is drawn has longitude and latitude: there is an anchor, and near enough.
+
+        It is computed at each access, in a time that grows with the plan."""
+        from .earth import MAX_ANCHOR_DISTANCE
+
+        farthest = max([hypot(*point) for _, _, points in self.shapes() for point in points], default=0.0)
+        return self.anchor is not None and farthest <= MAX_ANCHOR_DISTANCE
 
     def to_wgs84(self, point: Point) -> tuple[float, float]:
         """Return longitude and latitude, degrees, of a point of the plan, m; right to 0.1 mm within 20 km.
@@ -231,14 +270,25 @@ class FloorPlan:
         return Tangent(self.anchor).degrees(point)
 
 
-def make_ids(names: Sequence[tuple[str, str]]) -> list[str]:
-    """Return an id for each name and kind: a name that is there once, else name or kind with a number."""
-    counts = Counter([name for name, _ in names])
+def one_space(name: str) -> str:
+    """Return a name with one space in place of any white space within it."""
+    return " ".join(name.split())
+
+
+def make_ids(names: Sequence[tuple[str, str]], taken: Sequence[str] = ()) -> list[str]:
+    """Return an id for each name and kind, all different and none of them taken.
+
+    It is a name that is there once, else name or kind with a number. White space in it is one space."""
+    named = [(one_space(name), kind) for name, kind in names]
+    counts = Counter([*taken, *[name for name, _ in named]])
     numbers: Counter[str] = Counter()
     ids = []
-    for name, kind in names:
-        numbers[name or kind] += 1
-        ids.append(name if name and counts[name] == 1 else f"{name or kind} {numbers[name or kind]}")
+    for name, kind in named:
+        one, stem = name, name or kind
+        while not one or counts[one] > (one == name):
+            numbers[stem] += 1
+            one = f"{stem} {numbers[stem]}"
+        ids.append(one)
     return ids
 
 

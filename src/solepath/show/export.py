@@ -28,7 +28,9 @@ from .output import os_errors_naming
 DIGITS = 9
 """Digits after the point of a degree: 0.1 mm. Metres have three."""
 GPX, KML = "http://www.topografix.com/GPX/1/1", "http://www.opengis.net/kml/2.2"
-LOCAL_NOTE = "coordinates are x and y in metres, not longitude and latitude, as there is no plan with an anchor"
+LOCAL_NOTE = (
+    "coordinates are x and y in metres, not longitude and latitude, as there is no plan with an anchor within 20 km"
+)
 """What a GeoJSON file without longitude and latitude says."""
 
 
@@ -55,7 +57,7 @@ class Stretch:
 
 def has_degrees(plan: FloorPlan | None) -> bool:
     """Return whether the points of a way on this plan have longitude and latitude."""
-    return plan is not None and plan.anchor is not None
+    return plan is not None and plan.has_degrees
 
 
 def way_error(ending: str, plan: FloorPlan | None) -> str | None:
@@ -63,7 +65,9 @@ def way_error(ending: str, plan: FloorPlan | None) -> str | None:
     if ending not in WRITERS:
         return f"its name must end in {', '.join(WRITERS)}"
     if ending != ".geojson" and not has_degrees(plan):
-        return f"{ending} needs longitude and latitude, so a floor plan with an anchor; .geojson takes metres"
+        return (
+            f"{ending} needs longitude and latitude, so a floor plan with an anchor within 20 km; .geojson takes metres"
+        )
     return None
 
 
@@ -78,32 +82,35 @@ def write_way(
     """Write the way of a walk, and return the number of its points.
 
     `plan` is the floor plan of the session. `ending` is that of the name without one. `made_by` is as `provenance` says
-    it; GeoJSON has it. The walk keeps all places only with `limit=None`, as `Walk.of` does. Raises ValueError for
-    another ending, and for GPX and KML without an anchor, and OSError, naming the file, when it cannot be written."""
+    it; the file has it, GPX and KML as JSON in their description. The walk keeps all places only with `limit=None`, as
+    `Walk.of` does. Raises ValueError for another ending, and for GPX and KML without an anchor, and OSError, naming the
+    file, when it cannot be written."""
     path = Path(path)
     ending = ending or path.suffix.lower()
     if (error := way_error(ending, plan)) is not None:
         raise ValueError(f"{path}: {error}")
-    stretches = _stretches(walk, plan)
+    degrees = has_degrees(plan)
+    stretches = _stretches(walk, plan, degrees)
     with os_errors_naming(path):
-        WRITERS[ending](path, stretches, has_degrees(plan), made_by or {})
+        WRITERS[ending](path, stretches, degrees, made_by or {})
     return sum([len(one.points) for one in stretches])
 
 
-def _stretches(walk: Walk, plan: FloorPlan | None) -> list[Stretch]:
+def _stretches(walk: Walk, plan: FloorPlan | None, degrees: bool) -> list[Stretch]:
     if plan is None:
-        return [_stretch("", True, [(one.t, *one.position) for one in walk.way], plan)] if walk.way else []
+        return [_stretch("", True, [(one.t, *one.position) for one in walk.way], None)] if walk.way else []
+    anchored = plan if degrees else None
     parts = groupby(walk.placed, lambda one: (one.level, one.decided) if isinstance(one, Placed) else None)
     return [
-        _stretch(*key, [(one.t, *one.position) for one in part if isinstance(one, Placed)], plan)
+        _stretch(*key, [(one.t, *one.position) for one in part if isinstance(one, Placed)], anchored)
         for key, part in parts if key is not None
     ]  # fmt: skip
 
 
 def _stretch(
-    level: str, decided: bool, rows: list[tuple[float, float, float, float]], plan: FloorPlan | None
+    level: str, decided: bool, rows: list[tuple[float, float, float, float]], anchored: FloorPlan | None
 ) -> Stretch:
-    points = [(x, y) if plan is None or plan.anchor is None else plan.to_wgs84((x, y)) for _, x, y, _ in rows]
+    points = [(x, y) if anchored is None else anchored.to_wgs84((x, y)) for _, x, y, _ in rows]
     return Stretch(level, decided, [t for t, *_ in rows], points, [z for *_, z in rows])
 
 
@@ -125,6 +132,7 @@ def _write_geojson(path: Path, stretches: list[Stretch], degrees: bool, made_by:
 def _write_gpx(path: Path, stretches: list[Stretch], degrees: bool, made_by: Mapping[str, Any]) -> None:
     """Write a track for each stretch; it has neither heights above the sea nor times of day, which are not known."""
     root = Element("gpx", version="1.1", creator=f"solepath {installed_version()}".strip(), xmlns=GPX)
+    SubElement(SubElement(root, "metadata"), "desc").text = json.dumps(dict(made_by))
     for one in stretches:
         track = SubElement(root, "trk")
         SubElement(track, "name").text = one.name
@@ -138,6 +146,7 @@ def _write_kml(path: Path, stretches: list[Stretch], degrees: bool, made_by: Map
     """Write a line for each stretch, a point where it has only one, with heights above the ground."""
     root = Element("kml", xmlns=KML)
     document = SubElement(root, "Document", id="solepath-way")
+    SubElement(document, "description").text = json.dumps(dict(made_by))
     for one in stretches:
         placemark = SubElement(document, "Placemark")
         SubElement(placemark, "name").text = one.name

@@ -21,7 +21,7 @@ from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
 from .building import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, RISE, RISERS, STOREY, UPPER
 from .path import ahead
-from .route import TIGHT_TURN_SPEED, Route
+from .route import TIGHT_TURN_SPEED, Route, whole
 
 STAND_TIME = 2.0
 """Time for which the wearer stands at the start and at the end, s."""
@@ -103,7 +103,11 @@ class Course:
         """Walk stairs to `level`: `flights` flights of `risers` risers, of `rise` m, with treads of `going` m.
 
         They begin where the wearer is. Between two flights is a landing: the wearer walks `landing` m on it, turns by
-        `turn` rad along a bend of LANE_OFFSET m, counter-clockwise positive, and walks as far again."""
+        `turn` rad along a bend of LANE_OFFSET m, counter-clockwise positive, and walks as far again. With half a turn,
+        two flights end beside where they began, 2 LANE_OFFSET to the side of the turn; `position` has the end. Raises
+        ValueError for a number of flights or risers that cannot be."""
+        whole("stairs: risers", risers)
+        whole("stairs: flights", flights)
         for number in range(flights):
             if number:
                 self.walk(landing)

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import cos, inf, isfinite, pi, remainder, sin
+from numbers import Integral
 
 import numpy as np
 from attrs import evolve, frozen
@@ -151,8 +152,9 @@ class Route:
         `rise` is the height of a riser, m, `going` the distance between risers, m, and `speed` the horizontal speed
         along the flight, m/s. The first edge is `path.ahead` m ahead of the ankles of a wearer who stands before it.
         The flight is `steps * going` m long."""
-        if steps < 1 or going < 0.25 or not 0.0 < rise <= 0.22:
-            raise ValueError(f"stairs: 1 step or more, going from 0.25 m, rise to 0.22 m, got {steps}, {going}, {rise}")
+        whole("stairs: steps", steps)
+        if going < 0.25 or not 0.0 < rise <= 0.22:
+            raise ValueError(f"stairs: going from 0.25 m, rise to 0.22 m, got {going}, {rise}")
         return self._flight(Stairs(steps, rise if up else -rise, going), speed)
 
     def lift(
@@ -238,6 +240,12 @@ def _positive(name: str, value: float) -> float:
     if not (isfinite(value) and value > 0.0):
         raise ValueError(f"{name} must be a positive number, got {value}")
     return value
+
+
+def whole(name: str, value: int) -> None:
+    """Raise ValueError for a value that is no whole number of 1 or more."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < 1:
+        raise ValueError(f"{name}: a whole number of 1 or more, got {value!r}")
 
 
 def _main_direction(direction: float) -> float:

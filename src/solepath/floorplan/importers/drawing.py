@@ -26,6 +26,7 @@ from ..plan import (
     FloorPlanError,
     Level,
     Line,
+    PlanFinding,
     Point,
     Wall,
     with_rooms,
@@ -122,7 +123,7 @@ class Drawing:
     name: str = ""
     storeys: dict[str, Storey] = field(factory=dict)
     parts: list[ConnectorPart] = field(factory=list)
-    remarks: list[str] = field(factory=list)
+    remarks: list[PlanFinding] = field(factory=list)
 
     def plan(self, anchor: Anchor, height: float) -> FloorPlan:
         """Return the plan; `height` is that assumed from one level to the next, m.
@@ -228,8 +229,7 @@ def _line_sort_key(wall: Wall) -> tuple[float, float, Point, Point]:
 
 def _border_of(walls: list[Wall], doors: list[Door]) -> Border:
     """Return WALL for stairs and cabins with a door, else OPEN, since walls without a door make them unreachable."""
-    middles = [(0.5 * (door.start[0] + door.end[0]), 0.5 * (door.start[1] + door.end[1])) for door in doors]
-    has_door = any(distance(*wall.line, *middle) <= MAX_DOOR_OFFSET for middle in middles for wall in walls)
+    has_door = any(distance(*wall.line, *door.middle) <= MAX_DOOR_OFFSET for door in doors for wall in walls)
     return Border.WALL if has_door else Border.OPEN
 
 

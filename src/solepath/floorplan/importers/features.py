@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain, groupby
 from math import dist
 from typing import Any, NoReturn
 
 from ...types.attrs import evolve, frozen
 from ...types.checking import describe
+from ..doors import MAX_DOOR_OFFSET
 from ..earth import south_west
 from ..geometry import Ring
-from ..plan import Anchor, FloorPlanError, Point, naming
+from ..plan import Anchor, FloorPlanError, PlanFinding, Point, at, naming, on_level
 
 MAX_CORNERS = 1_000_000
 """Largest number of points in a file: more than any building has."""
@@ -87,23 +88,31 @@ class Feature:
         with naming(f"{self.name}:"):
             return [to_plan(position) for position in line]
 
-    def polygons(self, to_plan: ToPlan, remark: Callable[[str], None]) -> list[tuple[Ring, ...]]:
-        """Return the outline and the holes of each polygon of the feature, m, plan frame."""
-        found = [tuple([self._ring(line, to_plan, remark) for line in polygon]) for polygon in self.lines if polygon]
+    def polygons(self, to_plan: ToPlan, level: str, remarks: list[PlanFinding]) -> list[tuple[Ring, ...]]:
+        """Return the outline and the holes of each polygon of the feature, m, plan frame.
+
+        An outline that does not close is added to the remarks."""
+        found = [tuple([self._ring(line, to_plan, level, remarks) for line in part]) for part in self.lines if part]
         return found or self.fail("has no outline")
 
-    def _ring(self, line: tuple[Position, ...], to_plan: ToPlan, remark: Callable[[str], None]) -> Ring:
-        corners = [point for point, _ in groupby(self.convert_line(line, to_plan))]
-        open_by = dist(corners[0], corners[-1]) if corners else 0.0
-        if open_by <= MAX_CLOSING_DISTANCE:
-            corners = corners[:-1]
+    def _ring(self, line: tuple[Position, ...], to_plan: ToPlan, level: str, remarks: list[PlanFinding]) -> Ring:
+        drawn = [point for point, _ in groupby(self.convert_line(line, to_plan))]
+        is_closed = not drawn or dist(drawn[0], drawn[-1]) <= MAX_CLOSING_DISTANCE
+        corners = drawn[:-1] if is_closed else drawn
         if corners and corners[0] == corners[-1]:
-            corners.pop()
+            corners = corners[:-1]
         if len(corners) < 3:
             self.fail("its outline has fewer than three corners")
-        if open_by > MAX_CLOSING_DISTANCE:
-            remark(f"its outline does not close, it ends {open_by:.2f} m from where it begins")
+        if not is_closed:
+            remarks.append(open_outline(level, self.name, drawn))
         return tuple(corners)
+
+
+def open_outline(level: str, name: str, line: Sequence[Point]) -> PlanFinding:
+    """Return that the outline of what has this name does not close; a gap as wide as a wall is thick may be meant."""
+    far = dist(line[0], line[-1])
+    what = f"{name}: its outline does not close, it ends at {at(line[-1])}, {far:.2f} m from where it begins"
+    return on_level(level, what, line[-1], act=far > MAX_DOOR_OFFSET)
 
 
 def parse_json(data: bytes) -> dict[str, Any]:
@@ -132,12 +141,13 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
         raise FloorPlanError("is not a GeoJSON FeatureCollection")
     ids: set[str] = set()
     corners = 0
-    for i, value in enumerate(collection["features"]):
+    for i, value in enumerate(collection["features"], 1):
+        number = f"feature {i} of the file"
         if not isinstance(value, dict) or value.get("type") != "Feature":
-            raise FloorPlanError(f"feature {i} is not a GeoJSON Feature")
+            raise FloorPlanError(f"{number} is not a GeoJSON Feature")
         raw_id = value.get("id", "")
         if not (raw_id is None or isinstance(raw_id, str) or type(raw_id) is int and abs(raw_id) < MAX_NUMBER):
-            raise FloorPlanError(f"feature {i}: its id is {describe(raw_id)}, neither a text nor a whole number")
+            raise FloorPlanError(f"{number}: its id is {describe(raw_id)}, neither a text nor a whole number")
         own_id = "" if raw_id is None else str(raw_id)
         if own_id and own_id in ids:
             raise FloorPlanError(f"two features have the id {own_id!r}")
@@ -145,13 +155,17 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
         properties = value.get("properties")
         properties = {} if properties is None else properties
         if not isinstance(properties, dict):
-            raise FloorPlanError(f"feature {i}: its properties are no object")
+            raise FloorPlanError(f"{number}: its properties are no object")
         kind = (properties if in_properties else value).get(kind_key) if kind_key else ""
         if not isinstance(kind, str):
-            raise FloorPlanError(f"feature {own_id[:60] or i!r}: its {kind_key} is missing")
+            raise FloorPlanError(f"{f'feature {own_id[:60]!r}' if own_id else number}: its {kind_key} is missing")
         word = kind[:20] if kind.isascii() and kind.isalpha() else "feature"
-        name = f"{word} {own_id[:60]!r}" if own_id else f"feature {i}"
-        feature = _with_geometry(Feature(own_id, name, kind, properties), value.get("geometry"))
+        label = own_id or properties.get("name")
+        name = f"{word} {label[:60]!r}" if isinstance(label, str) and label else ""
+        feature = _with_geometry(Feature(own_id, name or number, kind, properties), value.get("geometry"))
+        if not own_id and (first := next(chain(*feature.lines), ())):
+            x, y = first[0]
+            feature = evolve(feature, name=f"{name or word} at ({x:.7g}, {y:.7g})")
         corners += sum(map(len, chain(*feature.lines)))
         if corners > MAX_CORNERS:
             raise FloorPlanError(f"has more than {MAX_CORNERS} points")

@@ -19,6 +19,7 @@ from ..plan import (
     FloorPlan,
     FloorPlanError,
     Level,
+    PlanFinding,
     Wall,
     with_rooms,
 )
@@ -95,7 +96,7 @@ class _GeoJsonReader:
     to_plan: ToPlan
     storeys: dict[str, _Storey] = field(factory=dict)
     stops: dict[tuple[str, str], list[tuple[Feature, ConnectorStop]]] = field(factory=dict)
-    remarks: list[str] = field(factory=list)
+    remarks: list[PlanFinding] = field(factory=list)
 
     def plan(self, name: str, anchor: Anchor | None, heights_known: bool) -> FloorPlan:
         levels = [
@@ -140,9 +141,7 @@ class _GeoJsonReader:
         return walls or feature.fail("has no length")
 
     def _outline(self, feature: Feature, level: str) -> Ring:
-        (rings,) = feature.polygons(
-            self.to_plan, lambda what: self.remarks.append(f"{feature.name} on level {level!r}: {what}")
-        )
+        (rings,) = feature.polygons(self.to_plan, level, self.remarks)
         return join_holes(rings)
 
     def _read_stop(self, feature: Feature, level: str) -> None:
@@ -160,7 +159,8 @@ class _GeoJsonReader:
         key = (feature.kind, feature.text("connector", feature.text("name", "")))
         others = self.stops.setdefault(key, [])
         if any(other.level == level for _, other in others):
-            feature.fail(f"is a second stop of {feature.kind} {key[1]!r} at level {level!r}")
+            named = f" {key[1]!r}" if key[1] else ", which have no name of their own,"
+            feature.fail(f"is a second stop of {feature.kind}{named} at level {level!r}")
         others.append((feature, ConnectorStop(level, place, outline)))
 
     def _connector(self, stops: list[tuple[Feature, ConnectorStop]]) -> Connector:

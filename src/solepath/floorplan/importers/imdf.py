@@ -140,7 +140,7 @@ class _ImdfReader:
             border = Border.SOLID if category in _SOLID else Border.OPEN if category in _OPEN else Border.WALL
             self._space(feature, level, border)
             return
-        for i, rings in enumerate(self._rings(feature)):
+        for i, rings in enumerate(self._rings(feature, level)):
             point = None if i else self._display_point(feature)
             name, group = self._name(feature), f"{feature.id or feature.name}.{i}"
             self._drawing.parts.append(ConnectorPart(kind, name, level, point, rings, group))
@@ -153,7 +153,7 @@ class _ImdfReader:
 
     def _space(self, feature: Feature, level: str, border: Border) -> None:
         name = self._name(feature)
-        self._drawing.storeys[level].spaces += [Space(rings, border, name) for rings in self._rings(feature)]
+        self._drawing.storeys[level].spaces += [Space(rings, border, name) for rings in self._rings(feature, level)]
 
     def _opening(self, feature: Feature) -> None:
         level = self._level(feature)
@@ -163,8 +163,8 @@ class _ImdfReader:
         name = self._name(feature)
         self._drawing.storeys[level].doors += [Door(a, b, name) for a, b in pairwise(points)]
 
-    def _rings(self, feature: Feature) -> list[tuple[Ring, ...]]:
+    def _rings(self, feature: Feature, level: str) -> list[tuple[Ring, ...]]:
         """Return the outline and the holes of each polygon."""
         if feature.geometry not in ("Polygon", "MultiPolygon"):
             feature.fail(f"is no Polygon but a {feature.geometry}")
-        return feature.polygons(self._to_plan, lambda what: self._drawing.remarks.append(f"{feature.name}: {what}"))
+        return feature.polygons(self._to_plan, level, self._drawing.remarks)

@@ -13,11 +13,13 @@ from math import floor, inf
 
 from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_RISE, MIN_RISE
+from ..doors import MAX_DOOR_WIDTH, MIN_DOOR_WIDTH
 from ..earth import Tangent, south_west, to_mm
 from ..geometry import Ring, direction, distance, share_along
-from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point, naming
+from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point, at, naming, on_level
 from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
+from .features import open_outline
 from .osm_file import Element, OsmFile, Refs, find_shapes
 
 BORDERS = {"room": Border.WALL, "corridor": Border.OPEN, "area": Border.FREE, "column": Border.SOLID,
@@ -104,9 +106,6 @@ def parse_length(text: str | None, least: float, most: float) -> float | None:
 
 DEFAULT_DOOR_WIDTH = 1.0
 """Width of a door without a valid width, m."""
-
-MIN_DOOR_WIDTH, MAX_DOOR_WIDTH = 0.4, 20.0
-"""Range of valid widths, m; other values are errors of units and are ignored."""
 
 MAX_NODE_DISTANCE = 0.5
 """Largest distance of a door's node outside any wall from the wall that it belongs to, m."""
@@ -233,9 +232,9 @@ class _OsmReader:
                 self._drawing.storeys[level].doors += doors
 
     def _space(self, way: _Drawn, border: Border) -> None:
-        if way.lines and way.element.tags["indoor"] != "wall":
-            self._drawing.remarks.append(f"{way.element.name}: its outline does not close")
+        open_lines = [self._line(refs) for refs in way.lines if way.element.tags["indoor"] != "wall"]
         for level in way.levels:
+            self._drawing.remarks += [open_outline(level, way.element.name, line) for line in open_lines]
             storey = self._drawing.storeys[level]
             storey.spaces += [Space(rings, border, label_of(way.element)) for rings in self._outlines(way)]
             if border is not Border.FREE:
@@ -307,9 +306,8 @@ class _OsmReader:
             if line is None and node.levels:
                 line = door_beside(place, self._near(place, level), width)
                 if line is None:
-                    x, y = place
-                    remark = f"{element.name}: a door on level {level!r} that is in no wall, at ({x:.1f}, {y:.1f})"
-                    self._drawing.remarks.append(remark)
+                    what = f"{element.name}, a door, at {at(place)} is in no wall"
+                    self._drawing.remarks.append(on_level(level, what, place, act=False))
             if line is not None:
                 self._drawing.storeys[level].doors.append(Door(*line, label))
 

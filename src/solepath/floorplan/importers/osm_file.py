@@ -89,7 +89,7 @@ def convert_collection(collection: dict[str, Any]) -> OsmFile:
         file["node"].setdefault(own, Element("node", own, position, [], [], {}))
         return own
 
-    for number, feature in enumerate(read_features(collection, "", in_properties=True)):
+    for number, feature in enumerate(read_features(collection, "", in_properties=True), 1):
         tags = {
             key: value if isinstance(value, str) else f"{value:g}"
             for key, value in feature.properties.items()

@@ -1,8 +1,9 @@
 """Draws a floor plan as an SVG picture: a panel for each level, +y upwards.
 
-With ids, it has a grid, its levels have scales of their own, and what is wrong with the plan is marked. Otherwise it
-has the track, whose colour changes from the start to the end of the recording. While a place has several candidates,
-they are drawn as dots; the smaller the weight, the fainter the dot. Sizes were chosen by hand and not swept."""
+With ids, it has a grid, grows with the plan, and what is wrong with the plan is marked. An id that would be over
+another one, or over a door, is a dot, which shows it where a pointer is. Otherwise it has the track, whose colour
+changes from the start to the end of the recording. While a place has several candidates, they are drawn as dots; the
+smaller the weight, the fainter the dot. Sizes were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -13,13 +14,13 @@ from pathlib import Path
 from typing import TypeGuard
 from xml.etree.ElementTree import Element, ElementTree, indent
 
-from attrs import define, evolve
+from attrs import define, evolve, field
 
 from ...events import Placed, PlaceLost
-from ...floorplan.findings import PlanFinding
-from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level
+from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, PlanFinding
 from ..output import os_errors_naming
-from .svg import STEPS, View, add, colour_bar, grid, line, px, shade, square_ticks, write
+from .labels import AROUND, Labels, cut
+from .svg import STEPS, Ticks, View, add, colour_bar, grid, line, shade, square_ticks
 
 MAX_LEVEL_WIDTH = 720.0
 """Largest width of the drawing of a level by default, px."""
@@ -58,14 +59,29 @@ PICTURE = (
 )
 STYLE = (
     "<style>.grid{{stroke:#1f2933;stroke-opacity:.12}}.tick{{font-size:10px;fill:#5f6b78}}"
-    ".id{{fill:#1f2933;paint-order:stroke;stroke:white;stroke-opacity:.7;stroke-width:2px}}"
-    ".door{{font-size:.75em;fill:#8a5a17}}.connector{{font-weight:600}}</style>"
+    ".id{{font-size:11px;fill:#1f2933;paint-order:stroke;stroke:white;stroke-opacity:.7;stroke-width:2px}}"
+    ".door{{font-size:9px;fill:#8a5a17}}.connector{{font-weight:600}}</style>"
 )
 """Style of the grid and the ids."""
-ID_HEIGHT, MIN_ID_SIZE = 0.5, 8.0
-"""Height of the letters of an id: as a length of the plan, m, and the least, px; the largest is NAME_SIZE."""
-ID_SHIFTS = {"room": 3.0, "connector": 16.0, "door": -3.0}
-"""How far below its place an id is written, px: below the mark of stairs or a lift, above a door."""
+ID_SCALE, MIN_ID_WIDTH, MAX_ID_WIDTH = 20.0, 900.0, 12_000.0
+"""Size of a metre of a level with ids, px, and the least and the largest size of its longer side, px."""
+ID_LETTER, ID_HEIGHT, MAX_ID_LETTERS = 6.3, 13.0, 28
+"""Width of a letter of an id and its height with the space around it, px; most letters of an id."""
+HEADING_LETTER, TITLE_LETTER = 10.0, 9.0
+"""Width of a letter of the heading, and that of a level's title with the space for its height, px."""
+ID_PLACES = {
+    "connector": [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0)],
+    "room": [(0.0, 0.0), *AROUND[:2]],
+    "door": AROUND[:4],
+}
+"""Where ids may be, the most needed ones first."""
+MARK_SIZE, LINE_SIZE = 7.0, 2.0
+"""Half of the size of a mark and of the width of a door, px, over which no id is."""
+UNNAMED = "<circle cx='{}' cy='{}' r='1.6' fill='{}'><title>{}</title></circle>"
+UNNAMED_COLOUR = "#8a5a17"
+"""Place of an id that has no room, and its colour."""
+TICK_WIDTH = 6.0
+"""Width of a digit of the grid, px."""
 FINDING = (
     "<g transform='translate({} {})'><title>{}</title><circle r='7' fill='#c62828' fill-opacity='.85'/>"
     "<text y='3' font-size='8' font-weight='600' fill='white' text-anchor='middle'>{}</text></g>"
@@ -74,7 +90,9 @@ FINDING = (
 FINDING_COLOUR, FINDING_SHIFT = "#c62828", 12.0
 """Colour of that mark, and how far above the place it is, px."""
 MAX_GRID_LINES, GRID_GAP = 16, 12.0
-"""Largest number of lines of the grid along x, and height of its labels, px."""
+"""Largest number of lines of the grid along x of a small level, and height of its labels, px."""
+GRID_SPACING, MARK_WIDTH, MAX_MARKS = 80.0, 110.0, 6
+"""Least distance of the lines of the grid of a large level, px, width of a word of the legend, px, and most words."""
 TEXT, AREA = "<text x='{}' y='{}'>{}</text>", "<path d='{}' fill='{}'/>"
 END = (
     "<g><circle cx='{}' cy='{}' r='6' fill='{}' stroke='white' stroke-width='2'/><text x='{}' y='{}' font-size='11' "
@@ -109,6 +127,8 @@ class PlanPicture:
     """Whether there are a grid in m, and the ids of rooms, stairs, lifts and doors (`FloorPlan.places`)."""
     findings: Sequence[PlanFinding] = ()
     """What is wrong with the plan: each has its number, from 1 on, at its place."""
+    left_out: int = field(init=False, default=0)
+    """Number of ids in the drawing that have no room."""
 
     @property
     def places(self) -> list[Placed]:
@@ -127,23 +147,28 @@ class PlanPicture:
         levels = self.plan.levels
         views = [self._view([level]) for level in levels] if self.ids else [self._view(levels)] * len(levels)
         view, gap = max(views, key=lambda one: one.width, default=self._view(levels)), PANEL_GAP + GRID_GAP * self.ids
+        digits = [len(words) for one in views if self.ids for words in _ticks(one)[1].values()]
+        margin = max(MARGIN, 12.0 + TICK_WIDTH * max(digits, default=0))
         count = max(len(levels), 1)
         columns = self.columns or min(count, 3)
-        width = 2.0 * MARGIN + columns * view.width + (columns - 1) * PANEL_GAP
+        width = MARGIN + margin + columns * view.width + (columns - 1) * PANEL_GAP
+        width = max(width, 2.0 * MARGIN + MARK_WIDTH * MAX_MARKS * self.ids)
         rows = [views[k : k + columns] for k in range(0, count, columns)]
         heights = [max([one.height for one in row], default=view.height) for row in rows]
         bottom = SPACE_ABOVE + fsum(heights) + len(heights) * gap
         height = bottom + SPACE_BELOW
-        svg = add(Element("figure"), PICTURE, width, height, width, height, title, MARGIN, title)
+        heading, most = cut(title, int(width / HEADING_LETTER)), int(width / columns / TITLE_LETTER)
+        svg = add(Element("figure"), PICTURE, width, height, width, height, title, MARGIN, heading)
         svg.set("xmlns", "http://www.w3.org/2000/svg")
         if self.ids:
             add(svg, STYLE)
+        self.left_out = 0
         for k, level in enumerate(levels):
-            left = MARGIN + (k % columns) * (view.width + PANEL_GAP)
+            left = margin + (k % columns) * (view.width + PANEL_GAP)
             top = SPACE_ABOVE + fsum(heights[: k // columns]) + k // columns * gap
             name = f"level {level.id}" if level.name in ("", level.id) else f"{level.name} ({level.id})"
             panel, box = add(svg, "<g/>"), evolve(views[k], left=left, top=top)
-            self._level(panel, level, box, f"{name}, {level.elevation:.1f} m")
+            self._level(panel, level, box, f"{cut(name, most)}, {level.elevation:.1f} m")
             for number, finding in enumerate(self.findings, 1):
                 if finding.level == level.id and finding.place is not None:
                     x, y = box.at(finding.place)
@@ -158,7 +183,12 @@ class PlanPicture:
         points += [point for level in levels for room in level.rooms for point in room]
         points += [stop.place for one in self.plan.connectors for stop in one.stops if stop.level in shown]
         points += [place.position[:2] for place in self.places]
-        return View.fit(points or [(0.0, 0.0)], self.width, self.height, MARGIN_SHARE, MIN_MARGIN)
+        points = points or [(0.0, 0.0)]
+        width, height = self.width, self.height
+        if self.ids:
+            size = ID_SCALE * max([max(axis) - min(axis) for axis in zip(*points, strict=True)])
+            width = height = min(max(size, MIN_ID_WIDTH), MAX_ID_WIDTH)
+        return View.fit(points, width, height, MARGIN_SHARE, MIN_MARGIN)
 
     def _level(self, panel: Element, level: Level, view: View, title: str) -> None:
         add(
@@ -190,15 +220,43 @@ class PlanPicture:
             )
         self._candidates(panel, level.id, view)
         if self.ids:
-            x, y = view.axes
-            grid(panel, x, y, *square_ticks((x.low, x.high), (y.low, y.high), MAX_GRID_LINES)[:2])
-            panel.set("font-size", px(min(max(ID_HEIGHT * view.scale, MIN_ID_SIZE), NAME_SIZE)))
-            for kind, places in self.plan.places(level.id).items():
-                for name, place in places.items():
-                    write(panel, x(place[0]), y(place[1]) + ID_SHIFTS[kind], name, f"id {kind}")
+            grid(panel, *view.axes, *_ticks(view)[:2])
+            self._ids(panel, level, view)
         else:
             _room_names(panel, level, view)
         self._track(panel, level.id, view)
+
+    def _ids(self, panel: Element, level: Level, view: View) -> None:
+        """Write the ids that have room; the other ones are dots."""
+        places = self.plan.places(level.id)
+        labels = Labels(view.left, view.left + view.width, view.top + view.height, ID_LETTER, ID_HEIGHT)
+        for door in level.doors:
+            xs, ys = zip(*map(view.at, (door.start, door.end)), strict=True)
+            labels.keep((min(xs) - LINE_SIZE, max(xs) + LINE_SIZE, min(ys) - LINE_SIZE, max(ys) + LINE_SIZE))
+        marks = [view.at(place) for place in places["connector"].values()]
+        for one in self.findings:
+            if one.level == level.id and one.place is not None:
+                marks.append((view.at(one.place)[0], view.at(one.place)[1] - FINDING_SHIFT))
+        for x, y in marks:
+            labels.keep((x - MARK_SIZE, x + MARK_SIZE, y - MARK_SIZE, y + MARK_SIZE))
+        for kind, around in ID_PLACES.items():
+            for name, place in places[kind].items():
+                point = view.at(place)
+                if not labels.add(panel, point, cut(name, MAX_ID_LETTERS), f"id {kind}", places=around):
+                    self.left_out += 1
+                    add(panel, UNNAMED, *point, UNNAMED_COLOUR, name)
+
+    def _marks(self) -> dict[str, str]:
+        """Return the colours of the marks that there are, by their names."""
+        kinds = {connector.kind for connector in self.plan.connectors}
+        marks = {kind.value: colour for kind, (colour, _) in CONNECTORS.items() if kind in kinds}
+        if not self.ids:
+            return {"candidate": CANDIDATE_COLOUR} | marks
+        doors = {"door": DOOR_COLOUR} if any(level.doors for level in self.plan.levels) else {}
+        wrong = {"wrong": FINDING_COLOUR} if any(one.place for one in self.findings) else {}
+        return (
+            {"wall": WALL_COLOUR} | doors | marks | ({"id on hover": UNNAMED_COLOUR} if self.left_out else {}) | wrong
+        )
 
     def _candidates(self, panel: Element, level: str, view: View) -> None:
         undecided = [place for place in self.places if not place.decided]
@@ -235,7 +293,9 @@ class PlanPicture:
         """Draw the scale, the times, the meaning of the marks, and an arrow to north if the plan has an anchor.
 
         `scale` is the size of a metre, px; with None there is a grid instead."""
-        if scale is not None:
+        if scale is None:
+            add(svg, TEXT, MARGIN, top + 28.0, "grid: x and y, m")
+        else:
             metres = max([step for step, _ in STEPS if step * scale <= 120.0])
             bar = "<path d='M{} {}v6h{}v-6' fill='none' stroke='#1f2933' stroke-width='1.5'/>"
             add(svg, bar, MARGIN, top + 4.0, metres * scale)
@@ -244,14 +304,19 @@ class PlanPicture:
             colour_bar(svg, TRACK_COLOURS, TIMES_LEFT, top + 2.0, 120.0)
             add(svg, TEXT, TIMES_LEFT, top + 28.0, f"{self.places[0].t:.0f} s")
             add(svg, TEXT, TIMES_LEFT + 90.0, top + 28.0, f"{self.places[-1].t:.0f} s")
-        kinds = {connector.kind for connector in self.plan.connectors}
-        marks = {kind.value: colour for kind, (colour, _) in CONNECTORS.items() if kind in kinds}
-        marks = ({"wrong": FINDING_COLOUR} if self.ids else {"candidate": CANDIDATE_COLOUR}) | marks
-        for k, (word, colour) in enumerate(marks.items()):
-            add(svg, DOT, MARGIN + 5.0 + 110.0 * k, top + 57.0, colour, MARGIN + 15.0 + 110.0 * k, top + 61.0, word)
+        for k, (word, colour) in enumerate(self._marks().items()):
+            left = MARGIN + MARK_WIDTH * k
+            add(svg, DOT, left + 5.0, top + 57.0, colour, left + 15.0, top + 61.0, word)
         if self.plan.anchor is not None:
             bearing = f"{-degrees(self.plan.anchor.bearing):.1f}"
             add(svg, NORTH, width - MARGIN - 16.0, top + 12.0, bearing)
+
+
+def _ticks(view: View) -> tuple[Ticks, Ticks, float]:
+    """Return the grid of a level."""
+    x, y = view.axes
+    spacing = max(MAX_GRID_LINES, int(view.width / GRID_SPACING))
+    return square_ticks((x.low, x.high), (y.low, y.high), spacing)
 
 
 def _is_decided(event: Placed | PlaceLost) -> TypeGuard[Placed]:

@@ -4,25 +4,21 @@ Sizes and limits were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import pairwise
 from math import dist, fsum
 from xml.etree.ElementTree import Element
 
-from attrs import define, evolve, field
+from attrs import evolve
 
 from ....events import Placed
+from ...tables.labels import Labels
 from ...tables.plan import PANEL_GAP, PlanPicture
 from ...tables.summary import end_line
-from ...tables.svg import Point, View, add, grid, line, square_ticks, ticks, write
+from ...tables.svg import View, add, grid, line, square_ticks, ticks, write
 from ..content import ReportContent
 from ..markup import WIDTH, caption, drawing, whole_sentences
 from .axes import PATH
 
-Span = tuple[float, float]
-"""Lower and upper end, px."""
-Box = tuple[float, float, float, float]
-"""Left, right, upper and lower end, px."""
 MAX_HEIGHT = 366.0
 """Largest height of a track on its drawing, px."""
 WIDE_WIDTH, WIDE_HEIGHT = 840.0, 386.0
@@ -35,12 +31,6 @@ MIN_HEIGHT = 118.0
 """Least height of the track on its drawing, px."""
 LETTER_WIDTH, LABEL_HEIGHT = 8.6, 15.0
 """Size of a letter of a label with the space around it, px: the largest letters are 15.6 px high, on a phone."""
-CLEARANCE = 3.0
-"""Least distance of a label from the track, px."""
-PLACES = [(0.0, -1.0), (0.0, 1.0), (1.0, 0.0), (-1.0, 0.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-"""Where a label may be, from its point on the track: so many widths to the right and heights down."""
-FARTHEST = 2
-"""Largest distance at which a place for a label is sought, in its sizes."""
 TOP, LEFT, RIGHT, BOTTOM = 16.0, 40.0, 8.0, 38.0
 """Margins of the drawing of a track, px."""
 
@@ -76,7 +66,7 @@ def _draw(parent: Element, name: str, title: str, report: ReportContent, width: 
     grid(svg, x, y, *square_ticks((x.low, x.high), (y.low, y.high))[:2])
     write(svg, 0.5 * (x.start + x.end), y.start + 33.0, "x and y, m", "label")
     add(svg, PATH, line(map(view.at, way)), "way")
-    labels = _Labels([view.at(one) for one in way], width - RIGHT, y.start)
+    labels = Labels(LEFT, width - RIGHT, y.start, LETTER_WIDTH, LABEL_HEIGHT, [view.at(one) for one in way])
     for word, place in (("start", way[0]), ("end", way[-1])):
         point = view.at(place)
         add(svg, "<circle cx='{}' cy='{}' r='4.5' class='{}'/>", *point, word)
@@ -85,84 +75,7 @@ def _draw(parent: Element, name: str, title: str, report: ReportContent, width: 
     return svg
 
 
-def _box(middle: Point, width: float) -> Box:
-    """Return the box of a label."""
-    x, y = middle
-    return x - 0.5 * width, x + 0.5 * width, y - 8.0, y + 8.0
-
-
-@define
-class _Labels:
-    """The labels of a track: none is over another one, or over the track if there is a place that is free."""
-
-    way: Sequence[Point]
-    """Points of the track, px."""
-    right: float
-    """Right end of the grid, px; its left end is at LEFT."""
-    bottom: float
-    """Lower end of the grid, px."""
-    boxes: list[Box] = field(factory=list)
-    """Left, right, upper and lower ends of what has a label, px."""
-
-    def add(self, svg: Element, point: Point, words: str, kind: str, *, is_needed: bool = False) -> bool:
-        """Write words beside a point at the first free place; return whether they were written.
-
-        Words that are needed go beyond another part of the track, or over it, if there is no such place."""
-        width, (x, y) = LETTER_WIDTH * len(words), point
-        middles = [
-            (x + distance * right * (0.5 * width + 8.0), y + distance * down * LABEL_HEIGHT)
-            for distance in range(1, FARTHEST + 1)
-            for right, down in PLACES
-        ]
-        free = [one for one in middles if self._is_free(_box(one, width))]
-        known = [one for one in free if self._is_beside(point, one)] or (free if is_needed else [])
-        if is_needed:
-            known.append((min(max(x, LEFT + 0.5 * width), self.right - 0.5 * width), y - LABEL_HEIGHT))
-        if known:
-            self.boxes.append(_box(known[0], width))
-            write(svg, known[0][0], known[0][1] + 4.5, words, kind)
-        return bool(known)
-
-    def _is_beside(self, point: Point, middle: Point) -> bool:
-        """Return whether no other part of the track is between a point of it and the middle of its label."""
-        x, y = [0.7 * a + 0.3 * b for a, b in zip(point, middle, strict=True)]
-        return not any([_meet((x, y), middle, a, b) for a, b in pairwise(self.way)])
-
-    def _is_free(self, box: Box) -> bool:
-        left, right, upper, lower = box
-        if left < LEFT or right > self.right or upper < 0.0 or lower > self.bottom:
-            return False
-        if any([left < b and a < right and upper < d and c < lower for a, b, c, d in self.boxes]):
-            return False
-        ends = (left - CLEARANCE, right + CLEARANCE), (upper - CLEARANCE, lower + CLEARANCE)
-        return not any([_crosses(a, b, *ends) for a, b in pairwise(self.way)])
-
-
-def _meet(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Return whether the line from `a` to `b` and that from `c` to `d` cross."""
-
-    def side(one: Point, other: Point, third: Point) -> bool:
-        way, to = (other[0] - one[0], other[1] - one[1]), (third[0] - one[0], third[1] - one[1])
-        return way[0] * to[1] > way[1] * to[0]
-
-    return side(a, b, c) is not side(a, b, d) and side(c, d, a) is not side(c, d, b)
-
-
-def _crosses(a: Point, b: Point, across: Span, down: Span) -> bool:
-    """Return whether the line from `a` to `b` goes through a box, px (Liang and Barsky 1984, ACM Trans. Graph. 3)."""
-    first, last = 0.0, 1.0
-    for start, end, (low, high) in ((a[0], b[0], across), (a[1], b[1], down)):
-        way = end - start
-        if way == 0.0:
-            if not low <= start <= high:
-                return False
-            continue
-        enter, leave = sorted(((low - start) / way, (high - start) / way))
-        first, last = max(first, enter), min(last, leave)
-    return first <= last
-
-
-def _times(svg: Element, report: ReportContent, view: View, labels: _Labels) -> None:
+def _times(svg: Element, report: ReportContent, view: View, labels: Labels) -> None:
     """Write up to seven times along the track, those that have room."""
     times = [(report.clock.axis_value(event.t), event.position[:2]) for event in report.track]
     for value, words in ticks(times[0][0], times[-1][0], 7).items():
