@@ -11,7 +11,7 @@ from ..events import Defect, DefectFound, FeetSwapped, FootResumed, FootSilent, 
 from ..foot.view import FootView
 from ..types import OTHER, Foot, Layout, PerFoot, Quat, Vec2, Vec3, per_foot
 from ..types.attrs import ROW_SIZE, define, field, frozen, state, stateful
-from ..types.vector import ZERO, add, cross, dot, rotate_back, sub
+from ..types.vector import UP, ZERO, add, cross, dot, rotate_back, sub
 from .part import Inputs, LayoutReported, Outputs, Part, PartOutput
 
 # Integral of a foot's angular rate over the last second or two, which `Sides` uses.
@@ -39,20 +39,16 @@ class RateIntegral:
         """Add an angular rate, rad/s, at `t`, s; `dt`, s, is the time since the newest instant.
 
         When there are `MAX_INSTANTS` instants, the oldest eighth is discarded."""
-        x, y, z = self.turn
-        gx, gy, gz = gyro
-        x, y, z = self.turn = (x + dt * gx, y + dt * gy, z + dt * gz)
-        self.t = t
+        self.t, self.turn = t, add(self.turn, gyro, dt)
         kept = self.instants
         if len(kept) >= MAX_INSTANTS * INSTANT.size:
             kept = kept[MAX_INSTANTS // 8 * INSTANT.size :]
-        self.instants = kept + INSTANT.pack(t, x, y, z)
+        self.instants = kept + INSTANT.pack(t, *self.turn)
 
     def turns_between(self, i: int, j: int) -> list[Vec3]:
         """Return the turn since instant `i` at each instant from `i` to before `j`, rad."""
         rows = list(INSTANT.iter_unpack(self.instants))
-        _, ax, ay, az = rows[i]
-        return [(x - ax, y - ay, z - az) for _, x, y, z in rows[i:j]]
+        return [sub((x, y, z), rows[i][1:]) for _, x, y, z in rows[i:j]]
 
 
 # Detection of exchanged feet: the sensors of the left and the right foot are swapped.
@@ -78,7 +74,6 @@ class RateIntegral:
 # wrong sign), the motion is mirrored and a left foot looks like a right foot. That wrong data is also reported as
 # exchanged feet.
 
-UPWARDS: Vec3 = (0.0, 0.0, 1.0)
 SAMPLE_INTERVAL = 0.0195
 """Shortest interval at which the angular rate is integrated, s: about 50 Hz."""
 MAX_GAP = 0.11
@@ -252,7 +247,7 @@ def _add_landing(side: SwapEvidence, stride: StrideTaken, attitude: Quat) -> Non
     if side.left_axis is not None:
         axis = add(side.left_axis, sub(axis, side.left_axis), AXIS_WEIGHT)
     side.left_axis = axis
-    forward = cross(axis, rotate_back(attitude, UPWARDS))
+    forward = cross(axis, rotate_back(attitude, UP))
     length = hypot(*forward)
     if length <= 0.5:  # the axis is nearly vertical
         return

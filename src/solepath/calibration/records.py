@@ -9,6 +9,7 @@ from typing import Any
 
 from ..types import Floats, Foot, Layout, Sample, Vec2, Vec3, WalkingMode
 from ..types.attrs import COUNT, evolve, field, fields, frozen, limited, limits
+from ..types.vector import dot, sub
 
 MAX_CELLS = 4096
 """Largest number of cells of an insole."""
@@ -159,9 +160,8 @@ class TriadCalibration:
 
     def correct(self, reading: Vec3) -> Vec3:
         """Return the true value for a reading."""
-        (a, b, c), (xx, xy, xz, yx, yy, yz, zx, zy, zz) = self.bias, self.matrix
-        x, y, z = reading[0] - a, reading[1] - b, reading[2] - c
-        return xx * x + xy * y + xz * z, yx * x + yy * y + yz * z, zx * x + zy * y + zz * z
+        v, (xx, xy, xz, yx, yy, yz, zx, zy, zz) = sub(reading, self.bias), self.matrix
+        return dot((xx, xy, xz), v), dot((yx, yy, yz), v), dot((zx, zy, zz), v)
 
     def contradiction(self) -> str | None:
         """Return which element of `matrix` is too far from that of a sensor without errors."""

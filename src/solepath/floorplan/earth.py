@@ -10,7 +10,7 @@ from cmath import rect
 from math import atan2, cos, degrees, hypot, isfinite, pi, radians, sin, sqrt
 
 from ..types import Vec2, Vec3
-from ..types.vector import dot, pair, sub
+from ..types.vector import add, dot, pair, sub
 from .frame import MAX_LATITUDE, Anchor, FloorPlanError, Point
 
 _A = 6378137.0
@@ -55,7 +55,7 @@ class Tangent:
         a = up[0] ** 2 + up[1] ** 2 + up[2] ** 2 / (1.0 - _E2)
         b = up[0] * x + up[1] * y + up[2] * z / (1.0 - _E2)
         height = (sqrt(b * b - a * (x * x + y * y + z * z / (1.0 - _E2) - _A * _A)) - b) / a
-        x, y, z = x + height * up[0], y + height * up[1], z + height * up[2]
+        x, y, z = add((x, y, z), up, height)
         return degrees(atan2(y, x)), degrees(atan2(z, (1.0 - _E2) * hypot(x, y)))
 
     def place(self, position: Point) -> Point:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from ..types import Quat, Vec3
 from ..types.attrs import define, field
-from ..types.vector import GRAVITY, TIME_EPSILON, ZERO, levelling
+from ..types.vector import GRAVITY, TIME_EPSILON, ZERO, add, dot, levelling, scaled, sub
 from .navigate.bias import REST_SPAN, BiasFilter, RestSpan
 
 COARSEST_COUNT = 0.7
@@ -64,36 +64,30 @@ class SampleSpan:
 
     def add(self, acc: Vec3, gyro: Vec3) -> None:
         """Add one sample: acc in m/s^2, gyro in rad/s."""
-        ax, ay, az = acc
-        gx, gy, gz = gyro
-        x, y, z = self.acc
-        self.acc = (x + ax, y + ay, z + az)
-        x, y, z = self.gyro
-        self.gyro = (x + gx, y + gy, z + gz)
-        self.acc_squares += ax * ax + ay * ay + az * az
-        self.gyro_squares += gx * gx + gy * gy + gz * gz
+        self.acc, self.gyro = add(self.acc, acc), add(self.gyro, gyro)
+        self.acc_squares += dot(acc, acc)
+        self.gyro_squares += dot(gyro, gyro)
         self.count += 1
 
     def means(self) -> tuple[Vec3, Vec3]:
         """Return the mean acc, m/s^2, and the mean gyro, rad/s."""
         k = 1.0 / self.count
-        (ax, ay, az), (gx, gy, gz) = self.acc, self.gyro
-        return (ax * k, ay * k, az * k), (gx * k, gy * k, gz * k)
+        return scaled(self.acc, k), scaled(self.gyro, k)
 
     def variances(self) -> tuple[float, float]:
         """Return the variances of acc, (m/s^2)^2, and of gyro, (rad/s)^2, each summed over the axes."""
-        (ax, ay, az), (gx, gy, gz) = self.means()
+        acc, gyro = self.means()
         return (
-            max(0.0, self.acc_squares / self.count - (ax * ax + ay * ay + az * az)),
-            max(0.0, self.gyro_squares / self.count - (gx * gx + gy * gy + gz * gz)),
+            max(0.0, self.acc_squares / self.count - dot(acc, acc)),
+            max(0.0, self.gyro_squares / self.count - dot(gyro, gyro)),
         )
 
 
 def amount_of_motion(span: SampleSpan) -> float:
     """Return how much the foot moves in a span, apart from a steady specific force, (m/s^2)^2."""
     acc_variance, gyro_variance = span.variances()
-    _, (x, y, z) = span.means()
-    return acc_variance + (x * x + y * y + z * z + gyro_variance) / (RATE_PER_ACC * RATE_PER_ACC)
+    _, rate = span.means()
+    return acc_variance + (dot(rate, rate) + gyro_variance) / (RATE_PER_ACC * RATE_PER_ACC)
 
 
 @define
@@ -149,15 +143,15 @@ class Levelling:
         short_span.add(acc, gyro)
         if t - self.short_span_start < SHORT_SPAN - TIME_EPSILON or short_span.count < 2:
             return None
-        (ax, ay, az), _ = short_span.means()
-        gravity_difference = (ax * ax + ay * ay + az * az) ** 0.5 - GRAVITY
+        force, _ = short_span.means()
+        gravity_difference = dot(force, force) ** 0.5 - GRAVITY
         motion = amount_of_motion(short_span) + gravity_difference * gravity_difference
         self.short_span = SampleSpan()
         self.short_span_start = t
         if motion >= self.least_motion:
             return None
         self.least_motion = motion
-        return levelling((ax, ay, az)), min(max(STANCE_TILT_SIGMA, motion**0.5 / GRAVITY), MOVING_TILT_SIGMA)
+        return levelling(force), min(max(STANCE_TILT_SIGMA, motion**0.5 / GRAVITY), MOVING_TILT_SIGMA)
 
 
 @define
@@ -195,8 +189,7 @@ class Rest:
 
     def calibrate(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
         """Return acc, m/s^2, and gyro, rad/s, with scale and bias applied."""
-        k, (bx, by, bz) = self.scale, self.bias
-        return (acc[0] * k, acc[1] * k, acc[2] * k), (gyro[0] - bx, gyro[1] - by, gyro[2] - bz)
+        return scaled(acc, self.scale), sub(gyro, self.bias)
 
     def update(self, t: float, acc: Vec3, gyro: Vec3) -> bool:
         """Add one sample without calibration; return whether a span of rest has just ended."""
@@ -233,7 +226,7 @@ class Rest:
 
     def _end_span(self, t: float) -> bool:
         """Learn from a span if the foot was at rest, and start the next one; return whether it was at rest."""
-        (ax, ay, az), rate = self.span.means()
+        force, rate = self.span.means()
         acc_variance, gyro_variance = self.span.variances()
         blocks = self.blocks
         self._start_span(t)
@@ -244,7 +237,7 @@ class Rest:
         if max([abs(value - bias) for value, bias in zip(rate, self.bias, strict=True)]) > limit:
             self.bias_filter.end_rest()
             return False
-        magnitude = (ax * ax + ay * ay + az * az) ** 0.5
+        magnitude = dot(force, force) ** 0.5
         scale = GRAVITY / magnitude if magnitude > 0.0 else 0.0
         spans = min(self.count + 1, MOST_REST_SPANS)
         if LEAST_SCALE < scale < LARGEST_SCALE and (
@@ -252,7 +245,7 @@ class Rest:
         ):
             self.scale += (scale - self.scale) / spans
         k = 1.0 / magnitude if magnitude > 0.0 else 0.0
-        self.bias_filter.add(RestSpan(t, rate, _means_of(blocks), (k * ax, k * ay, k * az)))
+        self.bias_filter.add(RestSpan(t, rate, _means_of(blocks), scaled(force, k)))
         self.bias = self.bias_filter.bias.value
         self.count += 1
         return True
@@ -260,11 +253,10 @@ class Rest:
 
 def _means_of(blocks: list[tuple[int, Vec3]]) -> tuple[Vec3, ...]:
     """Return the mean rate of each block, rad/s."""
-    means, before, (x, y, z) = [], 0, ZERO
-    for count, (gx, gy, gz) in blocks:
-        k = 1.0 / (count - before)
-        means.append(((gx - x) * k, (gy - y) * k, (gz - z) * k))
-        before, (x, y, z) = count, (gx, gy, gz)
+    means, before, last = [], 0, ZERO
+    for count, gyro in blocks:
+        means.append(scaled(sub(gyro, last), 1.0 / (count - before)))
+        before, last = count, gyro
     return tuple(means)
 
 
@@ -313,8 +305,8 @@ class WalkScale:
             return
         motion = amount_of_motion(span)
         if motion < self.least_motion:
-            (x, y, z), _ = span.means()
-            self.least_motion, self.force = motion, (x * x + y * y + z * z) ** 0.5
+            force, _ = span.means()
+            self.least_motion, self.force = motion, dot(force, force) ** 0.5
         self.span = SampleSpan()
         self.span_start = t
 

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from ..types import Quat, Vec3
 from ..types.vector import (
     GRAVITY,
+    UP,
     ZERO,
     add,
     dot,
@@ -54,8 +55,6 @@ LARGEST_MISMATCH = 60.0
 With a larger mismatch before or after the gap, a straight line is the better estimate."""
 FASTEST_FOOT = 4.0
 """Largest mean speed of a foot over a gap, m/s."""
-UP_VECTOR = (0.0, 0.0, 1.0)
-"""Up as a unit vector, navigation frame."""
 
 
 class Infill(NamedTuple):
@@ -147,12 +146,12 @@ def _match_moment(template_moments: list[StrideMoment], corrector: Corrector, si
     if rate is None:
         return since, 0.0
     least_mismatch, best_since = 1e12, since
-    up, speed = rotate_back(corrector.attitude, UP_VECTOR), hypot(*corrector.velocity)
+    up, speed = rotate_back(corrector.attitude, UP), hypot(*corrector.velocity)
     for moment in template_moments:
         if abs(moment.since - since) < LARGEST_TIME_SHIFT:
             d = sub(rate, moment.rate)
             moment_mismatch = dot(d, d) / RATE_SIGMA**2 + ((moment.since - since) / TIME_SHIFT_SIGMA) ** 2
-            d = sub(up, rotate_back(moment.attitude, UP_VECTOR))
+            d = sub(up, rotate_back(moment.attitude, UP))
             moment_mismatch += dot(d, d) / TILT_SIGMA**2
             moment_mismatch += ((speed - hypot(*moment.velocity)) / SPEED_SIGMA) ** 2
             if moment_mismatch < least_mismatch:

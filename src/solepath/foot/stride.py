@@ -9,9 +9,8 @@ from ..events import Flaw, StrideFeatures, StrideTaken
 from ..events.foot import LONGEST_HARMLESS_GAP, is_harmless
 from ..types import Foot, Quat, Vec2, Vec3
 from ..types.attrs import define, field
-from ..types.vector import GRAVITY, IDENTITY, SPLIT, ZERO, dot, heading_turned, rotate_back, sub, to_float32
+from ..types.vector import GRAVITY, IDENTITY, SPLIT, UP, ZERO, dot, heading_turned, rotate_back, sub, to_float32
 from .navigate.corrector import Corrector
-from .navigate.level import UP_VECTOR
 from .rhythm import follow
 from .view import FASTEST_RUN
 from .world import Covariance3, World
@@ -388,7 +387,7 @@ class StrideBuilder:
 
 def _tilt(before: Quat, after: Quat) -> float:
     """Return the angle between the directions of up in the sensor in two attitudes, rad."""
-    cosine = dot(rotate_back(before, UP_VECTOR), rotate_back(after, UP_VECTOR))
+    cosine = dot(rotate_back(before, UP), rotate_back(after, UP))
     return acos(max(-1.0, min(1.0, cosine)))
 
 

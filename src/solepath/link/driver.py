@@ -122,12 +122,6 @@ class Reading:
         return None if scale > 0.0 else f".known.acc_range is {scale:g} g; it is above 0"
 
 
-def scaled(counts: Vec3, scale: float) -> Vec3:
-    """Return three counts times the value of one."""
-    x, y, z = counts
-    return (x * scale, y * scale, z * scale)
-
-
 Known = Mapping[str, float]
 """Numbers from earlier values of a device (`Reading.known`), by name."""
 Reader = Callable[[Any, Known], Reading]

@@ -19,6 +19,8 @@ IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
 """Quaternion of no rotation."""
 ZERO: Vec3 = (0.0, 0.0, 0.0)
 """The zero vector."""
+UP: Vec3 = (0.0, 0.0, 1.0)
+"""Unit vector upwards, in a frame with z up."""
 
 
 SPLIT = 2.0**29 + 1.0
@@ -43,6 +45,11 @@ def sub(a: Vec3, b: Vec3) -> Vec3:
 def add(a: Vec3, b: Vec3, k: float = 1.0) -> Vec3:
     """Return a + k b."""
     return (a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2])
+
+
+def scaled(v: Vec3, k: float) -> Vec3:
+    """Return k v."""
+    return (v[0] * k, v[1] * k, v[2] * k)
 
 
 def pair(z: complex) -> Vec2:
@@ -113,12 +120,7 @@ def rotate(q: Quat, v: Vec3) -> Vec3:
 
 def rotate_back(q: Quat, v: Vec3) -> Vec3:
     """Return q* v q: world coordinates to sensor coordinates when q is sensor to world."""
-    w, x, y, z = q
-    vx, vy, vz = v
-    tx = 2.0 * (z * vy - y * vz)
-    ty = 2.0 * (x * vz - z * vx)
-    tz = 2.0 * (y * vx - x * vy)
-    return (vx + w * tx - y * tz + z * ty, vy + w * ty - z * tx + x * tz, vz + w * tz - x * ty + y * tx)
+    return rotate(conjugate(q), v)
 
 
 def turned(v: Vec3, yaw: float) -> Vec3:
@@ -130,7 +132,7 @@ def turned(v: Vec3, yaw: float) -> Vec3:
 def from_rotation_vector(r: Vec3) -> Quat:
     """Return the rotation by |r| rad about r."""
     x, y, z = r
-    angle = sqrt(x * x + y * y + z * z)
+    angle = sqrt(dot(r, r))
     if angle < 1e-9:
         return normalise((1.0, 0.5 * x, 0.5 * y, 0.5 * z))
     k = sin(0.5 * angle) / angle
@@ -154,7 +156,7 @@ def tipped(q: Quat, tx: float, ty: float, tz: float = 0.0) -> Quat:
 def levelling(acc: Vec3) -> Quat:
     """Return the smallest rotation that takes the specific force `acc` at rest to straight up; heading stays."""
     x, y, z = acc
-    length = sqrt(x * x + y * y + z * z)
+    length = sqrt(dot(acc, acc))
     if length == 0.0:
         return IDENTITY
     x, y, z = x / length, y / length, z / length
@@ -171,7 +173,6 @@ def wrap_angle(angle: float) -> float:
 
 def heading_turned(before: Quat, after: Quat) -> float:
     """Return the twist about the vertical from `before` to `after`, rad, counter-clockwise positive, in (-pi, pi]."""
-    aw, ax, ay, az = after
-    w, x, y, z = before
-    turn = 2.0 * atan2(-aw * z - ax * y + ay * x + az * w, aw * w + ax * x + ay * y + az * z)
+    w, _, _, z = multiply(after, conjugate(before))
+    turn = 2.0 * atan2(z, w)
     return turn - 2.0 * pi if turn > pi else turn + 2.0 * pi if turn <= -pi else turn

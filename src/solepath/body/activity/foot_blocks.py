@@ -258,8 +258,7 @@ class FootBlocks:
         `velocity`, m/s, z up, is that of the foot after it; None when it is not known."""
         x, y, z = acc
         square = x * x + y * y + z * z
-        a, b, c = self.total
-        self.total = (a + x, b + y, c + z)
+        self.total = add(self.total, acc)
         self.count += 1
         self.force += sqrt(square)
         self.squares += square

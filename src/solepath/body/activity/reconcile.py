@@ -13,11 +13,10 @@ from math import cos, fsum, inf
 
 from ...events import FootFlat, GaitEvent, HeelOff, HeelStrike, StrideTaken, ToeOff
 from ...foot.bearing import LONGEST_WAIT, MOST_WAITING, USUAL_TILT
-from ...foot.navigate.level import UP_VECTOR
 from ...foot.stride import RESTING_RATE
 from ...types import Activity, Foot, Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import TIME_EPSILON, dot, rotate_back
+from ...types.vector import TIME_EPSILON, UP, dot, rotate_back
 from ..gait.cycles import MAX_PHASE_TIME
 from .chain import ELEVATOR_ACTIVITIES
 from .foot_blocks import BLOCK_DURATION, MOVING_VARIANCE, ActivityBlock
@@ -116,7 +115,7 @@ class Strides:
             lifted = times.get(HeelOff.__name__, event.t)
             if LEAST_LIFT + TIME_EPSILON < event.t - lifted < LONGEST_LIFT + TIME_EPSILON:
                 self.moved.append((lifted, event.t))
-                up = rotate_back(attitude, UP_VECTOR)
+                up = rotate_back(attitude, UP)
                 if dot(up, self.lying.get(event.foot, up)) < cos(USUAL_TILT):
                     self.tilted.append((lifted, event.t))
                 self.lying[event.foot] = up

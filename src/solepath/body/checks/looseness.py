@@ -10,6 +10,7 @@ from ...events import Defect, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, PerFoot, Site, per_foot
 from ...types.attrs import define, state, stateful
+from ...types.vector import dot
 from ..part import Inputs, Outputs, Part, PartOutput
 from .stances import Finding
 
@@ -77,8 +78,7 @@ class Looseness(Part):
             if not isinstance(event, StrideTaken) or view is None or view.after is None:
                 continue
             this, other = self.feet[event.foot], self.feet[OTHER[event.foot]]
-            x, y, z = view.after.velocity_error
-            this.add(x * x + y * y + z * z)
+            this.add(dot(view.after.velocity_error, view.after.velocity_error))
             compares = min(this.count, other.count) >= FIRST_STRIDES + RECENT_STRIDES and not this.reported
             is_unusual = this.recent > LEAST_ERROR * LEAST_ERROR and this.exceeds(UNUSUAL)
             if compares and is_unusual and not other.exceeds(USUAL):

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ...events import Defect, StrideTaken
 from ...types import Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY
+from ...types.vector import GRAVITY, dot
 from .stances import Finding
 
 # Detection of a sensor whose range is too small for the motion, from peaks that end at the same value.
@@ -217,7 +217,7 @@ class RateCheck:
             return None
         self.skips = SKIPPED_BLOCKS if self.had_none else 0
         # while a foot stands, the values of a coarse or silent sensor repeat by themselves
-        fast = [x * x + y * y + z * z > REPEAT_RATE * REPEAT_RATE for x, y, z in gyros[1:]]
+        fast = [dot(gyro, gyro) > REPEAT_RATE * REPEAT_RATE for gyro in gyros[1:]]
         self.acc_repeats += [*map(and_, fast, map(eq, accs, accs[1:]))].count(True)
         self.gyro_repeats += [*map(and_, fast, map(eq, gyros, gyros[1:]))].count(True)
         self.moving += fast.count(True)
@@ -371,8 +371,7 @@ class GravityCheck:
         """Add the mean specific force of a stance, m/s^2, and its motion, rad/s; return the defect that stances show.
 
         A foot that turns in stance, as a runner's, has more than 1 g, never much less."""
-        x, y, z = acc
-        norm = (x * x + y * y + z * z) ** 0.5
+        norm = dot(acc, acc) ** 0.5
         if motion > STILL_MOTION and (
             norm > (1.0 + TOLERANCE) * GRAVITY or (1.0 + TOLERANCE < norm / IN_G < LARGEST_IN_RUN and not self._walks)
         ):

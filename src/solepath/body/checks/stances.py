@@ -14,6 +14,7 @@ from ...events import Defect, DefectFound
 from ...foot.stride import RESTING_RATE, RESTING_SHARE
 from ...types import SITE_OF_FOOT, Floats, Foot, Vec3
 from ...types.attrs import define, field
+from ...types.vector import scaled
 
 # The finding of a check of a foot's sensors.
 
@@ -302,5 +303,4 @@ class StanceFinder:
 def _mean_acc(intervals: list[Interval]) -> Vec3:
     """Return the mean specific force of some intervals, m/s^2."""
     _, _, _, _, x, y, z = [sum(values) for values in zip(*intervals, strict=True)]  # whole numbers
-    k = FORCE / len(intervals)
-    return k * x, k * y, k * z
+    return scaled((x, y, z), FORCE / len(intervals))

@@ -29,7 +29,7 @@ from ...events import StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Quat, Vec2, Vec3, per_foot
 from ...types.attrs import define, field
-from ...types.vector import ZERO, add, heading_turned, pair, rotate, turned, wrap_angle
+from ...types.vector import ZERO, add, dot, heading_turned, pair, rotate, scaled, turned, wrap_angle
 from .common_error import HEADING, NO_MOVE, CommonError, Move, Term
 
 MICRO = 1e6
@@ -131,13 +131,12 @@ class StanceField:
 
     def add_sample(self, view: FootView, mag: Vec3) -> None:
         """Add a sample of a foot that stands, with the flux density `mag`, T, sensor frame."""
-        x, y, z = mag
-        x, y, z = rotate(view.attitude, (MICRO * x, MICRO * y, MICRO * z))
-        if not x * x + y * y + z * z < ABSURD_FLUX * ABSURD_FLUX:
-            x, y, z = ABSURD_FLUX, 0.0, 0.0
+        flux = rotate(view.attitude, scaled(mag, MICRO))
+        if not dot(flux, flux) < ABSURD_FLUX * ABSURD_FLUX:
+            flux = ABSURD_FLUX, 0.0, 0.0
         if view.north is not None:
             self.north = view.north
-        self.count, self.sum, self.attitude = self.count + 1, add(self.sum, (x, y, z)), view.attitude
+        self.count, self.sum, self.attitude = self.count + 1, add(self.sum, flux), view.attitude
 
     def take(self) -> tuple[Vec3, float] | None:
         """Return the stance that has ended and forget its samples; None if it had none.

@@ -20,7 +20,7 @@ from ...foot.view import LONGEST_STRIDE, FootPose, FootView
 from ...foot.world import Covariance2, Covariance3
 from ...types import OTHER, Foot, PerFoot, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen
-from ...types.vector import ZERO, add, sub, turned
+from ...types.vector import ZERO, add, scaled, sub, turned
 from ..part import Inputs, Outputs, Position, TrackPart
 
 ABSENCE_TIME = 1.0
@@ -306,8 +306,7 @@ class MeanOfFeet(TrackPart):
         one, two = [track.separation for track in self.tracks.values()]
         if one is None or two is None:
             return ZERO
-        k, (x, y, z) = -0.25 if foot is Foot.LEFT else 0.25, add(one, two)
-        return (k * x, k * y, k * z)
+        return scaled(add(one, two), -0.25 if foot is Foot.LEFT else 0.25)
 
     def _start_return(self, foot: Foot) -> None:
         """Mark a foot as unplaced at the other foot's position, in case the other foot becomes absent."""

@@ -18,7 +18,7 @@ from math import sqrt
 
 from ...types import Phase, Vec3
 from ...types.attrs import define, field
-from ...types.vector import TIME_EPSILON, ZERO, add, dot, sub
+from ...types.vector import TIME_EPSILON, ZERO, add, dot, scaled, sub
 from ..phase import LOADING, PUSH_OFF, STATIONARY, SWING, Cue, in_columns
 from .cues import TimedCue
 
@@ -219,8 +219,7 @@ class InertialCues:
             if rate < HEEL_DOWN_RATE and (still or self.not_turning_at is None):
                 self.not_turning_at = t
             if not still:
-                x, y, z = self.turn
-                self.turn = (x + gx * dt, y + gy * dt, z + gz * dt)
+                self.turn = add(self.turn, gyro, dt)
                 if rate > self.peak_rate:
                     self.peak_rate = rate
         for sign, cue in (STILL_SIGNS if still else MOVING_SIGNS)[phase]:
@@ -317,7 +316,7 @@ class InertialCues:
     def _learn_axis(self) -> bool:
         """Learn the sagittal axis from the turn as the heel lifts; return whether the turn was a push-off."""
         x, y, z = self.turn
-        angle = sqrt(x * x + y * y + z * z)
+        angle = sqrt(dot(self.turn, self.turn))
         if angle < LEAST_PUSH_OFF_TURN:
             return False
         newest = (x / angle, y / angle, z / angle)
@@ -336,9 +335,8 @@ class InertialCues:
                 return False
             learnt = newest
         self.other_axis_push_offs = 0
-        u, v, w = add(learnt, sub(newest, learnt), AXIS_GAIN)
-        k = 1.0 / sqrt(u * u + v * v + w * w)
-        self.axis = (u * k, v * k, w * k)
+        axis = add(learnt, sub(newest, learnt), AXIS_GAIN)
+        self.axis = scaled(axis, 1.0 / sqrt(dot(axis, axis)))
         return True
 
 

@@ -32,6 +32,7 @@ from ...types.vector import (
     multiply,
     normalise,
     rotate,
+    scaled,
     sub,
 )
 from .covariance import Covariance, add_error
@@ -353,7 +354,7 @@ def difference(a: IntegratedMotion, b: IntegratedMotion) -> tuple[Vec3, Vec3, Ve
     n = sqrt(x * x + y * y + z * z)
     if n > 1e-6:
         k *= asin(min(n, 1.0)) / n
-    return sub(b.position, a.position), sub(b.velocity, a.velocity), (k * x, k * y, k * z)
+    return sub(b.position, a.position), sub(b.velocity, a.velocity), scaled((x, y, z), k)
 
 
 State = tuple[Quat, Vec3, Vec3, Covariance]

@@ -28,10 +28,8 @@ from math import exp, hypot, log, pi, sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define
-from ...types.vector import ZERO, add, dot, rotate_back, sub
+from ...types.vector import UP, ZERO, add, dot, rotate_back, sub
 
-UP_VECTOR = (0.0, 0.0, 1.0)
-"""Up as a unit vector, navigation frame."""
 LONGEST_STRIDE = 1e3
 """Longest stride, m; nothing is learnt from a longer one."""
 STARTS_ON_SLOPE = 0.05
@@ -121,7 +119,7 @@ class LevelGround:
         level *= _normal_density(height, level_variance)
         slope *= _normal_density(height, level_variance + rise_variance)
         stair /= STAIR_HEIGHT_RANGE
-        up = rotate_back(attitude, UP_VECTOR)
+        up = rotate_back(attitude, UP)
         informative = length > LEAST_WALKED_LENGTH and abs(turn) < LARGEST_WALKED_TURN
         pitch = 0.0
         if informative and self.upright_weight > 0.5:

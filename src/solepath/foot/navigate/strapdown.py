@@ -71,14 +71,7 @@ class Strapdown(Corrector):
         else:
             angle = sqrt(n)
             c, s = cos(angle), sin(angle) / angle
-        hx *= s
-        hy *= s
-        hz *= s
-        w, x, y, z = self.attitude
-        qw = w * c - x * hx - y * hy - z * hz
-        qx = w * hx + x * c + y * hz - z * hy
-        qy = w * hy - x * hz + y * c + z * hx
-        qz = w * hz + x * hy - y * hx + z * c
+        qw, qx, qy, qz = multiply(self.attitude, (c, hx * s, hy * s, hz * s))
         k = 1.5 - 0.5 * (qw * qw + qx * qx + qy * qy + qz * qz)  # one Newton step towards length 1
         self.attitude = attitude = (qw * k, qx * k, qy * k, qz * k)
         fx, fy, fz = force = rotate(attitude, acc)
@@ -86,10 +79,7 @@ class Strapdown(Corrector):
         # trapezoidal rule: a = (f + f_previous) / 2 - g, v <- v + a dt, p <- p + (v + v_previous) dt / 2
         ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
         self.force = force
-        vx, vy, vz = self.velocity
-        ux, uy, uz = vx + ax * dt, vy + ay * dt, vz + az * dt
-        x, y, z = self.position
-        half = 0.5 * dt
-        self.position = (x + (vx + ux) * half, y + (vy + uy) * half, z + (vz + uz) * half)
-        self.velocity = (ux, uy, uz)
-        return (ax, ay, az)
+        before, acceleration = self.velocity, (ax, ay, az)
+        self.velocity = add(before, acceleration, dt)
+        self.position = add(self.position, add(before, self.velocity), 0.5 * dt)
+        return acceleration

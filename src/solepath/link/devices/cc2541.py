@@ -14,11 +14,10 @@ from construct import Array, BitsInteger, BitsSwapped, BitStruct, Const, Flag, I
 from ...events import KeysChanged
 from ...types import Sample, Site, Vec3
 from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY
+from ...types.vector import GRAVITY, scaled
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD
 from ..counters import MIN_GAP, SampleTimes
-from ..driver import scaled
 from ..kinds import MAX_PRESSURE_WAIT, DeviceKind, DeviceLink, Output
 from ..periodic import PeriodicClock
 from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_sensor, ti_uuid

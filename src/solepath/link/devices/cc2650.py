@@ -10,10 +10,10 @@ from typing import Any
 from construct import Array, BitsInteger, BitStruct, ByteSwapped, Const, ExprAdapter, Flag, Int24sl, Int24ul, Struct
 from construct import Mapping as Named
 
-from ...types.vector import GRAVITY
+from ...types.vector import GRAVITY, scaled
 from ...wire.fields import Definition, Fields
 from ...wire.sensortag import ON_OFF, PERIOD, hundredths
-from ..driver import FULL_SCALE_COUNTS, RANGE_END_COUNTS, Driver, Known, Measured, Reading, scaled
+from ..driver import FULL_SCALE_COUNTS, RANGE_END_COUNTS, Driver, Known, Measured, Reading
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_sensor
 
 ACC_RANGE = 8.0

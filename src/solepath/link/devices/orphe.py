@@ -11,9 +11,9 @@ from typing import Any
 from construct import Array, Bytes, Const, ExprValidator, GreedyBytes, Int8ub, Int16ub, OneOf, Struct, Switch, this
 
 from ...types import Foot
-from ...types.vector import GRAVITY
+from ...types.vector import GRAVITY, scaled
 from ...wire.fields import Definition, Fields, Hex
-from ..driver import FULL_SCALE_COUNTS, RANGE_END_COUNTS, Driver, Known, Measured, Reading, scaled
+from ..driver import FULL_SCALE_COUNTS, RANGE_END_COUNTS, Driver, Known, Measured, Reading
 from ..profile import FIRMWARE, Access, Channel, Profile, Write
 
 RATE_BY_HEADER = {50: 208.0, 54: 208.0, 55: 208.0, 56: 100.4}

@@ -10,9 +10,9 @@ from typing import Any
 
 from construct import Int8ul, Int16ul, Int32sl, OneOf, Struct
 
-from ...types.vector import GRAVITY
+from ...types.vector import GRAVITY, scaled
 from ...wire.fields import Fields
-from ..driver import Driver, Known, Measured, Reading, scaled
+from ..driver import Driver, Known, Measured, Reading
 from ..profile import BATTERY, Access, Channel, Profile, Write
 
 ACC_SCALE = GRAVITY / 1024.0

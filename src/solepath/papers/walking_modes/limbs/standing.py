@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from math import acos
 
 from ....calibration import CalibrationError, Limbs
+from ....foot.navigate.clipping import AXES
 from ....types import Sample, Site
 from ....types.vector import IDENTITY, rotate
 from .limbs import SEGMENTS, STANDING_TIME, LowerLimbs, names
@@ -21,7 +22,6 @@ JOINT_DISTANCE_SHARE = 0.72
 """Distance of the hip joints as a share of that of the anterior iliac spines: each joint lies inward by 14 % of it.
 
 Bell, Brand and Pedersen 1989, Human Movement Science 8."""
-_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 def limbs_of(
@@ -61,6 +61,6 @@ def check_standing(samples: Iterable[Sample]) -> dict[Site, float]:
         raise CalibrationError(f"the wearer never stood still for {STANDING_TIME:g} s with all seven sensors{moved}")
     tilts = {}
     for site, segment in chain.segments.items():
-        axes = [abs(rotate(segment.standing or IDENTITY, axis)[2]) for axis in _AXES]
+        axes = [abs(rotate(segment.standing or IDENTITY, axis)[2]) for axis in AXES]
         tilts[site] = acos(min(1.0, max(axes)))
     return tilts
