@@ -57,7 +57,7 @@ def replace_whole(path: Path, write: Callable[[Path], object], before_move: Befo
     files = FileReplacements(before_move)
     try:
         temporary = files.temporary_path(path)
-        with _errors_naming(path):
+        with os_errors_naming(path):
             write(temporary)
         files.move_to_targets()
     finally:
@@ -90,7 +90,7 @@ class FileReplacements:
             target.open("ab").close()
         temporary = target.with_name(f".solepath-{os.urandom(8).hex()}.part")
         self._targets[temporary] = path  # before it exists: Ctrl-C may come between any two lines
-        with _errors_naming(path):
+        with os_errors_naming(path):
             temporary.open("xb").close()
             if exists:
                 temporary.chmod(S_IMODE(target.stat().st_mode) | S_IWUSR)  # the permissions of now, if somebody looks
@@ -99,7 +99,7 @@ class FileReplacements:
     def move_to_targets(self) -> None:
         """Move all temporary files to their targets; raise OSError, naming the path, when one cannot be moved."""
         for temporary, path in list(self._targets.items()):
-            with _errors_naming(path):
+            with os_errors_naming(path):
                 with temporary.open("r+b") as file:
                     os.fsync(file.fileno())  # otherwise a power failure may leave the new name with no content
                 while not self._try_to_move(temporary, path):
@@ -134,8 +134,8 @@ class FileReplacements:
 
 
 @contextmanager
-def _errors_naming(path: Path) -> Iterator[None]:
-    """Let errors of the system name `path`: they name the temporary file, or none."""
+def os_errors_naming(path: Path) -> Iterator[None]:
+    """Name `path` in every OSError within the context: the system names a temporary file, or none on a full disk."""
     try:
         yield
     except OSError as error:

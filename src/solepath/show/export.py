@@ -21,9 +21,9 @@ from attrs import frozen
 from ..events import Placed
 from ..floorplan.plan import FloorPlan, Point
 from ..recording.errors import printable
+from ..saving.files import os_errors_naming
 from ..saving.provenance import installed_version
 from ..walk.walk import Walk
-from .output import os_errors_naming
 
 DIGITS = 9
 """Digits after the point of a degree: 0.1 mm. Metres have three."""

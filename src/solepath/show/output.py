@@ -9,8 +9,8 @@ from __future__ import annotations
 import csv
 import json
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import ExitStack
 from math import atan2, degrees, remainder, tau
 from pathlib import Path
 from typing import Any, TextIO
@@ -20,6 +20,7 @@ from attrs import define, field
 from ..body.gait.means import as_found
 from ..events import DefectFound, Event, Flaw, FootMoved, GaitCycleMeasured, LiveEvent, Placed, StrideTaken
 from ..recording.errors import printable
+from ..saving.files import os_errors_naming
 
 EVENTS_FILE, TRACK_FILE, STRIDES_FILE, GAIT_CYCLES_FILE = "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"
 PLACES_FILE, PLAN_FILE, RUN_FILE = "places.csv", "plan.svg", "run.json"
@@ -133,15 +134,6 @@ def _place_row(event: Placed, stride: StrideTaken | None) -> list[object]:
     names = [event.level, *[printable(name or "", 80) for name in (event.room, event.door)]]
     numbers = [f"{value:.3f}" for value in (*event.position, event.spread)]
     return [repr(event.t), *names, *numbers, direction, heading, len(event.candidates), f"{heaviest.weight:.4f}"]
-
-
-@contextmanager
-def os_errors_naming(path: Path) -> Iterator[None]:
-    """Name `path` in every OSError within the context; the system does not name the file when the disk is full."""
-    try:
-        yield
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(path)) from None
 
 
 @define

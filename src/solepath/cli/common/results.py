@@ -15,10 +15,10 @@ from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...link.kinds import DeviceKinds
 from ...recording import printable
-from ...saving.files import FileReplacements
+from ...saving.files import FileReplacements, os_errors_naming
 from ...session import Session
 from ...show.findings import findings
-from ...show.output import PLAN_FILE, RUN_FILE, TrackFiles, os_errors_naming
+from ...show.output import PLAN_FILE, RUN_FILE, TrackFiles
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample

@@ -7,7 +7,7 @@ from xml.etree.ElementTree import tostring
 
 from attrs import define
 
-from ..output import os_errors_naming
+from ...saving.files import os_errors_naming
 from .content import ReportContent
 from .sections.page import page_of
 

@@ -18,7 +18,7 @@ from attrs import define, evolve, field
 
 from ...events import Placed, PlaceLost
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, PlanFinding
-from ..output import os_errors_naming
+from ...saving.files import os_errors_naming
 from .labels import AROUND, Labels, cut
 from .svg import STEPS, Ticks, View, add, colour_bar, grid, line, shade, square_ticks
 
