@@ -23,6 +23,15 @@ Covariance3 = tuple[float, float, float, float, float, float]
 """Covariance of a 3D vector: xx, xy, xz, yy, yz, zz."""
 
 
+def turned_covariance(xx: float, xy: float, yy: float, c: float, s: float) -> Covariance2:
+    """Return the covariance of a 2D vector after a turn by an angle with this cosine and sine."""
+    return (
+        c * c * xx - 2.0 * c * s * xy + s * s * yy,
+        c * s * (xx - yy) + (c * c - s * s) * xy,
+        s * s * xx + 2.0 * c * s * xy + c * c * yy,
+    )
+
+
 @define
 class World:
     """The rotation about z from the navigation frame to the world frame."""
@@ -66,14 +75,8 @@ class World:
         if self.north is None:
             return (xx, xy, xz, yy, yz, zz)
         c, s = self.north
-        return (
-            c * c * xx - 2.0 * c * s * xy + s * s * yy,
-            c * s * (xx - yy) + (c * c - s * s) * xy,
-            c * xz - s * yz,
-            s * s * xx + 2.0 * c * s * xy + c * c * yy,
-            s * xz + c * yz,
-            zz,
-        )
+        xx, xy, yy = turned_covariance(xx, xy, yy, c, s)
+        return (xx, xy, c * xz - s * yz, yy, s * xz + c * yz, zz)
 
 
 @define

@@ -17,7 +17,7 @@ from typing import Final
 
 from ...events import DefectFound, Flaw, FootFlat, StrideTaken
 from ...foot.view import LONGEST_STRIDE, FootPose, FootView
-from ...foot.world import Covariance2, Covariance3
+from ...foot.world import Covariance2, Covariance3, turned_covariance
 from ...types import OTHER, Foot, PerFoot, Site, Vec2, Vec3, per_foot
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, add, scaled, sub, turned
@@ -144,9 +144,7 @@ class PlacedTrack:
     def turned_covariance(self, own: Covariance3) -> Covariance2:
         """Return the horizontal covariance `own` of the foot's own track in the common frame: xx, xy, yy, m^2."""
         xx, xy, _, yy, _, _ = own
-        c, s = cos(self.turn), sin(self.turn)
-        cc, ss, cs = c * c, s * s, c * s
-        return (cc * xx - 2.0 * cs * xy + ss * yy, cs * (xx - yy) + (cc - ss) * xy, ss * xx + 2.0 * cs * xy + cc * yy)
+        return turned_covariance(xx, xy, yy, cos(self.turn), sin(self.turn))
 
     def land(self, error: float, explained: bool) -> None:
         """Note that the foot comes to stand with an error of its velocity, m/s; a gap or clipped peaks explain it."""
