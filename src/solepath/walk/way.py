@@ -9,6 +9,7 @@ from attrs import evolve
 
 from ..events import StrideTaken, WearerMoved
 from ..types import PerFoot, Vec3
+from ..types.vector import sub
 
 
 def way_of(feet: PerFoot[list[StrideTaken]], moved: list[WearerMoved]) -> list[WearerMoved] | list[StrideTaken]:
@@ -43,5 +44,4 @@ def _start_of(stride: StrideTaken) -> float:
 
 def _before(stride: StrideTaken) -> Vec3:
     """Return where a stride began, m."""
-    x, y, z = [end - way for end, way in zip(stride.position, stride.displacement, strict=True)]
-    return x, y, z
+    return sub(stride.position, stride.displacement)

@@ -115,9 +115,14 @@ def parse_text(data: bytes) -> str:
     """Return the text of 1 to LONGEST_VALUE bytes of UTF-8, with a trailing NUL if it has one; WireError otherwise."""
     if not data:
         raise WireError(Rejection.TRUNCATED, "no text")
+    check_length(data)
+    return decode(bytes(data))
+
+
+def check_length(data: bytes) -> None:
+    """Raise WireError for more bytes than a value may have."""
     if len(data) > LONGEST_VALUE:
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes, at most {LONGEST_VALUE}")
-    return decode(bytes(data))
 
 
 def build_text(text: str) -> bytes:

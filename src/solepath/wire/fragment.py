@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..events import Rejection
 from ..types.attrs import define, frozen
 from .error import WireError
-from .fields import LONGEST_VALUE, malformed
+from .fields import LONGEST_VALUE, check_length, malformed
 
 FRAME_ID_COUNT = 7
 """Number of frame ids, which are 0 to 6: with id 7, a fragment could start with 0xF5 as a whole frame does."""
@@ -37,8 +37,7 @@ def parse_fragment(data: bytes) -> Fragment:
         raise malformed(f"frame id {data[0] >> 5}: not a fragment")
     if len(data) < 2:
         raise WireError(Rejection.TRUNCATED, "a fragment without a body")
-    if len(data) > LONGEST_VALUE:
-        raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes, at most {LONGEST_VALUE}")
+    check_length(data)
     return Fragment(data[0] >> 5, data[0] & 16 != 0, data[0] & 15, data[1:])
 
 

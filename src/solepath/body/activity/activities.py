@@ -106,14 +106,14 @@ class Activities(ActivityPart):
         """Discard the waiting strides, the flight under way, and the blocks of a foot with a new clock or device."""
         if site.foot is None:
             return
-        known = [side.index for side in self.feet.values() if side.index is not None]
+        known = self._open_blocks
         self.feet[site.foot].restart()
         self.spoilt = [foot for foot in self.spoilt if foot is not site.foot]
         if self.pressure_height is not None:
             self.pressure_height.restart(site.foot)
         self.flights.reset()
         self.strides.clear()
-        if known and all([side.index is None for side in self.feet.values()]):
+        if known and not self._open_blocks:
             t, activity = self._time(max(known) + 1), self.activity
             last = self.report.add(self.hypotheses, (), 1e6 + t, t, True)
             self.held = [one for one in last if one.t < t and isinstance(one, ActivityChanged | LiftRidden)]
@@ -185,13 +185,18 @@ class Activities(ActivityPart):
         air = self.pressure_height = PressureHeight()
         return air
 
+    @property
+    def _open_blocks(self) -> list[int]:
+        """Numbers of the blocks under way, of the feet that give samples."""
+        return [side.index for side in self.feet.values() if side.index is not None]
+
     def finish(self, now: float) -> Outputs:
         """Return the final activities, including the last second, because no more samples come."""
         if self.held:
             return self._take_held(now)
         for side in self.feet.values():
             side.close()
-        last = max([side.index for side in self.feet.values() if side.index is not None], default=-1)
+        last = max(self._open_blocks, default=-1)
         while self.next_block <= last and last - self.next_block < MAX_EMPTY_BLOCKS:
             self._judge_block(self.next_block)
             self.next_block += 1
@@ -199,7 +204,7 @@ class Activities(ActivityPart):
 
     def _judge(self, t: float, known_at: float) -> list[Event]:
         """Judge the blocks that are complete in all feet that give samples."""
-        open_blocks = [side.index for side in self.feet.values() if side.index is not None]
+        open_blocks = self._open_blocks
         newest = max(open_blocks)
         complete = min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1
         if complete <= self.newest_block:

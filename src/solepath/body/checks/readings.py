@@ -429,7 +429,7 @@ class GravityCheck:
         if t_end - self.still_since < STILL_TIME:
             return None
         x, y, z = [sorted(axis)[len(axis) // 2] for axis in zip(*accs, strict=True)]
-        norm = (x * x + y * y + z * z) ** 0.5
+        norm = dot((x, y, z), (x, y, z)) ** 0.5
         finding = self._judge(norm, "at rest")
         if finding is None:
             self.rested = self.rested or abs(norm / GRAVITY - 1.0) <= TOLERANCE

@@ -178,8 +178,7 @@ class Contours:
         if middle is None or step <= 0.0:
             return
         self.points = [middle]
-        for k in range(2 * RAY_PAIRS):
-            c, s = cos(pi * k / RAY_PAIRS), sin(pi * k / RAY_PAIRS)
+        for c, s in _RAYS:
             first_point = len(self.points)
             for ring in range(1, POINTS_PER_RAY + 1):
                 point = _triangle(used, x + step * ring * c, y + step * ring * s)
@@ -189,8 +188,8 @@ class Contours:
             self.rays.append((len(self.points) - first_point, step))
 
 
-_RAYS = [(cos(pi * k / RAY_PAIRS), sin(pi * k / RAY_PAIRS)) for k in range(RAY_PAIRS)]
-"""Direction of the first ray of each pair."""
+_RAYS = [(cos(pi * k / RAY_PAIRS), sin(pi * k / RAY_PAIRS)) for k in range(2 * RAY_PAIRS)]
+"""Directions of the rays; the second ray of each pair is RAY_PAIRS after the first."""
 
 
 def _displacement(radii: Floats, earlier_radii: Floats) -> Vec2 | None:
@@ -199,7 +198,7 @@ def _displacement(radii: Floats, earlier_radii: Floats) -> Vec2 | None:
     It is that by the pairs of opposite rays of which both have a radius, by least squares; None if they are too few, or
     all of them have nearly the same direction."""
     xx = xy = yy = bx = by = 0.0
-    for k, (c, s) in enumerate(_RAYS):
+    for k, (c, s) in enumerate(_RAYS[:RAY_PAIRS]):
         near, far, old_near, old_far = radii[k], radii[k + RAY_PAIRS], earlier_radii[k], earlier_radii[k + RAY_PAIRS]
         if min(near, far, old_near, old_far) >= 0.0:
             change = 0.5 * (near - old_near - far + old_far)
