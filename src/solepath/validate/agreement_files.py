@@ -73,10 +73,12 @@ def _cell(value: float | None, shown: str, *others: float) -> str:
 def agreement_writers(comparison: WalkComparison, made_by: Mapping[str, Any]) -> dict[str, Callable[[Path], None]]:
     """Return what writes each file of a comparison, by its name; `made_by` is as `provenance` says it."""
     own = [name for name in comparison.pairs.columns if name not in PAIR_COLUMNS]
+    # with all digits, so that a statistics program gets from them what is in agreement.csv
+    pairs = comparison.pairs[[*PAIR_COLUMNS, *own]].astype({"degraded": int})
     frames = {
         "agreement.csv": comparison.agreement,
         "agreement_groups.csv": comparison.groups,
-        "pairs.csv": comparison.pairs[[*PAIR_COLUMNS, *own]].astype({"degraded": int}),
+        "pairs.csv": pairs.assign(**{name: pairs[name].map(repr, na_action="ignore") for name in ("true", "found")}),
     }
     page = "<!DOCTYPE html>\n" + tostring(_page(comparison, made_by), encoding="unicode", method="html") + "\n"
     writers = {name: _writer(frame) for name, frame in frames.items()}
