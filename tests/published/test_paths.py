@@ -35,7 +35,7 @@ def typed(page: str, start: str) -> None:
 @pytest.mark.soak
 def test_an_app_counts_saves_and_goes_on(here: Path) -> None:
     typed("docs/app.md", "demo")
-    (loop, answers, channels, live, _), names = run_page("docs/app.md")
+    (loop, _, answers, channels, live, _), names = run_page("docs/app.md")
     assert "the left foot touches the floor" in loop and "the right foot has gone" in loop
     assert names["strides"] == loop.count("has gone") > 20
     assert "m ahead" in answers and "steps a minute" in answers
