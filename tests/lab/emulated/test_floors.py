@@ -17,7 +17,7 @@ def test_a_walk_over_a_connector_ends_on_the_right_floor_with_a_start_and_is_fou
     assert score == FloorScore(walks=1, right=1, decided=score.decided, wrong=0, found=1)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 @pytest.mark.parametrize("kind", FOLLOWED)
 def test_ten_walks_over_a_connector_end_on_the_right_floor(kind: str) -> None:
     scores = [score_walk("default", (kind, seed))[1] for seed in range(201, 211)]
