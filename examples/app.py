@@ -56,7 +56,7 @@ async def main(folder: Path, left: str, right: str, via: str = "") -> None:
         backend = await stack.enter_async_context(reach(via)) if via else NATIVE
         configs = [DeviceConfig(sp.Site.LEFT_FOOT, left), DeviceConfig(sp.Site.RIGHT_FOOT, right)]
         devices = await stack.enter_async_context(Devices(configs, backend=backend))
-        async for packet in record(devices, recording):  # also four ticks a second while no sensor sends
+        async for packet in record(devices, recording):  # also ticks while no sensor sends
             packets += 1
             for event in session.feed(packet):
                 show(event)

@@ -23,7 +23,7 @@ class GaitEvent(BaseEvent):
 class HeelStrike(GaitEvent):
     """The foot touched the ground; LOADING starts. `t` is the onset of the impact, or the time when cells show load.
 
-    Latency with the default cues: one sample with pressure cells, about 40 ms without; if no impact shows, the time
+    Latency with the default cues: one sample with pressure cells, about 50 ms without; if no impact shows, the time
     until the foot is still."""
 
 
