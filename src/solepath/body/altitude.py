@@ -23,6 +23,7 @@ from collections import deque
 from math import log
 
 from ..events import Defect, DefectFound, LiftRidden, StrideTaken
+from ..events.activity import Ride
 from ..foot.view import FootView
 from ..types import Foot, Site
 from ..types.attrs import define, evolve, field, state, stateful
@@ -178,6 +179,8 @@ RIDE_ERROR = 0.1
 """Standard deviation of a reported ride's height, as a share of the height."""
 MIN_RIDE_HEIGHT, MIN_RIDE_SPEED, MAX_RIDE_SPEED = 1.8, 0.25, 4.0
 """Limits for a ride without air pressure: least height, m, least mean speed and largest mean speed, m/s."""
+MIN_ESCALATOR_HEIGHT, MIN_ESCALATOR_SPEED = 1.0, 0.1
+"""Least height, m, and least mean speed, m/s, of a ride on an escalator without air pressure (assumed)."""
 
 
 @define
@@ -231,7 +234,7 @@ class Altitude(Part):
         for event in events:
             if isinstance(event, StrideTaken):
                 outputs += self._add_stride(event)
-            elif isinstance(event, LiftRidden):
+            elif isinstance(event, Ride):
                 outputs += [Replacement(event, self._corrected_ride(event)), *self._height_shift()]
             elif isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
                 source = SOURCES[event.site.foot]
@@ -301,7 +304,7 @@ class Altitude(Part):
         # a stride moves the mean of both feet by half of its height
         return self._add_input((stride.t, MOVE, 0.0, 0.25 * error_variance))
 
-    def _corrected_ride(self, ride: LiftRidden) -> LiftRidden:
+    def _corrected_ride(self, ride: Ride) -> Ride:
         """Process the inputs since the ride's start again, and return the ride with its likeliest height."""
         start, end = ride.t_start, ride.t
         inputs = [
@@ -323,17 +326,18 @@ class Altitude(Part):
         self.ride_variance = min(self.ride_variance + min(variance, self.now.covariance[0]), UNKNOWN_VARIANCE)
         return evolve(ride, height=height_gain) if (height_gain > 0.0) is ride.up else ride
 
-    def _is_plausible(self, ride: LiftRidden) -> bool:
+    def _is_plausible(self, ride: Ride) -> bool:
         """Return whether the height of a ride that only the feet's accelerometers have measured is possible."""
         height, duration = ride.height, ride.t - ride.t_start
         if height is None or not duration > 0.0 or (height > 0.0) is not ride.up:
             return False
         t_start, t_end = 100.0 * ride.t_start, 100.0 * ride.t
+        is_lift = isinstance(ride, LiftRidden)
+        least_height = MIN_RIDE_HEIGHT if is_lift else MIN_ESCALATOR_HEIGHT
+        least_speed = MIN_RIDE_SPEED if is_lift else MIN_ESCALATOR_SPEED
         stride_count = sum([start > t_start and end < t_end for start, end in self.strides])
         return (
-            stride_count < 2
-            and abs(height) >= MIN_RIDE_HEIGHT
-            and MIN_RIDE_SPEED <= abs(height) / duration <= MAX_RIDE_SPEED
+            stride_count < 2 and abs(height) >= least_height and least_speed <= abs(height) / duration <= MAX_RIDE_SPEED
         )
 
     def _add_input(self, entry: HeightInput) -> Outputs:

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Protocol, Self
 
 from ..calibration import Calibration
-from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, TurnMade
+from ..events import ActivityChanged, EscalatorRidden, Event, FlightClimbed, LiftRidden, StrideTaken, TurnMade
 from ..events.happening import BaseEvent
 from ..foot.view import FootPose, FootView
 from ..foot.world import Covariance3
@@ -113,7 +113,7 @@ PartInput = Event | Notice
 """Everything that a part may receive."""
 Inputs = Sequence[PartInput]
 Outputs = Sequence[PartOutput]
-MOVEMENTS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
+MOVEMENTS = (StrideTaken, ActivityChanged, LiftRidden, EscalatorRidden, FlightClimbed, TurnMade)
 """Events after which the wearer's position is given to the parts that follow (`Part.needs_position`)."""
 
 

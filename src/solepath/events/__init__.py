@@ -6,7 +6,7 @@ Latency is `known_at` minus `t`; the docstring of each event states it."""
 
 from __future__ import annotations
 
-from .activity import ActivityChanged, FlightClimbed, LiftRidden, TurnMade
+from .activity import ActivityChanged, EscalatorRidden, FlightClimbed, LiftRidden, Ride, TurnMade
 from .body import PositionRejected, StrideFused, TouchedDown, TrackNode, TrackRevised, WalkingModeChanged
 from .defect import (
     CellFault,
@@ -44,8 +44,8 @@ from .place import Candidate, Placed, PlaceLost, PlanContradicted
 
 __all__ = [
     "ActivityChanged", "ActivityEvent", "BatteryLevel", "BodyEvent", "Candidate", "CellFault", "CellsFailed",
-    "ClockReset", "Connected", "Defect", "DefectFound", "Disconnected", "Event", "FeetSwapped", "Flaw",
-    "FlightClimbed",
+    "ClockReset", "Connected", "Defect", "DefectFound", "Disconnected", "EscalatorRidden", "Event", "FeetSwapped",
+    "Flaw", "FlightClimbed",
     "FootFlat", "FootResumed", "FootMoved", "FootPressed", "FootSilent", "GaitEvent", "HeelOff", "HeelStrike",
     "InsoleNeverUnloads", "KeysChanged", "LayoutKnown", "LiftRidden", "Limitation", "LinkEvent", "LinkTrouble",
     "LiveEvent", "PacketRejected", "PacketsDropped", "PlaceEvent", "PlaceLost", "Placed",
@@ -65,7 +65,7 @@ LinkEvent = (
 """Events of links and sensors."""
 BodyEvent = GaitCycleMeasured | PositionRejected | StrideFused | TouchedDown | TrackRevised | WalkingModeChanged
 """Events measured from both feet."""
-ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
+ActivityEvent = ActivityChanged | Ride | FlightClimbed | TurnMade
 """Events of the wearer's activity."""
 PlaceEvent = Placed | PlaceLost | PlanContradicted
 """Events of the wearer's place on a floor plan."""

@@ -42,6 +42,25 @@ class LiftRidden(BaseEvent):
 
 
 @frozen(kw_only=True)
+class EscalatorRidden(BaseEvent):
+    """The wearer has stood on an escalator; `t` is the time at which its steps stopped to rise or to fall.
+
+    The wearer stands meanwhile, so the activity is STANDING. The default recipe alone reports it, with the latency of
+    `LiftRidden`. A wearer who walks on an escalator climbs flights (`FlightClimbed`). The event is final."""
+
+    t_start: float
+    """Time at which the steps began to rise or to fall, s."""
+    up: bool
+    """True for a ride upwards."""
+    height: float | None
+    """Height of the ride, m, positive upwards; None when it cannot be measured."""
+
+
+Ride = LiftRidden | EscalatorRidden
+"""A ride on ground that rises or falls under the standing wearer."""
+
+
+@frozen(kw_only=True)
 class FlightClimbed(BaseEvent):
     """A flight of stairs was climbed or descended; `t` is the end of its last stride.
 

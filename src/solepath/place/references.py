@@ -14,7 +14,8 @@ from collections import deque
 from itertools import permutations
 from math import dist, exp, fsum, inf, isfinite
 
-from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
+from ..events import ActivityChanged, EscalatorRidden, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
+from ..events.activity import Ride
 from ..floorplan.index import IndexedPlan, Landing
 from ..floorplan.plan import ConnectorKind, Point
 from ..types import Activity, Floats, Foot, Vec3
@@ -418,7 +419,7 @@ class References:
                     references += self._change_activity(plan, event, levels, here, event in last)
                 case FlightClimbed():
                     references += self._add_flight(plan, event)
-                case LiftRidden():
+                case LiftRidden() | EscalatorRidden():
                     references += self._add_ride(event)
         passage = self.passage
         if passage is not None and passage.t_left is not None:
@@ -457,13 +458,14 @@ class References:
         elif passage.kind is ConnectorKind.STAIRS:
             passage.add_direction(connector[1], foot)
 
-    def _add_ride(self, event: LiftRidden) -> list[Reference]:
+    def _add_ride(self, event: Ride) -> list[Reference]:
         """Add a ride to the newest passage, of which it may tell the height; otherwise it is a passage."""
-        if self.passage is not None and self.passage.kind is ConnectorKind.LIFT:
+        kind = ConnectorKind.LIFT if isinstance(event, LiftRidden) else ConnectorKind.STAIRS
+        if self.passage is not None and self.passage.kind is kind:
             self.passage = None
         t_start = min(event.t_start, event.t)
-        ridden = self._newest_of(ConnectorKind.LIFT, t_start, event.t)
-        passage = ridden or Passage(ConnectorKind.LIFT, t_start, self.position_at(t_start), certainty=RIDE_CERTAINTY)
+        ridden = self._newest_of(kind, t_start, event.t)
+        passage = ridden or Passage(kind, t_start, self.position_at(t_start), certainty=RIDE_CERTAINTY)
         if passage.reported_height:
             return []
         passage.spans = [StairSpan(t_start, 1 if event.up else -1)]

@@ -22,6 +22,7 @@ from ..events import (
     ClockReset,
     Connected,
     DefectFound,
+    EscalatorRidden,
     Event,
     FeetSwapped,
     Flaw,
@@ -185,6 +186,8 @@ class Walk:
     """Number of flights of stairs upwards (True) and downwards (False)."""
     elevator_rides: Counter[bool] = field(factory=Counter)
     """Number of elevator rides upwards (True) and downwards (False)."""
+    escalator_rides: Counter[bool] = field(factory=Counter)
+    """Number of rides on escalators, standing, upwards (True) and downwards (False)."""
     turns: Counter[Turn] = field(factory=Counter)
     remarks: list[Remark] = field(factory=list)
     """What is wrong with the recording as it was read; whoever reads it sets them."""
@@ -369,6 +372,8 @@ class Walk:
             case LiftRidden(up=up, final=True):
                 self.elevator_rides[up] += 1
                 self.rides.add(event, self.limit)
+            case EscalatorRidden(up=up, final=True):
+                self.escalator_rides[up] += 1
             case TurnMade(turn=turn, final=True):
                 self.made_turns.add(event, self.limit)
                 if turn is not None:

@@ -21,7 +21,7 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.truth import Truth
-from solepath.events import ActivityChanged, FlightClimbed, LiftRidden
+from solepath.events import ActivityChanged, EscalatorRidden, FlightClimbed, LiftRidden
 from solepath.types import Activity, Site
 from solepath.walk.timeline import Timeline
 from solepath_lab.emulated.wearers import random_wearer
@@ -43,7 +43,7 @@ class Outcome:
     truth: Truth
     seconds: Counter[tuple[Activity, Activity]]
     """Number of tenths of a second for each true activity and the reported one, without the last two seconds."""
-    rides: tuple[LiftRidden, ...]
+    rides: tuple[LiftRidden | EscalatorRidden, ...]
     flights: tuple[FlightClimbed, ...]
 
     def reported(self) -> set[Activity]:
@@ -66,7 +66,7 @@ def outcome(route: Route, kit: str, seed: int, air: Air = STILL_AIR) -> Outcome:
     return Outcome(
         walk.truth,
         Counter((walk.truth.activity(t), timeline.at(t)) for t in times),
-        tuple(event for event in events if isinstance(event, LiftRidden)),
+        tuple(event for event in events if isinstance(event, LiftRidden | EscalatorRidden)),
         tuple(event for event in events if isinstance(event, FlightClimbed)),
     )
 
@@ -116,3 +116,12 @@ def test_who_walks_on_an_escalator_climbs_in_its_direction_and_takes_no_lift(hei
     found = outcome(Route().stand(3.0).walk(6.0, 1.3).escalator(height, walking=True).walk(6.0).stand(4.0), kit, 1)
     assert directions(found) == ([height > 0.0], [])
     assert not found.reported() & {*LIFTS, STAIRS[1] if height > 0.0 else STAIRS[0]}
+
+
+@pytest.mark.parametrize("way", [(3.5, 0.5), *longer((-3.5, 0.5), (-6.0, 0.55), (5.0, 0.6))])
+def test_who_stands_on_an_escalator_stands_and_is_carried_up_or_down(way: tuple[float, float]) -> None:
+    height, speed = way
+    found = outcome(Route().stand(3.0).walk(6.0, 1.3).escalator(height, speed).walk(6.0).stand(4.0), "insoles", 1)
+    assert directions(found) == ([], [height > 0.0])
+    assert isinstance(found.rides[0], EscalatorRidden) and found.rides[0].height == pytest.approx(height, rel=0.25)
+    assert not found.reported() & {*LIFTS, *STAIRS}

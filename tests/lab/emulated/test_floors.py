@@ -8,17 +8,15 @@ from pytest import approx
 from solepath_lab.emulated.floors import KINDS, FloorScore, score_walk
 from solepath_lab.emulated.places import share_interval
 
-FOLLOWED = [kind for kind in KINDS if kind != "escalator, standing"]  # the track of who stands on one has no height
 
-
-@pytest.mark.parametrize("kind", FOLLOWED)
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_walk_over_a_connector_ends_on_the_right_floor_with_a_start_and_is_found_without_one(kind: str) -> None:
     _, score = score_walk("default", (kind, 1))
     assert score == FloorScore(walks=1, right=1, decided=score.decided, wrong=0, found=1)
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("kind", FOLLOWED)
+@pytest.mark.parametrize("kind", KINDS)
 def test_ten_walks_over_a_connector_end_on_the_right_floor(kind: str) -> None:
     scores = [score_walk("default", (kind, seed))[1] for seed in range(201, 211)]
     assert sum([one.right for one in scores]) == 10 and sum([one.wrong for one in scores]) == 0

@@ -21,11 +21,12 @@ from floors import (
     placed,
 )
 
-from solepath import Activity, Event, FlightClimbed, LiftRidden
+from solepath import Activity, EscalatorRidden, Event, FlightClimbed, LiftRidden
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import ConnectorKind, ConnectorStop, Point
 
 NAME = "stairs south"
+CONNECTORS = ("spiral stairs", "turning stairs", "escalator", "lift")
 WAYS = {"once": (1,), "two storeys in a row": (1, 1), "and back at once": (1, -1)}
 """Storeys of a way, one after the other, 1 up and -1 down."""
 
@@ -80,6 +81,22 @@ def ride(pedestrian: Pedestrian, up: bool, late: bool) -> None:
     pedestrian.level = str(int(pedestrian.level) + (1 if up else -1))
 
 
+def stand_on_escalator(pedestrian: Pedestrian, up: bool, late: bool) -> None:
+    """Stand on an escalator by a storey; the ride is reported before the steps away from it, or after them."""
+    start = pedestrian.t + 2.0
+    pedestrian.t += 16.0
+    end, height = pedestrian.t - 2.0, STOREY if up else -STOREY
+    if not late:
+        pedestrian.emit(EscalatorRidden(t=end, known_at=pedestrian.t, t_start=start, up=up, height=height))
+    for step in (0.05, -0.05, 0.05, -0.05):
+        pedestrian.step(step, 0.0, counts=False)
+    if late:
+        pedestrian.emit(EscalatorRidden(t=end, known_at=pedestrian.t, t_start=start, up=up, height=height))
+    x, y, z = pedestrian.track
+    pedestrian.track = (x, y, z + height)
+    pedestrian.level = str(int(pedestrian.level) + (1 if up else -1))
+
+
 def go(pedestrian: Pedestrian, connector: str, storeys: tuple[int, ...], late: bool) -> Point:
     """Come to a connector, take it over these storeys, and walk away; return where it is."""
     place = LIFTS["lift south"] if connector == "lift" else STAIRS[NAME]
@@ -87,6 +104,8 @@ def go(pedestrian: Pedestrian, connector: str, storeys: tuple[int, ...], late: b
     for storey in storeys:
         if connector == "lift":
             ride(pedestrian, storey > 0, late)
+        elif connector == "escalator":
+            stand_on_escalator(pedestrian, storey > 0, late)
         else:
             climb(pedestrian, storey > 0, 2 if connector == "turning stairs" else 1, late)
     pedestrian.walk(beside(place), (LEFT, LOW), (LEFT, 15.0))
@@ -95,7 +114,7 @@ def go(pedestrian: Pedestrian, connector: str, storeys: tuple[int, ...], late: b
 
 @pytest.mark.parametrize("late", [False, True], ids=["report before", "report after"])
 @pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("connector", ["spiral stairs", "turning stairs", "lift"])
+@pytest.mark.parametrize("connector", CONNECTORS)
 def test_a_storey_is_counted_once_whenever_its_flights_and_rides_are_reported(
     part: Method, connector: str, way: str, late: bool
 ) -> None:
@@ -111,7 +130,7 @@ def test_a_storey_is_counted_once_whenever_its_flights_and_rides_are_reported(
 
 @pytest.mark.parametrize("late", [False, True], ids=["report before", "report after"])
 @pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("connector", ["spiral stairs", "turning stairs", "lift"])
+@pytest.mark.parametrize("connector", CONNECTORS)
 def test_without_a_start_the_true_place_is_among_the_candidates(
     part: Method, connector: str, way: str, late: bool
 ) -> None:

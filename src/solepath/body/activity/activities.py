@@ -17,7 +17,8 @@ from collections import deque
 from math import floor, inf
 from typing import TYPE_CHECKING
 
-from ...events import ActivityChanged, Defect, DefectFound, Event, LiftRidden, StrideFeatures, StrideTaken
+from ...events import ActivityChanged, Defect, DefectFound, Event, StrideFeatures, StrideTaken
+from ...events.activity import Ride
 from ...events.happening import BaseEvent
 from ...foot.view import FootView
 from ...types import OTHER, Activity, Foot, PerFoot, Site, Vec3, per_foot
@@ -81,7 +82,7 @@ class Activities(ActivityPart):
     stride_cue: tuple[int, ActivityCue, float] | None = None
     """Number of the block of the newest stride with a cue, its cue, and the probability of that; None before any."""
     flights: Flights = state(factory=Flights)
-    held: list[ActivityChanged | LiftRidden] = state(factory=list)
+    held: list[ActivityChanged | Ride] = state(factory=list)
     """Last activities before a reset of all feet, and that nothing is known from then on, until something is fed."""
     strides: deque[StrideTaken] = state(factory=deque)
     """Strides whose activity is not known yet, without their features."""
@@ -116,7 +117,7 @@ class Activities(ActivityPart):
         if known and not self._open_blocks:
             t, activity = self._time(max(known) + 1), self.activity
             last = self.report.add(self.hypotheses, (), 1e6 + t, t, True)
-            self.held = [one for one in last if one.t < t and isinstance(one, ActivityChanged | LiftRidden)]
+            self.held = [one for one in last if one.t < t and isinstance(one, ActivityChanged | Ride)]
             if self.held or activity is not Activity.UNKNOWN:
                 self.held.append(self.report.end(t))
             self._restart()

@@ -9,7 +9,8 @@ from collections.abc import Sequence
 from enum import StrEnum
 from math import exp, fsum
 
-from ...events import ActivityChanged, Event, LiftRidden
+from ...events import ActivityChanged, EscalatorRidden, Event, LiftRidden
+from ...events.activity import Ride
 from ...types import Activity, Floats
 from ...types.attrs import state, stateful
 from ...types.vector import TIME_EPSILON
@@ -21,6 +22,10 @@ from .reconcile import LONGEST_TURN, SETTLING_TIME, Strides
 
 # Activities that were reported and are not final yet, and the events by which they change.
 
+BOARDING_TIME = LONGEST_TURN
+"""Longest time from the last stride to the first bend of an escalator, s: 2 m of level steps, and a pause (assumed)."""
+LONGEST_RIDE = 120.0
+"""Time for which the strides and forces of a ride are kept, s: an escalator of 30 m takes as long, a lift less."""
 START_TOLERANCE = 1.0
 """Largest change in the start of a provisional activity that is not reported as a revision, s."""
 ELEVATOR_GOES_UP = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
@@ -66,6 +71,7 @@ class ActivityReport:
         best = hypotheses.best
         path = () if best is None else best.path if hypotheses.settled is None else best.path[1:]
         likely = [*self.settled, *[(segment, hypotheses.probability(segment)) for segment in path], *early]
+        likely = [(_shown(segment), probability) for segment, probability in likely]
         agreed = self.strides.reconcile(likely, settled_by)
         # a change that may still come a little later is not known yet
         undecided = min(hypotheses.settled_until(settled_by), self.strides.undecided_since(settled_by))
@@ -101,15 +107,19 @@ class ActivityReport:
         """Drop what no later report needs."""
         while len(self.settled) > 1 and self.settled[1][0].t <= self.known_until:
             self.settled.pop(0)
-        self.strides.drop_before(min([self.known_until - LONGEST_TURN, *[ride.t for ride, _ in self.rides]]))
+        rides = [ride.t for ride, _ in [*self.rides, *self.settled] if ride.activity in ELEVATOR_GOES_UP]
+        self.strides.drop_before(max(min([self.known_until, *rides]), self.known_until - LONGEST_RIDE) - LONGEST_TURN)
 
     def _report_rides(self, now: float, known_at: float, ending: bool) -> list[Event]:
-        """Return the rides whose strides are all known: whoever walked for most of one was in no elevator."""
+        """Return the rides whose strides are all known.
+
+        Whoever walked for most of one was in no elevator, and whoever has not walked just before on no escalator."""
         events: list[Event] = []
         while self.rides and (ending or now - self.rides[0][1] >= SETTLING_TIME - TIME_EPSILON):
             ride, t_end = self.rides.pop(0)
             is_ridden = 2.0 * self.strides.covered(ride.t, t_end) < t_end - ride.t
-            if is_ridden and not self.strides.leans(ride.t, t_end):
+            is_boarded = not ride.by_escalator or self.strides.covered(ride.t - BOARDING_TIME, ride.t) > 0.0
+            if is_ridden and is_boarded and not self.strides.leans(ride.t, t_end):
                 events.append(_ride_event(ride, t_end, known_at))
         return events
 
@@ -155,13 +165,19 @@ class ActivityReport:
         )
 
 
-def _ride_event(ride: ActivitySegment, t_end: float, known_at: float) -> LiftRidden:
+def _shown(segment: ActivitySegment) -> ActivitySegment:
+    """Return the segment as it is reported: who rides on an escalator stands."""
+    return ActivitySegment(segment.t, Activity.STANDING) if segment.by_escalator else segment
+
+
+def _ride_event(ride: ActivitySegment, t_end: float, known_at: float) -> Ride:
     start = ride.t if ride.detected_at is None else ride.detected_at
     end = max(start, t_end if ride.ended_at is None else ride.ended_at)
     up = ELEVATOR_GOES_UP[ride.activity]
     # the pulses are surer of the direction than a height of the other sign, which therefore is not known
     height = None if ride.height is None or (ride.height > 0.0) is not up else ride.height
-    return LiftRidden(t=end, known_at=max(known_at, end), t_start=start, up=up, height=height)
+    kind = EscalatorRidden if ride.by_escalator else LiftRidden
+    return kind(t=end, known_at=max(known_at, end), t_start=start, up=up, height=height)
 
 
 LEAST_MARGIN = 0.5

@@ -91,11 +91,15 @@ DWELL_TIME = 5.0
 """Least usual time between two rides, s: an elevator opens and closes its doors before it sets off again."""
 PULSE_HEIGHT_ERROR = 0.1
 """Standard deviation of a ride's height that is integrated from its pulses, as a share of the height."""
-SLOWEST_ELEVATOR_SPEED, SPEED_DEVIATION = 0.4, 0.03
-"""Speed of the slowest elevator, m/s, and the standard deviation of the speed that its pulses show, m/s.
+SLOWEST_ELEVATOR_SPEED, SLOWEST_ESCALATOR_SPEED, SPEED_DEVIATION = 0.4, 0.2, 0.03
+"""Vertical speeds of the slowest elevator and the slowest escalator, m/s, and the standard deviation of the speed that
+their pulses show, m/s.
 
 An escalator at 0.5 m/s (EN 115-1) rises by 0.25 m/s, in bends whose pulses look like an elevator's. Emulated escalators
 show 0.20 to 0.27 m/s, emulated elevators of 0.4 m/s 0.36 to 0.41; the 53 rides of hugadb have 0.76 or more."""
+ESCALATOR_LIMIT = 0.34
+"""Vertical speed below which the first pulse is that of an escalator, m/s: between 0.6 m/s along its slope of 30 degrees
+and what emulated elevators of 0.4 m/s show. A faster escalator is taken for a lift."""
 STOP_ERROR_SHARE, STOP_ERROR = 0.3, 0.1
 """Standard deviation of the integrated velocity at a stop: share of the top speed, and constant part, m/s."""
 MAX_STOP_PENALTY, MAX_SPEED_PENALTY = 4.0, 16.0
@@ -155,8 +159,15 @@ class ElevatorRide:
 
     def score_speed(self) -> float:
         """Return the log-likelihood of the largest speed so far, when the elevator does not become faster."""
-        lack = max(0.0, SLOWEST_ELEVATOR_SPEED - self.top_speed) / SPEED_DEVIATION
+        # the last pulse alone, which is any shift of weight, is no escalator
+        slowest = SLOWEST_ESCALATOR_SPEED if self.has_first_pulse else SLOWEST_ELEVATOR_SPEED
+        lack = max(0.0, slowest - self.top_speed) / SPEED_DEVIATION
         return -min(0.5 * lack * lack, MAX_SPEED_PENALTY)
+
+    @property
+    def is_slow(self) -> bool:
+        """Whether the first pulse was that of an escalator."""
+        return self.has_first_pulse and self.top_speed < ESCALATOR_LIMIT
 
     def score_stop(self) -> float:
         """Return the log-likelihood that the elevator stands now, after the motion of this ride."""
@@ -218,6 +229,8 @@ class ActivitySegment:
     """Start of the first block after a ride, s."""
     height: float | None = None
     """Height of a ride, m, positive upwards; None when it is not known."""
+    by_escalator: bool = False
+    """Flag: a ride as slow as an escalator's, on which the wearer stands."""
 
 
 def activity_at(path: Sequence[ActivitySegment], t: float, before: Activity | None) -> Activity | None:
@@ -407,6 +420,8 @@ def _extend_path(
     start_height = block.before if state in STAIR_SIGNS else None
     if path and path[-1].activity is activity:
         if state in RIDE_STATES:
+            if token.state in START_STATES and state not in START_STATES:
+                path = (*path[:-1], evolve(path[-1], by_escalator=ride.is_slow))
             return path, ride.move(levels, acceleration)
         start_height = ride.start_height
     else:
@@ -414,7 +429,7 @@ def _extend_path(
         if path:
             last = path[-1]
             if token.state in RIDE_STATES and state not in RIDE_STATES:
-                ended = ActivitySegment(last.t, last.activity, last.detected_at, t, ride.height_gain(block.after))
+                ended = evolve(last, ended_at=t, height=ride.height_gain(block.after))
                 path = (*path[:-1], ended)
                 ride = ride.end()
                 if state != STAND:

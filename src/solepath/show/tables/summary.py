@@ -57,6 +57,7 @@ def activity_lines(walk: Walk, now: float) -> list[str]:
         "activities": [f"{activity_words(one)} {duration_text(t)}" for one, t in walk.timeline.durations(now).items()],
         "flights of stairs": [f"{count} {way}" for way, count in directions(walk.flights)],
         "lift rides": [f"{count} {way}" for way, count in directions(walk.elevator_rides)],
+        "escalator rides": [f"{count} {way}" for way, count in directions(walk.escalator_rides)],
         "turns": [f"{walk.turns[turn]} {turn_words(turn)}" for turn in Turn if walk.turns[turn]],
     }
     return [f"{name}: {', '.join(texts)}" for name, texts in found.items() if texts]

@@ -12,6 +12,7 @@ from ....events import (
     ClockReset,
     Connected,
     Disconnected,
+    EscalatorRidden,
     Event,
     FlightClimbed,
     FootResumed,
@@ -114,8 +115,9 @@ def _line(event: Event) -> tuple[str, str]:
             return "gait", f"stairs {UP[up]}: {counted(strides, 'stride')}, {abs(height):.1f} m"
         case ActivityChanged(activity=Activity.ELEVATOR_UP | Activity.ELEVATOR_DOWN as activity, final=True):
             return "gait", f"in a lift that goes {UP[activity is Activity.ELEVATOR_UP]}"
-        case LiftRidden(up=up, height=height, final=True):
-            return "gait", f"lift {UP[up]}{'' if height is None else f', {abs(height):.1f} m'}"
+        case LiftRidden(up=up, height=height, final=True) | EscalatorRidden(up=up, height=height, final=True):
+            kind = "lift" if isinstance(event, LiftRidden) else "escalator"
+            return "gait", f"{kind} {UP[up]}{'' if height is None else f', {abs(height):.1f} m'}"
         case TrackRevised(by=by, turn=angle):
             turned = counted(round(abs(degrees(angle))), "degree")
             return "here", f"track revised: moved by {hypot(*by):.1f} m, turned by {turned}"

@@ -11,6 +11,7 @@ from attrs import define, field
 
 from ....events import (
     ClockReset,
+    EscalatorRidden,
     Event,
     FootFlat,
     FootMoved,
@@ -128,7 +129,7 @@ class Scene:
                 self.pace.add_stride(event)
             case WearerMoved():
                 self.wearer.add_position(event)
-            case LiftRidden():
+            case LiftRidden() | EscalatorRidden():
                 self.wearer.ride(event)
             case Placed(level=level) if self.wearer.add_place(event):
                 self.log.add(event.t, "place", f"on {self._level_name(level)}")

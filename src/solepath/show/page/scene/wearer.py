@@ -6,7 +6,8 @@ from typing import Any
 
 from attrs import define, evolve, field
 
-from ....events import LiftRidden, Placed, TrackRevised, WearerMoved
+from ....events import Placed, TrackRevised, WearerMoved
+from ....events.activity import Ride
 from ....recording import printable
 from ....types.attrs import NOT_SAVED
 from ..messages import members, plain
@@ -48,7 +49,7 @@ class WearerScene:
         self.moved, self.is_revised = evolve(self.moved, t=event.t, known_at=event.known_at, position=position), True
         add_position(self.track, event.t, position)
 
-    def ride(self, ride: LiftRidden) -> None:
+    def ride(self, ride: Ride) -> None:
         """Draw the height of a ride over its time, although it is known some strides after the ride.
 
         Positions since the ride are that much higher. Places since then are left out: they are those before it."""

@@ -31,8 +31,9 @@ def headline(facts: Facts) -> str:
     if flights := [f"{way} {count}" for way, count in directions(walk.flights)]:
         several = "s" * (walk.flights.total() > 1)
         clauses.append(f"went {' and '.join(flights)} flight{several} of stairs")
-    if rides := [f"{way} {times(count)}" for way, count in directions(walk.elevator_rides)]:
-        clauses.append(f"rode a lift {' and '.join(rides)}")
+    for kind, counts in (("a lift", walk.elevator_rides), ("an escalator", walk.escalator_rides)):
+        if rides := [f"{way} {times(count)}" for way, count in directions(counts)]:
+            clauses.append(f"rode {kind} {' and '.join(rides)}")
     if not clauses:
         if walk.known_feet and not walk.measured_feet:
             return f"Recorded for {duration_text(facts.duration)}; {NOTHING_RIGHT}."
