@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from .floorplan.plan import FloorPlan, FloorPlanError, Start
     from .link.catalogue import DEVICES
     from .link.driver import Driver, Measured, Reading
+    from .link.health import LinkHealth
     from .link.profile import Access, Channel, Profile, Write
     from .link.setup.device_setup import GattCharacteristic
     from .recipes import Recipe
@@ -92,6 +93,7 @@ _MODULES = (
     "calibration.file",
     "events.frames",
     "link.driver",
+    "link.health",
     "link.profile",
     "wire.fields",
     "link.setup.device_setup",
@@ -138,8 +140,8 @@ __all__ = [
     "FloorPlanError", "Foot", "FootFlat", "FootMoved", "FootPressed", "FootResumed", "FootSilent",
     "GaitCycleMeasured", "GaitParameters", "GattCharacteristic", "HeelOff", "HeelStrike", "Host", "IndexedPlan",
     "InsoleNeverUnloads", "ItemError", "JsonHost", "KeysChanged", "Layout", "LayoutKnown", "LiftRidden",
-    "Limitation", "LinkEvent", "LinkTrouble", "Measured", "Packet", "PacketRejected", "PacketsDropped", "Phase",
-    "PlaceLost", "Placed", "PlanContradicted", "Position", "PositionRejected", "PositionReported", "Profile",
+    "Limitation", "LinkEvent", "LinkHealth", "LinkTrouble", "Measured", "Packet", "PacketRejected", "PacketsDropped",
+    "Phase", "PlaceLost", "Placed", "PlanContradicted", "Position", "PositionRejected", "PositionReported", "Profile",
     "Quat", "Reading", "Recipe", "Rejection", "Sample", "SampleGap", "SampleRejected", "Session", "Site",
     "SnapshotError", "Start", "StreamRestarted", "StreamResumed", "StreamStale", "StrideFeatures", "StrideFigures",
     "StrideTaken", "Support", "ToeOff", "TrackNode", "TrackRevised", "Turn", "TurnMade", "Vec3", "WearerMoved",
