@@ -57,7 +57,7 @@ class RecentLink:
     last_arrival: float | None = None
     """Arrival of the newest packet or sample that was used, s; None before any."""
 
-    def add(self, t: float, *, packets: int = 0, samples: int = 0, missing: int = 0, rejected: int = 0) -> None:
+    def add(self, t: float, packets: int = 0, samples: int = 0, missing: int = 0, rejected: int = 0) -> None:
         """Add what came, was lost or was rejected at `t` s."""
         second = floor(t)
         if not self.seconds or not self.seconds[-1][0] - 1 <= second <= self.seconds[-1][0]:

@@ -57,9 +57,16 @@ class Repeats:
 
     kinds: list[Repeated] = field(factory=list)
     """Kinds of trouble in the order in which they were first told, at most MAX_KINDS."""
+    due: float = 0.0
+    """First time at which one of these is told or forgotten, s."""
 
     def tell(self, item: Packet | Sample | None, events: list[Event]) -> list[Event]:
         """Return what an app is told after an item, whose events these are; None as the item means that time passed."""
+        now = None
+        if item is not None:
+            now = float(item.t if isinstance(item, Packet) else max(item.t, item.known_at))
+            if not events and now < self.due:  # nearly always
+                return events
         told: list[Event] = []
         for event in events:
             if isinstance(event, TROUBLES):
@@ -68,12 +75,12 @@ class Repeats:
                 if isinstance(event, ENDS):
                     told += self._end([one for one in self.kinds if one.told.site is event.site])
                 told.append(event)
-        if self.kinds and item is not None and not any([isinstance(event, REJECTIONS) for event in events]):
-            now = float(item.t if isinstance(item, Packet) else max(item.t, item.known_at))
+        if item is not None and now is not None and not any([isinstance(event, REJECTIONS) for event in events]):
             for one in [one for one in self.kinds if one.told.site is item.site and not one.is_recent(now)]:
                 if one.held is None:
                     self.kinds.remove(one)
                 told += one.take_held(now)
+        self.due = min([one.told.known_at for one in self.kinds], default=0.0) + TOLD_TOGETHER
         return told
 
     def end(self, events: list[Event]) -> list[Event]:

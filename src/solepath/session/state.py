@@ -262,21 +262,29 @@ class SessionState:
     def _count_packet(self, packet: Packet, used: bool, items: list[Any], kinds: DeviceKinds) -> None:
         """Count a packet and what its device made of it; the fragments of a frame count as one packet."""
         samples = len([item for item in items if isinstance(item, Sample)])
-        is_whole = used and is_sample_channel(packet.channel, kinds) and (samples > 0 or not is_frame_fragment(packet))
-        self._count(packet.site, packet.t if used else None, items, packets=is_whole, samples=samples)
+        is_whole = used and (
+            samples > 0 or (is_sample_channel(packet.channel, kinds) and not is_frame_fragment(packet))
+        )
+        others = items if len(items) > samples else ()
+        self._count(packet.site, packet.t if used else None, others, packets=is_whole, samples=samples)
 
     def _count(
-        self, site: Site, arrival: float | None, events: list[Any], *, packets: int = 0, samples: int = 0
+        self, site: Site, arrival: float | None, events: Iterable[Any], *, packets: int = 0, samples: int = 0
     ) -> None:
         """Count what came of a site, and the events of it; `arrival`, s, is None for what was rejected."""
         link = self.links.get(site)
         if link is None:
             link = self.links[site] = RecentLink()
-        link.last_arrival = link.last_arrival if arrival is None else arrival
-        missing = sum([event.count for event in events if isinstance(event, SampleGap)])  # of whole numbers
-        rejected = len([event for event in events if isinstance(event, PacketRejected | SampleRejected)])
-        if (t := self.now if arrival is None else arrival) is not None:
-            link.add(t, packets=packets, samples=samples, missing=missing, rejected=rejected)
+        t, missing, rejected = self.now, 0, 0
+        if arrival is not None:
+            t = link.last_arrival = arrival
+        for event in events:
+            if isinstance(event, SampleGap):
+                missing += event.count
+            elif isinstance(event, PacketRejected | SampleRejected):
+                rejected += 1
+        if t is not None:
+            link.add(t, packets, samples, missing, rejected)
 
     def tell(self, item: Packet | Sample | None, events: list[Event], end: bool = False) -> list[Event]:
         """Return what the app is told after an item with these events; `end`: at the end, or before another clock."""
