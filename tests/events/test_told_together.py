@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from decimal import Decimal
 from math import fsum
 from random import Random
 from typing import Any
 
+import numpy as np
 import pytest
 from attrs import evolve
 from soak import soaked
 from walks import LEFT, RIGHT, insoles, of, pieces, run_session
 
 from solepath import (
+    BatteryLevel,
     ClockReset,
     Disconnected,
     LinkEvent,
@@ -162,6 +165,22 @@ def test_samples_in_the_wrong_unit_are_named_once_in_ten_seconds_and_all_are_cou
         told += session.feed(Sample(t=k * 0.01, site=LEFT, acc=(0.0, 0.0, 9810.0), gyro=(0.0, 0.0, 0.0)))
     assert len(of(SampleRejected, told)) == 3
     assert sum(event.count for event in of(SampleRejected, told + session.finish())) == 2500
+
+
+@pytest.mark.parametrize("t", [10**400, Decimal("1.5"), np.float64(1.5), True])
+def test_times_that_are_no_floats_are_times_also_while_something_is_held(t: Any) -> None:
+    session = Session()
+    for _ in range(3):
+        session.feed(Packet(0.0, LEFT, "insole/nothing", b""))
+    told = session.feed(Packet(t, LEFT, "device/battery", b"\x20"))
+    told += session.feed(Sample(t=t, site=RIGHT, acc=(0.0, 0.0, 9.8), gyro=(0.0, 0.0, 0.0)))
+    told += session.feed(Sample(t=2.0, known_at=None, site=RIGHT, acc=(0.0, 0.0, 9.8), gyro=(0.0, 0.0, 0.0)))
+    is_absurd = type(t) is int
+    assert [type(event) for event in told if isinstance(event, Troubles)] == [
+        PacketRejected,
+        SampleRejected,
+    ] * is_absurd
+    assert len(of(BatteryLevel, told)) == (not is_absurd)
 
 
 def test_channels_without_end_are_told_one_by_one_and_nothing_of_them_is_kept() -> None:

@@ -10,6 +10,7 @@ from ..events import ClockReset, Disconnected, Event, PacketRejected, SampleGap,
 from ..events.link import is_harmless_loss
 from ..types import Packet, Sample
 from ..types.attrs import define, evolve, field
+from ..types.plain import number
 
 TOLD_TOGETHER = 10.0
 """Time after a trouble was told within which those of its kind are told together, s.
@@ -62,11 +63,9 @@ class Repeats:
 
     def tell(self, item: Packet | Sample | None, events: list[Event]) -> list[Event]:
         """Return what an app is told after an item, whose events these are; None as the item means that time passed."""
-        now = None
-        if item is not None:
-            now = float(item.t if isinstance(item, Packet) else max(item.t, item.known_at))
-            if not events and now < self.due:  # nearly always
-                return events
+        now = None if item is None else _time(item)
+        if not events and now is not None and now < self.due:  # nearly always
+            return events
         told: list[Event] = []
         for event in events:
             if isinstance(event, TROUBLES):
@@ -107,6 +106,12 @@ class Repeats:
         """Forget these kinds; return what was held of them."""
         self.kinds = [one for one in self.kinds if all([one is not ended for ended in kinds])]
         return [event for one in kinds for event in one.take_held(None)]
+
+
+def _time(item: Packet | Sample) -> float:
+    """Return when an item came, s; its numbers are as the app gave them."""
+    t = number("t", item.t)
+    return t if isinstance(item, Packet) or item.known_at is None else max(t, number("known_at", item.known_at))
 
 
 def _kind(event: Trouble) -> tuple[object, ...]:
