@@ -21,7 +21,9 @@ MAX_KINDS = 32
 """Largest number of kinds of trouble that are told together: each has a site, a channel and a reason. Seven sites with
 their usual troubles have fewer; those of any further kind are told one by one. Chosen by hand."""
 MAX_TEXT = 200
-"""Largest number of characters of a channel, or of words, that is kept; troubles with more are told one by one."""
+"""Largest number of characters of a channel, or of words, that is kept; troubles with more are told one by one.
+
+Words about two devices to which a system gives 36 characters each have 130."""
 
 Trouble = SampleGap | PacketRejected | SampleRejected
 TROUBLES = (SampleGap, PacketRejected, SampleRejected)
