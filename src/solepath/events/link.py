@@ -33,8 +33,8 @@ class Rejection(Enum):
 class PacketRejected(BaseEvent):
     """A packet could not be used, and changed nothing; `t` is its arrival, with which it is reported.
 
-    Further ones of the same site, channel and reason within 10 s are told together after that time, as one event with
-    their `count` and the `t` and `detail` of the first of them; `Session(losses=True)` tells each by itself."""
+    Further ones of the same site, channel and reason within 10 s are reported together after that time, as one event
+    with their `count` and the `t` and `detail` of the first of them; `Session(losses=True)` reports each by itself."""
 
     site: Site
     channel: str
@@ -44,7 +44,7 @@ class PacketRejected(BaseEvent):
     detail: str = ""
     """Reason in words."""
     count: int = 1
-    """Number of packets that are told together."""
+    """Number of packets that are reported together."""
 
 
 @frozen(kw_only=True)
@@ -52,7 +52,7 @@ class SampleRejected(BaseEvent):
     """A sample could not be used, and changed no estimate.
 
     It is reported at once. `t` is the sample's time, or the previous sample's if the sample's time cannot be used.
-    Further ones of the same site and reason are told together, as for PacketRejected."""
+    Further ones of the same site and reason are reported together, as for PacketRejected."""
 
     site: Site
     reason: Rejection
@@ -61,7 +61,7 @@ class SampleRejected(BaseEvent):
     defect: Defect | None = None
     """Wrong unit that the size of the value suggests; DefectFound reports it if the foot has no usable samples."""
     count: int = 1
-    """Number of samples that are told together."""
+    """Number of samples that are reported together."""
 
 
 @frozen(kw_only=True)
@@ -69,8 +69,8 @@ class SampleGap(BaseEvent):
     """Samples did not arrive, or none was taken for a while; the stride says what is missing of it.
 
     `t` is the last sample before the gap. It is reported with the first sample after the gap. Short gaps, those that
-    are no flaw of a stride, are told together when they follow another of the site within 10 s: after that time, as one
-    event whose `t` is that of the first of them. `Session(losses=True)` tells each by itself."""
+    are no flaw of a stride, are reported together when they follow another of the site within 10 s: after that time, as
+    one event whose `t` is that of the first of them. `Session(losses=True)` reports each by itself."""
 
     site: Site
     duration: float
@@ -83,7 +83,7 @@ class SampleGap(BaseEvent):
     for an absence: the device was not connected, restarted, was silent for longer than its profile allows (rows: 20
     intervals, but 1 to 2 s, which is the same), or took no samples."""
     gaps: int = 1
-    """Number of gaps that are told together."""
+    """Number of gaps that are reported together."""
     longest: float = field()
     """Longest of these gaps, s, by default `duration`."""
 

@@ -35,11 +35,11 @@ class Session:
 
     `recipe` holds the parts. `calibration` describes the wearer, shoes and insoles. `poses` also emits FootMoved, the
     live position at every sample, and WearerMoved after every stride. `pressures` emits FootPressed, the loads of an
-    insole's cells. `losses` tells each short gap and each rejected packet or sample by itself; without it, those that
-    repeat within 10 s are told together. `devices` gives the address of the device at a site (`Packet.device`, in any
-    case); a site without one is bound to the first device that sends. `profiles` are the app's own devices. `floorplan`
-    can be an IndexedPlan that many sessions share. `start` is the wearer's first place on the plan. Raises ValueError
-    for impossible values.
+    insole's cells. `losses` reports each short gap and each rejected packet or sample by itself; without it, those that
+    repeat within 10 s are reported together. `devices` gives the address of the device at a site (`Packet.device`, in
+    any case); a site without one is bound to the first device that sends. `profiles` are the app's own devices.
+    `floorplan` can be an IndexedPlan that many sessions share. `start` is the wearer's first place on the plan. Raises
+    ValueError for impossible values.
 
     `feed`, `advance` and `finish` return events in the order in which they became known. `feed` accepts any bytes: they
     give events, never an exception, unless the app's own reader or part raises one. It raises TypeError for an item
@@ -104,12 +104,12 @@ class Session:
     def _feed_item(self, item: Packet | Sample) -> list[Event]:
         state = self._state
         if isinstance(item, Packet):
-            return self._tell(item, state.feed_packet, item, self._kinds)
+            return self._gather(item, state.feed_packet, item, self._kinds)
         if isinstance(item, Sample):
-            return self._tell(item, state.feed_sample, item)
+            return self._gather(item, state.feed_sample, item)
         raise TypeError(f"feed takes packets or samples, not {type(item).__name__}")
 
-    def _tell(
+    def _gather(
         self, item: Packet | Sample | None, change: Callable[..., list[Event]], *given: Any, end: bool = False
     ) -> list[Event]:
         """Change the state and return what the app is told of it, also of what was known before an error."""
@@ -117,9 +117,9 @@ class Session:
         try:
             events = change(*given)
         except ItemError as error:
-            error.events = state.tell(item, error.events)
+            error.events = state.gather(item, error.events)
             raise
-        return state.tell(item, events, end)
+        return state.gather(item, events, end)
 
     def advance(self, now: float) -> list[Event]:
         """Let time pass until `now`, s, packets' clock, and return the events; raise ValueError for NaN or infinity.
@@ -127,12 +127,12 @@ class Session:
         A leap that packets contradict, as that of another clock, is taken back, with a Limitation; further ones, and
         leaps of more than an hour, count only once two seconds have passed since then without a packet."""
         state = self._state
-        return [] if state.finished else self._tell(None, state.advance, check_now(now), self._kinds)
+        return [] if state.finished else self._gather(None, state.advance, check_now(now), self._kinds)
 
     def restart_clock(self, now: float) -> list[Event]:
         """Continue on a clock that restarted or was set, and is now at `now`, s; return a ClockReset of each site."""
         state = self._state
-        return [] if state.finished else self._tell(None, state.restart_clock, check_now(now), end=True)
+        return [] if state.finished else self._gather(None, state.restart_clock, check_now(now), end=True)
 
     def here(self, where: Vec2 | str | None = None, sigma: float = 1.0, *, level: str = "") -> list[Event]:
         """Report where the wearer is, to `sigma`, m: x and y, m, a place's name, or None for the start.
@@ -148,7 +148,7 @@ class Session:
     def finish(self) -> list[Event]:
         """Return the events that were held back; the session can still be read, but not fed."""
         state = self._state
-        return [] if state.finished else self._tell(None, state.finish, end=True)
+        return [] if state.finished else self._gather(None, state.finish, end=True)
 
     def bind(self, site: Site, device: str) -> None:
         """Bind `site` to another device, "" for the next that sends, and forget the old layout, ranges and clock."""

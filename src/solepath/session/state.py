@@ -286,11 +286,11 @@ class SessionState:
         if t is not None:
             link.add(t, packets, samples, missing, rejected)
 
-    def tell(self, item: Packet | Sample | None, events: list[Event], end: bool = False) -> list[Event]:
+    def gather(self, item: Packet | Sample | None, events: list[Event], end: bool = False) -> list[Event]:
         """Return what the app is told after an item with these events; `end`: at the end, or before another clock."""
         if self.settings.losses or not (events or self.repeats.kinds):
             return events
-        return self.repeats.end(events) if end else self.repeats.tell(item, events)
+        return self.repeats.end(events) if end else self.repeats.gather(item, events)
 
     def notify(self, notice: Notice) -> None:
         """Tell the parts that ask for notices of this kind."""

@@ -113,10 +113,10 @@ async def listen(
 
         def take(item: Packet | Sample | None) -> None:
             events = session.finish() if item is None else session.feed(item)
-            told = repeats.end(events) if item is None else repeats.tell(item, events)
-            files.take(item, told)
+            reported = repeats.end(events) if item is None else repeats.gather(item, events)
+            files.take(item, reported)
             collector.take(item, events)
-            publish(told)
+            publish(reported)
 
         try:
             with show_state(walk, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
