@@ -40,7 +40,7 @@ for packet in packets:
                 missing += count
             case PacketRejected(t=t, reason=reason):
                 print(f"{t:6.2f} s  a packet was not used: {reason.value}")
-session.finish()
+missing += sum(event.count for event in session.finish() if isinstance(event, SampleGap))  # told together with others
 
 if session.position is not None:
     x, y, z = session.position.position

@@ -67,6 +67,7 @@ if TYPE_CHECKING:
     from .floorplan.plan import FloorPlan, FloorPlanError, Start
     from .link.catalogue import DEVICES
     from .link.driver import Driver, Measured, Reading
+    from .link.health import LinkHealth
     from .link.profile import Access, Channel, Profile, Write
     from .link.setup.device_setup import GattCharacteristic
     from .recipes import Recipe
@@ -93,6 +94,7 @@ _MODULES = (
     "calibration.file",
     "events.frames",
     "link.driver",
+    "link.health",
     "link.profile",
     "wire.fields",
     "link.setup.device_setup",
@@ -139,7 +141,7 @@ __all__ = [
     "FlightClimbed", "FloorPlan", "FloorPlanError", "Foot", "FootFlat", "FootMoved", "FootPressed", "FootResumed",
     "FootSilent", "GaitCycleMeasured", "GaitParameters", "GattCharacteristic", "HeelOff", "HeelStrike", "Host",
     "IndexedPlan", "InsoleNeverUnloads", "ItemError", "JsonHost", "KeysChanged", "Layout", "LayoutKnown",
-    "LiftRidden", "Limitation", "LinkEvent", "LinkTrouble", "Measured", "Packet", "PacketRejected",
+    "LiftRidden", "Limitation", "LinkEvent", "LinkHealth", "LinkTrouble", "Measured", "Packet", "PacketRejected",
     "PacketsDropped", "Phase", "PlaceLost", "Placed", "PlanContradicted", "Position", "PositionRejected",
     "PositionReported", "Profile", "Quat", "Reading", "Recipe", "Rejection", "Sample", "SampleGap",
     "SampleRejected", "Session", "Site", "SnapshotError", "Start", "StreamRestarted", "StreamResumed",

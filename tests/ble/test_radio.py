@@ -17,8 +17,8 @@ from airs import collect
 from solepath import Disconnected, FootMoved, PacketRejected, Session
 from solepath.ble import DeviceConfig, Devices, scan
 from solepath.link.catalogue import DEVICES
+from solepath.link.health import is_sample_channel
 from solepath.types import Packet, Site
-from solepath.walk.links import is_sample_channel
 
 ADDRESS, PROFILE = os.environ.get("SOLEPATH_RADIO", ""), os.environ.get("SOLEPATH_RADIO_PROFILE", "")
 LISTENING_TIME = 5.0

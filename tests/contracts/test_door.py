@@ -292,7 +292,7 @@ def test_what_is_known_of_a_device_does_not_grow_without_bound() -> None:
         return Reading(known={f"number {next(names)}": 1.0})
 
     driver = evolve(BOTH, readers={"toy/data": reader})
-    session = Session(profiles=[driver])
+    session = Session(losses=True, profiles=[driver])
     data = driver.write("toy/data", {"number": 1, "ticks": 0, "count": 1, "up": [9.8]})
     events = session.feed([Packet(0.01 * k, LEFT, "toy/data", data) for k in range(100)])
     assert [event.detail for event in of(PacketRejected, events)] == ["more than 64 known numbers"] * 36

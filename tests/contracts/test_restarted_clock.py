@@ -140,7 +140,7 @@ def test_without_the_call_packets_are_rejected_until_twenty_in_a_row_have_shown_
     session = Session()
     session.feed([packet for packet in insoles().packets if packet.t < 5.0])
     events = session.feed([shifted(packet, -5.0) for packet in insoles().packets if packet.t >= 5.0])
-    assert len(of(PacketRejected, events)) == 2 * 19 and len(of(ClockReset, events)) == 2
+    assert sum(event.count for event in of(PacketRejected, events)) == 2 * 19 and len(of(ClockReset, events)) == 2
 
 
 def test_what_waited_for_other_data_is_given_out_before_the_clock_restarts() -> None:

@@ -44,7 +44,7 @@ SEEDS = pytest.mark.parametrize("seed", [1, *soaked(2)])
 
 def compared(walk: EmulatedWalk) -> Compared:
     """Return the events of a session for a walk, and their comparison with the truth, foot by foot."""
-    session, found = Session(poses=True), Walk(limit=None, keeps_all=True)
+    session, found = Session(poses=True, losses=True), Walk(limit=None, keeps_all=True)
     events = session.feed(walk.packets) + session.finish()
     for event in events:
         found.add(event)

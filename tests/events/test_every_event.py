@@ -76,7 +76,8 @@ def test_every_number_of_every_event_is_in_its_row(shape: int) -> None:
 def test_a_number_that_is_not_finite_is_null() -> None:
     gap = SampleGap(t=0.0, known_at=inf, site=Site.PELVIS, duration=-inf, count=0)
     assert gap.to_dict() == {
-        "event": "SampleGap", "t": 0.0, "known_at": None, "final": True, "site": "pelvis", "duration": None, "count": 0
+        "event": "SampleGap", "t": 0.0, "known_at": None, "final": True, "site": "pelvis", "duration": None,
+        "count": 0, "gaps": 1, "longest": None
     }  # fmt: skip
 
 

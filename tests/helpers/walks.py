@@ -82,6 +82,12 @@ def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
     return {key: np.array([getattr(s, key) for s in foot_samples]) for key in ("t", "acc", "gyro")}
 
 
+def each_by_itself(session: Any) -> Any:
+    """Return a new session, which then tells each gap and each rejection by itself, as `Session(losses=True)` does."""
+    session._state.settings = evolve(session._state.settings, losses=True)
+    return session
+
+
 def run_session(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -> list[Any]:
     """Return all events of a session for these items, with those at the end."""
     session = Session(recipe, **given)

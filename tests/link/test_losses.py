@@ -141,7 +141,7 @@ class Received:
 
 
 def follow(sender: Sender, course: Course, site: Site) -> Received:
-    session, walk, events = Session(poses=True), Walk(), list[Event]()
+    session, walk, events = Session(poses=True, losses=True), Walk(), list[Event]()
 
     def receive(packet: Packet) -> None:
         found = session.feed(packet)
@@ -228,7 +228,7 @@ def test_the_time_without_a_connection_is_absent_once_and_none_of_it_is_missing(
 def test_what_is_missing_of_a_cc2541_that_loses_one_packet_in_five_is_right_whatever_its_period(
     period: float, site: Site
 ) -> None:
-    session, walk, random, lost = Session(poses=True), Walk(), Random(1), 0
+    session, walk, random, lost = Session(poses=True, losses=True), Walk(), Random(1), 0
     for k in range(int(60.0 / period)):
         arrival = 100.0 + k * period + random.uniform(0.0, 0.02)
         for made in (acc_packet(0.0, (k % 3, 0, 16)), gyro_packet(0.0, (k % 250, 0, 0))):

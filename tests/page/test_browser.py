@@ -50,7 +50,7 @@ async def test_a_walk_is_drawn_while_it_goes_on_and_its_figures_are_those_of_the
 
 
 async def test_cells_alone_show_the_cadence_and_neither_strides_nor_a_distance(chromium: Browser) -> None:
-    session, scene = Session(poses=True, pressures=True), Scene("cells alone", "default", "recording")
+    session, scene = Session(poses=True, pressures=True, losses=True), Scene("cells alone", "default", "recording")
     walker = Walker(Route().stand(2.0).walk(15.0).stop(2.0), seed=3)
     for sample in walker.samples(Foot.LEFT, 50.0, layout=layout(24, Foot.LEFT))[:600]:
         sample = evolve(sample, acc=None, gyro=None)

@@ -26,7 +26,8 @@ WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
 async def played(chromium: Browser, **given: Any) -> AsyncIterator[tuple[Window, Playback]]:
     """Yield a page that plays a recording of WALK, and its player's state; `given` goes to `open_page`."""
     packets = PackedItems(walked(WALK, cells=16))
-    player = Player(packets, Session(poses=True, pressures=True), Scene("a recording", "default", "recording"))
+    session = Session(poses=True, pressures=True, losses=True)
+    player = Player(packets, session, Scene("a recording", "default", "recording"))
     async with (
         open_page(chromium, player.scene, player.command, **given) as (view, page),
         meanwhile(play_on(page, player, asyncio.Event())),

@@ -47,7 +47,7 @@ def never() -> bool:
 
 
 def make_player(items: PackedItems | None = None, **given: object) -> Player:
-    session = Session(poses=True, pressures=True)
+    session = Session(poses=True, pressures=True, losses=True)
     return Player(
         PackedItems(PACKETS) if items is None else items, session, Scene("a walk", "default", "recording"), **given
     )
@@ -90,7 +90,7 @@ def test_a_recording_of_a_device_of_an_app_is_played_again_from_any_time() -> No
         Packet(0.1 * k, Site.LEFT_FOOT, "toy/data", NUMBERED.write("toy/data", TOY_VALUE | {"number": k}))
         for k in range(300)
     ]
-    session = Session(poses=True, pressures=True, profiles=[NUMBERED])
+    session = Session(poses=True, pressures=True, losses=True, profiles=[NUMBERED])
     player = Player(PackedItems(toys), session, Scene("a toy", "default", "recording"), profiles=[NUMBERED])
     for t in (25.0, 15.0, 25.0):
         stop_at(player, t)
@@ -160,7 +160,7 @@ def test_items_are_passed_on_once_and_in_order_whatever_is_done_on_the_page(acti
         assert player.delivered_count < len(PACKETS) or player.playback.state != "ended"
     assert player.delivered_count == len(PACKETS)
     assert [item for item, _ in passed_on] == [*PACKETS, None]
-    session = Session(poses=True, pressures=True)
+    session = Session(poses=True, pressures=True, losses=True)
     assert [events for _, events in passed_on] == [*(session.feed(packet) for packet in PACKETS), session.finish()]
 
 

@@ -101,7 +101,7 @@ def test_a_foot_of_which_all_that_comes_is_rejected_has_that_for_a_finding_and_i
     change: str, start: float
 ) -> None:
     code, changed = REFUSED[change]
-    route, walk, session = Route().stand(2.0).walk(45.0, speed=1.2).stop(2.0), Walk(), Session()
+    route, walk, session = Route().stand(2.0).walk(45.0, speed=1.2).stop(2.0), Walk(), Session(losses=True)
     samples = sorted([one for foot in Foot for one in Walker(route).samples(foot, 100.0)], key=lambda one: one.t)
     items = samples if code == "samples_rejected" else walked(route, cells=8)
     for one in items:
@@ -112,7 +112,7 @@ def test_a_foot_of_which_all_that_comes_is_rejected_has_that_for_a_finding_and_i
 
 @pytest.mark.parametrize("damaged", [0, 1, 20])
 def test_a_foot_that_falls_silent_after_some_damaged_packets_is_called_silent(damaged: int) -> None:
-    walk, session, number = Walk(), Session(), 0
+    walk, session, number = Walk(), Session(losses=True), 0
     for one in walked(Route().stand(2.0).walk(45.0, speed=1.2).stop(2.0), cells=8):
         if one.site is LEFT and one.t > SILENT_FROM:
             number += 1

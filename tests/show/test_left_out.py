@@ -52,7 +52,7 @@ def _together(left: Change) -> list[Sample]:
 
 
 def _fed(samples: Sequence[Sample]) -> tuple[Walk, Scene, list[DefectFound], list[GaitCycleMeasured]]:
-    session, walk, scene = Session(recipes.DEFAULT, poses=True), Walk(limit=None), Scene("walk", "default")
+    session, walk, scene = Session(recipes.DEFAULT, poses=True, losses=True), Walk(limit=None), Scene("walk", "default")
     events = []
     for item in [*samples, None]:
         found = session.finish() if item is None else session.feed(item)

@@ -67,7 +67,7 @@ def test_one_frame_of_so_many_is_missing_wherever_it_is_told(every: int, absence
     for text in (tracked.stdout, checked.stdout, page):
         assert shares(text) and all(one == share for one in shares(text)), text
         assert ("absent for 25.0 s" in text) is (absence > 0.0)
-    session, scene = Session(poses=True), Scene("a walk", "default")
+    session, scene = Session(poses=True, losses=True), Scene("a walk", "default")
     gaps = []
     for packet in packets:
         events = session.feed(packet)
@@ -117,7 +117,7 @@ def moment(item: Packet | Sample) -> float:
 
 def followed(packets: Sequence[Packet | Sample], recipe: str = "default") -> Walk:
     """Return the walk of a session of a recipe that was fed with the packets or samples."""
-    session, walk = Session(recipes.by_name(recipe), poses=True), Walk()
+    session, walk = Session(recipes.by_name(recipe), poses=True, losses=True), Walk()
     for packet in packets:
         walk.take(packet, session.feed(packet))
     walk.take(None, session.finish())

@@ -20,7 +20,7 @@ LEFT = Site.LEFT_FOOT
 
 def observed(items: Iterable[Packet | Sample]) -> Walk:
     """Return an walk of a session that was fed with the items."""
-    session, walk = Session(poses=True, pressures=True), Walk()
+    session, walk = Session(poses=True, pressures=True, losses=True), Walk()
     for item in items:
         walk.take(item, session.feed(item))
     walk.take(None, session.finish())
@@ -51,7 +51,7 @@ def test_received_and_missing_samples_are_all_that_were_sent_whatever_came_damag
 
 def test_a_clock_that_was_set_back_goes_on_from_there() -> None:
     shifted = [evolve(p, t=p.t + (5000.0 if p.t < 3.0 else 1000.0)) for p in insoles().packets]
-    session, walk = Session(poses=True), Walk()
+    session, walk = Session(poses=True, losses=True), Walk()
     for packet in shifted:
         walk.take(packet, session.feed(packet))
     assert walk.now == pytest.approx(shifted[-1].t, abs=0.1)

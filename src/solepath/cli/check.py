@@ -54,7 +54,8 @@ def run(options: Namespace) -> int:
         _print_list("must be mended", [_without_path(one) if is_one else str(one) for one in error.problems])
         print("nothing else was checked: mend this first")
         return 1
-    session, recording = Session(recipe, calibration=calibration, poses=True, profiles=drivers), Recording(source)
+    session = Session(recipe, calibration=calibration, poses=True, losses=True, profiles=drivers)
+    recording = Recording(source)
     walk, must = Walk(kinds=make_kinds(drivers)), list[str]()
     may = list[str]()
     for item in chain(recording, [None]):

@@ -107,7 +107,12 @@ def make_demo(options: Namespace, radio: Radio, *, pressures: bool) -> Demo:
     limbs = Wearer().limbs
     sensors, devices = worn(options.recipe, limbs, options.seed)
     session = Session(
-        by_name(options.recipe), calibration=Calibration(limbs=limbs), poses=True, pressures=pressures, floorplan=plan
+        by_name(options.recipe),
+        calibration=Calibration(limbs=limbs),
+        poses=True,
+        pressures=pressures,
+        losses=True,
+        floorplan=plan,
     )
     return Demo(emulate(route, devices=devices, radio=radio, seed=options.seed), session, sensors, way, plan)
 

@@ -84,6 +84,7 @@ def run(options: Namespace) -> int:
             calibration=calibration,
             poses=True,
             pressures=has_cells,
+            losses=True,
             profiles=drivers,
             floorplan=plan,
             start=start,

@@ -138,7 +138,7 @@ def compare(job: Job) -> list[PairCells] | str:
     options, name, rows = job
     try:
         drivers = drivers_of(options)
-        session = Session(recipes_of(options)[0], calibration=calibration_of(options), profiles=drivers)
+        session = Session(recipes_of(options)[0], calibration=calibration_of(options), losses=True, profiles=drivers)
         source = source_named(options)
         check_pressure(recipes_of(options)[0], source, drivers)
         walk, recording = Walk(limit=None, keeps_all=True, kinds=make_kinds(drivers)), Recording(source)

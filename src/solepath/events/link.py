@@ -5,8 +5,9 @@ from __future__ import annotations
 from enum import Enum
 
 from ..types import Layout, Site, Vec2
-from ..types.attrs import frozen
+from ..types.attrs import field, frozen
 from .defect import Defect
+from .foot import is_harmless
 from .happening import BaseEvent
 
 
@@ -30,7 +31,10 @@ class Rejection(Enum):
 
 @frozen(kw_only=True)
 class PacketRejected(BaseEvent):
-    """A packet could not be used, and changed nothing; `t` is its arrival, with which it is reported."""
+    """A packet could not be used, and changed nothing; `t` is its arrival, with which it is reported.
+
+    Further ones of the same site, channel and reason within 10 s are reported together after that time, as one event
+    with their `count` and the `t` and `detail` of the first of them; `Session(losses=True)` reports each by itself."""
 
     site: Site
     channel: str
@@ -39,13 +43,16 @@ class PacketRejected(BaseEvent):
     """Kind of fault."""
     detail: str = ""
     """Reason in words."""
+    count: int = 1
+    """Number of packets that are reported together."""
 
 
 @frozen(kw_only=True)
 class SampleRejected(BaseEvent):
     """A sample could not be used, and changed no estimate.
 
-    It is reported at once. `t` is the sample's time, or the previous sample's if the sample's time cannot be used."""
+    It is reported at once. `t` is the sample's time, or the previous sample's if the sample's time cannot be used.
+    Further ones of the same site and reason are reported together, as for PacketRejected."""
 
     site: Site
     reason: Rejection
@@ -53,17 +60,21 @@ class SampleRejected(BaseEvent):
     """Reason in words."""
     defect: Defect | None = None
     """Wrong unit that the size of the value suggests; DefectFound reports it if the foot has no usable samples."""
+    count: int = 1
+    """Number of samples that are reported together."""
 
 
 @frozen(kw_only=True)
 class SampleGap(BaseEvent):
     """Samples did not arrive, or none was taken for a while; the stride says what is missing of it.
 
-    `t` is the last sample before the gap. It is reported with the first sample after the gap."""
+    `t` is the last sample before the gap. It is reported with the first sample after the gap. Short gaps, those that
+    are no flaw of a stride, are reported together when they follow another of the site within 10 s: after that time, as
+    one event whose `t` is that of the first of them. `Session(losses=True)` reports each by itself."""
 
     site: Site
     duration: float
-    """Time from the last sample before the gap to the first sample after it, s."""
+    """Time from the last sample before the gap to the first sample after it, s; the sum of several gaps."""
     count: int
     """Number of samples that the device took and that did not arrive; of a CC2541, values of either of its two streams.
 
@@ -71,6 +82,19 @@ class SampleGap(BaseEvent):
     without packets, the usual interval between them, which is twice as long if every second one is always lost. It is 0
     for an absence: the device was not connected, restarted, was silent for longer than its profile allows (rows: 20
     intervals, but 1 to 2 s, which is the same), or took no samples."""
+    gaps: int = 1
+    """Number of gaps that are reported together."""
+    longest: float = field()
+    """Longest of these gaps, s, by default `duration`."""
+
+    @longest.default
+    def _only_one(self) -> float:
+        return self.duration
+
+
+def is_harmless_loss(gap: SampleGap) -> bool:
+    """Return whether samples were lost, and in each gap so few that it is no flaw of a stride."""
+    return gap.count > 0 and is_harmless(gap.longest, gap.duration / (gap.count + gap.gaps))
 
 
 @frozen(kw_only=True)

@@ -11,7 +11,7 @@ case are the same address. Only packets of channels receiver/..., which report o
 
 A packet is rejected when it arrived before the newest one. If twenty such packets come in a row, the receiver's clock
 was set back: the twentieth gives ClockReset, and times restart earlier than before (protocol/clock.md). The count of
-these packets is the only thing that a rejected packet changes."""
+these packets is the only thing that a rejected packet changes here."""
 
 from __future__ import annotations
 

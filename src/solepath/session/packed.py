@@ -43,6 +43,7 @@ class Head:
     calibration: Calibration
     poses: bool
     pressures: bool
+    losses: bool
     plan: int | None
     """Fingerprint of the floor plan; None without one."""
 
@@ -63,7 +64,8 @@ def pack(state: SessionState) -> bytes:
     value cannot be saved."""
     settings = state.settings
     check_names(settings.recipe)
-    head = Head(settings.recipe.name, settings.calibration, settings.poses, settings.pressures, settings.plan)
+    flags = settings.poses, settings.pressures, settings.losses
+    head = Head(settings.recipe.name, settings.calibration, *flags, settings.plan)
     lists = Lists([], [], [], [])
     try:
         HEAD.write(head, lists)
@@ -137,7 +139,8 @@ def _make_initial_state(recipe: Recipe, head: Head) -> SessionState:
     key = id(recipe), repr(head)  # a template has its recipe, so that no other one gets its id
     state = _templates.get(key)
     if state is None:
-        state = SessionState(SessionSettings(recipe, head.calibration, head.poses, head.pressures, head.plan))
+        flags = head.poses, head.pressures, head.losses
+        state = SessionState(SessionSettings(recipe, head.calibration, *flags, head.plan))
         state.feet = {foot: state._tracker(foot) for foot in Foot}
         for tracker in state.feet.values():
             tracker.make_sole()

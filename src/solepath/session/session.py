@@ -5,7 +5,7 @@ events on every machine, however it is divided among calls."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
@@ -14,11 +14,12 @@ from ..body.part import Position, StartGiven
 from ..calibration import Calibration
 from ..events import Event, Placed
 from ..foot.phase import SUPPORT
+from ..link.health import LinkHealth
 from ..link.kinds import DeviceKinds, is_address, make_kinds
 from ..recipes import DEFAULT, Recipe, shared_copy
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support, Vec2
 from ..types.plain import flag, text
-from .arguments import check_calibration, check_now, check_start, index_floorplan, keep_events
+from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan, keep_events
 from .state import SessionSettings, SessionState
 
 if TYPE_CHECKING:
@@ -34,9 +35,11 @@ class Session:
 
     `recipe` holds the parts. `calibration` describes the wearer, shoes and insoles. `poses` also emits FootMoved, the
     live position at every sample, and WearerMoved after every stride. `pressures` emits FootPressed, the loads of an
-    insole's cells. `devices` gives the address of the device at a site (`Packet.device`, in any case); a site without
-    one is bound to the first device that sends. `profiles` are the app's own devices. `floorplan` can be an IndexedPlan
-    that many sessions share. `start` is the wearer's first place on the plan. Raises ValueError for impossible values.
+    insole's cells. `losses` reports each short gap and each rejected packet or sample by itself; without it, those that
+    repeat within 10 s are reported together. `devices` gives the address of the device at a site (`Packet.device`, in
+    any case); a site without one is bound to the first device that sends. `profiles` are the app's own devices.
+    `floorplan` can be an IndexedPlan that many sessions share. `start` is the wearer's first place on the plan. Raises
+    ValueError for impossible values.
 
     `feed`, `advance` and `finish` return events in the order in which they became known. `feed` accepts any bytes: they
     give events, never an exception, unless the app's own reader or part raises one. It raises TypeError for an item
@@ -56,6 +59,7 @@ class Session:
         calibration: Calibration | None = None,
         poses: bool = False,
         pressures: bool = False,
+        losses: bool = False,
         devices: Mapping[Site, str] | None = None,
         profiles: Iterable[Driver] = (),
         floorplan: FloorPlan | IndexedPlan | None = None,
@@ -65,8 +69,8 @@ class Session:
         own_calibration = Calibration() if calibration is None else check_calibration(calibration)
         self._plan = index_floorplan(floorplan)
         plan = None if self._plan is None else self._plan.fingerprint
-        with_poses, with_pressures = flag("poses", poses), flag("pressures", pressures)
-        settings = SessionSettings(shared_copy(recipe), own_calibration, with_poses, with_pressures, plan)
+        flags = flag("poses", poses), flag("pressures", pressures), flag("losses", losses)
+        settings = SessionSettings(shared_copy(recipe), own_calibration, *flags, plan)
         state = self._state = SessionState(settings)
         if start is not None:
             state.notify(StartGiven(check_start(start, self._plan)))
@@ -98,22 +102,37 @@ class Session:
         return events
 
     def _feed_item(self, item: Packet | Sample) -> list[Event]:
+        state = self._state
         if isinstance(item, Packet):
-            return self._state.feed_packet(item, self._kinds)
+            return self._gather(item, state.feed_packet, item, self._kinds)
         if isinstance(item, Sample):
-            return self._state.feed_sample(item)
+            return self._gather(item, state.feed_sample, item)
         raise TypeError(f"feed takes packets or samples, not {type(item).__name__}")
+
+    def _gather(
+        self, item: Packet | Sample | None, change: Callable[..., list[Event]], *given: Any, end: bool = False
+    ) -> list[Event]:
+        """Change the state and return what the app is told of it, also of what was known before an error."""
+        state = self._state
+        try:
+            events = change(*given)
+        except ItemError as error:
+            error.events = state.gather(item, error.events)
+            raise
+        return state.gather(item, events, end)
 
     def advance(self, now: float) -> list[Event]:
         """Let time pass until `now`, s, packets' clock, and return the events; raise ValueError for NaN or infinity.
 
         A leap that packets contradict, as that of another clock, is taken back, with a Limitation; further ones, and
         leaps of more than an hour, count only once two seconds have passed since then without a packet."""
-        return [] if self._state.finished else self._state.advance(check_now(now), self._kinds)
+        state = self._state
+        return [] if state.finished else self._gather(None, state.advance, check_now(now), self._kinds)
 
     def restart_clock(self, now: float) -> list[Event]:
         """Continue on a clock that restarted or was set, and is now at `now`, s; return a ClockReset of each site."""
-        return [] if self._state.finished else self._state.restart_clock(check_now(now))
+        state = self._state
+        return [] if state.finished else self._gather(None, state.restart_clock, check_now(now), end=True)
 
     def here(self, where: Vec2 | str | None = None, sigma: float = 1.0, *, level: str = "") -> list[Event]:
         """Report where the wearer is, to `sigma`, m: x and y, m, a place's name, or None for the start.
@@ -128,7 +147,8 @@ class Session:
 
     def finish(self) -> list[Event]:
         """Return the events that were held back; the session can still be read, but not fed."""
-        return [] if self._state.finished else self._state.finish()
+        state = self._state
+        return [] if state.finished else self._gather(None, state.finish, end=True)
 
     def bind(self, site: Site, device: str) -> None:
         """Bind `site` to another device, "" for the next that sends, and forget the old layout, ranges and clock."""
@@ -157,6 +177,14 @@ class Session:
     def feet(self) -> dict[Foot, FootTracker]:
         """Read-only trackers of the feet that sent samples: position, velocity, attitude, covariance, phase."""
         return dict(self._state.feet)
+
+    @property
+    def links(self) -> dict[Site, LinkHealth]:
+        """How good the link of each site is by the newest known time: last arrival, and what is missing and rejected.
+
+        It is for a screen that asks once a second; no event tells it."""
+        now, links = self._state.now, self._state.links
+        return {} if now is None else {site: links[site].health(now) for site in Site if site in links}
 
     @property
     def position(self) -> Position | None:

@@ -38,6 +38,7 @@ from ..events import (
 )
 from ..foot.settings import FootSettings
 from ..foot.view import FootView
+from ..link.health import RecentLink, is_frame_fragment, is_sample_channel
 from ..link.kinds import DeviceKinds
 from ..recipes import Recipe, part_class
 from ..types import OTHER, SITE_OF_FOOT, Foot, Packet, Quat, Sample, Site
@@ -46,6 +47,7 @@ from ..types.plain import has_floats, number, text, with_floats
 from ..types.records import MAX_TIME
 from ..types.vector import normalise
 from .arguments import keep_events
+from .repeats import Repeats
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -83,6 +85,8 @@ class SessionSettings:
     """True to emit FootMoved, and WearerMoved after a stride."""
     pressures: bool = False
     """True to emit FootPressed with every sample of cells."""
+    losses: bool = False
+    """True to tell each gap and each rejected packet or sample by itself."""
     plan: int | None = None
     """Fingerprint of the floor plan; None without a plan, and then the recipe's place part is not used."""
 
@@ -115,6 +119,10 @@ class SessionState:
     """Time up to which each site's times are not comparable with another site's, s; None when they are comparable."""
     unused: list[Site] = state(factory=list)
     """Sites whose samples the recipe cannot use; reported once."""
+    links: dict[Site, RecentLink] = state(factory=dict)
+    """What came lately over the link of each site."""
+    repeats: Repeats = state(factory=Repeats)
+    """Small troubles of the links that the app has still to be told."""
 
     def __attrs_post_init__(self) -> None:
         settings = self.settings
@@ -152,6 +160,7 @@ class SessionState:
         decoder = self.decoders.get(site) or self.make_decoder(site)
         newest_arrival = decoder.newest_arrival
         items = decoder.feed(packet, kinds)
+        self._count_packet(packet, decoder.used, items, kinds)
         if not decoder.used:
             # a rejected packet changes nothing, so time does not pass with it either
             if site not in self.decoders:
@@ -203,7 +212,9 @@ class SessionState:
         if not has_floats(sample):
             sample = with_floats(sample)
         events = self._use_sample(sample)
-        if not (events and isinstance(events[0], SampleRejected)) and (self.now is None or sample.t > self.now):
+        is_used = not (events and isinstance(events[0], SampleRejected))
+        self._count(sample.site, max(sample.t, sample.known_at) if is_used else None, events, samples=is_used)
+        if is_used and (self.now is None or sample.t > self.now):
             self.now = sample.t
         return events
 
@@ -247,6 +258,39 @@ class SessionState:
             events += held
         self.finished = True
         return events
+
+    def _count_packet(self, packet: Packet, used: bool, items: list[Any], kinds: DeviceKinds) -> None:
+        """Count a packet and what its device made of it; the fragments of a frame count as one packet."""
+        samples = len([item for item in items if isinstance(item, Sample)])
+        is_whole = used and (
+            samples > 0 or (is_sample_channel(packet.channel, kinds) and not is_frame_fragment(packet))
+        )
+        others = items if len(items) > samples else ()
+        self._count(packet.site, packet.t if used else None, others, packets=is_whole, samples=samples)
+
+    def _count(
+        self, site: Site, arrival: float | None, events: Iterable[Any], *, packets: int = 0, samples: int = 0
+    ) -> None:
+        """Count what came of a site, and the events of it; `arrival`, s, is None for what was rejected."""
+        link = self.links.get(site)
+        if link is None:
+            link = self.links[site] = RecentLink()
+        t, missing, rejected = self.now, 0, 0
+        if arrival is not None:
+            t = link.last_arrival = arrival
+        for event in events:
+            if isinstance(event, SampleGap):
+                missing += event.count
+            elif isinstance(event, PacketRejected | SampleRejected):
+                rejected += 1
+        if t is not None:
+            link.add(t, packets, samples, missing, rejected)
+
+    def gather(self, item: Packet | Sample | None, events: list[Event], end: bool = False) -> list[Event]:
+        """Return what the app is told after an item with these events; `end`: at the end, or before another clock."""
+        if self.settings.losses or not (events or self.repeats.kinds):
+            return events
+        return self.repeats.end(events) if end else self.repeats.gather(item, events)
 
     def notify(self, notice: Notice) -> None:
         """Tell the parts that ask for notices of this kind."""

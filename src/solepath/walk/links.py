@@ -1,13 +1,13 @@
 """Counts what came over each sensor's link: packets, losses, sample rate, gaps and silences.
 
-Only this file defines the figures of links that terminal, page, report and summary show. They are counted from the
-packets that a session was fed and from the events that it reported. Numbers without a source were chosen by hand and
-not swept."""
+Only this file defines the figures of links that terminal, page, report and summary show, and link/health.py those of
+the last seconds. They are counted from the packets that a session was fed and from the events that it reported. Numbers
+without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
 from collections import Counter, deque
-from math import floor, inf
+from math import inf
 
 from attrs import define, field
 
@@ -29,9 +29,7 @@ from ..events import (
     StreamStale,
 )
 from ..foot.rhythm import longest_loss
-from ..link.kinds import DeviceKinds
-from ..types import Packet
-from ..wire.fragment import is_fragment
+from ..link.health import RecentLink, missing_samples
 
 SET_BACK_TOLERANCE = 1.0
 """Longest time by which a moment may lie before the latest one, s; farther back, the clock was set back."""
@@ -41,8 +39,6 @@ MIN_RATE_TIME = 0.5 * RATE_WINDOW
 """Least time by which the number of recent samples is divided, s: a stream that has just started is not fast."""
 MAX_RATE_SAMPLES = 1000
 """Largest number of samples that the recent rate counts: 500 a second."""
-LOSS_WINDOW = 10
-"""Time over which the recent loss is counted, in whole seconds."""
 SILENCE_TIME = 1.5
 """Time without a sample after which a link counts as silent, even if the session has not reported it yet, s."""
 MAX_CHANNELS = 100
@@ -51,17 +47,6 @@ NO_DEVICE = ("device", "receiver")
 """Prefixes of channels that belong to no kind of device."""
 STRAGGLER_TIME = 1.0
 """Time after the end of a connection within which a sample does not mean that there is a new connection, s."""
-
-
-def is_sample_channel(channel: str, kinds: DeviceKinds) -> bool:
-    """Return whether samples come on this channel of a device."""
-    kind = kinds.get(channel.partition("/")[0])
-    return kind is not None and channel in kind.profile.streams
-
-
-def is_frame_fragment(packet: Packet) -> bool:
-    """Return whether the packet is a fragment of a frame that was too long for one packet."""
-    return packet.channel == "insole/frame" and is_fragment(packet.data)
 
 
 @define
@@ -95,36 +80,6 @@ class CoveredTime:
         return self._ended_time + (0.0 if self.span_start is None else self.span_end - self.span_start)
 
 
-def missing_samples(lost: int, samples: int, packets: int) -> float:
-    """Return how many samples are missing if `lost` were counted, and these came in so many packets.
-
-    A CC2541 sends acceleration and angular rate in packets of their own, two for a sample, and counts both."""
-    return lost * samples / packets if packets > samples > 0 else lost
-
-
-@define
-class RecentLoss:
-    """The numbers of packets, samples and missing samples in the last LOSS_WINDOW seconds."""
-
-    seconds: deque[list[int]] = field(factory=lambda: deque(maxlen=LOSS_WINDOW + 1))
-    """Lists [second, packets, samples, missing samples] for each second in which there were any."""
-
-    def add(self, t: float, *, packets: int = 0, samples: int = 0, missing: int = 0) -> None:
-        """Add what came or was lost at `t` s."""
-        second = floor(t)
-        if not self.seconds or not self.seconds[-1][0] - 1 <= second <= self.seconds[-1][0]:
-            self.seconds.append([second, 0, 0, 0])
-        newest = self.seconds[-1]
-        newest[1:] = newest[1] + packets, newest[2] + samples, newest[3] + missing
-
-    def share(self, now: float) -> float | None:
-        """Return the share, 0 to 1, of the samples in the window before `now`, s, that are missing."""
-        recent = [counts[1:] for counts in self.seconds if now - LOSS_WINDOW - 1.0 < counts[0] <= now]
-        packets, samples, missing = [sum(column) for column in zip(*recent, strict=True)] or (0, 0, 0)
-        lost = missing_samples(missing, samples, packets)
-        return lost / (lost + (samples or packets)) if samples or packets else None
-
-
 @define
 class LinkLedger:
     """The counts of the link of one site since the start, in bounded memory.
@@ -144,7 +99,7 @@ class LinkLedger:
     packets: int = 0
     """Packets that came, used or not, without those of the receiver itself."""
     rejected: Counter[tuple[str, str]] = field(factory=Counter)
-    """Number of PacketRejected and SampleRejected by ("packets" or "samples", reason)."""
+    """Number of rejected packets and samples by ("packets" or "samples", reason)."""
     unknown: Counter[str] = field(factory=Counter)
     """Number of packets of channels that no device has, or not the one at this site, by channel; the first MAX_CHANNELS
     channels, and of all others together under ""."""
@@ -157,7 +112,7 @@ class LinkLedger:
     has_pressure: bool = False
     """True from the first sample of pressure cells on."""
     gaps: int = 0
-    """Number of losses (SampleGap with a count); an absence is none."""
+    """Number of losses (`SampleGap.gaps` of those with a count); an absence is none."""
     ended_absences: float = 0.0
     """Total duration, s, of the absences that have ended."""
     silences: int = 0
@@ -195,7 +150,7 @@ class LinkLedger:
     """Arrivals of the newest samples, s."""
     _recent_start: float = 0.0
     """Arrival of the first sample after `_recent` was empty, s: the time before it does not lower the rate."""
-    _losses: RecentLoss = field(factory=RecentLoss)
+    _losses: RecentLink = field(factory=RecentLink)
 
     def add_packet(self, t: float) -> None:
         """Add a packet of samples that came at `t` s and was used."""
@@ -223,17 +178,17 @@ class LinkLedger:
         if isinstance(event, PacketRejected | SampleRejected) and event.reason is not Rejection.DUPLICATE:
             self.rejected_at = now
         match event:
-            case PacketRejected(reason=reason, channel=channel):
-                self.rejected["packets", reason.value] += 1
+            case PacketRejected(reason=reason, channel=channel, count=count):
+                self.rejected["packets", reason.value] += count
                 if reason is Rejection.UNKNOWN_CHANNEL:
                     is_named = channel in self.unknown or len(self.unknown) < MAX_CHANNELS
-                    self.unknown[channel if is_named else ""] += 1
-            case SampleRejected(reason=reason):
-                self.rejected["samples", reason.value] += 1
+                    self.unknown[channel if is_named else ""] += count
+            case SampleRejected(reason=reason, count=count):
+                self.rejected["samples", reason.value] += count
             case PacketsDropped(count=count):
                 self.dropped += count
-            case SampleGap(duration=duration, count=count):
-                self.gaps += count > 0
+            case SampleGap(duration=duration, count=count, gaps=gaps):
+                self.gaps += gaps if count > 0 else 0
                 self.lost += count
                 self._losses.add(event.known_at, missing=count)
                 if count == 0:

@@ -5,7 +5,9 @@
     walk.take(None, session.finish())
 
 Terminal, summary, files, page, report, outcomes and scores all read it; links.py defines the figures of links. An item
-is a packet or a sample. Numbers without a source were chosen by hand and not swept."""
+is a packet or a sample. Its events show whether it was used, so the session tells each trouble by itself
+(`Session(losses=True)`); of other sessions, what was received is not exact. Numbers without a source were chosen by
+hand and not swept."""
 
 from __future__ import annotations
 
@@ -54,10 +56,11 @@ from ..events import (
     WearerMoved,
 )
 from ..link.decoder import Decoder
+from ..link.health import is_frame_fragment, is_sample_channel
 from ..link.kinds import BUILT_IN_KINDS, DeviceKinds
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Turn, Vec2, Vec3, WalkingMode
 from ..types.attrs import NOT_SAVED
-from .links import NO_DEVICE, SET_BACK_TOLERANCE, CoveredTime, LinkLedger, is_frame_fragment, is_sample_channel
+from .links import NO_DEVICE, SET_BACK_TOLERANCE, CoveredTime, LinkLedger
 from .places import PlaceCounts
 from .soles import SoleLoads
 from .thinned import T, ThinnedList
@@ -382,7 +385,7 @@ class Walk:
                 self.wearer_track.add(event, self._point_limit)
             case Placed() | PlaceLost():
                 self.placed.add(event if self.keeps_all else _with_heaviest(event), self.limit)
-            case SampleGap(duration=duration) if duration >= LEAST_ABSENCE:
+            case SampleGap(longest=longest) if longest >= LEAST_ABSENCE:
                 self.absences.add(event, self.limit)
             case FootSilent() | StreamStale():
                 self.absences.add(event, self.limit)

@@ -72,7 +72,8 @@ class ClockWalk:
 def read_walk(job: ClockJob) -> ClockWalk | str:
     """Return the events of a walk, or the reason why the recording cannot be used."""
     calibration = CALIBRATIONS.get(job.data_set, Calibration)()
-    session, events, spans = Session(calibration=calibration), list[Event](), dict[Foot, tuple[float, float]]()
+    session, events = Session(calibration=calibration, losses=True), list[Event]()
+    spans: dict[Foot, tuple[float, float]] = {}
     samples: Iterable[Sample]
     if job.path is None:
         seed = int(job.name)

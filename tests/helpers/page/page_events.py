@@ -32,7 +32,7 @@ from solepath.types.vector import ZERO
 
 def feed_session(items: Iterable[Packet | Sample]) -> tuple[Session, list[Event]]:
     """Return a session that was fed with all packets or samples, and its events."""
-    session = Session(poses=True, pressures=True)
+    session = Session(poses=True, pressures=True, losses=True)
     return session, session.feed(items)
 
 

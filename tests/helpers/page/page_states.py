@@ -63,7 +63,7 @@ def plain_walk() -> tuple[PacketEvents, ...]:
 @cache
 def building_walk() -> tuple[PacketEvents, ...]:
     """Return a walk on a floor plan: down by a lift, along corridors, and up by another lift."""
-    session = Session(poses=True, pressures=True, floorplan=BUILDING)
+    session = Session(poses=True, pressures=True, losses=True, floorplan=BUILDING)
     return packet_events(received(emulate(case_study().route).packets), session)
 
 
@@ -112,7 +112,7 @@ def live(walk: tuple[PacketEvents, ...], moment: float, plan: FloorPlan | None =
 def played(title: str, items: Iterable[Packet | Sample], moment: float = inf) -> Shown:
     """Return the state of a recording that is paused at the time `moment`, s, or has been played to its end."""
     scene = Scene(title, "default", "recording")
-    player = Player(PackedItems(items), Session(poses=True, pressures=True), scene)
+    player = Player(PackedItems(items), Session(poses=True, pressures=True, losses=True), scene)
     player.seek(min(moment, player.playback.end) - LAST)
     while player.feed_due(lambda: False):
         pass

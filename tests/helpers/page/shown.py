@@ -53,7 +53,7 @@ def walked(route: Route, cells: int = 96) -> tuple[Packet, ...]:
 
 def packet_events(items: Iterable[Packet | Sample], session: Session | None = None) -> tuple[PacketEvents, ...]:
     """Return each packet or sample with the events that a session, by default a new one, returns for it."""
-    feeding = Session(poses=True, pressures=True) if session is None else session
+    feeding = Session(poses=True, pressures=True, losses=True) if session is None else session
     return tuple((item, tuple(feeding.feed(item))) for item in items)
 
 
@@ -82,7 +82,7 @@ def square_walk() -> tuple[PacketEvents, ...]:
 def corridor_walk() -> tuple[PacketEvents, ...]:
     """Return the first half a minute of a walk along a corridor, on the building's plan."""
     walk = corridor()
-    session = Session(poses=True, pressures=True, floorplan=BUILDING, start=walk.start)
+    session = Session(poses=True, pressures=True, losses=True, floorplan=BUILDING, start=walk.start)
     return packet_events((packet for packet in walked(walk.route) if packet.t < 30.0), session)
 
 

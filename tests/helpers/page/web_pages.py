@@ -64,7 +64,7 @@ def demo_packets(site: Path) -> tuple[Packet, ...]:
 
 def scene_of(packets: tuple[Packet, ...]) -> Scene:
     """Return the scene after all these packets and the end of the session."""
-    session, scene = Session(poses=True, pressures=True), Scene("", "default")
+    session, scene = Session(poses=True, pressures=True, losses=True), Scene("", "default")
     for packet in packets:
         scene.take(packet, session.feed(packet))
     scene.take(None, session.finish())

@@ -84,7 +84,7 @@ class Radio:
 
 def follow(driver: Driver, arrivals: Sequence[tuple[float, bytes]]) -> tuple[Session, Walk, list[Event]]:
     """Return the session that was fed them, its walk and its events."""
-    session, walk, events = Session(profiles=[driver]), Walk(), list[Event]()
+    session, walk, events = Session(losses=True, profiles=[driver]), Walk(), list[Event]()
     for arrival, data in arrivals:
         packet = Packet(arrival, SITE, "board/motion", data)
         found = session.feed(packet)

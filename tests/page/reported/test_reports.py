@@ -48,7 +48,7 @@ def reported_walk() -> tuple[Packet, ...]:
 
 def show_until(packets: tuple[Packet, ...], report: int) -> tuple[Session, Scene, Scene, list[Event]]:
     """Return the session after this report, the scenes before and after it, and the events of the report."""
-    session, scene = Session(poses=True, pressures=True), Scene("a walk", "default")
+    session, scene = Session(poses=True, pressures=True, losses=True), Scene("a walk", "default")
     for packet in packets:
         is_report = packet.channel == "receiver/position"
         if is_report and report == 0:

@@ -25,6 +25,7 @@ from ...link.kinds import make_kinds
 from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, printable
 from ...session import Session
+from ...session.repeats import Repeats
 from ...show.output import RUN_FILE, TrackFiles
 from ...show.page.body import LiveBody
 from ...show.page.live_commands import position_of
@@ -73,11 +74,12 @@ async def listen(
         calibration=calibration,
         poses=True,
         pressures=address is not None,
+        losses=True,
         profiles=drivers,
         floorplan=plan,
         start=start,
     )
-    walk, floor = Walk(kinds=make_kinds(drivers)), None if plan is None else plan.plan
+    walk, repeats, floor = Walk(kinds=make_kinds(drivers)), Repeats(), None if plan is None else plan.plan
     collector: Walk | Scene = walk
     async with AsyncExitStack() as stack:
         run_file = None if options.out is None else OutputFile(options.out / RUN_FILE, TRACK_KINDS[RUN_FILE])
@@ -111,9 +113,10 @@ async def listen(
 
         def take(item: Packet | Sample | None) -> None:
             events = session.finish() if item is None else session.feed(item)
-            files.take(item, events)
+            reported = repeats.end(events) if item is None else repeats.gather(item, events)
+            files.take(item, reported)
             collector.take(item, events)
-            publish(events)
+            publish(reported)
 
         try:
             with show_state(walk, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:

@@ -17,6 +17,7 @@ from ...link.kinds import DeviceKinds
 from ...recording import printable
 from ...saving.files import FileReplacements, os_errors_naming
 from ...session import Session
+from ...session.repeats import Repeats
 from ...show.findings import findings
 from ...show.output import PLAN_FILE, RUN_FILE, TrackFiles
 from ...show.tables.plan import PlanPicture
@@ -61,6 +62,7 @@ class Results:
     seconds: float = field(default=0.0, init=False)
     """Wall time that `feed` took, s."""
     _files: TrackFiles | None = field(default=None, init=False)
+    _repeats: Repeats = field(factory=Repeats, init=False)
     _report_path: Path | None = field(default=None, init=False)
     _replacements: FileReplacements = field(init=False)
     _stack: ExitStack = field(factory=ExitStack, init=False)
@@ -81,7 +83,9 @@ class Results:
         self.seconds += perf_counter() - start
 
     def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
-        """Add a packet or sample and its events, or None and the last events; the first one opens the files."""
+        """Add a packet or sample and its events, or None and the last events; the first one opens the files.
+
+        The session tells each trouble of a link by itself; the files have them as a session tells them by default."""
         if self._files is None and self.out is not None:
             self._files = TrackFiles(self.out, self.plan is not None, self._replacements.temporary_path)
             self._stack.callback(self._files.close)
@@ -89,7 +93,7 @@ class Results:
             self._report_path = self._replacements.temporary_path(self.report)
         self.walk.take(item, events)
         if self._files is not None:
-            for event in events:
+            for event in self._repeats.end(events) if item is None else self._repeats.gather(item, events):
                 self._files.write(event)
 
     def write(self) -> list[str]:

@@ -1,7 +1,8 @@
 """Times in which strides of a foot are missing because its sensor sent nothing.
 
 Events SampleGap, FootSilent and StreamStale say when a sensor sent nothing. Strides are missing only where the one
-before such a time and the one after it do not meet: a short gap within a stride is bridged, and the stride says so."""
+before such a time and the one after it do not meet: a gap within a stride is bridged, and the stride says so. Lost
+samples that are no flaw of a stride are no absence."""
 
 from __future__ import annotations
 
@@ -12,6 +13,7 @@ from math import fsum, inf
 from attrs import frozen
 
 from ...events import Event, FootSilent, GaitCycleMeasured, SampleGap, StreamStale, StrideTaken
+from ...events.link import is_harmless_loss
 from ...types import Foot
 from ...walk.walk import Walk
 from .bouts import MAX_STRIDE_TIME
@@ -89,7 +91,8 @@ def _foot_of(event: Absence) -> Foot | None:
 
 def _spans(events: Sequence[Absence], strides: Sequence[Span]) -> list[Span]:
     """Return the times without samples of a foot; the last one has no end if nothing of the foot comes after it."""
-    gaps = [(one.t, one.t + one.duration) for one in events if isinstance(one, SampleGap)]
+    lasting = [one for one in events if isinstance(one, SampleGap) and not is_harmless_loss(one)]
+    gaps = [(one.t, one.t + one.duration) for one in lasting]
     last = max([end for _, end in (*gaps, *strides)], default=-inf)
     silences = [(one.known_at - one.silent_for, one.known_at) for one in events if not isinstance(one, SampleGap)]
     return [*gaps, *[(start, inf) for start, known_at in silences if last < known_at]]

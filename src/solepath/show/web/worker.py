@@ -230,7 +230,8 @@ class Worker:
 
     def _session(self) -> Session:
         """Return a new session with what was opened and chosen."""
-        return Session(self.recipe, poses=True, pressures=True, calibration=self.calibration, floorplan=self.plan)
+        known, plan = self.calibration, self.plan
+        return Session(self.recipe, poses=True, pressures=True, losses=True, calibration=known, floorplan=plan)
 
     def _scene(self, title: str, source: str) -> Scene:
         """Return a new scene for `_session`."""

@@ -1,6 +1,6 @@
 """Plays a recording: feeds a session at the pace of a watcher, with pause, speed and seek.
 
-    player = Player(PackedItems(source), Session(poses=True, pressures=True), Scene(...))
+    player = Player(PackedItems(source), Session(poses=True, pressures=True, losses=True), Scene(...))
     player.advance(0.02)                    # 0.02 s of wall time passed
     player.feed_due(should_stop)            # feed the items that are due, until `should_stop()`
     player.seek(30.0)

@@ -59,7 +59,7 @@ Lists = dict[tuple[str, ...], GrowingList[Any]]
 
 @define
 class Scene:
-    """The state that a page shows of one session, which is made with `poses=True` and `pressures=True`.
+    """The state that a page shows of one session, which is made with `poses=True`, `pressures=True` and `losses=True`.
 
     Times are in s on the session's clock; positions in m, in the world frame, places on `plan` in the plan frame.
     `source` is "live", "demo" or "recording". `newtons` are the feet whose calibration turns counts into N. A player
