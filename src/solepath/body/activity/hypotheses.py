@@ -98,8 +98,8 @@ their pulses show, m/s.
 An escalator at 0.5 m/s (EN 115-1) rises by 0.25 m/s, in bends whose pulses look like an elevator's. Emulated escalators
 show 0.20 to 0.27 m/s, emulated elevators of 0.4 m/s 0.36 to 0.41; the 53 rides of hugadb have 0.76 or more."""
 ESCALATOR_LIMIT = 0.34
-"""Vertical speed below which the first pulse is that of an escalator, m/s: between 0.6 m/s along its slope of 30 degrees
-and what emulated elevators of 0.4 m/s show. A faster escalator is taken for a lift."""
+"""Vertical speed below which the first pulse is that of an escalator, m/s: between one at 0.6 m/s, whose slope is 30
+degrees, and what emulated elevators of 0.4 m/s show. A faster escalator is taken for a lift."""
 STOP_ERROR_SHARE, STOP_ERROR = 0.3, 0.1
 """Standard deviation of the integrated velocity at a stop: share of the top speed, and constant part, m/s."""
 MAX_STOP_PENALTY, MAX_SPEED_PENALTY = 4.0, 16.0
