@@ -30,7 +30,7 @@ async function load() {
   loaded = { python, walk, files };
   drawRegularly();
   const choices = { ...JSON.parse(python.choices()), recipe: files.used.recipe };
-  postMessage({ ready: { filters: JSON.parse(python.sensor_filters()), choices } });
+  postMessage({ ready: { choices } });
   await files.list();
 }
 
