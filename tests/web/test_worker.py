@@ -114,3 +114,31 @@ def test_the_report_answers_the_test_that_a_person_ordered_and_a_slip_of_the_pen
     assert short.startswith("tug=1.0 is not six-minute")
     small = call(worker, "report", "walk.jsonl", "a walk", given | {"height": "1.62", "weight": "68"})
     assert small.startswith("72,female,1.62,68 is not AGE,SEX[,CM,KG]")
+
+
+def test_the_report_compares_with_an_earlier_walk_whose_test_has_marks_of_its_own(worker: Worker) -> None:
+    recorded(Path("walk.jsonl"), insoles().packets)
+    recorded(Path("earlier.jsonl"), PACKETS)
+    assert call(worker, "open", "walk.jsonl")["kind"] == "recording"
+    given = {"test": "tug", "marks": "1.0,7.5", "compare": "earlier.jsonl", "marks_before": "1.0,9.0"}
+    compared = call(worker, "report", "", "a walk", given)
+    assert "Compared with the walk before" in compared and "earlier.jsonl" in compared
+    assert "6.5" in compared and "8.0" in compared
+    assert "Compared with" not in call(worker, "report", "", "a walk", given | {"compare": ""})
+    assert call(worker, "report", "", "a walk", given | {"marks_before": "1.0"}).startswith("tug=1.0 is not six-minute")
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("bands.csv", "measure,low,high,source\nspeed_m_per_s,1.1,1.5,our ward\n"),
+        ("bands.json", '{"source": "our ward", "bands": {"speed_m_per_s": [1.1, 1.5]}}'),
+    ],
+)
+def test_bands_that_a_person_opens_are_in_the_reports_that_follow(worker: Worker, name: str, text: str) -> None:
+    recorded(Path("walk.jsonl"), walked(Route().stand(1.0).walk(40.0, 1.3).stop(1.0)))
+    Path(name).write_text(text)
+    assert call(worker, "open", name) == {"kind": "bands", "notes": []}
+    assert "our ward" in call(worker, "report", "walk.jsonl", "a walk")
+    Path(name).write_text(text.replace("our ward", ""))
+    assert "has no source" in call(worker, "open", name)

@@ -103,7 +103,7 @@ def _parse_header(path: Path, file: BinaryIO) -> tuple[dict[str, Any], Iterator[
 
 def _explain_start(start: bytes) -> str:
     """Return what a file is that starts with these bytes; "" for none that is known."""
-    from .btsnoop.captures import is_capture  # packets do not need it
+    from .captures import is_capture  # packets do not need it
 
     if is_capture(start):
         return (

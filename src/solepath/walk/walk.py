@@ -326,7 +326,10 @@ class Walk:
 
     def foot(self, foot: Foot) -> FootCounts:
         """Return the counts of a foot; they are made on first use."""
-        return self.feet.setdefault(foot, FootCounts())
+        counts = self.feet.get(foot)
+        if counts is None:
+            counts = self.feet[foot] = FootCounts()
+        return counts
 
     def sole(self, foot: Foot) -> SoleLoads:
         """Return the loads of a foot's sole; they are made on first use."""

@@ -5,7 +5,7 @@
         for packet in log:
             writer.write(packet)
 
-captures.py reads files of each kind, records.py also those in a bug report, values.py decodes connections and L2CAP,
+../captures.py reads files of each kind, records.py also those in a bug report, values.py decodes connections and L2CAP,
 att.py decodes attributes, devices.py identifies devices and channels, and log.py makes packets."""
 
 from .devices import LoggedDevice

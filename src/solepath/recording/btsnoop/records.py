@@ -1,4 +1,4 @@
-"""Records of HCI packets, each with the time at which it was logged, of every kind of capture (captures.py)."""
+"""Records of HCI packets, each with the time at which it was logged, of every kind of capture (../captures.py)."""
 
 from __future__ import annotations
 
@@ -13,9 +13,7 @@ from typing import BinaryIO
 
 from attrs import define, frozen
 
-from ..errors import RecordingError, Report, open_file, printable
-from ..unpacking import names_in, open_member, open_unpacked
-from .captures import (
+from ..captures import (
     LONGEST_MAGIC,
     MONITOR,
     NAMED_LINKS,
@@ -27,6 +25,8 @@ from .captures import (
     is_capture,
     read_capture,
 )
+from ..errors import RecordingError, Report, open_file, printable
+from ..unpacking import names_in, open_member, open_unpacked
 
 LOG_NAMES = ("btsnoo", ".pklg", ".pcap", ".cfa")
 """Parts of the names of logs in a phone's bug report."""

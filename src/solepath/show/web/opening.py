@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 from collections import deque
 from collections.abc import Generator
 from pathlib import Path
@@ -14,6 +15,7 @@ from ...recording.errors import SAMPLE_SUFFIXES
 from ...recording.packets import FORMAT as RECORDING_FORMAT
 from ...recording.packets import read_header
 from ..page.player.packed_items import PackedItems
+from ..report.bands import COLUMNS as BAND_COLUMNS
 from ..tables.words import moment_text
 
 MAX_START = 4096
@@ -37,18 +39,22 @@ class OpenedRecording:
 
 
 def kind_of(path: Path) -> str:
-    """Return "recording", "plan" or "calibration" for a file; raise RecordingError for samples."""
-    if path.suffix.lower() in SAMPLE_SUFFIXES:
-        raise RecordingError(path, "holds samples; this page opens recordings of packets (.jsonl), not samples")
+    """Return "recording", "plan", "calibration" or "bands" for a file; raise RecordingError for samples."""
     with path.open("rb") as file:
         start = file.read(MAX_START)
+    if start.removeprefix(codecs.BOM_UTF8).startswith(b",".join(map(str.encode, BAND_COLUMNS))):
+        return "bands"
+    if path.suffix.lower() in SAMPLE_SUFFIXES:
+        raise RecordingError(path, "holds samples; this page opens recordings of packets (.jsonl), not samples")
     if path.suffix.lower() == ".jsonl" or f'"{RECORDING_FORMAT}"'.encode() in start:
         return "recording"
     if f'"{CALIBRATION_FORMAT}"'.encode() in start:
         return "calibration"
+    if b'"bands"' in start:
+        return "bands"
     if start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith((b"PK", b"<", b"{")):
         return "plan"
-    raise RecordingError(path, "is neither a recording of packets, nor a floor plan, nor a calibration")
+    raise RecordingError(path, "is neither a recording of packets, nor a floor plan, a calibration or bands")
 
 
 def open_recording(path: Path) -> Generator[float, None, OpenedRecording]:

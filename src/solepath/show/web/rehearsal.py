@@ -14,7 +14,7 @@ from pathlib import Path
 from pkgutil import walk_packages
 
 from ... import body, calibration, events, floorplan, foot, link, recipes, saving, session, types, wire
-from ...recording.btsnoop import captures
+from ...recording import captures
 from .. import page, report
 from . import worker
 

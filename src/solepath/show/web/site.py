@@ -20,6 +20,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ...recording import PacketWriter
+from ...session.json_host import filters
 from ...types import Packet
 from ..report.style import STYLE
 from .pyodide import LOCK, RUNTIME, STANDARD_LIBRARY, VERSION, BuildError, minimal_lock, package_files, run_node
@@ -30,7 +31,7 @@ OWN_PACKAGES = ("solepath", "attr", "attrs", "construct")
 """Packages that go to the site, as far as they are used."""
 LIBRARY, DEMO, WORKER_LIST = "python.zip.gz", "demo.jsonl.gz", "sw.js"
 MARK = "site.json"
-"""File of the site that says what it is and lists its files, which the next build replaces."""
+"""File of the site: what it is, which sensors a browser offers, and its files, which the next build replaces."""
 EPOCH = (1980, 1, 1, 0, 0, 0)
 """Date of all files in an archive: the earliest that a zip file can have."""
 HEAD, CONTROLS = "</head>", "</header>"
@@ -55,7 +56,8 @@ def build_site(out: Path, demo: Iterable[Packet]) -> dict[str, bytes]:
     files |= {path.name: path.read_bytes() for folder in (PAGE, HERE / "static") for path in sorted(folder.iterdir())}
     fragments = {name: files.pop(f"{name}.html").decode() for name in ("head", "controls")}
     files["index.html"] = _index(files["index.html"].decode(), **fragments).encode()
-    mark = {"solepath": version("solepath"), "pyodide": VERSION, "files": sorted([*files, MARK])}
+    known = {"solepath": version("solepath"), "pyodide": VERSION, "filters": filters()}
+    mark = {**known, "files": sorted([*files, MARK])}
     files[MARK] = json.dumps(mark).encode()
     files[WORKER_LIST] = _with_list(files)
     write_site(out, files)

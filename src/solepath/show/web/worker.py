@@ -5,7 +5,6 @@ chosen by hand and not swept."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Generator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -26,7 +25,6 @@ from ...recipes import DEFAULT, NAMES, Recipe, by_name
 from ...recording import RecordingError, read_packets
 from ...saving.codec import SnapshotError
 from ...session import Session
-from ...session.json_host import filters
 from ...walk.walk import Walk
 from ..outcome_options import parse_person, parse_test
 from ..outcomes.clinic import OutcomeRequest, WalkTest
@@ -36,7 +34,7 @@ from ..page.player.player import Player
 from ..page.scene.scales import newtons_of
 from ..page.scene.scene import Follower, Scene
 from ..report import Report, ReportDetails
-from ..report.bands import mean_bands
+from ..report.bands import Band, BandError, mean_bands, read_bands
 from .live_walk import LiveWalk
 from .opening import NOTE_COUNT, OpenedRecording, kind_of, open_recording
 
@@ -61,6 +59,7 @@ PROBLEMS = (
     WalkRunning,
     UnknownRecipe,
     WrongOption,
+    BandError,
     OSError,
 )
 """Errors whose texts are sentences for a person."""
@@ -107,6 +106,7 @@ class Worker:
     recording: OpenedRecording | None = field(default=None, init=False)
     calibration: Calibration | None = field(default=None, init=False)
     plan: IndexedPlan | None = field(default=None, init=False)
+    bands: Mapping[str, Band] = field(factory=dict, init=False)
     recipe: Recipe = field(default=DEFAULT, init=False)
     _follower: Follower = field(factory=Follower, init=False)
     _task: Task | None = field(default=None, init=False)
@@ -157,10 +157,6 @@ class Worker:
         """Return the lines of the recording of the walk since the last call."""
         return self.walk.take_lines()
 
-    def sensor_filters(self) -> str:
-        """Return the conditions under which a browser offers a device, as JSON."""
-        return json.dumps(filters())
-
     def save(self) -> str | None:
         """Return the walk as JSON; None when there is nothing to save."""
         return self.walk.save()
@@ -189,7 +185,7 @@ class Worker:
     # --- recordings and other files
 
     def open(self, name: str) -> Task:
-        """Open a file of the working folder: play a recording, or use a plan or calibration from now on.
+        """Open a file of the working folder: play a recording, or use a plan, calibration or bands from now on.
 
         Returns {"kind", "notes"}; raises one of PROBLEMS."""
         path = Path(name)
@@ -203,6 +199,9 @@ class Worker:
             )
         elif kind == "calibration":
             self.calibration = read_calibration(path)
+        elif kind == "bands":
+            self.bands = read_bands(path)
+            return {"kind": kind, "notes": []}
         else:
             self._check_idle()
             self.recording = yield from open_recording(path)
@@ -268,26 +267,35 @@ class Worker:
         """Return the report of a recording of the working folder, or of what is played if `name` is empty, as HTML.
 
         `options` has what a person filled in, as texts: the head (title, subject, date, device), the person (age, sex,
-        height, weight), test and marks; `outcomes` is a flag."""
-        head = ReportDetails(**{name: options.get(name, "") for name in DETAILS})
-        request = ordered(options)
+        height, weight), test and marks; `outcomes` is a flag. `compare` names an earlier recording of the folder, which
+        is run without floor plan, and `marks_before` are the marks of the test in it."""
+        request, earlier = ordered(options), str(options.get("compare", ""))
+        before = None
+        if earlier:
+            other = yield from open_recording(Path(earlier))
+            request_before = ordered({**options, "marks": options.get("marks_before", "")})
+            session = Session(self.recipe, poses=True, pressures=True, calibration=self.calibration)
+            before = yield from self._run_report(other, session, request_before, source=other.title)
         recording = self.recording
         if name:
             recording = yield from open_recording(Path(name))
         if recording is None:
             raise RecordingError("report", "there is no walk to report on")
-        session, version = self._session(), self.version
+        head = ReportDetails(**{name: options.get(name, "") for name in DETAILS})
+        given = {"source": title, "plan": self._drawn_plan, "version": self.version, "details": head, "before": before}
+        report = yield from self._run_report(recording, self._session(), request, **given)
+        return report.text()
+
+    def _run_report(self, recording: OpenedRecording, session: Session, request: OutcomeRequest, **given: Any) -> Task:
+        """Return the report of a recording with these outcomes; `given` are further arguments of Report."""
         report = Report(
-            title,
-            plan=self._drawn_plan,
             recipe=self.recipe.name,
             when=recording.when,
-            version=version,
             walk=Walk(limit=None) if request.outcomes or request.test else Walk(),
-            details=head,
-            bands=mean_bands(request.person),
+            bands={**mean_bands(request.person), **self.bands},
             calibrated=self.calibration is not None,
             outcomes=request if request.outcomes or request.test else None,
+            **given,
         )
         items = recording.items
         for number in range(len(items)):
@@ -296,7 +304,7 @@ class Worker:
             if number % ITEMS_PER_STEP == 0:
                 yield number / len(items)
         report.take(None, session.finish())
-        return report.text()
+        return report
 
     # --- calls that may take long
 

@@ -10,6 +10,7 @@ Numbers without a source were chosen by hand and not swept."""
 from __future__ import annotations
 
 from math import floor, log10
+from operator import mul
 from typing import Any
 
 from attrs import define, field
@@ -83,15 +84,14 @@ class Scales:
         insole = self.insoles.get(foot)
         if insole is None or not values:
             return
-        if insole.factors is not None:
-            values = tuple([value * factor for value, factor in zip(values, insole.factors, strict=False)])
+        factors = insole.factors
         scale = self.units[insole.unit]
-        largest = max(values, default=0.0)
+        largest = max(values if factors is None else map(mul, values, factors), default=0.0)
         scale.highest = max(scale.highest, largest)
         if not largest > scale.end:
             insole.recent = ()
             return
-        reached = insole.add(values)
+        reached = insole.add(values if factors is None else tuple(map(mul, values, factors)))
         if reached > scale.end:
             scale.end = scale_end(reached)
 

@@ -4,23 +4,32 @@ import { colour } from "./theme.js";
 import { describe, element } from "./words.js";
 
 const MAX_PIXEL_RATIO = 2; // device pixels per CSS px; more cost time and show nothing
+const NEAR = "100px"; // what is so close to the edge of the screen is drawn as if it were seen
 const SPEECH_INTERVAL = 1000; // ms between two text alternatives, so that a screen reader is not interrupted
 
 export class Surface {
   width = 0; // CSS px
   height = 0;
   ratio = 1;
+  seen = true; // false while it is out of sight
   #words = null; // a function that makes the text alternative; null while the last one is said
   #silent = false;
 
-  // resized() is called when the canvas has another size, and is blank.
+  // resized() is called when the canvas has another size, and is blank, and when it comes into sight again.
   constructor(id, resized) {
     this.canvas = element(id);
     this.context = this.canvas.getContext("2d");
     this.resized = resized;
     new ResizeObserver(() => this.fit()).observe(this.canvas);
+    new IntersectionObserver((entries) => this.#see(entries.at(-1).isIntersecting), { rootMargin: NEAR }).observe(this.canvas);
     addEventListener("resize", () => this.fit()); // zooming the page may change only the pixel ratio, not the size
     this.fit();
+  }
+
+  #see(seen) {
+    const wasSeen = this.seen;
+    this.seen = seen;
+    if (seen && !wasSeen) this.resized();
   }
 
   fit() {

@@ -8,7 +8,7 @@ const MAX_DRIFT = 6; // px; a pointer that moved farther has dragged the drawing
 const BUTTONS = ["here-start", "here-place", "here-cross"];
 
 export class Here {
-  uses = ["scene", "playback", "reports", "theme"];
+  uses = ["scene", "feet", "playback", "reports", "theme"];
   #pressed = null; // {id, x, y} where the pointer went down
   #failed = false;
 
@@ -29,10 +29,11 @@ export class Here {
 
   draw(state) {
     const live = state.source === "live" && state.playback === null;
-    const may = live && state.control;
+    const may = live && state.control && state.strides !== null; // before there are data there is no place to correct
     if (!may && this.track.pointing) this.#point(false);
     const { pointing } = this.track;
-    show("here", live && (may || this.watchOnly !== ""));
+    show("here", live && (state.control || this.watchOnly !== ""));
+    element("here").style.visibility = state.strides === null ? "hidden" : ""; // its room is there, so that nothing moves
     show("here-legend", state.reports.length > 0);
     for (const id of BUTTONS) element(id).disabled = !may;
     press("here-place", pointing);

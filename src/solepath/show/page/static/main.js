@@ -1,7 +1,8 @@
-// Receives messages and draws pictures: each change is drawn with the browser's next frame, and nothing else is drawn.
+// Receives messages and draws pictures: changes are drawn some thirty times a second, and nothing else is drawn.
 //
 // A panel draws a part of the page: {uses: names of the changes that it draws, draw(state, now)}; it may be moving without
-// a change, and have a least time between two pictures, ms: interval, or slow with reduced motion.
+// a change, and have a least time between two pictures, ms: interval, or slow with reduced motion. A panel with a surface
+// (canvas.js) that is out of sight is drawn seldom, for its text alternative alone.
 //
 // For tests: window.solepath = {frames, messages, state, track}: number of frames drawn, number of messages received, the
 // state that results from them (state.js), and its drawing (track.js).
@@ -28,11 +29,16 @@ import { startTheme } from "./theme.js";
 import { Track } from "./track.js";
 import { element, setData, show, wordOf, write } from "./words.js";
 
+const LEAST_PAUSE = 24; // ms between two pictures, unless a person moves the view: with the frames of a screen they are 25 to 34
+const ASIDE_INTERVAL = 1000; // ms between two pictures that are out of sight
 const SOURCES = { live: "live sensors", demo: "an emulated walk", recording: "a recording" };
 
 const state = new State();
 let changed = new Set();
-let frameRequested = false;
+const late = new Set(); // panels that changed less than their interval after their last picture
+let requestedAt = Infinity; // ms, of the next picture
+let pausedUntil = 0; // ms
+let timer = 0;
 
 const redraw = () => mark("theme");
 const send = (command) => connection.send(command);
@@ -62,34 +68,52 @@ const seen = (window.solepath = { frames: 0, messages: 0, state, track });
 
 function mark(...names) {
   for (const name of names) changed.add(name);
-  if (frameRequested || document.hidden) return;
-  frameRequested = true;
-  requestAnimationFrame(draw);
+  if (!document.hidden) request(0);
+}
+
+// Requests a picture in `wait` ms, unless there is one before.
+function request(wait) {
+  const now = performance.now();
+  const at = Math.max(now + wait, pausedUntil);
+  if (at >= requestedAt) return;
+  requestedAt = at;
+  clearTimeout(timer);
+  if (at <= now) requestAnimationFrame(draw);
+  else timer = setTimeout(requestAnimationFrame, at - now, draw);
 }
 
 function draw(now) {
-  frameRequested = false;
+  requestedAt = Infinity;
   const news = changed;
   changed = new Set();
   let drew = false;
+  let wait = Infinity; // ms until a panel is due
   for (const panel of !state.known ? [notice, activityPanel] : isGuided() ? whileGuiding : panels) {
-    const due = panel.uses.filter((name) => news.has(name));
-    if (due.length === 0 && !panel.moving) continue;
-    const interval = (reducedMotion.matches && panel.slow) || panel.interval || 0;
-    if (now - drawnAt.get(panel) < interval && !news.has("theme") && !news.has("scene")) {
-      for (const name of due) changed.add(name); // for a later frame
+    if (!panel.moving && !late.has(panel) && !panel.uses.some((name) => news.has(name))) continue;
+    const left = drawnAt.get(panel) + intervalOf(panel) - now;
+    if (left > 0 && !news.has("theme") && !news.has("scene")) {
+      late.add(panel);
+      wait = Math.min(wait, left);
       continue;
     }
     panel.draw(state, now);
     drawnAt.set(panel, now);
+    late.delete(panel);
+    if (panel.moving) wait = Math.min(wait, intervalOf(panel));
     drew = true;
   }
   if (!state.known) return;
+  pausedUntil = track.view.follows || track.view.settled ? performance.now() + LEAST_PAUSE : 0;
   looking.draw(state);
   if (news.has("scene")) writeHeading();
   chooseRegions();
   if (drew) seen.frames += 1;
-  if (panels.some((panel) => panel.moving) || changed.size > 0) mark();
+  if (wait < Infinity) request(wait);
+}
+
+function intervalOf(panel) {
+  if (panel.surface?.seen === false) return ASIDE_INTERVAL;
+  return (reducedMotion.matches && panel.slow) || panel.interval || 0;
 }
 
 const isGuided = () => state.posture !== null;
@@ -167,7 +191,7 @@ const connection = new Connection((message) => {
 write("retry", WORDS.retry);
 element("retry").addEventListener("click", () => connection.retry());
 document.addEventListener("visibilitychange", () => {
-  frameRequested = false; // a frame that was requested before may never have come
+  requestedAt = Infinity; // a frame that was requested before may never have come
   if (!document.hidden) mark("scene", "theme", "feet", "links", "gait", "activity", "situation");
 });
 document.addEventListener("keydown", (event) => {

@@ -37,7 +37,7 @@ export class Ribbon {
     if (generation !== this.generation) this.#time.clear();
     this.generation = generation;
     this.#time.aim([state.t], now);
-    this.moving = this.#time.moving(now);
+    this.moving = FEET.some((foot) => phases[foot].length > 0) && this.#time.moving(now);
     const [t] = this.#time.at(now);
     const context = this.surface.start();
     const { width, height } = this.surface;

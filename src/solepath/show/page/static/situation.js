@@ -36,9 +36,10 @@ export function next(situation, happened) {
 
 // What happens by the newest messages and by what the program says of itself; null while neither says anything.
 export function happening({ known, links, playback, program, source, strides }) {
-  const { bluetooth, link, sensors, task, walk } = program;
+  const { bluetooth, free, link, sensors, task, walk } = program;
   if (link === "ended" && WORDS.finishes && known && source === "live" && strides !== null) return "end";
   if (link === "closed" || link === "ended") return "fail";
+  if (free && !known) return bluetooth ? "idle" : "unable";
   if (link === "connecting" || !known) return null;
   if (task) return "compute";
   if (playback !== null) return { playing: "play", paused: "pause", ended: "end" }[playback.state];

@@ -23,6 +23,11 @@ export class Soles {
     this.soles = FEET.map((foot) => new Sole(foot, redraw));
   }
 
+  // The soles are side by side.
+  get surface() {
+    return this.soles[0].surface;
+  }
+
   draw(state, now) {
     for (const sole of this.soles) sole.draw(state, now);
     const shapes = this.soles.filter(({ shows }) => shows === "pressure").map(({ layout }) => layout);

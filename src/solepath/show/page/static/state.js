@@ -19,8 +19,8 @@ export class State {
   situation = "computing"; // situation.js
   // What the program behind the page says of itself. The site also says: walk, {resumed} or null while none is measured;
   // sensors, [{name, connected}]; whether there is Bluetooth, and why there is none; what is computed; why a sensor was
-  // refused; whether the walk that was measured last is stored.
-  program = { link: "connecting", walk: {}, sensors: null, bluetooth: true, why: "", task: "", refusal: "", kept: false };
+  // refused; whether the walk that was measured last is stored; free, while it starts and nobody waits for it.
+  program = { link: "connecting", free: false, walk: {}, sensors: null, bluetooth: true, why: "", task: "", refusal: "", kept: false };
 
   constructor() {
     for (const name of VALUES) this[name] = null;

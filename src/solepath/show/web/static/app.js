@@ -54,6 +54,10 @@ const ACTIONS = {
   },
   report: () => report(shown.name, shown.title),
 };
+element("news-close").addEventListener("click", () => {
+  say("");
+  show("report-file", false);
+});
 on("choose-recipe", "change", async () => {
   const { value } = element("choose-recipe");
   await computer.call("choose", value);
@@ -64,6 +68,7 @@ on("file", "change", async () => {
   for (const file of element("file").files) {
     const { kind, notes } = await computing(file.name, () => computer.call("open", file));
     if (kind === "recording") showReportOf("", file.name);
+    else if (kind === "bands") sentences.push(`${file.name}: reports have these bands from now on.`);
     else sentences.push(`${file.name}: this ${kind === "plan" ? "floor plan" : "calibration"} is used ${since()}.`);
     sentences.push(...notes);
   }
@@ -136,7 +141,7 @@ computer.on("state", (state) => {
     element("choose-recipe").value = recipe;
     element("site").dataset.ready = "true";
   }
-  enable(state === "ready");
+  enable(state !== "dead");
 });
 computer.on("sensors", (sensors) => {
   element("sensors").replaceChildren();
@@ -153,9 +158,12 @@ function listWalks() {
   element("walks").replaceChildren();
   const others = walks.filter(({ name }) => name !== measured); // what is written now can be neither played nor deleted
   show("no-walks", others.length === 0);
+  const compared = element("compare").value;
+  element("compare").length = 1; // what is first is no walk
   for (const { name, began, seconds, metres } of others) {
     const date = began ? new Date(began).toLocaleString([], { dateStyle: "medium", timeStyle: "short" }) : name;
     const title = `Walk of ${date}`;
+    element("compare").add(new Option(date, name, false, name === compared));
     const figures = [Number.isFinite(seconds) && span(seconds), Number.isFinite(metres) && `${fixed(metres)} m`];
     const get = () => computer.call("get", name);
     addRow("walks", name, [date, ...figures].filter(Boolean).join(" · "), {
@@ -200,6 +208,7 @@ async function updateLock() {
 }
 
 document.addEventListener("visibilitychange", keepAwake);
+enable(true); // what needs Python waits for it
 setData("site", { bluetooth: bluetoothWords() === "" });
 for (const site of SITES) element("worn").add(new Option(wornWords(site), site));
 if ("serviceWorker" in navigator) {

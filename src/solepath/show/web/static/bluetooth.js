@@ -8,6 +8,10 @@ const ANSWER_TIME = 20_000; // ms that a sensor has for an answer, and a person 
 const FIRST_PAUSE = 250; // ms from a lost connection to the next attempt; each further one is twice as long
 const MAX_PAUSE = 8000; // ms
 
+// Message "filters" of protocol/host.md: a person may choose a sensor before Python is ready.
+const offered = fetch("site.json").then(async (answer) => (await answer.json()).filters);
+offered.catch(() => {}); // who chooses hears of it
+
 export const sensors = new Map(); // by the id that the browser has for a sensor
 
 computer.on("orders", (orders) => {
@@ -37,7 +41,7 @@ export function bluetoothWords() {
 // Lets the person choose a sensor, and connects it; site is null for an insole, which knows its foot, and profile for a
 // sensor that shows its kind.
 export async function addSensor(site, profile) {
-  const { filters, services } = computer.filters;
+  const { filters, services } = await offered;
   computer.emit("happened", { what: "choose" });
   const device = await navigator.bluetooth
     .requestDevice({ filters: filters.map(filterOf), optionalServices: services })

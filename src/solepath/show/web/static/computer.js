@@ -7,7 +7,6 @@ const SOURCE = `import ${JSON.stringify(new URL("worker.js", import.meta.url).hr
 
 class Computer {
   state = "none"; // "loading" | "ready" | "dead"
-  filters = null; // message "filters" of protocol/host.md
   choices = null; // {recipes, profiles: their names, recipe: the name of the one in use}
   #worker = null;
   #listeners = [];
@@ -47,11 +46,17 @@ class Computer {
     if (this.state !== "dead") this.#worker?.postMessage(message);
   }
 
-  // Returns what a function of worker.js returns; an error has words for a person.
+  // Whether a person waits for an answer.
+  get isAsked() {
+    return this.#calls.size > 0;
+  }
+
+  // Returns what a function of worker.js returns, once it is ready; an error has words for a person.
   call(name, ...values) {
     if (this.state === "dead") return Promise.reject(new Error("the part of this page that computes has stopped"));
     return new Promise((resolve, reject) => {
       this.#calls.set(++this.#next, { resolve, reject });
+      this.emit("asked");
       this.#worker.postMessage({ call: name, values, id: this.#next });
     });
   }

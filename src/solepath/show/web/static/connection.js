@@ -2,6 +2,7 @@
 
 import { bluetoothWords } from "./bluetooth.js";
 import { computer } from "./computer.js";
+import { store } from "./store.js";
 
 // What the page says of the worker.
 export const WORDS = {
@@ -22,8 +23,18 @@ export class Connection {
   constructor(take, changed, tell) {
     const why = bluetoothWords();
     let walk = null;
+    let isNew = false; // no closed tab left a walk that would go on
+    const tellFree = () => {
+      const { isAsked, state } = computer;
+      tell({ free: isNew && state === "loading" && !isAsked }, isAsked && state === "loading" ? "compute" : undefined);
+    };
     tell({ walk, sensors: [], bluetooth: why === "", why });
+    store.get("walk").then((left) => {
+      isNew = left === undefined;
+      tellFree();
+    }, () => {});
     computer.on("text", (text) => take(JSON.parse(text)));
+    computer.on("asked", tellFree);
     computer.on("state", (state) => changed({ ready: "open", loading: "connecting", dead: "ended" }[state], 0));
     computer.on("walk", (value) => tell({ walk: (walk = value && { resumed: value.resumed }) }));
     computer.on("sensors", (sensors) => {

@@ -9,7 +9,7 @@ export const METRES = "metres"; // of the walks on this device, by name, as the 
 const MAX_SIZE = 400_000_000; // bytes of a file that is opened; an hour of two insoles takes 240 MB
 
 export class Files {
-  used = { recipe: "default" }; // with floor plan and calibration in use: {recipe, plan: {name, bytes}, calibration: the same}
+  used = { recipe: "default" }; // with what was opened: {recipe, plan: {name, bytes}, calibration: the same, bands: the same}
 
   // post(message) sends to the page
   constructor(python, post) {
@@ -19,7 +19,7 @@ export class Files {
   async demo(title) {
     const answer = await fetch(new URL(`${DEMO}.gz`, import.meta.url)).catch(() => null);
     if (!answer?.ok) throw new Problem("The demonstration is not on this device yet, and the site cannot be reached.");
-    await this.#runWith(DEMO, await unpacked(await answer.blob()), "open_demo", [DEMO, title]);
+    await this.#runWith({ [DEMO]: await unpacked(await answer.blob()) }, "open_demo", [DEMO, title]);
   }
 
   // Opens a file that a person chose: {kind, notes}.
@@ -28,7 +28,7 @@ export class Files {
     if (file.size > MAX_SIZE) throw new Problem(`${name}: is larger than ${MAX_SIZE / 1_000_000} MB`);
     const bytes = await orProblem(unpacked(file), `${name}: cannot be read`);
     const inner = name.replace(/\.gz$/, "");
-    const result = await this.#runWith(inner, bytes, "open", [inner]);
+    const result = await this.#runWith({ [inner]: bytes }, "open", [inner]);
     if (result.kind !== "recording") this.used = { ...this.used, [result.kind]: { name: inner, bytes } };
     return result;
   }
@@ -48,8 +48,9 @@ export class Files {
 
   // Returns the report, as HTML, of a walk on this device, or of what is played.
   async report(name, title, options) {
-    if (!name) return this.#run("report", ["", title, options]);
-    return this.#runWith(name, await unpacked(await this.get(name)), "report", [name, title, options]);
+    const files = {};
+    for (const one of [name, options.compare].filter(Boolean)) files[one] = await unpacked(await this.get(one));
+    return this.#runWith(files, "report", [name, title, options]);
   }
 
   get(name) {
@@ -76,13 +77,13 @@ export class Files {
     this.post({ walks: walks.sort((one, other) => (one.name < other.name ? 1 : -1)) });
   }
 
-  // Runs a call of Python that reads a file with this name and these bytes.
-  async #runWith(name, bytes, call, values) {
-    this.python.write(name, bytes);
+  // Runs a call of Python that reads files; their bytes by name.
+  async #runWith(files, call, values) {
+    for (const [name, bytes] of Object.entries(files)) this.python.write(name, bytes);
     try {
       return await this.#run(call, values);
     } finally {
-      this.python.remove(name);
+      for (const name of Object.keys(files)) this.python.remove(name);
     }
   }
 

@@ -3,7 +3,7 @@
 
 import { computer } from "./computer.js";
 import { running } from "./live.js";
-import { element, show } from "./words.js";
+import { element } from "./words.js";
 
 const HOLD_TIME = 1000; // ms for which the button is held: longer than what cloth touches by chance
 
@@ -20,10 +20,7 @@ for (const name of ["pointerup", "pointercancel", "pointerleave"]) {
 }
 element("uncover").addEventListener("click", (event) => event.detail === 0 && uncover()); // by a key or a screen reader
 element("uncover").addEventListener("contextmenu", (event) => event.preventDefault());
-computer.on("walk", (walk) => {
-  show("pocket", walk !== null);
-  if (walk === null) uncover();
-});
+computer.on("walk", (walk) => walk === null && uncover());
 computer.on("state", (state) => state === "dead" && uncover()); // what has stopped is no longer covered
 
 // The whole screen, where the browser allows that, has no bars to touch by chance.

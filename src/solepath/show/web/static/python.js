@@ -3,7 +3,7 @@
 import { loadPyodide } from "./pyodide.mjs";
 
 const SLICE = 0.05; // s for which Python computes before the worker may do something else
-const METHODS = ["message", "heartbeat", "receive", "command", "play", "start", "step", "save", "sensor_filters", "choices", "take_lines"];
+const METHODS = ["message", "heartbeat", "receive", "command", "play", "start", "step", "save", "choices", "take_lines"];
 const here = (name) => new URL(name, import.meta.url).href;
 
 // The bytes of a blob, unpacked if gzip packed them: some servers and browsers have unpacked such a file already.

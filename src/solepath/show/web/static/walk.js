@@ -53,6 +53,7 @@ export class Walk {
     if (!this.running) return "";
     const { name } = this.#record;
     await this.python.run("finish_walk", []);
+    this.#flush();
     const recorded = this.#recording?.count > 0;
     const known = await store.get(METRES).catch(() => {});
     await store.put(METRES, { ...known, [name]: metres }).catch(() => {});
@@ -65,8 +66,6 @@ export class Walk {
   receive(messages) {
     if (!this.running) return [];
     const answers = JSON.parse(this.python.receive(JSON.stringify(messages)));
-    const lines = this.python.takeLines();
-    if (lines.length > 0) this.#say(this.#recording?.add(lines));
     if (performance.now() - this.#writtenAt >= WRITE_INTERVAL) this.#flush();
     return answers;
   }
@@ -168,6 +167,8 @@ export class Walk {
 
   #flush() {
     this.#writtenAt = performance.now();
+    const lines = this.python.takeLines();
+    if (lines.length > 0) this.#say(this.#recording?.add(lines));
     this.#say(this.#recording?.flush());
   }
 

@@ -4,7 +4,7 @@ import { Files } from "./files.js";
 import { Problem, Python } from "./python.js";
 import { Walk } from "./walk.js";
 
-const FRAME_INTERVAL = 33; // ms
+const FRAME_INTERVAL = 33; // ms from a look for changes to the next, if nothing arrives
 const MIN_FRAME_TIME = 0.03; // s between two frames
 const HEARTBEAT_INTERVAL = 1000; // ms
 const COVERED_INTERVAL = 3000; // ms between two signs of life under the cover
@@ -15,7 +15,7 @@ let covered = false;
 let sentAt = 0; // ms, of the newest message for the page
 let playedAt = performance.now();
 let calls = Promise.resolve();
-let drawing = 0; // timer
+let drawing = 0; // timer of the next look for changes, or of signs of life
 let loaded = null; // {python, walk, files}
 
 const ready = load();
@@ -30,7 +30,7 @@ async function load() {
   loaded = { python, walk, files };
   drawRegularly();
   const choices = { ...JSON.parse(python.choices()), recipe: files.used.recipe };
-  postMessage({ ready: { filters: JSON.parse(python.sensor_filters()), choices } });
+  postMessage({ ready: { choices } });
   await files.list();
 }
 
@@ -68,20 +68,20 @@ async function answer({ call, values, id }) {
 
 // A page that nobody sees needs no pictures, and each look for changes wakes a phone's processor.
 function drawRegularly() {
-  clearInterval(drawing);
-  if (seen) drawing = setInterval(() => guarded(draw), FRAME_INTERVAL);
+  clearTimeout(drawing);
+  if (seen) drawing = setTimeout(guarded, FRAME_INTERVAL, draw);
   else if (covered) drawing = setInterval(() => postMessage({ alive: true }), COVERED_INTERVAL);
 }
 
+// Draws, and again after a while, unless what arrives lets it draw before.
 function draw() {
-  const { python } = loaded;
   const now = performance.now();
   const passed = (now - playedAt) / 1000;
-  if (passed < MIN_FRAME_TIME) return;
+  if (!seen || passed < MIN_FRAME_TIME) return;
   playedAt = now;
-  if (!seen) return;
-  python.play(passed, BUDGET);
+  loaded.python.play(passed, BUDGET);
   show();
+  drawRegularly();
 }
 
 function show() {
