@@ -21,9 +21,11 @@ START = f"import('./computer.js').then(({{ computer }}) => computer.emit('walk',
 FOOT = "{ phase: null, position: null, peak: null, cells: null, centre: null, strides: 0, distance: 0 }"
 SCENE = """(foot) => import('./computer.js').then(({ computer }) => computer.emit('text', JSON.stringify({
     type: 'scene', title: 'a walk', recipe: 'default', source: 'live', control: true, plan: null,
-    layouts: { left: null, right: null }, tracks: { left: [], right: [], wearer: [] }, phases: { left: [], right: [] },
+    layouts: { left: null, right: null }, tracks: { left: [], right: [], wearer: [] },
+    phases: { left: [], right: [] },
     places: [], log: [], reports: [],
-    frame: { t: 1, feet: { left: foot, right: foot }, wearer: null, place: null, activity: null, pace: null, support: null,
+    frame: { t: 1, feet: { left: foot, right: foot }, wearer: null, place: null, activity: null,
+             pace: null, support: null,
         touchdown: null, body: null, fused: null, gait: null, total: null, scales: {}, spoilt: [], findings: [], links: {},
         playback: null, posture: null },
 })))"""
