@@ -26,7 +26,8 @@ SCENE = """(foot) => import('./computer.js').then(({ computer }) => computer.emi
     places: [], log: [], reports: [],
     frame: { t: 1, feet: { left: foot, right: foot }, wearer: null, place: null, activity: null,
              pace: null, support: null,
-        touchdown: null, body: null, fused: null, gait: null, total: null, scales: {}, spoilt: [], findings: [], links: {},
+        touchdown: null, body: null, fused: null, gait: null, total: null,
+        scales: {}, spoilt: [], findings: [], links: {},
         playback: null, posture: null },
 })))"""
 OFFERED = "document.getElementById('here-place').checkVisibility({ visibilityProperty: true })"
