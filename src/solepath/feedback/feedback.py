@@ -140,16 +140,17 @@ class Feedback:
 
     def _note(self, event: BaseEvent) -> None:
         state = self._state
+        if isinstance(event, ActivityChanged):
+            state.activity = event.activity
+            return
+        if state.activity not in self._activities:  # of a past activity, the one that follows it comes at once
+            state.walk.cycles.clear()
+            for one in state.rules:
+                one.is_armed = True
         state.walk.add(event)
         match event:
-            case FootMoved():
+            case FootMoved():  # nearly always
                 pass
-            case ActivityChanged(activity=activity):
-                state.activity = activity
-                if activity not in self._activities:
-                    state.walk.cycles.clear()
-                    for one in state.rules:
-                        one.is_armed = True
             case StrideTaken(foot=foot) if is_sound(event):
                 state.stride_at = event.t
                 state.spoilt = [one for one in state.spoilt if one is not foot]
