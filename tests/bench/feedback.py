@@ -338,7 +338,8 @@ def not_walking(folder: Path | None) -> None:
     """Print the signals an hour of those who do not walk."""
     jobs = defaultdict[str, list[tuple[Sequence[Sample], float]]](list)
     for path in sorted((folder / "hugadb_daily").glob("*.npz")) if folder else ():
-        samples, name = list(load_samples(path)), path.stem.rsplit("_", 2)[0].replace("_", " ")
+        samples: Sequence[Sample] = list(load_samples(path))
+        name = path.stem.rsplit("_", 2)[0].replace("_", " ")
         rate = (len(samples) / 2 - 1) / (samples[-1].t - samples[0].t)
         jobs[f"hugadb_daily: {name}"].append((samples, rate))
         if path.stem in EIGHT_TIMES:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from attrs import frozen
+from attrs import evolve, frozen
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -149,8 +149,9 @@ def test_a_foot_that_lands_flat_gives_its_signal_with_the_foot_flat() -> None:
 
 
 def test_walking_that_was_withdrawn_gives_nothing_from_then_on() -> None:
-    events = walk(0.8, 0.8, 0.8)
-    withdrawn = [*events[:7], activity(0.0, Activity.UNKNOWN, 0.0), *events[7:]]
+    contacts: list[Event] = [HeelStrike(t=1.0 + 0.9 * k, foot=LEFT) for k in range(3)]
+    assert len(listen([*WALKING, *contacts], EveryHeelStrike(LEFT))) == 3
+    withdrawn = [*WALKING, contacts[0], activity(0.0, Activity.UNKNOWN, 0.0), *contacts[1:]]
     assert [one.t for one in listen(withdrawn, EveryHeelStrike(LEFT))] == [1.0]
 
 
@@ -158,13 +159,22 @@ def test_what_becomes_final_of_the_past_changes_nothing_and_a_stand_ends_an_excu
     events, rule = walk(0.8, 0.8, 0.8, 0.8), StanceLonger(LEFT, 0.75, remind=None)
     past = [activity(-9.0, Activity.STANDING, -9.0), activity(0.0, Activity.WALKING)]
     assert len(listen([*events[:12], *past, *events[12:]], rule)) == 1
-    stand: list[Event] = [activity(2.9, Activity.STANDING), moved(3.0), activity(3.1, Activity.WALKING)]
-    assert len(listen([*events[:12], *stand, *events[12:]], rule)) == 2
+    stand: list[Event] = [activity(4.0, Activity.STANDING), moved(5.0), activity(6.0, Activity.WALKING)]
+    later = [evolve(event, t=event.t + 4.0, known_at=event.t + 4.0) for event in events[12:]]
+    assert len(listen([*events[:12], *stand, stride(6.1), *later], rule)) == 2
 
 
 @pytest.mark.parametrize("what", sorted(set(Activity) - {Activity.WALKING}, key=str))
 def test_only_while_somebody_walks(what: Activity) -> None:
-    assert listen([activity(0.0, what), *walk(0.8, 0.8)[1:]], EveryHeelStrike(LEFT)) == []
+    contacts: list[Event] = [HeelStrike(t=1.6 + k, foot=LEFT) for k in range(6)]
+    assert listen([activity(0.0, what), stride(0.0), *contacts], EveryHeelStrike(LEFT)) == []
+
+
+def test_the_contact_after_a_stride_belongs_to_the_walk_whatever_a_slow_stance_looks_like() -> None:
+    events = walk(0.8, 0.8, 0.8)
+    for what, count in ((Activity.UNKNOWN, 3), (Activity.STANDING, 3), (Activity.STAIRS_UP, 1)):
+        provisional = [*events[:7], activity(1.5, what), *events[7:]]
+        assert len(listen(provisional, EveryHeelStrike(LEFT))) == count
 
 
 def test_on_stairs_if_the_app_says_so() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from ..body.activity.reconcile import BOUT_PAUSE, GAITS
+from ..body.activity.reconcile import BOUT_PAUSE, EDGE, GAITS
 from ..events import ActivityChanged, ClockReset, DefectFound, FootMoved, StrideTaken
 from ..events.happening import BaseEvent, json_ready
 from ..saving.codec import Json, SnapshotError, checksum, load, save
@@ -66,6 +66,8 @@ class FeedbackState:
     """Newest activity that was reported, final or not."""
     stride_at: float | None = None
     """End of the newest sound stride of either foot, s; None before any, and after the clock restarted."""
+    stride_time: float = 0.0
+    """Its duration, s."""
     spoilt: list[Foot] = field(factory=list)
     """Feet whose data cannot be right; a sound stride ends that."""
     now: float | None = None
@@ -76,9 +78,11 @@ class Feedback:
     """Turns the events of one wearer's session into signals, by rules.
 
     `activities` are those in which there are signals: by default walking alone. There is none while the newest activity
-    that was reported, also provisionally, is another one (standing, unknown: a bicycle, a car, a chair), and none while
-    no sound stride has ended for 3 s. So the first signal of a bout comes after its first strides are known: at the
-    third or fourth contact, 1.5 to 2.5 s after the first one. After a pause shorter than 3 s it comes at once.
+    that was reported, also provisionally, is another one (standing, unknown: a bicycle, a car, a chair), but for 1.5 s
+    after a sound stride, or for its duration if it was slower: the next contact belongs to the walk, whatever a slow
+    stance looks like. There is none either when no sound stride has ended for 3 s. So the first signal of a bout comes when its first strides are known: at the
+    fourth contact, 1.5 s after the first one at 1.5 m/s, 2.7 s at 0.5 m/s. After a pause of less than 3 s it comes at
+    once.
 
     A signal is dropped if its deadline has passed. It never follows from a foot whose data are wrong, from an event
     that lies in a gap, or from a stance in which a link was lost or samples are missing for longer than 60 ms.
@@ -143,7 +147,7 @@ class Feedback:
         if isinstance(event, ActivityChanged):
             state.activity = event.activity
             return
-        if state.activity not in self._activities:  # of a past activity, the one that follows it comes at once
+        if not self._is_walking(event.t):  # of a past activity: the one that follows it comes at once
             state.walk.cycles.clear()
             for one in state.rules:
                 one.is_armed = True
@@ -152,7 +156,7 @@ class Feedback:
             case FootMoved():  # nearly always
                 pass
             case StrideTaken(foot=foot) if is_sound(event):
-                state.stride_at = event.t
+                state.stride_at, state.stride_time = event.t, event.t_end - event.t_start
                 state.spoilt = [one for one in state.spoilt if one is not foot]
             case DefectFound(spoilt_foot=foot) if foot is not None and foot not in state.spoilt:
                 state.spoilt.append(foot)
@@ -163,9 +167,11 @@ class Feedback:
                         one.newest = None
 
     def _is_walking(self, t: float) -> bool:
-        state = self._state
-        is_bout = state.stride_at is not None and t - state.stride_at <= BOUT_PAUSE
-        return is_bout and state.activity in self._activities
+        state, activity = self._state, self._state.activity
+        if state.stride_at is None or (activity in GAITS and activity not in self._activities):
+            return False
+        is_named = activity in self._activities
+        return t - state.stride_at <= (BOUT_PAUSE if is_named else min(BOUT_PAUSE, max(EDGE, state.stride_time)))
 
     def _judge(self, number: int, value: Value, known_at: float) -> Signal | None:
         """Return the signal that a value gives, if any."""
