@@ -80,9 +80,9 @@ class Feedback:
     `activities` are those in which there are signals: by default walking alone. There is none while the newest activity
     that was reported, also provisionally, is another one (standing, unknown: a bicycle, a car, a chair), but for 1.5 s
     after a sound stride, or for its duration if it was slower: the next contact belongs to the walk, whatever a slow
-    stance looks like. There is none either when no sound stride has ended for 3 s. So the first signal of a bout comes when its first strides are known: at the
-    fourth contact, 1.5 s after the first one at 1.5 m/s, 2.7 s at 0.5 m/s. After a pause of less than 3 s it comes at
-    once.
+    stance looks like. There is none either when no sound stride has ended for 3 s. So the first signal of a bout comes
+    when its first strides are known: at the fourth contact, 1.5 s after the first one at 1.5 m/s, 2.7 s at 0.5 m/s.
+    After a pause of less than 3 s it comes at once.
 
     A signal is dropped if its deadline has passed. It never follows from a foot whose data are wrong, from an event
     that lies in a gap, or from a stance in which a link was lost or samples are missing for longer than 60 ms.
