@@ -6,7 +6,8 @@ until the radio has the last sample that the session needs (its wait for later s
 packet arrives; *host*, until the app gets to it; *decision*, `Session.feed` and `Feedback.feed`, measured here.
 
 Idealised: an emulated contact is where the emulator puts it, and its cells show load from then on; a connection event
-takes any number of packets; a lost packet never comes, a burst delays all; recordings have no wearer's phone."""
+takes any number of packets; a lost packet never comes, and a burst delays all packets until its end. Nothing is in it
+of a speaker or a motor."""
 
 from __future__ import annotations
 
@@ -193,9 +194,8 @@ class Score:
 
     parts: list[tuple[float, float, float, float]] = field(factory=list)
     """Sensor, radio, host and decision of each signal, s."""
-    missed: list[float] = field(factory=list)
     before: list[float] = field(factory=list)
-    """True moments of a bout before its first signal."""
+    """Time from the first true moment of each bout to the first with a signal, s."""
     counts: dict[str, float] = field(factory=lambda: defaultdict(float))
 
     def add(self, moments: Moments, given: Sequence[Given], span: float) -> None:
