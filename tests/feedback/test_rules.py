@@ -121,6 +121,8 @@ def test_on_both_feet_with_the_heel_down_one_stands_and_a_foot_that_swings_shows
     both: list[Event] = [*WALKING, HeelStrike(t=1.0, foot=LEFT), HeelStrike(t=1.5, foot=RIGHT)]
     samples: list[Event] = [moved(1.0 + 0.01 * k) for k in range(60, 90)]
     assert listen([*both, *samples], StanceLonger(LEFT, 0.75)) == []
+    rocked = [*both, HeelOff(t=1.1, foot=LEFT), FootFlat(t=1.2, foot=LEFT), *samples]
+    assert listen(rocked, StanceLonger(LEFT, 0.75)) == []
     swing: list[Event] = [*WALKING, HeelStrike(t=1.0, foot=LEFT), ToeOff(t=1.2, foot=RIGHT), *samples]
     assert len(listen(swing, StanceLonger(LEFT, 0.75))) == 1
     late: list[Event] = [*both, *samples, HeelOff(t=2.0, foot=LEFT), ToeOff(t=2.2, foot=LEFT)]

@@ -103,10 +103,13 @@ class WalkNow:
 
     @staticmethod
     def _add_contact(now: FootNow, event: HeelStrike | FootFlat) -> None:
-        """Start a stance, or correct its start; a foot-flat is a contact when no heel-strike came before it."""
+        """Start a stance, or correct its start; a foot-flat is a contact when no heel-strike came before it.
+
+        Otherwise it lowers the heel, which may have been lifted by somebody who stands."""
+        now.is_lifted = False
         if isinstance(event, HeelStrike) or now.in_air:
             now.contact = None if event.inferred else event.t
-            now.toe_off, now.is_lifted, now.in_air = None, False, False
+            now.toe_off, now.in_air = None, False
 
     def forget(self, foot: Foot | None) -> None:
         """Forget the stance of a foot, None for no foot, and the cycles: samples are missing, or wrong."""
