@@ -47,6 +47,21 @@ def test_the_loop_prints_the_strides_of_a_recording(tmp_path):
     assert "a packet was not used: checksum" in lines_out
 
 
+def test_each_right_heel_strike_rings_and_a_left_stance_that_gets_too_long(tmp_path):
+    walk = insoles(Route().stand(2.0).walk(5.0, speed=1.3).walk(5.0, speed=0.7).stop(1.5))
+    lines_out = run("feedback", recorded(tmp_path / "walk.jsonl", walk.packets)).splitlines()
+    contacts = walk.truth.feet[Foot.RIGHT].heel_strikes
+    assert len(contacts) - 2 <= sum("right  EveryHeelStrike" in line for line in lines_out) <= len(contacts)
+    assert any("left   StanceLonger 0.7" in line for line in lines_out) and all(line[0] == "\a" for line in lines_out)
+
+
+@pytest.mark.soak
+def test_feedback_in_real_time_is_in_time():
+    lines_out = run("feedback").splitlines()
+    assert sum("EveryHeelStrike" in line for line in lines_out) > 4
+    assert all(float(line.split()[-3]) <= 200.0 for line in lines_out)
+
+
 def test_a_walk_that_was_saved_half_way_goes_on_as_if_nothing_had_happened():
     assert "the same as without the pause: True" in run("save_and_resume")
 

@@ -17,7 +17,9 @@ from solepath import Packet
 from solepath.emulate import Route
 
 pytest.importorskip("toga", reason="toga-core is not installed (extra: test)")
-pytest.importorskip("toga_dummy", reason="toga-dummy is not installed (extra: test)")
+assert_action_performed = pytest.importorskip(
+    "toga_dummy.utils", reason="toga-dummy is not installed (extra: test)"
+).assert_action_performed
 
 WALK = insoles(Route().stand(2).walk(10, speed=1.3).stop(2))
 PATH = EXAMPLES / "toga" / "gait_app" / "__main__.py"
@@ -56,6 +58,7 @@ async def test_after_a_walk_the_lines_show_the_walk(example: Any) -> None:
     assert (activity, status) == ("standing", "ended")
     assert cadence.endswith(" steps a minute") and float(cadence.split()[0]) == pytest.approx(111, abs=5)
     assert app.start.text == "Insoles" and app.show.enabled
+    assert_action_performed(app, "beep")  # at a right heel-strike
 
 
 async def test_the_emulated_wearer_can_be_stopped_and_the_reason_why_sensors_stop_is_reported(example: Any) -> None:

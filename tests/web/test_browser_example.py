@@ -60,4 +60,5 @@ async def test_a_recording_is_played_and_every_stride_shown(chromium: Browser, f
             await view.tab.locator("#file").set_input_files(tmp_path / "walk.jsonl")
             await view.until("document.getElementById('out').textContent.includes('has ended')", patience=PATIENCE)
             assert (await view.text("out")).count(" m\n") == strides()
+            assert (await view.text("out")).count("right  EveryHeelStrike") >= 1
             assert not [one for one in view.requests if not one.startswith(url)]

@@ -1,4 +1,5 @@
 """For a phone or a desktop: an app with BeeWare Toga shows what somebody does who walks, and the figures of the gait.
+It beeps at each right heel-strike, and when the left stance gets longer than 0.75 s (docs/feedback.md).
 
 pip install '.[ble]' 'toga-qt[pyside6-essentials]>=0.5.7'   on Linux; on macOS and Windows 'toga>=0.5.7' instead
 python examples/toga/gait_app/__main__.py                   two insoles nearby, or emulated ones"""
@@ -7,8 +8,9 @@ import asyncio
 
 import toga
 
-from solepath import LinkTrouble, Session
+from solepath import Foot, FootMoved, LinkTrouble, Session
 from solepath.ble import DeviceConfig, Devices
+from solepath.feedback import EveryHeelStrike, Feedback, StanceLonger
 from solepath.link.devices.insole import PROFILE as INSOLE
 
 
@@ -29,22 +31,28 @@ async def emulated(speed=1.0):
 class GaitApp(toga.App):
     def startup(self):
         self.listening, self.label = None, toga.Label("\n" * 4, font_size=20, margin=8)
-        self.start = toga.Button("Insoles", on_press=lambda _: self.toggle(sensors()), margin=8)
+        self.start = toga.Button("Insoles", on_press=lambda _: self.toggle(sensors(), self.loop.time), margin=8)
         self.show = toga.Button("Emulated", on_press=lambda _: self.toggle(emulated()), margin=8)
         content = toga.Box(children=[self.label, self.start, self.show], direction="column")
         self.main_window = toga.MainWindow(size=(360, 300), content=content)
         self.main_window.show()
 
-    def toggle(self, packets):
+    def toggle(self, packets, clock=lambda: None):  # the clock by which packets are stamped, if it is a true one
         if self.listening is None or not self.listening.cancel():  # while it listens, the button reads Stop
-            self.listening = self.loop.create_task(self.listen(packets))
+            self.listening = self.loop.create_task(self.listen(packets, clock))
 
-    async def listen(self, packets):
-        session, status, self.start.text, self.show.enabled = Session(), "ended", "Stop", False
+    async def listen(self, packets, clock):
+        feedback = Feedback([EveryHeelStrike(Foot.RIGHT), StanceLonger(Foot.LEFT, 0.75)])
+        session, status = Session(poses=feedback.needs_poses), "ended"
+        self.start.text, self.show.enabled = "Stop", False
         try:
             async for packet in packets:
-                for event in session.feed(packet):
-                    self.draw(session, event.what if isinstance(event, LinkTrouble) else "")
+                events = session.feed(packet)
+                for _ in feedback.feed(events, clock()):  # what is late is dropped
+                    self.beep()
+                for event in events:
+                    if not isinstance(event, FootMoved):
+                        self.draw(session, event.what if isinstance(event, LinkTrouble) else "")
         except (asyncio.CancelledError, Exception) as error:  # no Bluetooth, no permission: the user reads it
             status = str(error) or "stopped"
         self.draw(session, status)
