@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from functools import cache
-from math import pi, radians
+from math import atan2, degrees, pi, radians
 from typing import Any
 
 import pytest
 from attrs import evolve
+from soak import longer
 from walks import LEFT, of
 
 from solepath import (
@@ -205,3 +206,13 @@ def test_a_standing_foot_takes_no_stride() -> None:
     still = Walker(Route().stand(6.0), seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
     assert of(StrideTaken, run_session(still)) == []
     assert of(HeelStrike, run_session(still)) == of(ToeOff, run_session(still)) == []
+
+
+@pytest.mark.parametrize("turn", [-90, 45, *longer(-45, -20, 20, 90, 135, 180)])
+def test_who_turns_on_the_spot_before_the_first_step_walks_off_turned_by_that_with_both_feet(turn: int) -> None:
+    walk = emulate(Route().stand(2.0).turn(radians(turn)).walk(6.0, 1.2).stand(2.0), seed=2)
+    strides = [stride for stride in of(StrideTaken, run_session(walk.packets)) if stride.length > 0.5]
+    for foot in Foot:
+        ways = [stride.displacement for stride in strides if stride.foot is foot]
+        off = [(degrees(atan2(y, x)) - turn + 180.0) % 360.0 - 180.0 for x, y, _ in ways]
+        assert len(off) > 2 and max(map(abs, off)) < 6.0

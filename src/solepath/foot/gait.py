@@ -9,16 +9,22 @@ from ..calibration import HeadingCalibration, usual_strides
 from ..events import Event, StrideTaken
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import evolve, field, state, stateful
-from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub
+from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub, turned
 from .bearing import FARTHEST, IMPOSSIBLE, Bearing, evidence_of
 from .cues.cues import Cues, TimedCue
 from .gap import Infill
 from .navigate.corrector import Corrector
 from .phase import EVENT_OF_PHASE, PHASES, REMAINING_CUES, STRIDE, Cue
-from .stride import SHORTEST_STRIDE, StrideBuilder
+from .stride import LEAST_STRIDE_TURN, SHORTEST_STRIDE, StrideBuilder
 from .template import StrideTemplate
 from .world import Covariance3, PathCovariance, World
 
+LEAST_RADIUS = 0.6
+"""Least radius, m, of the path of a first stride that goes on, whose direction is that of the wearer.
+
+In a turn on the spot each foot moves about the middle between both, by a third of this, and both in opposite ways."""
+LEAST_TURN = 0.1
+"""Turn of a foot on the spot that counts, rad; a smaller one is how the toes point, which differs from foot to foot."""
 FLAT_SPEED = 0.35
 """Speed after a correction above which a foot is not flat, even if the evidence was accepted, m/s; chosen by hand."""
 
@@ -44,6 +50,8 @@ class Gait:
     world: World = state(factory=World)
     heading_settled: bool = False
     """The heading of the world frame is final."""
+    turned: float = 0.0
+    """Angle by which the foot has turned before its heading was final, rad."""
     bearing: Bearing = state(factory=Bearing)
     number: int = 0
     """Number of the last stride that was reported, counted from 1."""
@@ -144,18 +152,32 @@ class Gait:
             self._turn_back(self.heading, corrector, path, turn)
         rise = corrector.position[2] - stride.start[2]
         corrector.flat(stride.start, turn)
+        has_turned = abs(self.turned) > LEAST_TURN
+        way = sub(corrector.position, stride.start) if has_turned else corrector.position
         if not self.heading_settled and stride.t_toe_off is not None:
-            # the first stride gives the final heading; until then it is the direction from the origin to the foot
-            self.heading_settled = world.find_heading(corrector.position, SHORTEST_STRIDE)
-        ended, shaking = stride.finish(t, known_at, corrector, world, rise), stride.shaking
-        if ended is not None:
-            # the frame of a stride must not change, even if it was too short to give a direction
-            self.heading_settled = True
-            world.settle()
+            goes_on = hypot(way[0], way[1]) > LEAST_RADIUS * abs(turn) or self.every_stride
+            # an arc's chord has the mean of its headings; in a straight stride a turn is one of the toes alone
+            before = (self.turned if has_turned else 0.0) + (
+                0.5 * turn if abs(turn) > LEAST_STRIDE_TURN and not self.every_stride else 0.0
+            )
+            if goes_on and world.find_heading(turned(way, -before), SHORTEST_STRIDE):
+                self.heading_settled = True
+                self.bearing.waiting = self._in_world(self.bearing.waiting)
+        # until the heading is final, strides wait in the navigation frame
+        frame = world if self.heading_settled else World()
+        ended, shaking = stride.finish(t, known_at, corrector, frame, rise), stride.shaking
         stride.start_stride(t, corrector.position, corrector.attitude)
+        if not self.heading_settled:
+            self.turned += turn
         if ended is None:
             return []
         strides, dropped = ([ended], []) if self.every_stride else self.bearing.add(ended, shaking)
+        if strides and not self.heading_settled:
+            # the frame of a final stride must not change, even if none went on or was long enough to give a direction
+            self.heading_settled = True
+            if not world.find_heading(turned(way, 0.5 * turn - self.turned), SHORTEST_STRIDE):
+                world.settle()
+            strides = self._in_world(strides)
         if dropped:
             self._undo(dropped, corrector)
         events: list[Event] = []
@@ -164,6 +186,19 @@ class Gait:
             events.append(evolve(one, number=self.number))
         return events
 
+    def _in_world(self, strides: Sequence[StrideTaken]) -> list[StrideTaken]:
+        """Return strides of the navigation frame in the world frame."""
+        world = self.world
+        return [
+            evolve(
+                one,
+                displacement=world.rotate_vector(one.displacement),
+                position=world.rotate_vector(one.position),
+                covariance=world.rotate_covariance(one.covariance),
+            )
+            for one in strides
+        ]
+
     def _undo(self, dropped: Sequence[StrideTaken], corrector: Corrector) -> None:
         """Move a foot that carries nobody back to where the strides began that were none."""
         apply_shift = getattr(corrector, "shift", None)
@@ -171,6 +206,8 @@ class Gait:
         moves = [one.displacement for one in dropped if evidence_of(one, None) < IMPOSSIBLE]
         if apply_shift is None or not moves or not hypot(*[hypot(*move) for move in moves]) < FARTHEST:
             return
+        if not self.heading_settled:
+            self.world.north = None  # what was dropped is in the navigation frame, too
         x, y, z = [-fsum(values) for values in zip(*moves, strict=True)]
         apply_shift(0.0, self.shift(0.0, (x, y, z)))
         waiting = self.bearing.waiting
