@@ -17,7 +17,7 @@ from ..foot.phase import SUPPORT
 from ..link.health import LinkHealth
 from ..link.kinds import DeviceKinds, is_address, make_kinds
 from ..recipes import DEFAULT, Recipe, shared_copy
-from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support, Vec2
+from ..types import SITE_OF_FOOT, Activity, Foot, Packet, Phase, Sample, Site, Support, Vec2
 from ..types.plain import flag, text
 from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan, keep_events
 from .state import SessionSettings, SessionState
@@ -199,9 +199,14 @@ class Session:
 
     @property
     def activity(self) -> Activity:
-        """Activity of the newest ActivityChanged; UNKNOWN before the first."""
-        activity: Activity | None = self._state.find_attribute("activity")
-        return Activity.UNKNOWN if activity is None else activity
+        """Activity of the newest ActivityChanged; UNKNOWN before the first, and while every foot that sent is silent.
+
+        A foot is silent from StreamStale to StreamResumed."""
+        state = self._state
+        activity: Activity | None = state.find_attribute("activity")
+        links = [state.decoders.get(SITE_OF_FOOT[foot]) for foot in state.feet]
+        is_silent = links and all([link is not None and link.stale for link in links])
+        return Activity.UNKNOWN if activity is None or is_silent else activity
 
     @property
     def gait(self) -> GaitParameters | None:
