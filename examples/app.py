@@ -10,14 +10,14 @@ see connections, batteries and strides. Kill it, also with kill -9: started agai
 import asyncio
 import json
 import sys
-from contextlib import AsyncExitStack
+from contextlib import AsyncExitStack, suppress
 from itertools import islice
 from pathlib import Path
 
 import solepath as sp
 from solepath.ble import NATIVE, BluetoothError, DeviceConfig, Devices, record
 from solepath.emulate import reach
-from solepath.recording import read_packets
+from solepath.recording import RecordingError, read_packets
 
 SAVED_EVERY = 5.0
 """Time between two snapshots, s: so much is fed again after a kill."""
@@ -38,14 +38,15 @@ def show(event: sp.Event) -> None:
 def resume(folder: Path) -> sp.Session:
     """Return the session of the newest snapshot after the packets that were recorded since."""
     session, newest, used = sp.Session(), "", 0
-    try:
+    with suppress(OSError, ValueError, TypeError, KeyError):  # there is none yet, or no whole one: all is fed again
         saved = json.loads((folder / "state.json").read_text())
         session, newest, used = sp.Session.restore(saved["session"]), saved["recording"], saved["packets"]
-    except (OSError, ValueError, KeyError):  # there is none yet, or half of one: all packets are fed again
-        pass
-    for path in sorted(folder.glob("walk-*.jsonl")):
-        if path.name >= newest:
-            session.feed(islice(read_packets(path), used if path.name == newest else 0, None))
+    for path in sorted(one for one in folder.glob("walk-*.jsonl") if one.name >= newest):
+        try:
+            for packet in islice(read_packets(path), used if path.name == newest else 0, None):
+                session.feed(packet)
+        except RecordingError as error:  # an empty file, or one without a whole header: no packet is in it
+            print(error, file=sys.stderr)
     return session
 
 

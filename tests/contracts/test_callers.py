@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import inf, nan
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -10,6 +12,7 @@ from attrs import evolve
 from walks import LEFT, Machine, machines
 
 from solepath import Packet, Session, SnapshotError
+from solepath.recording import PacketWriter
 
 GOOD_PACKET = Packet(0.0, LEFT, "device/battery", b"\x20")
 
@@ -38,6 +41,25 @@ def test_a_recipe_is_a_recipe() -> None:
         Session("default")  # type: ignore[arg-type]
 
 
+MISTAKES: dict[str, tuple[Callable[[Path], Any], type[Exception], str]] = {
+    "an address for all sites": (lambda _: Session(devices="F0:5E"), TypeError, "devices is a dict .*, not str"),  # type: ignore[arg-type]
+    "a foot by its name": (lambda _: Session().phase("left"), TypeError, "phase takes a Foot, not str"),  # type: ignore[arg-type]
+    "text to be recorded": (lambda path: PacketWriter(path).write("x"), TypeError, "of packets, not str"),  # type: ignore[arg-type]
+    "a later release": (
+        lambda _: Session.restore(Session().snapshot() | {"solepath": 99}),
+        SnapshotError,
+        "of version 99; this release reads version [0-9]+ alone: feed the recording again",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_a_mistake_is_told_in_a_sentence(name: str, tmp_path: Path) -> None:
+    call, error, sentence = MISTAKES[name]
+    with pytest.raises(error, match=sentence):
+        call(tmp_path / "walk.jsonl")
+
+
 @pytest.mark.parametrize("now", [nan, inf, -inf])
 def test_time_that_is_no_number_cannot_pass(now: float) -> None:
     with pytest.raises(ValueError, match="now"):
@@ -54,7 +76,7 @@ def test_a_finished_session_is_read_but_not_fed(name: str) -> None:
     session.finish()
     assert session.finish() == session.advance(machine.items[-1].t + 1e4) == []
     position = session.position
-    with pytest.raises(ValueError, match="finished"):
+    with pytest.raises(ValueError, match="finished: make a new Session"):
         session.feed(machine.items[-1])
     assert session.position == position
     assert machine.load(machine.save(session)).position == position

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
-from walks import DEVICE_NAMES, LEFT, RIGHT, machines, of, often, samples
+from walks import DEVICE_NAMES, LEFT, RIGHT, insoles, machines, of, often, samples
 
-from solepath import Foot, Limitation, Sample, Session, StreamResumed, StreamStale, StrideTaken, recipes
+from solepath import Activity, Foot, Limitation, Sample, Session, StreamResumed, StreamStale, StrideTaken, recipes
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
 
+WALKING = Activity.WALKING
 TIMES = ("t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike")
 
 
@@ -44,6 +45,24 @@ def test_the_other_foot_makes_time_pass_as_well() -> None:
             emitted += session.feed(item)
     (stale,) = of(StreamStale, emitted)
     assert stale.site is LEFT and stale.t == pytest.approx(4.0, abs=0.1)
+
+
+def test_what_a_wearer_does_is_unknown_while_every_foot_is_silent() -> None:
+    packets = insoles().packets
+    session = Session()
+    walking = next(k for k, packet in enumerate(packets) if session.feed(packet) and session.activity is WALKING)
+    now = packets[walking].t
+    for packet in packets[walking + 1 :]:
+        if packet.site is RIGHT and packet.t < now + 3.0:
+            session.feed(packet)
+    assert session.activity is WALKING, "the right foot still sends"
+    session.advance(now + 6.0)
+    assert session.activity is Activity.UNKNOWN
+    assert Session.restore(session.snapshot()).activity is Activity.UNKNOWN
+    session.advance(now + 600.0)
+    assert session.activity is Activity.UNKNOWN
+    session.feed([evolve(packet, t=packet.t + 600.0) for packet in packets if now + 3.0 < packet.t < now + 6.0])
+    assert session.activity is not Activity.UNKNOWN
 
 
 def test_nothing_happens_by_advancing_what_is_fed_by_samples_alone() -> None:

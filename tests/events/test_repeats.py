@@ -151,6 +151,25 @@ def test_before_a_connection_ends_all_that_was_lost_is_told(name: str) -> None:
     assert sum(gap.gaps for gap in of(SampleGap, session.finish())) == 0, "it is told once"
 
 
+@pytest.mark.parametrize("name", ENDS)
+def test_what_is_told_together_was_known_when_it_was_told(name: str) -> None:
+    packets, told = spoilt(1)[0], list[Any]()
+    session, cut = Session(), 21.0
+    told += session.feed([packet for packet in packets if packet.t < cut])
+    if name == "silence":
+        told += session.advance(cut + 0.5) + session.advance(cut + 3.0)
+    elif name == "disconnection":
+        told += session.feed(Packet(cut + 0.3, LEFT, "receiver/disconnected", b""))
+    elif name == "another clock":
+        told += session.restart_clock(cut + 0.2)
+    told += session.feed([evolve(packet, t=packet.t + 4.0) for packet in packets if packet.t >= cut])
+    told += session.advance(session.now + 0.5) + session.finish()
+    for site in (LEFT, RIGHT):
+        times = [event.known_at for event in told if isinstance(event, LinkEvent) and event.site is site]
+        assert len(times) > 10 and times == sorted(times)
+    assert max(event.known_at for event in of(Troubles, told)) == session.now, "what was held is told at the end"
+
+
 def test_an_absence_and_a_gap_that_spoils_a_stride_are_told_at_once_after_what_was_held() -> None:
     packets = without(insoles(STANDING).packets, 1.0, 2.0, *[4.0 + PERIOD * k for k in range(6)])
     told = of(SampleGap, Session().feed([packet for packet in packets if packet.t < 6.0]))

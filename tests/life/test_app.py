@@ -13,8 +13,6 @@ import pytest
 from here import EXAMPLES
 from programs import TAKES, emulator
 
-pytestmark = pytest.mark.soak
-
 
 def strides(text: str) -> list[tuple[str, int]]:
     return [(foot, int(number)) for foot, number in re.findall(r"^(\w+): stride (\d+) of", text, re.MULTILINE)]
@@ -28,6 +26,7 @@ def wait(log: Path, number: int) -> None:
         time.sleep(0.05)
 
 
+@pytest.mark.soak
 def test_an_app_goes_on_after_a_lost_link_a_suspension_and_a_kill(tmp_path: Path) -> None:
     faults = tmp_path / "faults.txt"
     faults.write_text("5 left_foot disconnect\n")
@@ -48,3 +47,16 @@ def test_an_app_goes_on_after_a_lost_link_a_suspension_and_a_kill(tmp_path: Path
     for foot in ("left", "right"):
         numbers = [number for of, number in strides(first + second) if of == foot]
         assert numbers == [*range(1, len(numbers) + 1)], "each stride once, in one row over the kill"
+
+
+@pytest.mark.parametrize("state", ["[]", "{}", "null", "{"])
+def test_files_without_a_packet_or_a_state_do_not_stop_an_app_at_its_start(tmp_path: Path, state: str) -> None:
+    walk = tmp_path / "walk"
+    walk.mkdir()
+    (walk / "state.json").write_text(state)
+    for name, text in {"walk-0001.jsonl": "", "walk-0002.jsonl": '{"format": "solep'}.items():
+        (walk / name).write_text(text)
+    command = [sys.executable, EXAMPLES / "app.py", walk, "solepath L", "solepath R", "tcp:127.0.0.1:1"]
+    lines = subprocess.run(command, capture_output=True, text=True, timeout=TAKES).stderr.splitlines()
+    assert [line.partition(": ")[0].rpartition("/")[2] for line in lines[:2]] == ["walk-0001.jsonl", "walk-0002.jsonl"]
+    assert lines[2:] == ["nothing answers at tcp:127.0.0.1:1: start `solepath emulate`"]

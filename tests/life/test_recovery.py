@@ -81,6 +81,14 @@ def test_whatever_became_of_the_snapshot_all_that_was_recorded_is_used(run: Run,
     assert session.feed(rest) + session.finish() == undisturbed.feed(rest) + undisturbed.finish()
 
 
+@pytest.mark.parametrize("text", ["", '{"format": "solep'])
+def test_a_recording_without_a_packet_and_a_state_that_is_none_stop_no_app(run: Run, text: str) -> None:
+    for name in ("walk-0000.jsonl", "walk-0002.jsonl"):
+        Path(name).write_text(text)
+    Path("session.json").write_text("[]")
+    assert run(CUT, TORN)["session"].pack() == fed(HALF).pack()
+
+
 @pytest.fixture
 def full_disk() -> Iterator[Callable[[int | None], None]]:
     """Return a function that limits the size of files, bytes, as a full disk does; None for space again."""

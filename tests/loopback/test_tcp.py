@@ -17,7 +17,7 @@ from here import HELPERS
 from strap import BEAT, CONTROL, LEVEL, Strap
 from virtual import find
 
-from solepath.ble.scanning import Backend
+from solepath.ble import Backend, BluetoothError
 from solepath.emulate.controllers.tcp import address_of, reach, serve
 
 HERE = HELPERS / "radio"
@@ -114,7 +114,7 @@ async def test_another_processs_devices_are_found_and_stream_until_it_is_killed_
 async def test_a_port_without_a_server_is_one_clear_error() -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-    with pytest.raises(BleakError, match=f"nothing answers at tcp:127.0.0.1:{port}"):
+    with pytest.raises(BluetoothError, match=f"nothing answers at tcp:127.0.0.1:{port}: start `solepath emulate`"):
         async with reach(f"tcp:127.0.0.1:{port}"):
             pass
 

@@ -13,7 +13,9 @@ import pytest
 from commands import run
 from here import EXAMPLES
 from quoted import PAGES, blocks, run_page
+from walks import of
 
+from solepath import LinkEvent, StreamStale
 from solepath.emulate import Route, Walker
 from solepath.types import Foot
 
@@ -35,14 +37,17 @@ def typed(page: str, start: str) -> None:
 @pytest.mark.soak
 def test_an_app_counts_saves_and_goes_on(here: Path) -> None:
     typed("docs/app.md", "demo")
-    (loop, _, answers, channels, live, _), names = run_page("docs/app.md")
+    (loop, answers, links, channels, live, _), names = run_page("docs/app.md")
     assert "the left foot touches the floor" in loop and "the right foot has gone" in loop
     assert names["strides"] == loop.count("has gone") > 20
     assert "m ahead" in answers and "steps a minute" in answers
     assert "insole/frame notify" in channels and "insole/control" in channels and "then write: (Write(" in channels
     assert "'event': 'PacketRejected'" in live
+    assert "left foot: " in links and "% missing, " in links
+    assert all(event.final and not isinstance(event, LinkEvent) for event in names["wearer"]) and names["wearer"]
     names["every_second"]()
     assert names["session"].position == names["session"].restore(names["saved"]["session"]).position
+    assert of(StreamStale, names["session"].advance(names["session"].now + 3.0)), "the restored session goes on"
 
 
 @pytest.mark.long

@@ -51,7 +51,8 @@ __all__ = [
 def reach(where: str) -> AbstractAsyncContextManager[Backend]:
     """Return a context that gives `Devices` the emulated sensors of `solepath emulate` at `where`, tcp:HOST:PORT.
 
-    Raises ValueError for other words, and BleakError, on entering, when nothing answers. Needs the extra `loopback`."""
+    Needs the extra `loopback`. Raises ValueError for other words, and BluetoothError, on entering, when nothing
+    answers."""
     from .controllers import reach
 
     return reach(where)

@@ -158,7 +158,9 @@ class PacketWriter:
 
 
 def format_packet(packet: Packet) -> bytes:
-    """Return the line of a packet; ValueError when it cannot be recorded."""
+    """Return the line of a packet; TypeError for another object, ValueError when it cannot be recorded."""
+    if not isinstance(packet, Packet):
+        raise TypeError(f"a recording is written of packets, not {type(packet).__name__}")
     if not isfinite(packet.t):
         raise ValueError(f"a packet at {packet.t} s cannot be recorded")
     fields = {"t": float(packet.t), "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import isfinite
 from typing import TYPE_CHECKING, TypeVar
 
 from ..calibration import Calibration, CalibrationError
 from ..events import Event
+from ..types import Site
 from ..types.plain import number, plain_copy
 
 if TYPE_CHECKING:
@@ -79,6 +81,13 @@ def _checked(record: _Record, cls: type[_Record], error: type[Exception]) -> _Re
     if fault is not None:
         raise error(f"{cls.__name__.lower()}: {fault}")
     return own_record
+
+
+def check_devices(devices: Mapping[Site, str] | None) -> Mapping[Site, str]:
+    """Return the addresses of devices by site, none for None; raise TypeError for another type."""
+    if devices is not None and not isinstance(devices, Mapping):
+        raise TypeError(f"devices is a dict of a Site and the address of its device, not {type(devices).__name__}")
+    return devices or {}
 
 
 def check_now(now: float) -> float:

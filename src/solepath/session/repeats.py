@@ -47,7 +47,7 @@ class Repeated:
         return abs(t - self.reported.known_at) < REPORTED_TOGETHER
 
     def take_held(self, now: float | None) -> list[Event]:
-        """Return what is held, which is reported now and known at `now`, s; None for when its last one was known."""
+        """Return what is held, which is reported and known at `now`, s; None before the first time that is known."""
         held, self.held = self.held, None
         if held is None:
             return []
@@ -75,7 +75,8 @@ class Repeats:
                 reported += self._add(event)
             else:
                 if isinstance(event, ENDS):
-                    reported += self._end([one for one in self.kinds if one.reported.site is event.site])
+                    of_site = [one for one in self.kinds if one.reported.site is event.site]
+                    reported += self._end(of_site, event.known_at)
                 reported.append(event)
         if item is not None and now is not None and not any([isinstance(event, REJECTIONS) for event in events]):
             for one in [one for one in self.kinds if one.reported.site is item.site and not one.is_recent(now)]:
@@ -85,10 +86,9 @@ class Repeats:
         self.due = min([one.reported.known_at for one in self.kinds], default=0.0) + REPORTED_TOGETHER
         return reported
 
-    def end(self, events: list[Event]) -> list[Event]:
-        """Return what an app gets at the end, or when the clock is set, whose events these are."""
-        reported = self.gather(None, events)
-        return self._end(self.kinds) + reported
+    def end(self, events: list[Event], now: float | None) -> list[Event]:
+        """Return what an app gets at `now`, s, the end or when the clock is set, whose events these are."""
+        return self.gather(None, events) + self._end(self.kinds, now)
 
     def _add(self, event: Trouble) -> list[Event]:
         """Hold a trouble, or return it to be reported."""
@@ -105,10 +105,10 @@ class Repeats:
         known.held = event if known.held is None else _joined(known.held, event)
         return [] if is_recent else known.take_held(event.known_at)
 
-    def _end(self, kinds: list[Repeated]) -> list[Event]:
-        """Forget these kinds; return what was held of them."""
+    def _end(self, kinds: list[Repeated], now: float | None) -> list[Event]:
+        """Forget these kinds; return what was held of them, which is reported at `now`, s."""
         self.kinds = [one for one in self.kinds if all([one is not ended for ended in kinds])]
-        return [event for one in kinds for event in one.take_held(None)]
+        return [event for one in kinds for event in one.take_held(now)]
 
 
 def _time(item: Packet | Sample) -> float:

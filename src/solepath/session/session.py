@@ -17,9 +17,9 @@ from ..foot.phase import SUPPORT
 from ..link.health import LinkHealth
 from ..link.kinds import DeviceKinds, is_address, make_kinds
 from ..recipes import DEFAULT, Recipe, shared_copy
-from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support, Vec2
+from ..types import SITE_OF_FOOT, Activity, Foot, Packet, Phase, Sample, Site, Support, Vec2
 from ..types.plain import flag, text
-from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan, keep_events
+from .arguments import ItemError, check_calibration, check_devices, check_now, check_start, index_floorplan, keep_events
 from .state import SessionSettings, SessionState
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ class Session:
         if start is not None:
             state.notify(StartGiven(check_start(start, self._plan)))
         state.set_plan(self._plan)
-        for site, device in (devices or {}).items():
+        for site, device in check_devices(devices).items():
             self.bind(site, device)
 
     def __repr__(self) -> str:
@@ -85,7 +85,7 @@ class Session:
         """Add packets (as they arrive) or samples (in the order of their time) and return the events."""
         state = self._state
         if state.finished:
-            raise ValueError("this session is finished")
+            raise ValueError("this session is finished: make a new Session")
         if isinstance(data, (Packet, Sample)):
             return self._feed_item(data)
         if not isinstance(data, Iterable) or isinstance(data, str | bytes):
@@ -199,9 +199,14 @@ class Session:
 
     @property
     def activity(self) -> Activity:
-        """Activity of the newest ActivityChanged; UNKNOWN before the first."""
-        activity: Activity | None = self._state.find_attribute("activity")
-        return Activity.UNKNOWN if activity is None else activity
+        """Activity of the newest ActivityChanged; UNKNOWN before the first, and while every foot that sent is silent.
+
+        A foot is silent from StreamStale to StreamResumed."""
+        state = self._state
+        activity: Activity | None = state.find_attribute("activity")
+        links = [state.decoders.get(SITE_OF_FOOT[foot]) for foot in state.feet]
+        is_silent = links and all([link is not None and link.stale for link in links])
+        return Activity.UNKNOWN if activity is None or is_silent else activity
 
     @property
     def gait(self) -> GaitParameters | None:
@@ -216,7 +221,9 @@ class Session:
         return None if left is None or right is None else SUPPORT[left][right]
 
     def phase(self, foot: Foot) -> Phase | None:
-        """Return the phase of the foot; None until it has sent samples."""
+        """Return the phase of the foot; None until it has sent samples. Raises TypeError for what is no Foot."""
+        if not isinstance(foot, Foot):
+            raise TypeError(f"phase takes a Foot, not {type(foot).__name__}")
         tracker = self._state.feet.get(foot)
         return None if tracker is None else tracker.phase
 

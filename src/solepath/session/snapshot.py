@@ -38,7 +38,8 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
         raise SnapshotError("not a snapshot of a session, which is a dict with solepath, check and state")
     version = saved["solepath"]
     if version != VERSION:
-        raise SnapshotError(f"a snapshot of version {describe(version)}; this release reads version {VERSION} alone")
+        wrong = f"a snapshot of version {describe(version)}; this release reads version {VERSION} alone"
+        raise SnapshotError(f"{wrong}: feed the recording again")
     state = load(SessionState, saved["state"], classes)
     state.decoders = sort_by_key(state.decoders, Site)
     state.feet = sort_by_key(state.feet, Foot)

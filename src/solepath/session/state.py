@@ -290,7 +290,7 @@ class SessionState:
         """Return what the app is told after an item with these events; `end`: at the end, or before another clock."""
         if self.settings.losses or not (events or self.repeats.kinds):
             return events
-        return self.repeats.end(events) if end else self.repeats.gather(item, events)
+        return self.repeats.end(events, self.now) if end else self.repeats.gather(item, events)
 
     def notify(self, notice: Notice) -> None:
         """Tell the parts that ask for notices of this kind."""

@@ -29,7 +29,7 @@ MISSING = [
     ("track walk.jsonl --recipe", "--recipe: needs a value"),
     ("track walk.jsonl --start -1,2,3", "--start is a place on a floor plan: give --floorplan, too"),
     ("track a.csv --compare b.csv c.csv", "too much on the command line: c.csv: give --compare again for the second"),
-    ("scan --via tcp:127.0.0.1:1", "solepath: --via: nothing answers at tcp:127.0.0.1:1"),
+    ("scan --via tcp:127.0.0.1:1", "solepath: --via: nothing answers at tcp:127.0.0.1:1: start `solepath emulate`"),
     ("demo --distance far", "--distance: 'far' is not a positive number"),
     ("demo --loss 5", "--loss: '5' is not a number from 0 to 1"),
     ("track walk.jsonl --view 8765", "--view: '8765' is not HOST:PORT, as in 127.0.0.1:8765"),

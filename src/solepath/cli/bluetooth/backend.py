@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import AsyncIterator
 from contextlib import AsyncExitStack, asynccontextmanager
 
-from ...ble import NATIVE, Backend
+from ...ble import NATIVE, Backend, BluetoothError
 from ...types.extras import install_hint
 from ..common.failure import Failure
 
@@ -16,8 +16,6 @@ async def backend_of(via: str | None) -> AsyncIterator[Backend]:
     if via is None:
         yield NATIVE
         return
-    from bleak.exc import BleakError
-
     try:
         from ...emulate.controllers import reach
     except ModuleNotFoundError as error:
@@ -25,6 +23,6 @@ async def backend_of(via: str | None) -> AsyncIterator[Backend]:
     async with AsyncExitStack() as stack:
         try:
             backend = await stack.enter_async_context(reach(via))
-        except (BleakError, ValueError) as error:
+        except (BluetoothError, ValueError) as error:
             raise Failure(f"--via: {error}") from None
         yield backend

@@ -113,7 +113,7 @@ async def listen(
 
         def take(item: Packet | Sample | None) -> None:
             events = session.finish() if item is None else session.feed(item)
-            reported = repeats.end(events) if item is None else repeats.gather(item, events)
+            reported = repeats.end(events, session.now) if item is None else repeats.gather(item, events)
             files.take(item, reported)
             collector.take(item, events)
             publish(reported)

@@ -93,7 +93,9 @@ class Results:
             self._report_path = self._replacements.temporary_path(self.report)
         self.walk.take(item, events)
         if self._files is not None:
-            for event in self._repeats.end(events) if item is None else self._repeats.gather(item, events):
+            repeats = self._repeats
+            told = repeats.end(events, self.session.now) if item is None else repeats.gather(item, events)
+            for event in told:
                 self._files.write(event)
 
     def write(self) -> list[str]:

@@ -13,11 +13,13 @@ from collections.abc import AsyncIterator, Iterable
 from contextlib import asynccontextmanager
 from typing import cast
 
+from bleak.exc import BleakError
 from bumble import core, hci
 from bumble.transport import open_transport
 from bumble.transport.common import PacketParser, StreamPacketSink, Transport
 
 from ...ble.scanning import Backend
+from ...ble.trouble import BluetoothError
 from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualController, VirtualMedium
@@ -114,7 +116,7 @@ async def reach(where: str, mtu: int = 247) -> AsyncIterator[Backend]:
     """Yield a Backend that reaches the devices of `serve` at "tcp:HOST:PORT".
 
     `mtu` is the ATT MTU that clients request, bytes. Any other `where` raises ValueError; a server that does not answer
-    raises a BleakError that names it. When the TCP connection is lost, every client's disconnected callback is
+    raises a BluetoothError that names it. When the TCP connection is lost, every client's disconnected callback is
     called. The next scan or connection opens it again, or raises BleakError; a running scan continues by itself."""
     host, port = address_of(where)
 
@@ -123,7 +125,10 @@ async def reach(where: str, mtu: int = 247) -> AsyncIterator[Backend]:
 
     radio = VirtualRadio(open_connection, where, mtu)
     try:
-        await radio.device()
+        try:
+            await radio.device()
+        except BleakError as error:
+            raise BluetoothError(f"{error}: start `solepath emulate`") from None
         yield backend_of(radio)
     finally:
         await radio.close()
