@@ -139,7 +139,7 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
     with "" no kind is read."""
     if collection.get("type") != "FeatureCollection" or not isinstance(collection.get("features"), list):
         raise FloorPlanError("is not a GeoJSON FeatureCollection")
-    ids: set[str] = set()
+    known: dict[str, str] = {}
     corners = 0
     for i, value in enumerate(collection["features"], 1):
         number = f"feature {i} of the file"
@@ -149,9 +149,6 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
         if not (raw_id is None or isinstance(raw_id, str) or type(raw_id) is int and abs(raw_id) < MAX_NUMBER):
             raise FloorPlanError(f"{number}: its id is {describe(raw_id)}, neither a text nor a whole number")
         own_id = "" if raw_id is None else str(raw_id)
-        if own_id and own_id in ids:
-            raise FloorPlanError(f"two features have the id {own_id!r}")
-        ids.add(own_id)
         properties = value.get("properties")
         properties = {} if properties is None else properties
         if not isinstance(properties, dict):
@@ -166,10 +163,22 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
         if not own_id and (first := next(chain(*feature.lines), ())):
             x, y = first[0]
             feature = evolve(feature, name=f"{name or word} at ({x:.7g}, {y:.7g})")
+        if own_id:
+            here = _describe_place(feature, word, number)
+            if own_id in known:
+                raise FloorPlanError(f"two features have the id {own_id!r}: {known[own_id]}, and {here}")
+            known[own_id] = here
         corners += sum(map(len, chain(*feature.lines)))
         if corners > MAX_CORNERS:
             raise FloorPlanError(f"has more than {MAX_CORNERS} points")
         yield feature
+
+
+def _describe_place(feature: Feature, word: str, number: str) -> str:
+    """Return the kind of a feature and where it is: its level and its first point, or its number in the file."""
+    level, first = feature.properties.get("level", feature.properties.get("level_id")), next(chain(*feature.lines), ())
+    on = f" on level {describe(level)}" if isinstance(level, str | int) else ""
+    return f"{word}{on} at ({first[0][0]:.7g}, {first[0][1]:.7g})" if first else f"{word}{on}, {number}"
 
 
 def _with_geometry(feature: Feature, geometry: object) -> Feature:
