@@ -12,7 +12,8 @@ from ...types.attrs import evolve, frozen
 from ...types.checking import describe
 from ..doors import MAX_DOOR_OFFSET
 from ..earth import south_west
-from ..geometry import Ring
+from ..enclosure import LATTICE_SPACING
+from ..geometry import Ring, find_crossing
 from ..plan import Anchor, FloorPlanError, PlanFinding, Point, at, naming, on_level
 
 MAX_CORNERS = 1_000_000
@@ -29,6 +30,9 @@ ToPlan = Callable[[Position], Point]
 
 MAX_CLOSING_DISTANCE = 0.05
 """Largest distance between the first and last point of a closed ring, m."""
+
+MIN_LOOP = LATTICE_SPACING * LATTICE_SPACING
+"""Area of the smaller loop of an outline that crosses itself from which on it must be mended, m^2."""
 
 _DEPTHS = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2, "Polygon": 2, "MultiPolygon": 3}
 """Number of lists around a position in the coordinates of each geometry."""
@@ -105,6 +109,8 @@ class Feature:
             self.fail("its outline has fewer than three corners")
         if not is_closed:
             remarks.append(open_outline(level, self.name, drawn))
+        else:
+            remarks += crossed_outline(level, self.name, tuple(corners))
         return tuple(corners)
 
 
@@ -113,6 +119,15 @@ def open_outline(level: str, name: str, line: Sequence[Point]) -> PlanFinding:
     far = dist(line[0], line[-1])
     what = f"{name}: its outline does not close, it ends at {at(line[-1])}, {far:.2f} m from where it begins"
     return on_level(level, what, line[-1], act=far > MAX_DOOR_OFFSET)
+
+
+def crossed_outline(level: str, name: str, ring: Ring) -> list[PlanFinding]:
+    """Return that the outline of what has this name crosses itself, if it does; a small loop may be a slip."""
+    crossing = find_crossing(ring)
+    if crossing is None:
+        return []
+    place, loop = crossing
+    return [on_level(level, f"{name}: its outline crosses itself at {at(place)}", place, act=loop >= MIN_LOOP)]
 
 
 def parse_json(data: bytes) -> dict[str, Any]:
