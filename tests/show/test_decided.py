@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 
 import pytest
+from attrs import evolve
 from shown import frame, shown
 
 from solepath import Placed
 from solepath.events import Candidate
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
 from solepath.show.tables.plan import WALL_COLOUR, PlanPicture
-from solepath.show.tables.summary import place_line, place_lines
+from solepath.show.tables.summary import end_line, place_line, place_lines
 from solepath.walk import Walk
 
 WALLS = (Wall((0.0, 0.0), (30.0, 0.0)), Wall((0.0, 10.0), (30.0, 10.0)))
@@ -40,6 +41,14 @@ def test_page_summary_and_picture_agree_whether_a_place_is_decided(weight: float
     plan = FloorPlan("floors", (Level("0", "ground", 0, 0.0, WALLS), Level("1", "first", 1, 3.0, WALLS)))
     dots = [one for one in PlanPicture(plan, events).drawn("a walk").iter() if one.get("r") == "2.2"]
     assert (not dots) is is_decided
+
+
+def test_the_summary_says_how_sure_a_place_is_that_is_not_decided() -> None:
+    unsure = placed(0.7, 0.0)
+    assert end_line(unsure).endswith(", (4.0, 5.0) m, not decided: 70 %, within 0.4 m; 2 candidates, on several levels")
+    below = evolve(unsure, candidates=tuple([evolve(one, level="0") for one in unsure.candidates]))
+    assert end_line(below).endswith("2 candidates, all on this level")
+    assert "not decided: 0 %" in end_line(evolve(unsure, candidates=())), "whatever a program makes"
 
 
 def marks(events: list[Placed], start: Start | None) -> dict[str, float]:

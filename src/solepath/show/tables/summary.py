@@ -105,7 +105,8 @@ def end_line(place: Placed) -> str:
     if place.decided:
         return f"at the end: {_where(place)}"
     there = "all on this level" if place.level_decided else "on several levels"
-    sureness = f"{100.0 * place.candidates[0].weight:.0f} %, within {number(place.spread, 1)} m"
+    weight = max([one.weight for one in place.candidates], default=0.0)
+    sureness = f"{100.0 * weight:.0f} %, within {number(place.spread, 1)} m"
     others = f"{counted(len(place.candidates), 'candidate')}, {there}"
     return f"at the end: {_where(place)}, not decided: {sureness}; {others}"
 
