@@ -29,7 +29,7 @@ def test_a_plan_is_listed_with_its_ids_and_drawn_beside_where_the_command_runs(
     assert ["room", "Corridor", "10.0", "5.0"] in lines
     assert ["stairs,", "lift", "Lift", "14.0", "7.0"] in lines
     assert ["door", "door", "1", "0.0", "5.0"] in lines
-    assert "at latitude 48.1500000, longitude 11.5700000" in done.stdout
+    assert "at latitude 48.1500000, longitude 11.5700000; +y points 0.0 degrees clockwise from north" in done.stdout
     assert "nothing must be mended\ndrawn to house.svg" in done.stdout
     words = [one.text for one in ElementTree.parse(tmp_path / "house.svg").iter() if one.text]
     assert {"Corridor", "Lift", "door 1", "Ground floor (0), 0.0 m", "First floor (1), 3.0 m"} <= set(words)
@@ -47,6 +47,14 @@ def test_levels_are_chosen_and_other_files_stay(tmp_path: Path) -> None:
     assert "there is no level '7'; there are: 0, 1" in run_failing("plan", HOUSE, "--levels", "0,7")
     assert "must end in .svg" in run_failing("plan", HOUSE, "--out", tmp_path / "x.png")
     assert "there is no such file" in run_failing("plan", tmp_path / "none.geojson")
+
+
+def test_a_bearing_is_printed_in_degrees(tmp_path: Path) -> None:
+    file, house = tmp_path / "turned.geojson", read_floorplan(HOUSE)
+    assert house.anchor is not None
+    file.write_text(format_floorplan(evolve(house, anchor=evolve(house.anchor, bearing=-0.3))))
+    done = run("plan", file, "--out", tmp_path / "turned.svg")
+    assert "; +y points -17.2 degrees clockwise from north" in done.stdout
 
 
 def test_what_must_be_mended_comes_first_with_its_number_in_the_picture_and_status_1(tmp_path: Path) -> None:

@@ -104,6 +104,31 @@ def test_own_stairs_lead_as_high_and_as_far_as_their_risers_and_treads(
     assert course.place(walker, walker.duration) == pytest.approx(end, abs=0.05)
 
 
+@pytest.mark.parametrize("walking", [False, True])
+@pytest.mark.parametrize("height", [2.8, -2.8])
+def test_an_escalator_carries_as_far_as_its_incline_and_its_level_ends(height: float, walking: bool) -> None:
+    course = Course("0", (1.0, 1.0), pi / 2)
+    course.stand()
+    course.walk(2.0)
+    course.escalator("other", height, walking=walking)
+    assert course.level == "other" and course.heading == pi / 2
+    assert course.position == pytest.approx((1.0, 3.0 + 7.39), abs=0.005)
+    course.walk_along([(1.0, 12.0), (6.0, 12.0)])
+    course.stand()
+    walker = Walker(course.route)
+    risen = float(walker.truth().elevation(np.array([walker.duration]))[0])
+    assert risen == pytest.approx(height, abs=1e-6)
+    assert course.place(walker, walker.duration) == pytest.approx((6.0, 12.0), abs=0.05)
+
+
+def test_an_escalator_that_cannot_be_changes_nothing() -> None:
+    course = Course("0", (1.0, 1.0), 0.0)
+    for height, walking in ((0.5, False), (1.5, True)):
+        with pytest.raises(ValueError, match="escalator: it rises by a metre at least"):
+            course.escalator("1", height, walking=walking)
+    assert course == Course("0", (1.0, 1.0), 0.0)
+
+
 @pytest.mark.parametrize("wrong", [0, -1, 1.5, "16", True, None])
 def test_flights_and_risers_that_cannot_be_are_named_before_anything_is_walked(wrong: Any) -> None:
     course = Course("0", (1.0, 1.0), 0.0)

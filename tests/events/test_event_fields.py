@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import get_args
 
+import attrs
 import event_fields
 import pytest
 from quoted import PAGES, run_page
@@ -27,6 +28,14 @@ def test_every_field_of_the_page_is_a_column_of_the_frame_of_its_event_with_its_
             columns = [one for one in frame.columns if one == renamed or one.startswith(f"{renamed}_")]
             assert columns, f"{event.__name__}.{name}"
             assert of_many or not unit or {frame.attrs["units"].get(one) for one in columns} >= {unit}, name
+
+
+def test_what_the_page_says_is_in_files_is_a_field_and_the_rest_a_property() -> None:
+    for event in get_args(Event):
+        fields = {field.name for field in attrs.fields(event)}
+        for name, _, text in event_fields.rows(event):
+            if "." not in name:
+                assert (name in fields) is not text.endswith(event_fields.NOT_IN_FILES), f"{event.__name__}.{name}"
 
 
 def test_the_program_of_the_page_selects_the_cycles_of_the_means() -> None:

@@ -87,6 +87,33 @@ def test_the_example_of_the_document_is_a_plan() -> None:
     assert find_warnings(plan) == ("lift 'A': stops at level '0' only, at (7.0, 4.0)",)
 
 
+SAME_IDS = [
+    (
+        [feature("room", "Polygon", [SQUARE]), feature("door", "LineString", [[4, 0], [5, 0]])],
+        "two features have the id 'r1': room on level '0' at (0, 0), and door on level '0' at (4, 0)",
+    ),
+    (
+        [{"type": "Feature", "properties": {"feature": "level", "ordinal": k}, "geometry": None} for k in (1, 2)],
+        "two features have the id 'r1': level, feature 2 of the file, and level, feature 3 of the file",
+    ),
+]
+
+
+@pytest.mark.parametrize(("both", "message"), SAME_IDS)
+def test_two_features_with_one_id_are_named_with_what_and_where_they_are(
+    both: list[dict[str, Any]], message: str
+) -> None:
+    with pytest.raises(FloorPlanError) as caught:
+        parse_floorplan(geojson(*[one | {"id": "r1"} for one in both]))
+    assert str(caught.value) == message
+
+
+def test_a_bearing_that_cannot_be_may_be_in_degrees() -> None:
+    with pytest.raises(FloorPlanError) as caught:
+        parse_floorplan(geojson(anchor={"latitude": 48.0, "longitude": 11.0, "bearing": 17}))
+    assert str(caught.value) == "its anchor's bearing is 17; it can be -10 to 10 rad; were degrees meant?"
+
+
 STEPPED = [
     # what each stop says of flights and rise, and what is known of the connector; None where they disagree
     ([{"flights": 2, "rise": 0.17}, {"flights": 2, "rise": 0.17}], (2, 0.17)),

@@ -125,6 +125,22 @@ BROKEN: dict[str, tuple[Drawn, str]] = {
                     "geometry": {"type": "Polygon", "coordinates": [[(0, 4), (12, 4), (12, 8)]]}}},
         "level '0': room 'hall 0': its outline does not close, it ends at (12.0, 8.0), 12.65 m from where it begins",
     ),
+    "an outline that crosses itself": (
+        {"hall 0": {"feature": "room", "level": "0", "name": "hall",
+                    "geometry": {"type": "Polygon", "coordinates": [[(0, 4), (12, 8), (12, 4), (0, 8), (0, 4)]]}}},
+        "level '0': room 'hall 0': its outline crosses itself at (6.0, 6.0)",
+    ),
+    "walls that cross in their outline": (
+        {"outer wall 1": {"feature": "wall", "level": "1", "geometry": {
+            "type": "Polygon", "coordinates": [[(0, 0), (12, 0), (0, 8), (12, 8), (0, 0)]]}}},
+        "level '1': wall 'outer wall 1': its outline crosses itself at (6.0, 4.0)",
+    ),
+    "a slip in the outline of a stairwell": (
+        {"stairs 0": {"feature": "stairs", "level": "0", "name": "stairs", "geometry": {
+            "type": "Polygon",
+            "coordinates": [[(9, 5), (11, 5), (11, 7), (10, 7), (10, 7.1), (10.1, 6.9), (9, 6.9), (9, 5)]]}}},
+        "level '0': stairs 'stairs 0': its outline crosses itself at (10.1, 7.0)",
+    ),
     "a room that is drawn twice": (
         {"copy": {"feature": "room", "level": "1", "name": "copy", "geometry": box(0, 0, 12, 4)}},
         "level '1': rooms 'office' and 'copy' lie over each other at (6.3, 0.3)",
@@ -151,7 +167,12 @@ def test_a_broken_plan_gets_a_sentence_that_names_the_place(what: str) -> None:
     assert sentence in [one.text for one in find_findings(plan_of(flat() | changes))]
 
 
-NEEDS_NO_MENDING = {"a door beside all walls", "a room that is drawn twice", "two rooms over each other"}
+NEEDS_NO_MENDING = {
+    "a slip in the outline of a stairwell",
+    "a door beside all walls",
+    "a room that is drawn twice",
+    "two rooms over each other",
+}
 
 
 def test_what_places_may_be_wrong_by_must_be_mended_and_a_name_of_two_rooms_need_not() -> None:

@@ -60,7 +60,7 @@ def test_page_picture_summary_report_and_run_file_tell_the_same_end(
     assert [told["x_m"], told["y_m"]] == last["position"][:2]
 
     (line,) = [line for line in done.stdout.splitlines() if line.startswith("at the end:")]
-    assert f"level {last['level']}, " in line and ("one of" in line) is not decided
+    assert f"level {last['level']}, " in line and ("not decided: " in line) is not decided
     assert line.removeprefix("at the end") in report.read_text(encoding="utf-8").replace("\u00a0", " ")
 
     assert told["level_decided"] is (
@@ -70,8 +70,8 @@ def test_page_picture_summary_report_and_run_file_tell_the_same_end(
     if told["level_decided"]:
         assert marked is not None and f"({last['level']})" in marked[0]
         assert marked[1] == ("end" if decided else "likely end")
-        floors = [line for line in done.stdout.splitlines() if line.startswith("levels: ")]
-        assert f"{last['level']} from " in floors[0].rpartition(", ")[2].removeprefix("levels: ")
+        floors = [line for line in done.stdout.splitlines() if line.startswith("decided levels: ")]
+        assert f"{last['level']} from " in floors[0].rpartition(", ")[2].removeprefix("decided levels: ")
     else:
         assert marked is None or marked[1] == "last known"
 

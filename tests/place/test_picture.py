@@ -65,7 +65,7 @@ def test_the_summary_has_the_time_at_which_the_wearer_was_found_and_the_levels()
     lines = place_lines(places)
     assert lines[0].startswith("place: found after ") and " strides, at " in lines[0]
     assert lines[1].startswith("at the end: level 1, (") and "within" in lines[1]
-    assert lines[2].startswith("levels: 0 from ") and ", 1 from " in lines[2]
+    assert lines[2].startswith("decided levels: 0 from ") and ", 1 from " in lines[2]
     assert lines[3].endswith("no start was given, so the place is not known before the first stairs or lift")
 
 

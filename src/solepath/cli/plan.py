@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterator
+from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -67,7 +68,9 @@ def _places(plan: FloorPlan) -> Iterator[str]:
                 yield f"  {'stairs, lift' if kind == 'connector' else kind:14}{name:{ID_WIDTH}}{x:10.1f}{y:10.1f}"
     if plan.has_degrees:
         longitude, latitude = plan.to_wgs84((0.0, 0.0))
-        yield f"x 0, y 0 is at latitude {latitude:.7f}, longitude {longitude:.7f}"
+        bearing = degrees(plan.anchor.bearing) if plan.anchor else 0.0
+        where = f"x 0, y 0 is at latitude {latitude:.7f}, longitude {longitude:.7f}"
+        yield f"{where}; +y points {bearing:.1f} degrees clockwise from north"
     else:
         yield "no longitude and latitude, which .gpx and .kml need"
 

@@ -115,6 +115,7 @@ def run(options: Namespace) -> int:
             options,
             options.export,
             kinds,
+            start,
         )
         for recipe in recipes
     ]

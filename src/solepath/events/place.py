@@ -21,8 +21,9 @@ class Candidate:
     """Position in the plan frame, m; z is the height above the plan's zero, or if unknown, the track's z."""
     heading: float | None
     """Turn of the track's frame on the plan, not the direction in which the wearer walks: the direction of the track's
-    x axis (its first heading) in the plan frame, rad, counter-clockwise from the plan's x axis; None if unknown. The
-    wearer walks in this direction plus that of the newest StrideTaken's `displacement`."""
+    x axis (its first heading) in the plan frame, rad, counter-clockwise from the plan's x axis; None while it is
+    unknown, as without a first heading until walls have shown it. The wearer walks in this direction plus that of the
+    newest StrideTaken's `displacement`."""
     weight: float
     """Probability of the candidate, 0 to 1; the weights of all candidates add up to 1."""
     origin: str

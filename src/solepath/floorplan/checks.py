@@ -8,7 +8,7 @@ from math import dist, fsum, sqrt
 
 from ..types import checking
 from ..types.checking import describe
-from .plan import MAX_COORDINATE, Connector, FloorPlan
+from .plan import MAX_COORDINATE, Connector, FloorPlan, at
 
 MAX_BUILDING_WIDTH = 5000.0
 """Largest width of a building, m: the longest are 4 km."""
@@ -118,6 +118,7 @@ def _find_faults_of_connector(connector: Connector, elevations: dict[str, float]
     name = connector.label
     if not connector.stops:
         yield f"{name}: has no stops"
+    where = "".join([f"{name} at level {stop.level!r}, {at(stop.place)}" for stop in connector.stops[:1]])
     for stop in connector.stops:
         if stop.level not in elevations:
             yield f"{name}: stops at level {stop.level!r}, which the plan does not have"
@@ -125,6 +126,7 @@ def _find_faults_of_connector(connector: Connector, elevations: dict[str, float]
     if any(high <= low for low, high in pairwise(heights)):
         yield f"{name}: its stops are not from the lowest to the highest"
     if connector.flights is not None and not 1 <= connector.flights <= MAX_FLIGHTS:
-        yield f"{name}: has {describe(connector.flights)} flights a storey"
+        yield f"{where}: has {describe(connector.flights)} flights a storey; it can have 1 to {MAX_FLIGHTS}"
     if connector.rise is not None and not MIN_RISE <= connector.rise <= MAX_RISE:
-        yield f"{name}: its steps rise {describe(connector.rise)} m"
+        limits = f"they can rise {MIN_RISE} m to {MAX_RISE} m"
+        yield f"{where}: its steps rise {describe(connector.rise)} m; {limits}; is that in another unit?"

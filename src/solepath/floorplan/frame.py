@@ -40,4 +40,4 @@ class Anchor:
 
     latitude: float = field(metadata=limits(-MAX_LATITUDE, MAX_LATITUDE, "degrees"))
     longitude: float = field(metadata=limits(-180.0, 180.0, "degrees"))
-    bearing: float = limited(0.0, -10.0, 10.0, "rad")
+    bearing: float = limited(0.0, -10.0, 10.0, "rad; were degrees meant?")

@@ -17,6 +17,9 @@ Shewchuk 1997, Discrete and Computational Geometry 18: (3 + 16 u) u with u = 2^-
 UNDERFLOW = 1e-300
 """Bound above the loss by underflow of a product, m^2."""
 
+MAX_COMPARED = 20
+"""Largest number of edges at the same x with which an edge of a ring is compared: it limits the time for a comb."""
+
 MAX_BEND = 1e-3
 """Largest distance of a corner from the line between its neighbours at which it is no corner, m."""
 
@@ -71,6 +74,41 @@ def direction(a: Point, b: Point) -> tuple[float, float, float]:
 def edges(ring: Ring) -> list[Line]:
     """Return the straight lines of a ring."""
     return [(*a, *b) for a, b in zip(ring, (*ring[1:], *ring[:1]), strict=True)]
+
+
+def find_crossing(ring: Ring) -> tuple[Point, float] | None:
+    """Return where two edges of a ring cross, m, and the area of the smaller of both loops there, m^2; None if none do.
+
+    It is the first crossing from the left. Edges that only touch do not cross."""
+    beside: list[tuple[int, Line]] = []
+    for k, line in sorted(enumerate(edges(ring)), key=lambda one: min(one[1][0], one[1][2])):
+        left = min(line[0], line[2])
+        beside = [one for one in beside if max(one[1][0], one[1][2]) >= left][-MAX_COMPARED:]
+        for i, other in beside:
+            if _cross(*line, *other):
+                place, (first, last) = _meet(line, other), sorted((i + 1, k + 1))
+                loops = (place, *ring[first:last]), (place, *ring[last:], *ring[:first])
+                return place, min([abs(area(loop)) for loop in loops])
+        beside.append((k, line))
+    return None
+
+
+def _cross(ax: float, ay: float, bx: float, by: float, px: float, py: float, qx: float, qy: float) -> bool:
+    """Return whether the straight lines a to b and p to q have one point in common that is an end of neither."""
+    if max(ay, by) <= min(py, qy) or max(py, qy) <= min(ay, by):
+        return False
+    return (
+        side(ax, ay, bx, by, px, py) * side(ax, ay, bx, by, qx, qy) < 0
+        and side(px, py, qx, qy, ax, ay) * side(px, py, qx, qy, bx, by) < 0
+    )
+
+
+def _meet(line: Line, other: Line) -> Point:
+    """Return where two straight lines that cross do so, m."""
+    (ax, ay, bx, by), (px, py, qx, qy) = line, other
+    dx, dy, ex, ey = bx - ax, by - ay, qx - px, qy - py
+    k = ((px - ax) * ey - (py - ay) * ex) / (dx * ey - dy * ex or UNDERFLOW)
+    return ax + k * dx, ay + k * dy
 
 
 def contains(lines: list[Line], x: float, y: float) -> bool:

@@ -21,7 +21,7 @@ from attrs import astuple, frozen
 
 from solepath import recipes
 from solepath.cli.common.processes import run_jobs
-from solepath.emulate.routes.building import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, RISE, STOREY
+from solepath.emulate.routes.building import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, STOREY
 from solepath.emulate.routes.course import Course
 from solepath.emulate.routes.escalator import Escalator
 from solepath.emulate.routes.path import ahead
@@ -107,14 +107,13 @@ def _straight(rng: Rng, kind: str, up: bool, back: bool = False) -> FloorWalk:
     for k, way in enumerate([up, not up] if back else [up]):
         if k:
             course.walk(1.0)
-            _follow(course)
             course.face(0.5 * pi if way else -0.5 * pi)
             course.walk(abs(course.position[1] - (bottom if way else top)))
         if kind == "straight":
-            course.route = course.route.stairs(STRAIGHT_RISERS, way, RISE, GOING)
+            course.flight(way, STRAIGHT_RISERS)
         else:
-            course.route = course.route.escalator(STOREY if way else -STOREY, walking=kind == "escalator, walking")
-        _follow(course)
+            height = STOREY if way else -STOREY
+            course.escalator(levels[1], height, walking=kind == "escalator, walking")
     _leave(course, DEPTH if up is not back else 0.0, rng)
     return FloorWalk(course, (*levels, levels[0]) if back else tuple(levels))
 

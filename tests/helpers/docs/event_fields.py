@@ -25,6 +25,8 @@ USUAL = {
     "defect": "Kind of defect.",
 }
 """Meanings of fields whose names say them, where the class says no more."""
+NOT_IN_FILES = "Not in `events.jsonl`."
+"""What is said of a property: it follows from the fields, so that `to_dict` leaves it out."""
 HEADER = ["| field | unit | meaning |", "|---|---|---|"]
 
 
@@ -44,7 +46,7 @@ def documents(cls: type[Any]) -> dict[str, str]:
                 )
         for method in node.body:
             if isinstance(method, ast.FunctionDef) and "property" in map(ast.unparse, method.decorator_list):
-                found[method.name] = " ".join((ast.get_docstring(method) or "").split())
+                found[method.name] = " ".join([*(ast.get_docstring(method) or "").split(), NOT_IN_FILES])
     return found
 
 

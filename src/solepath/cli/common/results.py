@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from attrs import define, field
 
 from ...events import Event
-from ...floorplan.plan import FloorPlan
+from ...floorplan.plan import FloorPlan, Start
 from ...link.kinds import DeviceKinds
 from ...recording import printable
 from ...saving.files import FileReplacements, os_errors_naming
@@ -58,6 +58,8 @@ class Results:
     """The file of the way; None without one."""
     kinds: DeviceKinds | None = None
     """Devices of the session; None if none was added."""
+    start: Start | None = None
+    """Start on the plan that was given; None without one."""
     walk: Walk = field(factory=Walk, init=False)
     seconds: float = field(default=0.0, init=False)
     """Wall time that `feed` took, s."""
@@ -114,7 +116,7 @@ class Results:
             self._files.close()
             with os_errors_naming(self.out):
                 if self.plan is not None:
-                    picture = PlanPicture(self.plan, self.walk.placed)
+                    picture = PlanPicture(self.plan, self.walk.placed, start=self.start)
                     picture.write(self._replacements.temporary_path(self.out / PLAN_FILE), self.title)
                 if self.options is not None:
                     run = self._replacements.temporary_path(self.out / RUN_FILE)

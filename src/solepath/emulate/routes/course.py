@@ -20,6 +20,7 @@ from ..wearers.curves import Array
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
 from .building import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, RISE, RISERS, STOREY, UPPER
+from .escalator import Escalator
 from .path import ahead
 from .route import TIGHT_TURN_SPEED, Route, whole
 
@@ -115,6 +116,15 @@ class Course:
                     self.bend(turn, LANE_OFFSET)
                 self.walk(landing)
             self.flight(up, risers, rise, going)
+        self.level = level
+
+    def escalator(self, level: str, height: float, speed: float = 0.5, *, walking: bool = False) -> None:
+        """Take an escalator to `level`, `height` m higher, negative downwards; stand on it, or walk.
+
+        Its steps move at `speed` m/s. It begins where the wearer is, who stands before and after the ride, and ends
+        `Escalator.run` m ahead: the incline of 30 degrees and the level ends. Raises ValueError for a height of less
+        than 1 m, or 2 m for walking."""
+        self._go(self.route.escalator(height, speed, walking=walking), Escalator(height).run, self.heading)
         self.level = level
 
     def _go(self, route: Route, distance: float, direction: float) -> None:

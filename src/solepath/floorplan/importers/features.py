@@ -12,7 +12,8 @@ from ...types.attrs import evolve, frozen
 from ...types.checking import describe
 from ..doors import MAX_DOOR_OFFSET
 from ..earth import south_west
-from ..geometry import Ring
+from ..enclosure import LATTICE_SPACING
+from ..geometry import Ring, find_crossing
 from ..plan import Anchor, FloorPlanError, PlanFinding, Point, at, naming, on_level
 
 MAX_CORNERS = 1_000_000
@@ -29,6 +30,9 @@ ToPlan = Callable[[Position], Point]
 
 MAX_CLOSING_DISTANCE = 0.05
 """Largest distance between the first and last point of a closed ring, m."""
+
+MIN_LOOP = LATTICE_SPACING * LATTICE_SPACING
+"""Area of the smaller loop of an outline that crosses itself from which on it must be mended, m^2."""
 
 _DEPTHS = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2, "Polygon": 2, "MultiPolygon": 3}
 """Number of lists around a position in the coordinates of each geometry."""
@@ -105,6 +109,8 @@ class Feature:
             self.fail("its outline has fewer than three corners")
         if not is_closed:
             remarks.append(open_outline(level, self.name, drawn))
+        else:
+            remarks += crossed_outline(level, self.name, tuple(corners))
         return tuple(corners)
 
 
@@ -113,6 +119,15 @@ def open_outline(level: str, name: str, line: Sequence[Point]) -> PlanFinding:
     far = dist(line[0], line[-1])
     what = f"{name}: its outline does not close, it ends at {at(line[-1])}, {far:.2f} m from where it begins"
     return on_level(level, what, line[-1], act=far > MAX_DOOR_OFFSET)
+
+
+def crossed_outline(level: str, name: str, ring: Ring) -> list[PlanFinding]:
+    """Return that the outline of what has this name crosses itself, if it does; a small loop may be a slip."""
+    crossing = find_crossing(ring)
+    if crossing is None:
+        return []
+    place, loop = crossing
+    return [on_level(level, f"{name}: its outline crosses itself at {at(place)}", place, act=loop >= MIN_LOOP)]
 
 
 def parse_json(data: bytes) -> dict[str, Any]:
@@ -139,7 +154,7 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
     with "" no kind is read."""
     if collection.get("type") != "FeatureCollection" or not isinstance(collection.get("features"), list):
         raise FloorPlanError("is not a GeoJSON FeatureCollection")
-    ids: set[str] = set()
+    known: dict[str, str] = {}
     corners = 0
     for i, value in enumerate(collection["features"], 1):
         number = f"feature {i} of the file"
@@ -149,9 +164,6 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
         if not (raw_id is None or isinstance(raw_id, str) or type(raw_id) is int and abs(raw_id) < MAX_NUMBER):
             raise FloorPlanError(f"{number}: its id is {describe(raw_id)}, neither a text nor a whole number")
         own_id = "" if raw_id is None else str(raw_id)
-        if own_id and own_id in ids:
-            raise FloorPlanError(f"two features have the id {own_id!r}")
-        ids.add(own_id)
         properties = value.get("properties")
         properties = {} if properties is None else properties
         if not isinstance(properties, dict):
@@ -166,10 +178,22 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
         if not own_id and (first := next(chain(*feature.lines), ())):
             x, y = first[0]
             feature = evolve(feature, name=f"{name or word} at ({x:.7g}, {y:.7g})")
+        if own_id:
+            here = _describe_place(feature, word, number)
+            if own_id in known:
+                raise FloorPlanError(f"two features have the id {own_id!r}: {known[own_id]}, and {here}")
+            known[own_id] = here
         corners += sum(map(len, chain(*feature.lines)))
         if corners > MAX_CORNERS:
             raise FloorPlanError(f"has more than {MAX_CORNERS} points")
         yield feature
+
+
+def _describe_place(feature: Feature, word: str, number: str) -> str:
+    """Return the kind of a feature and where it is: its level and its first point, or its number in the file."""
+    level, first = feature.properties.get("level", feature.properties.get("level_id")), next(chain(*feature.lines), ())
+    on = f" on level {describe(level)}" if isinstance(level, str | int) else ""
+    return f"{word}{on} at ({first[0][0]:.7g}, {first[0][1]:.7g})" if first else f"{word}{on}, {number}"
 
 
 def _with_geometry(feature: Feature, geometry: object) -> Feature:

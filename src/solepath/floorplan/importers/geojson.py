@@ -23,7 +23,7 @@ from ..plan import (
     Wall,
     with_rooms,
 )
-from .features import Feature, ToPlan, find_anchor, parse_number, read_features
+from .features import Feature, ToPlan, crossed_outline, find_anchor, parse_number, read_features
 
 FORMAT = "solepath-floorplan"
 VERSION = 1
@@ -119,7 +119,7 @@ class _GeoJsonReader:
             feature.fail(f"is on level {level!r}, which the plan does not have")
         storey = self.storeys[level]
         if feature.kind == "wall":
-            storey.walls += self._walls(feature)
+            storey.walls += self._walls(feature, level)
         elif feature.kind == "door":
             line = feature.lines[0][0] if feature.geometry == "LineString" else ()
             if len(line) != 2 or line[0] == line[1]:
@@ -133,10 +133,12 @@ class _GeoJsonReader:
         else:
             self._read_stop(feature, level)
 
-    def _walls(self, feature: Feature) -> list[Wall]:
+    def _walls(self, feature: Feature, level: str) -> list[Wall]:
         if feature.geometry not in ("LineString", "MultiLineString", "Polygon"):
             feature.fail("a wall is a LineString, a MultiLineString or a Polygon")
         lines = [feature.convert_line(line, self.to_plan) for line in feature.lines[0]]
+        for line in lines if feature.geometry == "Polygon" else ():
+            self.remarks += crossed_outline(level, feature.name, tuple(line))
         walls = [Wall(a, b) for line in lines for a, b in pairwise(line) if a != b]
         return walls or feature.fail("has no length")
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from itertools import chain, combinations, groupby, pairwise
+from itertools import chain, combinations, groupby, pairwise, product
 from math import floor, inf
 
 from ...types.attrs import define, field
@@ -19,7 +19,7 @@ from ..geometry import Ring, direction, distance, share_along
 from ..plan import ConnectorKind, Door, FloorPlan, FloorPlanError, Line, Point, at, naming, on_level
 from ..walls import Walls
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
-from .features import open_outline
+from .features import crossed_outline, open_outline
 from .osm_file import Element, OsmFile, Refs, find_shapes
 
 BORDERS = {"room": Border.WALL, "corridor": Border.OPEN, "area": Border.FREE, "column": Border.SOLID,
@@ -222,6 +222,9 @@ class _OsmReader:
     def _draw(self, way: _Drawn) -> None:
         element, indoor = way.element, way.element.tags.get("indoor", "")
         kind = connector_kind(element)
+        if kind is not None or indoor in BORDERS:
+            for level, ring in product(way.levels, chain(*self._outlines(way))):
+                self._drawing.remarks += crossed_outline(level, element.name, ring)
         if kind is not None:
             self._connector(way, kind)
         elif indoor in BORDERS:

@@ -17,7 +17,7 @@ from xml.etree.ElementTree import Element, ElementTree, indent
 from attrs import define, evolve, field
 
 from ...events import Placed, PlaceLost
-from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, PlanFinding
+from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, PlanFinding, Point, Start
 from ...saving.files import os_errors_naming
 from .labels import AROUND, Labels, cut
 from .svg import STEPS, Ticks, View, add, colour_bar, grid, line, shade, square_ticks
@@ -127,6 +127,8 @@ class PlanPicture:
     """Whether there are a grid in m, and the ids of rooms, stairs, lifts and doors (`FloorPlan.places`)."""
     findings: Sequence[PlanFinding] = ()
     """What is wrong with the plan: each has its number, from 1 on, at its place."""
+    start: Start | None = None
+    """Start that was given, which is marked if it has a place; without one, the first place is if it is decided."""
     left_out: int = field(init=False, default=0)
     """Number of ids in the drawing that have no room."""
 
@@ -183,6 +185,7 @@ class PlanPicture:
         points += [point for level in levels for room in level.rooms for point in room]
         points += [stop.place for one in self.plan.connectors for stop in one.stops if stop.level in shown]
         points += [place.position[:2] for place in self.places]
+        points += [place for level, place in self._start() if level in shown]
         points = points or [(0.0, 0.0)]
         width, height = self.width, self.height
         if self.ids:
@@ -268,6 +271,10 @@ class PlanPicture:
                     opacity = f"{0.06 + 0.5 * candidate.weight:.2f}"
                     add(panel, dot, *view.at(candidate.position[:2]), CANDIDATE_COLOUR, opacity)
 
+    def _start(self) -> list[tuple[str, Point]]:
+        """Return level and place of the start that was given, m, if it has a place."""
+        return [(self.start.level, self.start.place)] if self.start is not None and self.start.place is not None else []
+
     def _track(self, panel: Element, level: str, view: View) -> None:
         """Draw a line through the decided places; other places have dots."""
         lines, places = add(panel, "<g stroke-width='2.6' stroke-linecap='round'/>"), self.places
@@ -277,16 +284,18 @@ class PlanPicture:
                 colour = shade(TRACK_COLOURS, k / len(places))
                 add(lines, "<polyline points='{},{} {},{}' stroke='{}'/>", *ends, colour)
         decided = [place for place in places if _is_decided(place)]
-        first = "start" if decided[:1] == places[:1] else "found"
-        marked = [(decided[0], START_COLOUR, first)] if decided else []
+        known_first, given = decided[:1] == places[:1], self._start()
+        marked = [(*one, START_COLOUR, "start") for one in given]
+        if decided and not (given and known_first):
+            marked.append((*_where(decided[0]), START_COLOUR, "start" if known_first else "found"))
         match [*self.events][-1:]:
             case [Placed(level_decided=True) as end]:
-                marked.append((end, END_COLOUR, "end" if end.decided else "likely end"))
+                marked.append((*_where(end), END_COLOUR, "end" if end.decided else "likely end"))
             case [_] if decided:
-                marked.append((decided[-1], END_COLOUR, "last known"))
-        for place, colour, word in marked:
-            if place.level == level:
-                x, y = view.at(place.position[:2])
+                marked.append((*_where(decided[-1]), END_COLOUR, "last known"))
+        for on, place, colour, word in marked:
+            if on == level:
+                x, y = view.at(place)
                 add(panel, END, x, y, colour, x + 9.0, y + 4.0, colour, word)
 
     def _legend(self, svg: Element, scale: float | None, width: float, top: float) -> None:
@@ -301,6 +310,7 @@ class PlanPicture:
             add(svg, bar, MARGIN, top + 4.0, metres * scale)
             add(svg, TEXT, MARGIN, top + 28.0, f"{metres:g} m")
         if self.places:
+            add(svg, TEXT, TIMES_LEFT, top - 6.0, "line: the decided way")
             colour_bar(svg, TRACK_COLOURS, TIMES_LEFT, top + 2.0, 120.0)
             add(svg, TEXT, TIMES_LEFT, top + 28.0, f"{self.places[0].t:.0f} s")
             add(svg, TEXT, TIMES_LEFT + 90.0, top + 28.0, f"{self.places[-1].t:.0f} s")
@@ -317,6 +327,10 @@ def _ticks(view: View) -> tuple[Ticks, Ticks, float]:
     x, y = view.axes
     spacing = max(MAX_GRID_LINES, int(view.width / GRID_SPACING))
     return square_ticks((x.low, x.high), (y.low, y.high), spacing)
+
+
+def _where(event: Placed) -> tuple[str, Point]:
+    return event.level, event.position[:2]
 
 
 def _is_decided(event: Placed | PlaceLost) -> TypeGuard[Placed]:

@@ -93,7 +93,7 @@ def place_lines(counts: PlaceCounts) -> list[str]:
     if counts.level_starts:
         levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.level_starts])
         unlisted = counts.level_changes - MAX_LISTED
-        lines.append(f"levels: {levels}{f' and {unlisted} more' if unlisted > 0 else ''}")
+        lines.append(f"decided levels: {levels}{f' and {unlisted} more' if unlisted > 0 else ''}")
     lines += [f"from {number(t, 1)} s without a place: {printable(what)}" for t, what in counts.first_losses]
     if counts.loss_count > MAX_LISTED:
         lines.append(f"and {times(counts.loss_count - MAX_LISTED)} more")
@@ -105,7 +105,10 @@ def end_line(place: Placed) -> str:
     if place.decided:
         return f"at the end: {_where(place)}"
     there = "all on this level" if place.level_decided else "on several levels"
-    return f"at the end: {_where(place)}, one of {counted(len(place.candidates), 'candidate')}, {there}"
+    weight = max([one.weight for one in place.candidates], default=0.0)
+    sureness = f"{100.0 * weight:.0f} %, within {number(place.spread, 1)} m"
+    others = f"{counted(len(place.candidates), 'candidate')}, {there}"
+    return f"at the end: {_where(place)}, not decided: {sureness}; {others}"
 
 
 def place_line(place: Placed) -> str:

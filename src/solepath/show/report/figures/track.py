@@ -105,7 +105,7 @@ def plan_figure(parent: Element, report: ReportContent) -> bool:
     notes = ["Colours go from the start to the end; dots are candidates, the fainter the less likely."]
     rooms = list(dict.fromkeys([place.room for place in places if place.room and place.decided]))
     if rooms:
-        notes.append(f"On the way: {', '.join(rooms)}.")
+        notes.append(f"Decided rooms on the way: {', '.join(rooms)}.")
     if report.walk.places.last is not None:
         notes += whole_sentences([end_line(report.walk.places.last)])
     if len(levels) < len(plan.levels):
