@@ -96,8 +96,8 @@ class Results:
         self.walk.take(item, events)
         if self._files is not None:
             repeats = self._repeats
-            told = repeats.end(events, self.session.now) if item is None else repeats.gather(item, events)
-            for event in told:
+            reported = repeats.end(events, self.session.now) if item is None else repeats.gather(item, events)
+            for event in reported:
                 self._files.write(event)
 
     def write(self) -> list[str]:
