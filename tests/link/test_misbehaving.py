@@ -162,7 +162,8 @@ def test_a_device_with_a_number_and_a_fine_clock_goes_by_the_rate_that_arrives(d
     events += session.finish()
     (said,) = [event.what for event in of(Limitation, events)]
     assert f"100 samples a second arrive, not the {declared:g} that were set" in said
-    assert (len(of(SampleGap, events)), lost(events)) == (dropped, dropped) and of(ClockReset, events) == []
+    assert (sum([gap.gaps for gap in of(SampleGap, events)]), lost(events)) == (dropped, dropped)
+    assert of(ClockReset, events) == []
     assert session.position is not None and session.position.position[0] == pytest.approx(40.0, abs=2.0)
 
 
@@ -242,7 +243,7 @@ def test_a_count_that_goes_back_is_a_restart_and_no_sample_comes_twice_or_is_cal
     late = max(0, back - 64)  # numbers older than those that a receiver remembers may be of packets that were overtaken
     # a number that comes once more with other values is that of the next packet of some devices
     assert lost(events) == 0 and len(of(ClockReset, events)) == (back > 1)
-    assert len(of(PacketRejected, events)) == late
+    assert sum([event.count for event in of(PacketRejected, events)]) == late
     assert [gap.duration for gap in of(SampleGap, events)] == pytest.approx([(late + 1) / RATE][:late], abs=0.03)
     assert len(of(StrideTaken, events)) >= plain(name)[0] - 1 - (late > 0)
     assert session.position is not None and session.position.position[0] == pytest.approx(plain(name)[1], abs=1.0)

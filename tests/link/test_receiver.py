@@ -74,7 +74,7 @@ def test_a_site_is_bound_to_the_first_device_it_receives() -> None:
         packet(4.0, "device/battery", CHARGED, "F0:01"),
     ]
     wrong_device = Rejection.WRONG_DEVICE
-    assert reasons(Session(), *sent_packets) == [None, None, wrong_device, wrong_device, None]
+    assert reasons(Session(losses=True), *sent_packets) == [None, None, wrong_device, wrong_device, None]
 
 
 def test_receiver_packets_are_accepted_whatever_device_the_site_is_bound_to() -> None:

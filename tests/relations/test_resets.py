@@ -61,7 +61,7 @@ FootClocks._forget: feet* idle
 FootClocks.reset: feet* idle
 FootTracker.reset: corrector* counts_losses cues* detector* gait* levelled limitations rest* rhythm sole* walk_scale*
   cues.reset() cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
-Gait.reset: anchor_position bearing* heading_settled number path phase stride* template* world stride.cut()
+Gait.reset: anchor_position bearing* heading_settled number path phase stride* template* turned world stride.cut()
   template.reset()
 GaitCues.reset: inertial* pressure sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
@@ -91,8 +91,10 @@ Recovery.reset: acc_clipping* clipped earlier_acc earlier_dt earlier_rate gyro_c
 References.reset: activity
 Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
 SensorChecks.reset: apart
-SessionState.reset: awake* decoders feet* height now parts* unsettled apart left.feet.reset() right.feet.reset()
-SessionState.restart_clock: awake* decoders* feet* height now* parts* unsettled left.feet.reset() right.feet.reset()
+SessionState.reset: awake* decoders feet* height links now parts* repeats unsettled apart left.feet.reset()
+  right.feet.reset()
+SessionState.restart_clock: awake* decoders* feet* height links now* parts* repeats unsettled left.feet.reset()
+  right.feet.reset()
 Sides.reset: declared
 Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
 StanceFinder._restart: counted duration force peak t turn weight

@@ -83,4 +83,4 @@ class RecentLink:
     def _counts(self, now: float) -> tuple[int, ...]:
         """Return the numbers of packets, samples, missing samples and rejections in the window before `now`, s."""
         recent = [counts[1:] for counts in self.seconds if now - LOSS_WINDOW - 1.0 < counts[0] <= now]
-        return tuple([sum(column) for column in zip(*recent, strict=True)]) or (0, 0, 0, 0)
+        return tuple([sum(column) for column in zip(*recent, strict=True)]) or (0, 0, 0, 0)  # whole numbers
