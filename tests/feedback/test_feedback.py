@@ -188,6 +188,14 @@ def test_after_a_lost_link_nothing_is_signalled_of_what_was_before() -> None:
     assert len(after) >= sum(t > AWAY[1] + 0.1 for times in contacts.values() for t in times) - 2
 
 
+def test_lost_packets_that_are_reported_together_change_no_signal() -> None:
+    feedback, alone = Feedback(RULES), Feedback(RULES)
+    session, exact = Session(poses=True), Session(poses=True, losses=True)
+    for k, packet in enumerate(WALK.packets):
+        if k % 31:  # one packet in thirty-one is lost
+            assert feedback.feed(session.feed(packet)) == alone.feed(exact.feed(packet))
+
+
 def test_what_a_radio_held_back_is_dropped_and_what_is_new_is_not() -> None:
     packets = [evolve(one, t=8.5) if 7.0 < one.t < 8.5 else one for one in WALK.packets]
     signals = listen(packets, HEEL_STRIKES)

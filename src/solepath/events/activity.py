@@ -43,7 +43,7 @@ class LiftRidden(BaseEvent):
 
 @frozen(kw_only=True)
 class EscalatorRidden(BaseEvent):
-    """The wearer has stood on an escalator; `t` is the time at which its steps stopped to rise or to fall.
+    """The wearer has stood on an escalator; `t` is the time at which its steps stopped rising or falling.
 
     The wearer stands meanwhile, so the activity is STANDING. The default recipe alone reports it, with the latency of
     `LiftRidden`. A wearer who walks on an escalator climbs flights (`FlightClimbed`). The event is final."""

@@ -23,8 +23,9 @@ from ..events import (
     StrideTaken,
     ToeOff,
 )
-from ..events.foot import Flaw, is_harmless
+from ..events.foot import Flaw
 from ..events.happening import BaseEvent
+from ..events.link import is_harmless_loss
 from ..types import Foot, PerFoot, per_foot
 from ..types.attrs import define, field, frozen, limited
 
@@ -93,9 +94,8 @@ class WalkNow:
                 while self.cycles and event.t - self.cycles[0].t > OLDEST_CYCLE:
                     self.cycles.popleft()
                 self.cycles.append(event)
-            case SampleGap(duration=duration, count=count):
-                if not is_harmless(duration, duration / (count + 1) if count else 0.0):
-                    self.forget(event.site.foot)
+            case SampleGap() if not is_harmless_loss(event):
+                self.forget(event.site.foot)
             case StreamStale() | Disconnected() | ClockReset() | DefectFound(spoils=True):
                 self.forget(event.site.foot)
             case FootSilent():

@@ -15,7 +15,7 @@ from ...events import (
     StrideTaken,
     ToeOff,
 )
-from ...events.foot import is_harmless
+from ...events.link import is_harmless_loss
 from ...foot.bearing import LONGEST_WAIT
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Site, per_foot
@@ -112,7 +112,7 @@ class Footfalls:
 
     def add_gap(self, gap: SampleGap) -> None:
         """Add a gap between samples; one that is no flaw of a stride is none of a cycle either."""
-        if not is_harmless(gap.duration, gap.duration / (gap.count + 1) if gap.count else 0.0):
+        if not is_harmless_loss(gap):
             self.degraded, self.gap = True, (gap.t, gap.t + gap.duration)
 
     def _is_uncertain(self, event: HeelStrike | FootFlat | ToeOff) -> bool:
