@@ -152,17 +152,10 @@ class Gait:
             self._turn_back(self.heading, corrector, path, turn)
         rise = corrector.position[2] - stride.start[2]
         corrector.flat(stride.start, turn)
-        has_turned = abs(self.turned) > LEAST_TURN
-        way = sub(corrector.position, stride.start) if has_turned else corrector.position
-        if not self.heading_settled and stride.t_toe_off is not None:
-            goes_on = hypot(way[0], way[1]) > LEAST_RADIUS * abs(turn) or self.every_stride
-            # an arc's chord has the mean of its headings; in a straight stride a turn is one of the toes alone
-            before = (self.turned if has_turned else 0.0) + (
-                0.5 * turn if abs(turn) > LEAST_STRIDE_TURN and not self.every_stride else 0.0
-            )
-            if goes_on and world.find_heading(turned(way, -before), SHORTEST_STRIDE):
-                self.heading_settled = True
-                self.bearing.waiting = self._in_world(self.bearing.waiting)
+        way = sub(corrector.position, stride.start) if abs(self.turned) > LEAST_TURN else corrector.position
+        if not self.heading_settled and stride.t_toe_off is not None and self._find_heading(way, turn):
+            self.heading_settled = True
+            self.bearing.waiting = self._in_world(self.bearing.waiting)
         # until the heading is final, strides wait in the navigation frame
         frame = world if self.heading_settled else World()
         ended, shaking = stride.finish(t, known_at, corrector, frame, rise), stride.shaking
@@ -185,6 +178,20 @@ class Gait:
             self.number += 1
             events.append(evolve(one, number=self.number))
         return events
+
+    def _find_heading(self, way: Vec3, turn: float) -> bool:
+        """Set the world's heading by a stride along `way`, m, that turned by `turn`, rad; return whether it goes on.
+
+        The heading is that before the foot has turned. Strides that are all reported at once cannot wait for one that
+        goes on: the first of them sets it."""
+        before = self.turned if abs(self.turned) > LEAST_TURN else 0.0
+        if not self.every_stride:
+            if hypot(way[0], way[1]) <= LEAST_RADIUS * abs(turn):
+                return False
+            if abs(turn) > LEAST_STRIDE_TURN:
+                # an arc's chord has the mean of its headings; in a straight stride a turn is one of the toes alone
+                before += 0.5 * turn
+        return self.world.find_heading(turned(way, -before), SHORTEST_STRIDE)
 
     def _in_world(self, strides: Sequence[StrideTaken]) -> list[StrideTaken]:
         """Return strides of the navigation frame in the world frame."""
