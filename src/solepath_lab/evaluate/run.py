@@ -77,7 +77,7 @@ def run(
     recipe = (
         settings.recipe if settings.activity is None else settings.recipe.replace_part(ActivityPart, settings.activity)
     )
-    session = Session(recipe, calibration=known, poses=poses)
+    session = Session(recipe, calibration=known, poses=poses, losses=True)
     recording = load_samples(path)
     samples = list(recording)
     if without_pressure:

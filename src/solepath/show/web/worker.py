@@ -274,7 +274,7 @@ class Worker:
         if earlier:
             other = yield from open_recording(Path(earlier))
             request_before = ordered({**options, "marks": options.get("marks_before", "")})
-            session = Session(self.recipe, poses=True, pressures=True, calibration=self.calibration)
+            session = Session(self.recipe, poses=True, pressures=True, losses=True, calibration=self.calibration)
             before = yield from self._run_report(other, session, request_before, source=other.title)
         recording = self.recording
         if name:
