@@ -123,13 +123,16 @@ def pytest_collection_finish() -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
-    """Run a test that is a coroutine: with the fixture `chromium` on the browser's loop, else on a new loop for at most
-    30 s."""
+    """Run a test that is a coroutine: with the fixture `chromium` on the browser's loop, in the soak for four times as
+    long as else; without it on a new loop for at most 30 s."""
     if not iscoroutinefunction(pyfuncitem.obj):
         return None
     arguments = {name: pyfuncitem.funcargs[name] for name in signature(pyfuncitem.obj).parameters}
     if "chromium" in arguments:
-        pyfuncitem.funcargs["browser"].run(lambda _: pyfuncitem.obj(**arguments))
+        from browsers import MAX_TEST_TIME
+
+        longest = MAX_TEST_TIME * (4 if pyfuncitem.get_closest_marker("soak") else 1)
+        pyfuncitem.funcargs["browser"].run(lambda _: pyfuncitem.obj(**arguments), longest)
     else:
         asyncio.run(asyncio.wait_for(pyfuncitem.obj(**arguments), 30.0))
     return True

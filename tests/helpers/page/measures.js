@@ -263,6 +263,9 @@ globalThis.measured = (() => {
     [...document.querySelectorAll(CONTROLS)].filter(
       (one) => one.tabIndex >= 0 && !one.disabled && isShown(one) && one.closest("[inert]") === null,
     );
+  // elements by the order in which they were first asked for: controls come and go while a walk is shown
+  const numbers = new Map();
+  const number = (element) => numbers.get(element) ?? numbers.set(element, numbers.size).get(element);
   const luminance = (colour) => {
     const parts = colour.map((value) => (value / 255 <= 0.04045 ? value / 255 / 12.92 : ((value / 255 + 0.055) / 1.055) ** 2.4));
     return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2];
@@ -297,7 +300,7 @@ globalThis.measured = (() => {
     return {
       name: name(element),
       layer: layer(element),
-      control: controls().indexOf(element),
+      control: number(element),
       box: [left + scrollX, top + scrollY, right + scrollX, bottom + scrollY],
       ring: isSeen ? contrast(rgb, ground(element.parentElement)) : 0,
       shown: right > 0 && bottom > 0 && left < innerWidth && top < innerHeight,
@@ -307,5 +310,5 @@ globalThis.measured = (() => {
   const read = () => {
     reads = true;
   };
-  return { texts, small, overlapping, pale, cut, shortened, wide, shifts, controls, name, focus, read };
+  return { texts, small, overlapping, pale, cut, shortened, wide, shifts, controls, number, name, focus, read };
 })();

@@ -63,7 +63,7 @@ async def axe_faults(view: Window) -> list[str]:
 
 @frozen
 class Focus:
-    """What has the focus: its name, the layer of the page, the number of the control, its box, px, and its ring."""
+    """What has the focus: its name, the layer of the page, a number of its own, its box, px, and its ring."""
 
     name: str
     layer: str
@@ -119,12 +119,20 @@ async def controls(view: Window) -> list[str]:
     return found
 
 
+async def numbered(view: Window) -> dict[int, str]:
+    """Return the names of the controls that can be used now, by their own numbers."""
+    found = await view.tab.evaluate("measured.controls().map((one) => [measured.number(one), measured.name(one)])")
+    return {control: name for control, name in found}
+
+
 async def tab_faults(view: Window) -> list[str]:
     """Return controls that Tab does not reach, reaches against the visual order, or without a visible ring."""
-    (path, is_left), names = await tab_through(view), await controls(view)
+    before = await numbered(view)
+    path, is_left = await tab_through(view)
+    lasting = before.items() & (await numbered(view)).items()  # others came or went meanwhile
     reached = {one.control for one in path}
     found = [] if is_left else [f"Tab does not leave the page, but comes to {path[-1].name}"]
-    found += [f"not reached: {name}" for k, name in enumerate(names) if k not in reached]
+    found += [f"not reached: {name}" for control, name in sorted(lasting) if control not in reached]
     found += [f"no ring (contrast {one.ring:.1f}): {one.name}" for one in path if one.ring < LEAST_RING]
     found += [f"not on the screen: {one.name}" for one in path if not one.shown]
     found += [
