@@ -18,6 +18,7 @@ from .bad_rows import LONGEST_LINE
 from .errors import RecordingError, os_error_text
 from .packets import FORMAT, VERSION, header_fault
 
+ENCODER = json.JSONEncoder(allow_nan=False)
 MAX_TRIES = 100
 """Number of times that a file which another program removes meanwhile is opened again."""
 
@@ -170,7 +171,7 @@ def format_packet(packet: Packet) -> bytes:
 
 
 def _format_line(fields: dict[str, Any]) -> bytes:
-    encoded = json.dumps(fields, allow_nan=False).encode("utf-8") + b"\n"
+    encoded = ENCODER.encode(fields).encode("utf-8") + b"\n"
     if len(encoded) > LONGEST_LINE:
         raise ValueError(f"a line of {len(encoded)} bytes is too long for a recording")
     return encoded

@@ -20,8 +20,9 @@ def has_valid_numbers(event: Event) -> bool:
     match event:
         case FootMoved(t=t, known_at=known_at, position=(x, y, z)):
             return abs(t) + abs(known_at) + abs(x) + abs(y) + abs(z) < MAX_MAGNITUDE
-        case FootPressed(values=values):
-            return is_valid((event.t, event.known_at, event.force, event.centre)) and isfinite(sum(values))
+        case FootPressed(t=t, known_at=known_at, force=force, values=values):
+            x, y = event.centre or (0.0, 0.0)
+            return abs(t) + abs(known_at) + abs(force) + abs(x) + abs(y) < MAX_MAGNITUDE and isfinite(sum(values))
         case GaitCycleMeasured(stride_time=stride_time):
             return is_valid(event) and stride_time >= MIN_STRIDE_TIME
         case _:

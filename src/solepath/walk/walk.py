@@ -280,6 +280,11 @@ class Walk:
         """Count the next event of the session; return False if it is left out, for a number that is not finite."""
         if not has_valid_numbers(event):
             return False
+        self.count(event)
+        return True
+
+    def count(self, event: Event) -> None:
+        """Count the next event of the session, all of whose numbers are finite."""
         if not isinstance(event, REJECTIONS):
             self.advance(event.known_at)
         self.event_span = _extend(self.event_span, event.t)
@@ -310,7 +315,6 @@ class Walk:
                 self._count_event(event)
                 self._add_fault(event)
                 self.places.add(event)
-        return True
 
     @property
     def _point_limit(self) -> int:

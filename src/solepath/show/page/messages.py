@@ -18,6 +18,7 @@ MAX_MESSAGE_SIZE = 4096
 """Size of the largest message from a page, bytes; chosen by hand."""
 
 
+ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
 NO_JSON = 1007
 """Close code for text that is not JSON."""
 
@@ -78,7 +79,7 @@ def parse_command(text: str) -> Command:
 
 def encode(message: dict[str, Any]) -> str:
     """Return a message of the server as text; raise ValueError for a number that is not finite."""
-    return json.dumps(message, allow_nan=False, separators=(",", ":"))
+    return ENCODER.encode(message)
 
 
 def _no_number(text: str) -> None:
@@ -97,6 +98,8 @@ def plain(value: Any, digits: int = 3) -> Any:
     match value:
         case float():
             return round(value, digits) if isfinite(value) else None  # JSON has no such numbers
+        case None | bool() | int() | str():
+            return value
         case Enum():
             return value.value
         case tuple() | list():

@@ -111,7 +111,7 @@ class Scene:
 
     def _show(self, event: Event) -> None:
         self.log.add_event(event, self.walk)
-        self.walk.add(event)
+        self.walk.count(event)
         match event:
             case FootMoved(foot=foot) if self._is_connected(foot):
                 self.feet[foot].add_position(event)
