@@ -47,7 +47,7 @@ class Box:
 
 async def main(file: str, left: str, right: str, via: str = "") -> None:
     if via:
-        from solepath.emulate.controllers import reach
+        from solepath.emulate import reach
     box = Box(file, asyncio.get_running_loop().time())
     configs = [DeviceConfig(Site.LEFT_FOOT, left), DeviceConfig(Site.RIGHT_FOOT, right)]
     async with reach(via) if via else nullcontext(NATIVE) as backend, Devices(configs, backend=backend) as devices:
