@@ -89,16 +89,17 @@ STAMP = """async ([base, began]) => {
     const { Walk } = await import(new URL('walk.js', base).href);
     const receive = Walk.prototype.receive;
     globalThis.delays = [];
-    globalThis.posts = 0;
+    globalThis.posts = [];
     Walk.prototype.receive = function (messages) {
+        const started = performance.now();
         const answers = receive.call(this, messages);
+        posts.push(performance.now() - started);
         const now = (performance.timeOrigin + performance.now()) / 1000 - began;
-        posts += 1;
         for (const { values = [] } of messages) for (const [t] of values) delays.push(1000 * (now - t));
         return answers;
     };
 }"""
-"""Notes in the worker the delay of each frame, ms, and counts the messages that the page posts."""
+"""Notes in the worker the delay of each frame, ms, and how long each message of the page takes until its events, ms."""
 
 
 @frozen
@@ -172,12 +173,12 @@ async def walk(chromium: Browser, folder: Path, seconds: float) -> None:
             await asyncio.sleep(SETTLING)
             early = (*await view.memory(), await resident(chromium))
             process = await page_process(chromium)
-            await worker.evaluate("delays.length = posts = 0")
+            await worker.evaluate("delays.length = posts.length = 0")
             started_at, drawn, before = monotonic(), await frames(view), threads(process)
             await asyncio.sleep(seconds)
             after, n_drawn = threads(process), await frames(view) - drawn
             passed = monotonic() - started_at
-            delays = sorted(await worker.evaluate("delays"))
+            delays = await worker.evaluate("delays")
             posts = await worker.evaluate("posts")
             shifts = await view.tab.evaluate("shifts")
             late = (*await view.memory(), await resident(chromium))
@@ -191,14 +192,17 @@ async def walk(chromium: Browser, folder: Path, seconds: float) -> None:
         if number in names or share > LEAST_SHARE:
             print(f"{name:24} {100.0 * share:8.1f} % {sleeps:18.0f}")
     print(f"{n_drawn / passed:.1f} frames a second drawn; sum of layout shifts {sum(shifts):.4f}")
-    cuts = quantiles(delays, n=100)
-    print(
-        f"{len(delays) / passed:.0f} frames a second received in {posts / passed:.0f} messages; from a frame's arrival "
-        f"to its events: median {median(delays):.1f} ms, p95 {cuts[94]:.1f}, p99 {cuts[98]:.1f}, most {delays[-1]:.0f}"
-    )
+    print(f"{len(delays) / passed:.0f} frames a second received in {len(posts) / passed:.0f} messages")
+    print(f"from a frame's arrival to its events: {spread(delays)}")
+    print(f"of it, in Python for the frames of a message: {spread(posts)}")
     for when, (heap, elements, memory) in (("at the start", early), ("at the end", late)):
         words = f"the page's scripts hold {heap / 1e6:.2f} MB, its document {elements} elements"
         print(f"{when} {words}, its process {memory / 1e6:.0f} MB")
+
+
+def spread(times: list[float]) -> str:
+    cuts = quantiles(times, n=100)
+    return f"median {median(times):.1f} ms, p95 {cuts[94]:.1f}, p99 {cuts[98]:.1f}, most {max(times):.0f}"
 
 
 def yardstick() -> str:
