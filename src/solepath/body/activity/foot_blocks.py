@@ -256,9 +256,9 @@ class FootBlocks:
         """Add a sample to the block under way.
 
         `velocity`, m/s, z up, is that of the foot after it; None when it is not known."""
-        x, y, z = acc
+        (x, y, z), (u, v, w) = acc, self.total
         square = x * x + y * y + z * z
-        self.total = add(self.total, acc)
+        self.total = (u + x, v + y, w + z)
         self.count += 1
         self.force += sqrt(square)
         self.squares += square
@@ -360,7 +360,10 @@ class FootBlocks:
 
     def block(self, index: int) -> ActivityBlock | None:
         """Return the block number `index`; None when it has no samples."""
-        return next((block for block in self.blocks if block.index == index), None)
+        for block in self.blocks:
+            if block.index == index:
+                return block
+        return None
 
     def window(self, index: int) -> list[ActivityBlock]:
         """Return the blocks in the window around the block number `index`."""
