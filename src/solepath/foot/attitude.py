@@ -64,8 +64,10 @@ class SampleSpan:
 
     def add(self, acc: Vec3, gyro: Vec3) -> None:
         """Add one sample: acc in m/s^2, gyro in rad/s."""
-        (a, b, c), (x, y, z) = self.acc, acc
-        (p, q, r), (u, v, w) = self.gyro, gyro
+        a, b, c = self.acc
+        x, y, z = acc
+        p, q, r = self.gyro
+        u, v, w = gyro
         self.acc, self.gyro = (a + x, b + y, c + z), (p + u, q + v, r + w)
         self.acc_squares += x * x + y * y + z * z
         self.gyro_squares += u * u + v * v + w * w

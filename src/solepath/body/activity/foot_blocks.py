@@ -256,7 +256,8 @@ class FootBlocks:
         """Add a sample to the block under way.
 
         `velocity`, m/s, z up, is that of the foot after it; None when it is not known."""
-        (x, y, z), (u, v, w) = acc, self.total
+        x, y, z = acc
+        u, v, w = self.total
         square = x * x + y * y + z * z
         self.total = (u + x, v + y, w + z)
         self.count += 1
@@ -268,7 +269,8 @@ class FootBlocks:
             self.steady += 1
         if gyro is None:
             return
-        (x, y, z), (u, v, w) = gyro, self.bias
+        x, y, z = gyro
+        u, v, w = self.bias
         square = (x - u) * (x - u) + (y - v) * (y - v) + (z - w) * (z - w)
         self.gyro_count += 1
         self.rate_squares += square
