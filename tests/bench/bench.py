@@ -36,6 +36,8 @@ from solepath_lab.emulated.limb_samples import limb_samples
 
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
 """A walk of about 43 s; the feet stand still for 10 % of it."""
+USUAL_YARDSTICK = 200.0
+"""Time of the yardstick on a usual machine, us: what another machine can carry is compared at this."""
 
 
 def time_each(items: list[Any], make: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
@@ -60,6 +62,23 @@ def feed_session(items: Iterable[Any]) -> Session:
     for item in items:
         session.feed(item)
     return session
+
+
+def time_packets(packets: Iterable[Packet]) -> tuple[list[float], list[float]]:
+    """Return the microseconds of each packet, and of those that end a stride, in order of length; the least of RUNS."""
+    runs: list[list[float]] = []
+    ends: list[bool] = []
+    for _ in range(RUNS):
+        session, times, ends = Session(), [], []
+        with no_garbage_collection():
+            for packet in packets:
+                started_at = process_time()
+                events = session.feed(packet)
+                times.append((process_time() - started_at) * 1e6)
+                ends.append(any([isinstance(event, StrideTaken) for event in events]))
+        runs.append(times)
+    least = [min(times) for times in zip(*runs, strict=True)]
+    return sorted(least), sorted([time for time, is_end in zip(least, ends, strict=True) if is_end])
 
 
 def decode(packets: Iterable[Packet]) -> list[Sample]:
@@ -145,6 +164,11 @@ def main() -> None:
         "us a packet",
     )
     add("insole fragment of 20 bytes: session", time_each(fragments, Session), "us a packet")
+    packet_times, last_frames = time_packets(walk.packets)
+    add("a stride's last frame, both feet: median", median(last_frames), "us a packet")
+    add("a stride's last frame, both feet: p99", last_frames[int(0.99 * len(last_frames))], "us a packet")
+    add("any packet of both feet: p99", packet_times[int(0.99 * len(packet_times))], "us a packet")
+    add("any packet of both feet: longest", packet_times[-1], "us a packet")
 
     duration = walk.packets[-1].t
     real_time = duration / seconds(lambda: feed_session(walk.packets))
@@ -166,6 +190,8 @@ def main() -> None:
     print()
     print(f"real-time factor, both feet with 96 cells at 100 Hz: {real_time:.0f}")
     print(f"an hour of two insoles with 96 cells at 100 Hz: {3600.0 / real_time:.0f} s of processor time")
+    wearers = real_time * yardstick_time / USUAL_YARDSTICK
+    print(f"live wearers a core, at a yardstick of {USUAL_YARDSTICK:.0f} us: {wearers:.0f}")
     print(f"snapshot {save * 1e3:.1f} ms, restore {load * 1e3:.1f} ms, {len(text) / 1000:.1f} kB as JSON")
     memory = measure_memory(lambda: feed_session(inertial_samples))
     print(f"memory of a session: {memory / 1000:.0f} kB one foot, inertial; ", end="")

@@ -39,8 +39,8 @@ class RateIntegral:
         """Add an angular rate, rad/s, at `t`, s; `dt`, s, is the time since the newest instant.
 
         When there are `MAX_INSTANTS` instants, the oldest eighth is discarded."""
-        self.t, self.turn = t, add(self.turn, gyro, dt)
-        kept = self.instants
+        (x, y, z), (u, v, w), kept = self.turn, gyro, self.instants
+        self.t, self.turn = t, (x + u * dt, y + v * dt, z + w * dt)
         if len(kept) >= MAX_INSTANTS * INSTANT.size:
             kept = kept[MAX_INSTANTS // 8 * INSTANT.size :]
         self.instants = kept + INSTANT.pack(t, *self.turn)
@@ -324,9 +324,12 @@ class Wear(Part):
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add one sample of a foot; return events of a silent foot, a resumed foot or exchanged feet."""
+        is_stuck = False
         for event in events:
             if isinstance(event, LayoutReported) and event.site.foot is not None:
                 self.sides.set_layout(event.site.foot, event.layout)
+            elif isinstance(event, DefectFound):
+                is_stuck |= event.defect is Defect.REPEATED
         if view is None:
             return ()
         t, this, other = view.t, self.feet[view.foot], self.feet[OTHER[view.foot]]
@@ -335,7 +338,6 @@ class Wear(Part):
             this.silent = False
             silence = 0.0 if this.t is None else max(0.0, t - this.t)
             outputs.append(FootResumed(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
-        is_stuck = any([isinstance(event, DefectFound) and event.defect is Defect.REPEATED for event in events])
         this.t, this.strides_since = None if is_stuck else t, 0
         if view.after is not None and view.after.covariance is not None:  # a stride has ended
             other.strides_since += 1

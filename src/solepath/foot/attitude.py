@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from ..types import Quat, Vec3
 from ..types.attrs import define, field
-from ..types.vector import GRAVITY, TIME_EPSILON, ZERO, add, dot, levelling, scaled, sub
+from ..types.vector import GRAVITY, TIME_EPSILON, ZERO, dot, levelling, scaled, sub
 from .navigate.bias import REST_SPAN, BiasFilter, RestSpan
 
 COARSEST_COUNT = 0.7
@@ -64,9 +64,13 @@ class SampleSpan:
 
     def add(self, acc: Vec3, gyro: Vec3) -> None:
         """Add one sample: acc in m/s^2, gyro in rad/s."""
-        self.acc, self.gyro = add(self.acc, acc), add(self.gyro, gyro)
-        self.acc_squares += dot(acc, acc)
-        self.gyro_squares += dot(gyro, gyro)
+        a, b, c = self.acc
+        x, y, z = acc
+        p, q, r = self.gyro
+        u, v, w = gyro
+        self.acc, self.gyro = (a + x, b + y, c + z), (p + u, q + v, r + w)
+        self.acc_squares += x * x + y * y + z * z
+        self.gyro_squares += u * u + v * v + w * w
         self.count += 1
 
     def means(self) -> tuple[Vec3, Vec3]:

@@ -220,7 +220,8 @@ class StrideBuilder:
         """Add one sample: position in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown).
 
         `still` is True when zero-velocity evidence was accepted."""
-        (x, y, z), (u, v, w) = acc, gyro
+        x, y, z = acc
+        u, v, w = gyro
         force, rate = x * x + y * y + z * z, u * u + v * v + w * w
         if force > self.most_force:
             self.most_force = force

@@ -254,7 +254,8 @@ class FootTracker:
         if not rest.count:
             self.walk_scale.add_sample(t, acc, gyro)
         k, (bx, by, bz) = rest.scale, rest.bias
-        (x, y, z), (u, v, w) = acc, gyro
+        x, y, z = acc
+        u, v, w = gyro
         acc, gyro = (x * k, y * k, z * k), (u - bx, v - by, w - bz)
         if self.levelled or self.levelling.found:
             corrector.predict(dt, acc, gyro, sample.saturated)

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable
 from math import floor
 
-from ..types import Packet
+from ..types import Packet, Sample
 from ..types.attrs import define, field, frozen
 from .kinds import DeviceKinds
 
 LOSS_WINDOW = 10
 """Time over which the recent loss is counted, in whole seconds."""
+
+
+def is_whole(packet: Packet, items: Iterable[object], kinds: DeviceKinds) -> bool:
+    """Return whether a packet has samples, which are among its `items`, or could have had some.
+
+    The fragments of a frame count as one packet."""
+    for item in items:
+        if isinstance(item, Sample):
+            return True
+    return is_sample_channel(packet.channel, kinds) and not is_frame_fragment(packet)
 
 
 def is_sample_channel(channel: str, kinds: DeviceKinds) -> bool:
@@ -59,9 +70,8 @@ class RecentLink:
 
     def add(self, t: float, packets: int = 0, samples: int = 0, missing: int = 0, rejected: int = 0) -> None:
         """Add what came, was lost or was rejected at `t` s."""
-        second = floor(t)
-        if not self.seconds or not self.seconds[-1][0] - 1 <= second <= self.seconds[-1][0]:
-            self.seconds.append([second, 0, 0, 0, 0])
+        if not self.seconds or not self.seconds[-1][0] - 1 <= t < self.seconds[-1][0] + 1:
+            self.seconds.append([floor(t), 0, 0, 0, 0])
         newest = self.seconds[-1]
         newest[1] += packets
         newest[2] += samples

@@ -119,7 +119,7 @@ class Session:
         except ItemError as error:
             error.events = state.gather(item, error.events)
             raise
-        return state.gather(item, events, end)
+        return state.gather(item, events, end) if events or state.repeats.kinds else events
 
     def advance(self, now: float) -> list[Event]:
         """Let time pass until `now`, s, packets' clock, and return the events; raise ValueError for NaN or infinity.

@@ -38,12 +38,12 @@ from ..events import (
 )
 from ..foot.settings import FootSettings
 from ..foot.view import FootView
-from ..link.health import RecentLink, is_frame_fragment, is_sample_channel
+from ..link.health import RecentLink, is_whole
 from ..link.kinds import DeviceKinds
 from ..recipes import Recipe, part_class
 from ..types import OTHER, SITE_OF_FOOT, Foot, Packet, Quat, Sample, Site
 from ..types.attrs import MADE_AGAIN, NOT_SAVED, evolve, field, frozen, state, stateful
-from ..types.plain import has_floats, number, text, with_floats
+from ..types.plain import has_floats, has_plain_values, with_floats, with_plain_values
 from ..types.records import MAX_TIME
 from ..types.vector import normalise
 from .arguments import keep_events
@@ -146,21 +146,17 @@ class SessionState:
 
     def feed_packet(self, packet: Packet, kinds: DeviceKinds) -> list[Event]:
         """Add a packet of one of these kinds of devices; raise TypeError for one of wrong types."""
-        site, data, events = packet.site, packet.data, list[Event]()
-        is_text = isinstance(packet.channel, str) and isinstance(packet.device, str)
-        if not (is_text and isinstance(site, Site) and isinstance(data, bytes | bytearray | memoryview)):
-            wrong = "data" if is_text else "device" if isinstance(packet.channel, str) else "channel"
-            wrong = wrong if isinstance(site, Site) else "site"
-            fault = f"this {wrong} is {getattr(packet, wrong)!r:.40}"
-            raise TypeError(f"a packet holds a time, a Site, a channel's name, bytes and a device's address; {fault}")
-        texts_plain = packet.device.__class__ is packet.channel.__class__ is str
-        if not (texts_plain and packet.t.__class__ is float and data.__class__ is bytes):
-            t, channel, device = number("t of a packet", packet.t), text(packet.channel), text(packet.device)
-            packet = evolve(packet, t=t, channel=channel, data=bytes(data), device=device)
+        if not has_plain_values(packet):
+            packet = with_plain_values(packet)
+        site = packet.site
+        events: list[Event] = []
         decoder = self.decoders.get(site) or self.make_decoder(site)
         newest_arrival = decoder.newest_arrival
         items = decoder.feed(packet, kinds)
-        self._count_packet(packet, decoder.used, items, kinds)
+        if decoder.used:
+            self._count(site, packet.t, is_whole(packet, items, kinds), items)
+        else:
+            self._count(site, None, 0, items)
         if not decoder.used:
             # a rejected packet changes nothing, so time does not pass with it either
             if site not in self.decoders:
@@ -212,10 +208,14 @@ class SessionState:
         if not has_floats(sample):
             sample = with_floats(sample)
         events = self._use_sample(sample)
-        is_used = not (events and isinstance(events[0], SampleRejected))
-        self._count(sample.site, max(sample.t, sample.known_at) if is_used else None, events, samples=is_used)
-        if is_used and (self.now is None or sample.t > self.now):
-            self.now = sample.t
+        if events and isinstance(events[0], SampleRejected):
+            self._count(sample.site, None, 0, events)
+            return events
+        t: float = sample.t  # declared, because the fields of a compiled Sample have any type
+        known_at: float = sample.known_at
+        self._count(sample.site, known_at if known_at > t else t, 0, (sample, *events))
+        if self.now is None or t > self.now:
+            self.now = t
         return events
 
     def advance(self, now: float, kinds: DeviceKinds) -> list[Event]:
@@ -259,29 +259,20 @@ class SessionState:
         self.finished = True
         return events
 
-    def _count_packet(self, packet: Packet, used: bool, items: list[Any], kinds: DeviceKinds) -> None:
-        """Count a packet and what its device made of it; the fragments of a frame count as one packet."""
-        samples = len([item for item in items if isinstance(item, Sample)])
-        is_whole = used and (
-            samples > 0 or (is_sample_channel(packet.channel, kinds) and not is_frame_fragment(packet))
-        )
-        others = items if len(items) > samples else ()
-        self._count(packet.site, packet.t if used else None, others, packets=is_whole, samples=samples)
-
-    def _count(
-        self, site: Site, arrival: float | None, events: Iterable[Any], *, packets: int = 0, samples: int = 0
-    ) -> None:
-        """Count what came of a site, and the events of it; `arrival`, s, is None for what was rejected."""
-        link = self.links.get(site)
+    def _count(self, site: Site, arrival: float | None, packets: int, items: Iterable[object]) -> None:
+        """Count packets of a site and what came of them; `arrival`, s, is None for what was rejected."""
+        link, t = self.links.get(site), self.now
         if link is None:
             link = self.links[site] = RecentLink()
-        t, missing, rejected = self.now, 0, 0
         if arrival is not None:
             t = link.last_arrival = arrival
-        for event in events:
-            if isinstance(event, SampleGap):
-                missing += event.count
-            elif isinstance(event, PacketRejected | SampleRejected):
+        samples = missing = rejected = 0
+        for item in items:
+            if isinstance(item, Sample):
+                samples += 1
+            elif isinstance(item, SampleGap):
+                missing += item.count
+            elif isinstance(item, (PacketRejected, SampleRejected)):
                 rejected += 1
         if t is not None:
             link.add(t, packets, samples, missing, rejected)

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import attrs
 
 from .attrs import evolve
-from .records import Sample
+from .records import Packet, Sample, Site
 
 _Value = TypeVar("_Value")
 
@@ -34,13 +34,8 @@ def has_floats(sample: Sample) -> bool:
             if not (type(x) is type(y) is type(z) is float):
                 return False
     pressure = sample.pressure
-    if pressure is not None:
-        if type(pressure) is not tuple:
-            return False
-        # to count takes two thirds of the time of comparing sets, which is left for cells with whole numbers
-        only_floats = list(map(type, pressure)).count(float) == len(pressure)
-        if not only_floats and not PLAIN_NUMBERS.issuperset(map(type, pressure)):
-            return False
+    if pressure is not None and (type(pressure) is not tuple or not PLAIN_NUMBERS.issuperset(map(type, pressure))):
+        return False
     quat = sample.quat
     if quat is not None and (type(quat) is not tuple or len(quat) != 4 or not ONLY_FLOATS.issuperset(map(type, quat))):
         return False
@@ -65,6 +60,33 @@ def with_floats(sample: Sample) -> Sample:
         air_pressure=None if sample.air_pressure is None else number("air_pressure of a sample", sample.air_pressure),
         saturated=flag("saturated of a sample", sample.saturated),
     )
+
+
+PACKET_TYPES: dict[str, type | tuple[type, ...]] = {
+    "site": Site,
+    "channel": str,
+    "device": str,
+    "data": (bytes, bytearray, memoryview),
+}
+"""Types of the values of a packet that can be used; its time is any number."""
+
+
+def has_plain_values(packet: Packet) -> bool:
+    """Return whether no value of the packet must be converted; it is called for every packet."""
+    if not (type(packet.channel) is type(packet.device) is str and type(packet.site) is Site):
+        return False
+    return type(packet.t) is float and type(packet.data) is bytes
+
+
+def with_plain_values(packet: Packet) -> Packet:
+    """Return the packet with Python's own number, texts and bytes; raise TypeError, naming the field, for others."""
+    for name, kinds in PACKET_TYPES.items():
+        value = getattr(packet, name)
+        if not isinstance(value, kinds):
+            fault = f"this {name} is {value!r:.40}"
+            raise TypeError(f"a packet holds a time, a Site, a channel's name, bytes and a device's address; {fault}")
+    t, channel, device = number("t of a packet", packet.t), text(packet.channel), text(packet.device)
+    return evolve(packet, t=t, channel=channel, data=bytes(packet.data), device=device)
 
 
 def number(what: str, value: Any) -> float:

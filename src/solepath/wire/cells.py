@@ -9,14 +9,14 @@ import struct
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from .fields import Definition, malformed
+from .fields import LONGEST_VALUE, Definition, malformed
 
 if TYPE_CHECKING:
     from typing import IO
 
-_LOW_NIBBLE = bytes(b & 15 for b in range(256))
-_HIGH_NIBBLE = bytes(b >> 4 for b in range(256))
-_LOW_NIBBLE_RAISED = bytes((b & 15) << 4 for b in range(256))
+FIRST_OF_PAIR = int.from_bytes(b"\xff\x0f\0\0" * LONGEST_VALUE, "little")
+SECOND_OF_PAIR = int.from_bytes(b"\0\xf0\xff\0" * LONGEST_VALUE, "little")
+"""Bits of the first and of the second value of each pair in four bytes, three of which are the packed ones."""
 
 
 def packed_size(count: int) -> int:
@@ -26,21 +26,17 @@ def packed_size(count: int) -> int:
 
 def unpack12(data: bytes, count: int) -> tuple[int, ...]:
     """Return `count` values from the `packed_size(count)` bytes of `data`; WireError if an unused nibble is not 0."""
-    # The bytes x, y, z hold the values x | low(y) << 8 and high(y) | z << 4. Slices and translation tables convert all
-    # pairs to 16-bit words at once, which takes 3 us for 96 cells; a loop over the cells takes 15 us.
+    # All pairs are spread to four bytes, and their second values to the upper two of them, by a few operations on whole
+    # blocks, which takes 3 us for 96 cells; a loop over the cells takes 15 us.
     if count & 1:
         if data[-1] > 15:
             raise malformed(f"the unused nibble after {count} values is not zero")
         data += b"\0"
-    x, y, z = data[0::3], data[1::3], data[2::3]
-    pairs = len(x)
-    second = int.from_bytes(y.translate(_HIGH_NIBBLE)) | int.from_bytes(z.translate(_LOW_NIBBLE_RAISED))
-    words = bytearray(4 * pairs)
-    words[0::4] = x
-    words[1::4] = y.translate(_LOW_NIBBLE)
-    words[2::4] = second.to_bytes(pairs)
-    words[3::4] = z.translate(_HIGH_NIBBLE)
-    return struct.unpack_from(f"<{count}H", words)
+    pairs = bytearray(len(data) // 3 * 4)
+    pairs[0::4], pairs[1::4], pairs[2::4] = data[0::3], data[1::3], data[2::3]
+    bits = int.from_bytes(pairs, "little")
+    words = bits & FIRST_OF_PAIR | (bits & SECOND_OF_PAIR) << 4
+    return struct.unpack_from(f"<{count}H", words.to_bytes(len(pairs), "little"))
 
 
 def pack12(values: Sequence[int]) -> bytes:

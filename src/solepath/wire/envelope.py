@@ -37,8 +37,8 @@ def check_end(data: bytes, size: int) -> None:
     """Raise WireError unless `data` has the `size` that its header states and a correct CRC."""
     if len(data) < size:
         raise WireError(Rejection.TRUNCATED, f"{len(data)} of {size} bytes")
-    if len(data) > (most := min(size, LONGEST_VALUE)):
-        raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes where {most} belong")
+    if len(data) > size or size > LONGEST_VALUE:
+        raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes where {min(size, LONGEST_VALUE)} belong")
     stated, computed = int.from_bytes(data[-CRC_SIZE:], "little"), crc_hqx(data[:-CRC_SIZE], CRC_START)
     if stated != computed:
         raise WireError(Rejection.CHECKSUM, f"CRC {stated:#06x}, computed {computed:#06x}")

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from construct import Array, Container, FormatField, If, IfThenElse, Int16ul, Renamed, Sequence, Struct
 
 from ..types import Foot
-from ..types.attrs import define, frozen
+from ..types.attrs import define
 from .cells import Packed12, pack12, packed_size, unpack12
 from .envelope import CRC_SIZE, FRAME_TYPE, MAGIC, check_end, check_start, seal
 from .fields import Definition, Fields, malformed
@@ -58,7 +58,7 @@ _RESERVED_FLAGS = 0xE0
 _SENSOR_FLAGS = _IMU_FLAG | _QUAT_FLAG
 
 
-@frozen
+@define
 class InsoleSample:
     """One sample in raw counts, whose scales are in INFO.
 

@@ -86,8 +86,8 @@ FIRST_CHANCES = (0.5, 0.25, 0.05, 0.05, 0.05, 0.04, *(1e-3, 5e-4, 2e-4, 1e-5, 1e
 class Chain:
     """The transitions between states."""
 
-    predecessors: tuple[tuple[tuple[int, float], ...], ...]
-    """States that may precede each state, with the natural logarithm of the chance."""
+    successors: tuple[tuple[tuple[int, float], ...], ...]
+    """States that may follow each state, in order, with the natural logarithm of the chance."""
     shift: tuple[Floats, ...]
     """Time from the block in which a change from a state (row) to a state (column) was detected to the change, s."""
 
@@ -98,17 +98,11 @@ def chain_of(chances: Chances, shifts: Shifts) -> Chain:
     chances_from = {state: dict(others) for state, others in _OTHER_CHANCES.items()}
     for state, row in enumerate(chances):
         chances_from[state] |= {to: chance for to, chance in enumerate(row) if to != state}
-    predecessors = tuple(
+    successors = tuple(
         [
-            tuple(
-                [
-                    (state, log(1.0 - fsum(others.values()) if state == to else others[to]))
-                    for state, others in chances_from.items()
-                    if state == to or to in others
-                ]
-            )
-            for to in chances_from
+            tuple([(to, log(chance)) for to, chance in sorted({**others, state: 1.0 - fsum(others.values())}.items())])
+            for state, others in chances_from.items()
         ]
     )
     delays = {(a, b): shift for a, b, shift in shifts}
-    return Chain(predecessors, tuple([tuple([delays.get((a, b), 0.0) for b in ACTIVITIES]) for a in ACTIVITIES]))
+    return Chain(successors, tuple([tuple([delays.get((a, b), 0.0) for b in ACTIVITIES]) for a in ACTIVITIES]))

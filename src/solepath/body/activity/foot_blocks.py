@@ -257,8 +257,9 @@ class FootBlocks:
 
         `velocity`, m/s, z up, is that of the foot after it; None when it is not known."""
         x, y, z = acc
+        u, v, w = self.total
         square = x * x + y * y + z * z
-        self.total = add(self.total, acc)
+        self.total = (u + x, v + y, w + z)
         self.count += 1
         self.force += sqrt(square)
         self.squares += square
@@ -268,7 +269,8 @@ class FootBlocks:
             self.steady += 1
         if gyro is None:
             return
-        (x, y, z), (u, v, w) = gyro, self.bias
+        x, y, z = gyro
+        u, v, w = self.bias
         square = (x - u) * (x - u) + (y - v) * (y - v) + (z - w) * (z - w)
         self.gyro_count += 1
         self.rate_squares += square
@@ -360,7 +362,10 @@ class FootBlocks:
 
     def block(self, index: int) -> ActivityBlock | None:
         """Return the block number `index`; None when it has no samples."""
-        return next((block for block in self.blocks if block.index == index), None)
+        for block in self.blocks:
+            if block.index == index:
+                return block
+        return None
 
     def window(self, index: int) -> list[ActivityBlock]:
         """Return the blocks in the window around the block number `index`."""

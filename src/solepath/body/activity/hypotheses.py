@@ -286,30 +286,28 @@ class Hypotheses:
 
     def update(self, block: BlockEvidence, chain: Chain) -> None:
         """Extend the paths by one block."""
-        scores, end_scores, started_scores = ([value] * len(ACTIVITIES) for value in (-inf, 0.0, 0.0))
-        token_of_state: list[Token | None] = [None] * len(ACTIVITIES)
+        # find the best path that continues in each state
+        scores, predecessors = [-inf] * len(ACTIVITIES), list[Token | None]([None] * len(ACTIVITIES))
         for token in self.tokens or FIRST_TOKENS:
-            state = token.state
-            token_of_state[state], scores[state] = token, token.score
-            if state in RIDE_STATES or state in STAIR_SIGNS:
-                end_scores[state] = _score_end(token, block)
-            if state in START_STATES:
-                started_scores[state] = token.ride.score_speed()
+            before = token.state
+            end_score = _score_end(token, block) if before in RIDE_STATES or before in STAIR_SIGNS else 0.0
+            started_score = token.ride.score_speed() if before in START_STATES else 0.0
+            for state, chance in chain.successors[before] if self.tokens else ((before, 0.0),):
+                score = token.score + chance
+                if state != before:
+                    score += started_score if state in RIDE_STATES else end_score
+                if score > scores[state]:
+                    scores[state], predecessors[state] = score, token
         elevator = ElevatorEvidence(block.forces)
         candidates: list[tuple[float, int, Token, RestLevels, float]] = []
         top_score = -inf
-        for state, predecessors in enumerate(chain.predecessors):
-            # find the best path that continues in the state
-            predecessor, highest = None, -inf
-            left_scores = started_scores if state in RIDE_STATES else end_scores
-            for i, chance in predecessors if self.tokens else ((state, 0.0),):
-                score = scores[i] + chance + (left_scores[i] if i != state else 0.0)
-                if score > highest:
-                    predecessor, highest = token_of_state[i], score
-            most = highest + block.motion_scores[STAND if state in RIDE_STATES else state]
+        for state, predecessor in enumerate(predecessors):
+            if predecessor is None:
+                continue
+            most = scores[state] + block.motion_scores[STAND if state in RIDE_STATES else state]
             most += block.pressure_scores[state] + MOST_FORCE_EVIDENCE
-            if predecessor is not None and most >= top_score - DROP_LIMIT:
-                candidate = _score_path(predecessor, highest, state, block, elevator)
+            if most >= top_score - DROP_LIMIT:
+                candidate = _score_path(predecessor, scores[state], state, block, elevator)
                 candidates.append(candidate)
                 if candidate[0] > top_score:
                     top_score = candidate[0]

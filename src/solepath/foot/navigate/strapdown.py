@@ -79,7 +79,10 @@ class Strapdown(Corrector):
         # trapezoidal rule: a = (f + f_previous) / 2 - g, v <- v + a dt, p <- p + (v + v_previous) dt / 2
         ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
         self.force = force
-        before, acceleration = self.velocity, (ax, ay, az)
-        self.velocity = add(before, acceleration, dt)
-        self.position = add(self.position, add(before, self.velocity), 0.5 * dt)
-        return acceleration
+        u, v, w = self.velocity
+        vx, vy, vz = u + ax * dt, v + ay * dt, w + az * dt
+        self.velocity = (vx, vy, vz)
+        k = 0.5 * dt
+        x, y, z = self.position
+        self.position = (x + k * (u + vx), y + k * (v + vy), z + k * (w + vz))
+        return ax, ay, az

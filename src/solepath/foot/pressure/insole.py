@@ -175,16 +175,15 @@ class InsoleLoads:
                 self._shift(step, len(cells))
         jumps.t, jumps.total, jumps.cells = t, total, cells
         heel_sum = forefoot_sum = 0.0
-        sums = [(self.total, total)]
+        self.total.update(t, total)
         has_areas = self.layout is not None and len(cells) == len(self.layout.cells)
         if has_areas:
             for i in self.heel_cells:
                 heel_sum += cells[i]
             for i in self.forefoot_cells:
                 forefoot_sum += cells[i]
-            sums += [(self.heel, heel_sum), (self.forefoot, forefoot_sum)]
-        for extremes, value in sums:
-            extremes.update(t, value)
+            self.heel.update(t, heel_sum)
+            self.forefoot.update(t, forefoot_sum)
         low, high = self.total.low, self.total.high
         level = self.unloaded.update(t, total, cells, high - low)
         # swings that lie on top, and none below, are those of cells that are wired the other way round

@@ -5,6 +5,8 @@ because it knows nothing of loads: only of what the cells have in common."""
 
 from __future__ import annotations
 
+from operator import sub
+
 from ...types import Floats
 from ...types.attrs import define
 
@@ -87,7 +89,7 @@ class Jumps:
         longest = SLOW_INTERVAL if len(cells) >= MANY_CELLS else SHORT_INTERVAL
         if self.t is None or not 2 <= len(cells) == len(self.cells) or t - self.t > longest:
             self.before = ()
-        elif self.held < LONGEST_STEP and abs(common_change(self.cells, cells)) > least:
+        elif self.held < LONGEST_STEP and common_change(self.cells, cells, least):
             self.before, self.held = self.before or self.cells, self.held + 1
             self.t, self.total, self.cells = t, total, cells
             return True
@@ -98,18 +100,21 @@ class Jumps:
         before, self.before, self.held = self.before, (), 0
         if not before:
             return 0.0
-        step = common_change(before, self.cells)
+        step = common_change(before, self.cells, least)
         moved = sorted([abs(b - a) for a, b in zip(self.cells, cells, strict=True)])
         stays = moved[int(STEP_CELLS * (len(moved) - 1))] <= STEP_TOLERANCE * abs(step)
-        return step if stays and abs(step) > least else 0.0
+        return step if stays else 0.0
 
 
-def common_change(before: Floats, cells: Floats) -> float:
-    """Return by how much most cells have changed alike; 0 if they have not.
+def common_change(before: Floats, cells: Floats, least: float) -> float:
+    """Return by how much most cells have changed alike; 0 if they have not, or by `least` at most.
 
     It is the middle of the half of the changes that lie closest together: loaded cells change by more or less."""
-    changes = sorted([b - a for a, b in zip(before, cells, strict=True)])
+    changes = sorted(map(sub, cells, before))
+    # one of most cells has the median of all changes, and is within STEP_TOLERANCE of what they have in common
+    if abs(changes[len(changes) // 2]) <= 0.5 * least:
+        return 0.0
     low, high = min(zip(changes, changes[len(changes) // 2 :], strict=False), key=lambda ends: ends[1] - ends[0])
     middle = 0.5 * (low + high)
     alike = [change for change in changes if abs(change - middle) <= STEP_TOLERANCE * abs(middle)]
-    return middle if len(alike) >= STEP_CELLS * len(changes) else 0.0
+    return middle if abs(middle) > least and len(alike) >= STEP_CELLS * len(changes) else 0.0

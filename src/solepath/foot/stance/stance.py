@@ -10,12 +10,10 @@ from typing import ClassVar, NamedTuple, Protocol, Self
 
 from ...calibration import Calibration
 from ...types import Floats, Foot, Layout, Phase, Quat, Vec2, Vec3
-from ...types.attrs import frozen
 from ...types.vector import IDENTITY
 
 
-@frozen
-class Load:
+class Load(NamedTuple):
     """The load of the pressure cells in one sample, as shares of the full load.
 
     The full load is that of all cells when they bear the wearer (pressure/insole.py)."""
