@@ -1,4 +1,4 @@
-"""Makes the short tables of README.md and docs/accuracy.md from the long tables and the output of commands.
+"""Makes the short tables of README.md and docs/ from the long tables and the output of commands.
 
 A row is (measure, result). Each table is made separately, so that any table whose data are present can be refreshed.
 """
@@ -32,61 +32,29 @@ ACTIVITIES = [
     *(word for name in ("default", "footstep-tracker") for word in ("--recipe", name)),
     "--markdown",
 ]
-LONG_WAYS = [
-    *("--emulated", "--walks", "3", "--only", "emulated_four_floors"),
-    *(
-        word
-        for kind in ("any_angles", "there_and_back", "one_way_loops", "arcs")
-        for length in ("500m", "500m_calibrated", "30min")
-        for word in ("--only", f"emulated_{kind}_{length}")
-    ),
-    "--markdown",
-]
-"""Options for four of the nine kinds of long walks."""
+LONG_WAYS = ["--emulated", "--walks", "3", "--only", "emulated_four_floors", "--markdown"]
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
-IN_SHORT = {
-    "pyshoe_vicon": (
-        "length of the walk",
-        "position error RMS, horizontal",
-        "the same / sqrt 2 (ARMSE2d)",
-        "strides",
-        "stride length error",
-    ),
+HEADLINE_MEASURES = {
+    "pyshoe_vicon": ("length of the walk", "position error RMS, horizontal"),
     "gumushane_surveyed": ("length of the walk", "position error at the footprints", "strides", "stride length error"),
-    "gumushane_counted": ("from end to start, horizontal", "strides", "length of a leg, by each foot's track"),
-    "xio_closed_walks": ("length of the walk", "from end to start, in space"),
-    "openshoe_loops": ("length of the walk", "from end to start, in space", "strides", "longest stride"),
-    "smart_insole_35": ("length of the walk", "position error RMS, horizontal", "strides", "stride length error"),
-    "ipol_10m_uturn": ("length of a leg, by each foot's track", "heel-strikes", "toe-offs"),
-    "tripod_treadmill": ("stride length error", "heel-strikes", "toe-offs"),
-    "gaitmap_examples": ("length of a leg, by each foot's track", "heel-strikes"),
-    "marpino_heel_toe": ("heel-strikes", "toe-offs"),
-    "marpino_pressed": ("heel-strikes", "toe-offs"),
-    "gaitpdb_vgrf": ("heel-strikes", "toe-offs"),
-    "hugadb": ("labelled time classified correctly", "lift rides, with their direction"),
-    "stairs": ("time on stairs that was called stairs", "time on the level that was called stairs"),
-    "emulated_any_angles_500m": ("off at the end, share of the path",),
-    "emulated_any_angles_30min": ("off at the end, share of the path",),
+    "ipol_10m_uturn": ("heel-strikes", "toe-offs"),
 }
-"""Measures of each data set that the short table has, without their counts."""
-SHORTER = {"the same / sqrt 2 (ARMSE2d)": "position error, ARMSE2d"}
+"""Measures of the data sets of HEADLINES, without their counts."""
 
 
-def in_short(*tables: list[str]) -> list[Row]:
-    """Return a row for each data set, from the lines of tables as `evaluate --markdown` prints them.
-
-    The figures are those of the first recipe, which is the default one."""
+def in_short(table: list[str]) -> list[Row]:
+    """Return a row for each data set of HEADLINES, from the lines of a table as `evaluate --markdown` prints it."""
     figures_of: dict[str, tuple[str, dict[str, str]]] = {}
-    for line in (line for table in tables for line in table[2:]):
+    for line in table[2:]:
         title, measure, result = (cell.strip() for cell in line.split("|")[1:4])
         if title:
             figures: dict[str, str] = {}
             figures_of.setdefault(title.split("`")[1], (title, figures))
         figures[re.sub(r"^\d+ | \(\d+\)$", "", measure)] = result
     rows = []
-    for name, measures in IN_SHORT.items():
+    for name, measures in HEADLINE_MEASURES.items():
         title, figures = figures_of[name]
-        rows.append((title, "; ".join(f"{SHORTER.get(measure, measure)}: {figures[measure]}" for measure in measures)))
+        rows.append((title, "; ".join(f"{measure}: {figures[measure]}" for measure in measures)))
     return rows
 
 
