@@ -42,14 +42,13 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_samples_and_a_saved_session(here):
-    (_, saved, rebooted), _ = run_page("docs/session.md")
-    assert saved.startswith("Position(t=")
-    assert rebooted.startswith("ClockReset(t=") and "RIGHT_FOOT" in rebooted
+def test_samples_of_any_other_sensor_are_fed(here):
+    _, names = run_page("docs/app.md", programs=slice(6, 7))
+    assert names["samples"].now == 0.01 and names["events"] == []
 
 
 def test_the_line_for_the_phases_prints_both_tables():
-    (program,) = re.findall(r'^python -c "(.*)"$', PAGES["docs/session.md"], re.MULTILINE)
+    (program,) = re.findall(r'^python -c "(.*)"$', PAGES["docs/how.md"], re.MULTILINE)
     with redirect_stdout(io.StringIO()) as out:
         exec(program, {})
     rows = [line.split() for line in out.getvalue().splitlines()]
