@@ -117,7 +117,7 @@ HEADLINES = (
         r"toe-offs: F1 ([\d.]+), median offset (-?\d+) ms",
     ),
 )
-"""Rows of the README's table of results: title, sentence, data set, what it was used to choose, where its figures are."""
+"""Rows of the README's table of results: title, sentence, data set, what that was used to choose, where figures are."""
 
 
 def headlines(short: list[Row], bench: str) -> list[str]:

@@ -2,7 +2,7 @@
 
     python -m pytest -m long tests/lab/reproduce/test_reproduce_claims.py
 
-Takes half an hour or more on two cores. A claim that is not reproduced is not asserted here; docs/recipes.md reports it.
+Takes half an hour or more on two cores. A claim that is not reproduced is not asserted here; the page reports it.
 """
 
 from __future__ import annotations

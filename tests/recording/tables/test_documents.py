@@ -1,4 +1,4 @@
-"""Tables of samples in docs/formats.md: the program runs, the mapping is one, commands can be parsed, tables are complete."""
+"""Tables of samples in docs/formats.md: the program runs, the mapping is one, options can be parsed, tables whole."""
 
 from __future__ import annotations
 
