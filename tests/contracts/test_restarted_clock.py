@@ -93,7 +93,7 @@ def test_the_sensors_above_the_ankles_go_on_with_those_of_the_feet(recipe: str) 
 
 
 class App:
-    """What docs/session.md says that an app does: it saves, its phone reboots, it restores and restarts the clock."""
+    """What docs/app.md says that an app does: it saves, its phone reboots, it restores and restarts the clock."""
 
     def __init__(self, text: str, monotonic: float) -> None:
         self.session = Session.restore(json.loads(text))

@@ -1,4 +1,4 @@
-"""The programs of docs/extending.md run unchanged and do what the page describes."""
+"""The programs of docs/architecture.md run unchanged and do what the page describes."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from quoted import blocks
 from solepath.emulate import Route, Walker, emulate
 from solepath.types import Foot
 
-PAGE = (DOCS / "extending.md").read_text()
-DETECTOR, CORRECTOR, CUES, RECIPE = range(4)
+PAGE = (DOCS / "architecture.md").read_text()
+DETECTOR, CORRECTOR, CUES, PART, RECIPE = range(5)
 
 
 @cache
 def output(which: int) -> list[str]:
     """Return the output of a program of the page."""
-    program = compile(blocks(PAGE, "python")[which], "docs/extending.md", "exec")
+    program = compile(blocks(PAGE, "python")[which], "docs/architecture.md", "exec")
     with redirect_stdout(io.StringIO()) as out:
         exec(program, {"__name__": "extending"})
     return out.getvalue().splitlines()

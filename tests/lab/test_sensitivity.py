@@ -1,4 +1,4 @@
-"""The table of docs/settings.md: each number of detector, filter and cues at half and at twice its value."""
+"""The table of docs/accuracy.md: each number of detector, filter and cues at half and at twice its value."""
 
 from __future__ import annotations
 

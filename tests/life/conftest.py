@@ -1,4 +1,4 @@
-"""The programs of docs/app_life.md, run in a folder with the recording of half a walk."""
+"""The programs of docs/app.md, run in a folder with the recording of half a walk."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., dict[s
     def run_programs(*programs: str) -> dict[str, Any]:
         names: dict[str, Any] = {"__name__": "page"}
         for program in programs:
-            exec(compile(program, "docs/app_life.md", "exec"), names)
+            exec(compile(program, "docs/app.md", "exec"), names)
         return names
 
     return run_programs

@@ -1,4 +1,4 @@
-"""docs/app_life.md: after each accident, its very lines continue the walk, and nothing that was recorded is lost."""
+"""docs/app.md: after each accident, its very lines continue the walk, and nothing that was recorded is lost."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from walks import insoles, of
 from solepath import ClockReset, PacketRejected, Rejection, Session, StrideTaken
 from solepath.recording import RecordingWarning, read_packets
 
-CUT, TORN, FULL, _, REBOOTED, ZONE, _ = blocks(PAGES["docs/app_life.md"], "python")
-"""The programs of the page, in their order."""
+CUT, TORN, FULL, _, REBOOTED, ZONE, _ = blocks(PAGES["docs/app.md"], "python")[7:]
+"""The programs of the life of an app, in their order."""
 PACKETS = insoles(cells=24).packets
 HALF = len(PACKETS) // 2
 Run = Callable[..., dict[str, Any]]

@@ -106,8 +106,8 @@ def test_references_are_those_of_their_tables_and_formulas() -> None:
 
 
 def test_the_page_of_documents_runs_and_names_the_columns() -> None:
-    page = PAGES["docs/outcomes.md"]
-    (out,), _ = run_page("docs/outcomes.md")
+    page = PAGES["docs/clinic.md"]
+    (out,), _ = run_page("docs/clinic.md")
     lines = out.splitlines()
     assert lines[0].startswith("bout 1: ") and lines[2].startswith("2 bouts, ") and lines[-1].endswith(" False")
     assert f"`{','.join(BOUT_COLUMNS)}`" in page and f"`{','.join(OUTCOME_COLUMNS)}`" in page

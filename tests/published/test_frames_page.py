@@ -1,4 +1,4 @@
-"""docs/frames.md: its lines run one after the other, and print what the text says."""
+"""Data frames in docs/formats.md: the lines run one after the other, and print what the text says."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ for package in ("pandas", "polars", "pyarrow"):
 def test_the_lines_of_the_page_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     recorded(tmp_path / "walk.jsonl", insoles(Route().stand(2).walk(10).stop(2)).packets)
-    (cycles, merged, samples, arrow), names = run_page("docs/frames.md")
+    (cycles, merged, samples, arrow), names = run_page("docs/formats.md", programs=slice(1, 5))
     assert merged.split() == ["default", "m/s"]
     assert cycles.rstrip().endswith(" s") and "left" in cycles
     assert "gyro_y" in samples and len(names["samples"]) > 500

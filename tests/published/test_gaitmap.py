@@ -1,4 +1,4 @@
-"""docs/gaitmap.md quotes what its script prints, which makes an environment of its own for gaitmap."""
+"""docs/researcher.md quotes what the script for gaitmap prints, which makes an environment of its own for gaitmap."""
 
 from __future__ import annotations
 

@@ -183,7 +183,7 @@ class PositionReported(BaseEvent):
     """A person has reported where the wearer is at `t`; what the track makes of it follows at once.
 
     That is TrackRevised or PositionRejected. Nothing follows if a named place is noted for the first time, or if the
-    track cannot use it (docs/session.md)."""
+    track cannot use it (docs/app.md)."""
 
     site: Site
     """Any site of the session."""

@@ -2,7 +2,7 @@
 
     solepath-lab emulated north [--walks N] [--seed S]
 
-prints a table of docs/compass.md as Markdown: walks without a start in `HALF_TURN`, with insoles that have a
+prints a table of docs/bluetooth.md as Markdown: walks without a start in `HALF_TURN`, with insoles that have a
 magnetometer, on a plan without a north, on one with the right north, and on one whose north is wrong. Magnetic north is
 off true north by `DECLINATION`."""
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from solepath.body.activity.early import NEXT_ACTIVITY, ActivityCue
 from solepath.types import Activity
 
-DOCUMENT = Path(__file__).parents[3] / "docs" / "activities.md"
+DOCUMENT = Path(__file__).parents[3] / "docs" / "gait.md"
 
 
 def test_after_every_cue_the_table_has_an_activity_and_the_document_shows_it() -> None:

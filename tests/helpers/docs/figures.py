@@ -1,4 +1,4 @@
-"""Makes the short tables of README.md and docs/accuracy.md from the long tables and the output of commands.
+"""Makes the short tables of README.md and docs/ from the long tables and the output of commands.
 
 A row is (measure, result). Each table is made separately, so that any table whose data are present can be refreshed.
 """
@@ -32,61 +32,29 @@ ACTIVITIES = [
     *(word for name in ("default", "footstep-tracker") for word in ("--recipe", name)),
     "--markdown",
 ]
-LONG_WAYS = [
-    *("--emulated", "--walks", "3", "--only", "emulated_four_floors"),
-    *(
-        word
-        for kind in ("any_angles", "there_and_back", "one_way_loops", "arcs")
-        for length in ("500m", "500m_calibrated", "30min")
-        for word in ("--only", f"emulated_{kind}_{length}")
-    ),
-    "--markdown",
-]
-"""Options for four of the nine kinds of long walks."""
+LONG_WAYS = ["--emulated", "--walks", "3", "--only", "emulated_four_floors", "--markdown"]
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
-IN_SHORT = {
-    "pyshoe_vicon": (
-        "length of the walk",
-        "position error RMS, horizontal",
-        "the same / sqrt 2 (ARMSE2d)",
-        "strides",
-        "stride length error",
-    ),
+HEADLINE_MEASURES = {
+    "pyshoe_vicon": ("length of the walk", "position error RMS, horizontal"),
     "gumushane_surveyed": ("length of the walk", "position error at the footprints", "strides", "stride length error"),
-    "gumushane_counted": ("from end to start, horizontal", "strides", "length of a leg, by each foot's track"),
-    "xio_closed_walks": ("length of the walk", "from end to start, in space"),
-    "openshoe_loops": ("length of the walk", "from end to start, in space", "strides", "longest stride"),
-    "smart_insole_35": ("length of the walk", "position error RMS, horizontal", "strides", "stride length error"),
-    "ipol_10m_uturn": ("length of a leg, by each foot's track", "heel-strikes", "toe-offs"),
-    "tripod_treadmill": ("stride length error", "heel-strikes", "toe-offs"),
-    "gaitmap_examples": ("length of a leg, by each foot's track", "heel-strikes"),
-    "marpino_heel_toe": ("heel-strikes", "toe-offs"),
-    "marpino_pressed": ("heel-strikes", "toe-offs"),
-    "gaitpdb_vgrf": ("heel-strikes", "toe-offs"),
-    "hugadb": ("labelled time classified correctly", "lift rides, with their direction"),
-    "stairs": ("time on stairs that was called stairs", "time on the level that was called stairs"),
-    "emulated_any_angles_500m": ("off at the end, share of the path",),
-    "emulated_any_angles_30min": ("off at the end, share of the path",),
+    "ipol_10m_uturn": ("heel-strikes", "toe-offs"),
 }
-"""Measures of each data set that the short table has, without their counts."""
-SHORTER = {"the same / sqrt 2 (ARMSE2d)": "position error, ARMSE2d"}
+"""Measures of the data sets of HEADLINES, without their counts."""
 
 
-def in_short(*tables: list[str]) -> list[Row]:
-    """Return a row for each data set, from the lines of tables as `evaluate --markdown` prints them.
-
-    The figures are those of the first recipe, which is the default one."""
+def in_short(table: list[str]) -> list[Row]:
+    """Return a row for each data set of HEADLINES, from the lines of a table as `evaluate --markdown` prints it."""
     figures_of: dict[str, tuple[str, dict[str, str]]] = {}
-    for line in (line for table in tables for line in table[2:]):
+    for line in table[2:]:
         title, measure, result = (cell.strip() for cell in line.split("|")[1:4])
         if title:
             figures: dict[str, str] = {}
             figures_of.setdefault(title.split("`")[1], (title, figures))
         figures[re.sub(r"^\d+ | \(\d+\)$", "", measure)] = result
     rows = []
-    for name, measures in IN_SHORT.items():
+    for name, measures in HEADLINE_MEASURES.items():
         title, figures = figures_of[name]
-        rows.append((title, "; ".join(f"{SHORTER.get(measure, measure)}: {figures[measure]}" for measure in measures)))
+        rows.append((title, "; ".join(f"{measure}: {figures[measure]}" for measure in measures)))
     return rows
 
 
@@ -125,45 +93,48 @@ def walked(printed: str) -> list[Row]:
 HEADLINES = (
     (
         "position",
-        "{} walks of {} m (mean) filmed by a motion-capture lab, one shoe: off by {} m (RMS, mean of the walks)",
+        "{} walks of {} m (mean) in a motion-capture lab, one shoe: position error {} m (RMS, mean of the walks)",
         "pyshoe_vicon",
+        "stance and filter",
         r"(\d+) recordings.*walk: mean ([\d.]+) m.*RMS, horizontal: mean ([\d.]+) m",
     ),
     (
         "strides",
-        "{} walks of {} m (mean), every footprint measured on the floor, one shoe: off by {} m on average; "
-        "{} strides found, {} invented, their lengths off by {} %",
+        "{} walks of {} m (mean), every footprint surveyed, one shoe: position error {} m on average; "
+        "{} strides found, {} invented; stride length error {} %",
         "gumushane_surveyed",
+        "stance and filter",
         r"(\d+) recordings.*walk: mean ([\d.]+) m.*footprints: mean ([\d.]+) m.*"
         r"strides: (\d+ of \d+) found, (\d+) invented; stride length error: mean ([\d.]+)",
     ),
     (
         "contacts",
-        "{} walks with radio losses, both feet, moments checked by hand: heel-strike F1 {}, median offset {} ms; "
+        "{} walks with radio losses, both feet, contacts checked by hand: heel-strike F1 {}, median offset {} ms; "
         "toe-off F1 {}, {} ms",
         "ipol_10m_uturn",
+        "the signs of contact",
         r"(\d+) recordings.*heel-strikes: F1 ([\d.]+), median offset (-?\d+) ms.*"
         r"toe-offs: F1 ([\d.]+), median offset (-?\d+) ms",
     ),
 )
-"""Rows of the README's table of results: title, sentence, data set, and where its figures are."""
+"""Rows of the README's table of results: title, sentence, data set, what that was used to choose, where figures are."""
 
 
 def headlines(short: list[Row], bench: str) -> list[str]:
     """Return the README's table of results, from the rows of `in_short` and the output of BENCH."""
-    table = ["| result | measured | command |", "|---|---|---|"]
-    for title, sentence, data, pattern in HEADLINES:
+    table = ["| result | measured | data used in development | command |", "|---|---|---|---|"]
+    for title, sentence, data, chosen, pattern in HEADLINES:
         (row,) = (f"{name}: {result}" for name, result in short if f"`{data}`" in name)
         found = re.search(pattern, row)
         if found is None:
             raise ValueError(f"{data}: {row!r} has no {pattern!r}")
         command = f"`solepath-lab evaluate DIR --only {data} --recipe default`"
-        table.append(f"| {title} | {sentence.format(*found.groups())} | {command} |")
+        table.append(f"| {title} | {sentence.format(*found.groups())} | yes, to choose {chosen} | {command} |")
     found = re.search(r"^real-time factor.*: (.+)$", bench, re.MULTILINE)
     if found is None:
         raise ValueError("the benchmark prints no real-time factor")
     cost = f"two insoles of 96 pressure cells at 100 Hz: {found[1]} times real time on one core, in plain Python"
-    return [*table, f"| cost | {cost} | `python {BENCH}` |"]
+    return [*table, f"| cost | {cost} | no recording | `python {BENCH}` |"]
 
 
 def lines(what: str, rows: list[Row]) -> list[str]:

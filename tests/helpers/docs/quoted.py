@@ -22,13 +22,13 @@ def blocks(text: str, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
 
 
-def run_page(page: str, name: str = "page") -> tuple[list[str], dict[str, Any]]:
+def run_page(page: str, name: str = "page", programs: slice = slice(None)) -> tuple[list[str], dict[str, Any]]:
     """Run the Python programs of a page one after the other; return what each printed, and their names.
 
-    `name` is what they have as `__name__`."""
+    `name` is what they have as `__name__`, and `programs` chooses some of them."""
     names: dict[str, Any] = {"__name__": name}
     printed = []
-    for program in blocks(PAGES[page], "python"):
+    for program in blocks(PAGES[page], "python")[programs]:
         with redirect_stdout(io.StringIO()) as out:
             exec(compile(program, page, "exec"), names)
         printed.append(out.getvalue())

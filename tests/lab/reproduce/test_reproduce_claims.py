@@ -1,8 +1,8 @@
-"""The claims of the papers as docs/papers.md reports them, with the full number of walks.
+"""The claims of the papers as docs/recipes.md reports them, with the full number of walks.
 
     python -m pytest -m long tests/lab/reproduce/test_reproduce_claims.py
 
-Takes half an hour or more on two cores. A claim that is not reproduced is not asserted here; docs/papers.md reports it.
+Takes half an hour or more on two cores. A claim that is not reproduced is not asserted here; the page reports it.
 """
 
 from __future__ import annotations

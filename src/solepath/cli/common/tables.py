@@ -53,7 +53,7 @@ def table_options(metavar: str = "FILE") -> Option:
         metavar=metavar,
         type=Path,
         nargs="+",
-        help="the recording; of samples, one file or those of both feet or of several sensors (docs/tables.md)",
+        help="the recording; of samples, one file or those of both feet or of several sensors (docs/formats.md)",
     )
     return together(files, mapping_options)
 

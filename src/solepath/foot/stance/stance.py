@@ -58,7 +58,7 @@ class Detector(Protocol):
     """The interface of a stance detector.
 
     An app's own detector extends this class and can be used in a Recipe. testing/promises.py checks the rules below,
-    docs/extending.md shows an example.
+    docs/architecture.md shows an example.
 
     A detector is an attrs class (`@define`) with fields that can be saved. When times restart, for example after a
     restart of the device, the session continues with `evolve(detector)`: fields with `init=False` get their initial

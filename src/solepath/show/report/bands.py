@@ -1,7 +1,7 @@
 """Reads bands of reference that a person gives for the figures of a report, each with its source.
 
 JSON: {"source": TEXT, "bands": {"speed_m_per_s": [1.1, 1.5], ...}}. CSV: a first line `measure,low,high,source`, then a
-band in each line. Names and units are those of measures.py; docs/report.md lists them."""
+band in each line. Names and units are those of measures.py; docs/clinic.md lists them."""
 
 from __future__ import annotations
 

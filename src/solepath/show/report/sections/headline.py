@@ -1,6 +1,6 @@
 """Says how the walk was: one sentence for somebody who has ten seconds, and a second one if the data are not sound.
 
-docs/report.md documents the rules."""
+docs/clinic.md documents the rules."""
 
 from __future__ import annotations
 
