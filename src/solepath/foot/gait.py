@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import fsum, hypot
 
 from ..calibration import HeadingCalibration, usual_strides
-from ..events import Event, StrideTaken
+from ..events import Event, HeelStrike, StrideTaken
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import evolve, field, state, stateful
 from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub, turned
@@ -41,6 +41,8 @@ class Gait:
     phase: Phase = Phase.STATIONARY
     phase_start: float | None = None
     """Start of the current phase, s; None before the first change of phase and after times restarted."""
+    impact_at: float | None = None
+    """Time of the heel-strike of this swing that was reported before it was final, s; None without one."""
     template: StrideTemplate = state(factory=StrideTemplate)
     stride: StrideBuilder = field(init=False)
     path: PathCovariance = state(factory=PathCovariance)
@@ -66,7 +68,7 @@ class Gait:
 
     def reset(self) -> None:
         """Discard what depends on unbroken samples, because times restart."""
-        self.phase_start = None
+        self.phase_start = self.impact_at = None
         self.stride.cut()
         self.template.reset()
         self.bearing = Bearing(self.bearing.evidence)
@@ -74,7 +76,7 @@ class Gait:
     def start_walking(self, on_ground: bool) -> None:
         """Start with a foot that walks already; its first stride starts at the next foot-flat."""
         self._change_phase(Cue.GROUND if on_ground else Cue.AIR)
-        self.stride.t_start = None
+        self.stride.t_start = self.impact_at = None
 
     def shift(self, yaw: float, by: Vec3) -> Vec3:
         """Turn a flat foot by `yaw` rad and move it by `by` m, world frame; return `by` in the navigation frame."""
@@ -111,6 +113,11 @@ class Gait:
         self.phase_start = t
         known_at = max(known_at, t)
         events: list[Event] = [EVENT_OF_PHASE[phase](t=t, known_at=known_at, foot=self.foot, inferred=inferred)]
+        if self.impact_at is not None:
+            if phase is Phase.LOADING:
+                seen_at = self.impact_at
+                events = [HeelStrike(t=t, known_at=known_at, foot=self.foot, inferred=inferred, revises=seen_at)]
+            self.impact_at = None
         if phase is Phase.SWING:
             self.stride.add_toe_off(t, interval)
         elif phase is Phase.LOADING:
@@ -122,6 +129,11 @@ class Gait:
         elif phase is Phase.STATIONARY and corrector is not None:
             events += self._end_stride(t, known_at, corrector, interval)
         return events
+
+    def add_impact(self, t: float, known_at: float) -> HeelStrike:
+        """Return the heel-strike of an impact at `t`, s, which changes no phase yet; the final one will revise it."""
+        self.impact_at = t = t if self.phase_start is None else max(t, self.phase_start)
+        return HeelStrike(t=t, known_at=max(known_at, t), final=False, foot=self.foot)
 
     def apply_infill(
         self, infill: Infill, cues: Cues, known_at: float, corrector: Corrector, interval: float

@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
-from ..events import Defect, DefectFound, Event, Flaw, FootMoved, SampleGap
+from ..events import Defect, DefectFound, Event, Flaw, FootMoved, HeelStrike, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import MADE_AGAIN, evolve, field, state, stateful
 from ..types.records import MAX_TIME
@@ -135,6 +135,14 @@ class FootTracker:
             corrector.position, corrector.velocity, corrector.attitude, gait.world.north,
             rest.bias, rest.grain if rest.count else 0.0, pressed, after,
         )  # fmt: skip
+
+    def take_impact(self, known_at: float) -> HeelStrike | None:
+        """Return the heel-strike that the newest sample shows, if it is not final yet; None for a foot with cells."""
+        impact_at, gait, sole = self.cues.impact_at, self.gait, self.sole
+        is_new = impact_at is not None and gait.impact_at is None and gait.phase is SWING
+        if impact_at is None or not is_new or (sole is not None and sole.had_cells):
+            return None
+        return gait.add_impact(impact_at, known_at)
 
     def mark_defect(self, defect: Defect) -> None:
         """Mark strides as flawed from now until `reset`: all, or if a range is too small those with cut-off peaks."""
