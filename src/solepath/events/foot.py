@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from ..types import Foot, Vec2, Vec3
-from ..types.attrs import frozen
+from ..types.attrs import field, frozen
 from .happening import BaseEvent
 
 
@@ -17,6 +17,12 @@ class GaitEvent(BaseEvent):
     """Foot of the event."""
     inferred: bool = False
     """True when the event lies in a gap, so that its time comes from the stride template and not from samples."""
+    sampled_at: float = field()
+    """Time of the last sample that the event needed, s, by default `t`: `known_at` is the arrival of that sample."""
+
+    @sampled_at.default
+    def _with_it(self) -> float:
+        return self.t
 
 
 @frozen(kw_only=True)

@@ -395,7 +395,7 @@ class SessionState:
             moved = self._run_parts(events, view, known_at)
             if moved is not None and self.settings.poses and stride:
                 events.append(moved)
-        if self.settings.impacts and (impact := tracker.take_impact(known_at)) is not None:
+        if self.settings.impacts and (impact := tracker.take_impact(t, known_at)) is not None:
             events.append(impact)
         if sample.pressure and (sole := tracker.sole) is not None:
             if self.settings.pressures:
