@@ -14,7 +14,7 @@ from solepath import Foot, Session
 from solepath.feedback import EveryHeelStrike, Feedback, StanceLonger
 
 feedback = Feedback([EveryHeelStrike(Foot.RIGHT), StanceLonger(Foot.LEFT, 0.75)])
-session = Session(poses=feedback.needs_poses)
+session = Session(poses=feedback.needs_poses, impacts=True)
 
 
 def in_real_time(packets):

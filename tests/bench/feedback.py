@@ -168,7 +168,11 @@ def listen(
 ) -> tuple[list[Given], list[float]]:
     """Return the signals of a session and its feedback on this host, and the processor time of each packet, s."""
     feedback = Feedback(rules)
-    session, given, spent = Session(poses=feedback.needs_poses, profiles=drivers), list[Given](), list[float]()
+    session, given, spent = (
+        Session(poses=feedback.needs_poses, impacts=True, profiles=drivers),
+        list[Given](),
+        list[float](),
+    )
     work, free = [*pauses(air, seed, arrivals[-1].packet.t + 10.0), (inf, inf)], 0.0
     number = 0
     for one in arrivals:

@@ -45,7 +45,7 @@ RULES: tuple[Rule, ...] = (
 def listen(items: Iterable[Packet | Sample], rules: Sequence[Rule] = RULES) -> list[Signal]:
     """Return the signals for packets or samples, one after the other."""
     feedback = Feedback(rules)
-    session = Session(poses=feedback.needs_poses)
+    session = Session(poses=feedback.needs_poses, impacts=True)
     return [signal for item in items for signal in feedback.feed(session.feed(item))]
 
 
@@ -139,6 +139,9 @@ def test_an_inertial_sensor_is_enough_and_one_foot_alone() -> None:
     assert len(of(EveryHeelStrike, signals, Foot.LEFT)) >= len(contacts) - 3
     assert len(of(StanceLonger, signals, Foot.LEFT)) >= len(contacts) - 4
     assert of(EveryHeelStrike, signals, Foot.RIGHT) == [] and of(StanceUneven, signals) == []
+    for signal in of(EveryHeelStrike, signals):
+        contact = min(contacts, key=lambda t: abs(t - signal.t))
+        assert signal.t == pytest.approx(contact, abs=0.03) and signal.known_at - contact < 0.04
 
 
 NOT_WALKING = ["bicycling", "in a car, legs move", "sitting, legs move"]

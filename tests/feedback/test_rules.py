@@ -129,15 +129,17 @@ def test_on_both_feet_with_the_heel_down_one_stands_and_a_foot_that_swings_shows
     assert listen(late, StanceLonger(LEFT, 0.75)) == [], "the deadline was at 1.95 s"
 
 
-def test_a_corrected_heel_strike_gives_no_second_signal_and_its_time_counts() -> None:
+@pytest.mark.parametrize("pause", [0.0, 0.35])
+def test_a_corrected_heel_strike_gives_no_second_signal_and_its_time_counts(pause: float) -> None:
     events: list[Event] = [
         *WALKING,
-        HeelStrike(t=1.0, foot=LEFT),
-        HeelStrike(t=1.02, foot=LEFT),
+        HeelStrike(t=1.0, known_at=1.01, foot=LEFT, final=False),
+        HeelStrike(t=1.02, known_at=1.07, foot=LEFT, revises=1.0),
+        FootFlat(t=1.1, foot=LEFT),
         ToeOff(t=1.6, foot=LEFT),
     ]
-    heel, short = listen(events, EveryHeelStrike(LEFT), StanceShorter(LEFT, 0.59))
-    assert (heel.t, short.value) == (1.0, pytest.approx(0.58))
+    heel, short = listen(events, EveryHeelStrike(LEFT, pause=pause), StanceShorter(LEFT, 0.59))
+    assert (heel.t, heel.known_at, short.value) == (1.0, 1.01, pytest.approx(0.58))
 
 
 def test_a_foot_that_lands_flat_gives_its_signal_with_the_foot_flat() -> None:

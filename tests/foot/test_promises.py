@@ -164,6 +164,19 @@ class Foretelling(ByMotion):
 
 
 @define
+class Expecting(ByMotion):
+    at: float | None = field(default=None, init=False)
+
+    def update(self, t: float, *rest: Any) -> Sequence[TimedCue]:
+        self.at = t + 0.02
+        return ByMotion.update(self, t, *rest)
+
+    @property
+    def impact_at(self) -> float | None:
+        return self.at
+
+
+@define
 class Listing(ByMotion):
     seen: list[float] = field(factory=list, init=False)
 
@@ -200,6 +213,7 @@ class Turning(ByMotion):
         (Hoarding(), "without bound"),
         (Leaving(), "not in a field"),
         (Foretelling(), "a cue is of the past"),
+        (Expecting(), "impact_at is of the past"),
         (Listing(), "without bound"),
         (Turning(), "sagittal is finite"),
     ],

@@ -106,7 +106,7 @@ def events_of(recipe: str, walk: str) -> tuple[Any, ...]:
     return tuple(run(recipe, WALKS[walk]()))
 
 
-TIMES = {"t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike", "revises"}
+TIMES = {"t", "known_at", "sampled_at", "t_start", "t_end", "t_toe_off", "t_heel_strike", "revises"}
 VECTORS = {"position", "velocity", "displacement", "compensation", "by"}
 TURNS = {"heading_change", "turning_angle", "angle", "turn", "heading"}
 """Angles about the vertical, which a mirror turns round."""

@@ -67,7 +67,7 @@ GaitCues.reset: inertial* pressure sagittal inertial.reset()
 GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
 GaitCycles.reset: feet* apart means.reset()
 GaitMeans.reset: running walking_means apart
-InertialCues.reset: axis force impact landing_at lowest_rate moving_since not_turning_at peak_rate sagittal
+InertialCues.reset: axis force impact impact_at landing_at lowest_rate moving_since not_turning_at peak_rate sagittal
   swing_start turn
 InertialCues.restart: axis
 InsoleLink.handle_reconnection: acc_scale cells gyro_scale info_digest layout packet_run* pressure_scale reassembly*

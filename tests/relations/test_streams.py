@@ -101,6 +101,7 @@ def test_later_by_twelve_days_the_events_are_the_same_at_that_time(name: str) ->
         "silent_for": 1e-6,
         "t": 1e-6,
         "known_at": 1e-6,
+        "sampled_at": 1e-6,
         "weight": 1e-3,
     }
     assert differences(map(later.event, events), found, loose) == []

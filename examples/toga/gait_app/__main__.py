@@ -43,7 +43,7 @@ class GaitApp(toga.App):
 
     async def listen(self, packets, clock):
         feedback = Feedback([EveryHeelStrike(Foot.RIGHT), StanceLonger(Foot.LEFT, 0.75)])
-        session, status = Session(poses=feedback.needs_poses), "ended"
+        session, status = Session(poses=feedback.needs_poses, impacts=True), "ended"
         self.start.text, self.show.enabled = "Stop", False
         try:
             async for packet in packets:

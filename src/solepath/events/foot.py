@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from ..types import Foot, Vec2, Vec3
-from ..types.attrs import frozen
+from ..types.attrs import field, frozen
 from .happening import BaseEvent
 
 
@@ -17,6 +17,12 @@ class GaitEvent(BaseEvent):
     """Foot of the event."""
     inferred: bool = False
     """True when the event lies in a gap, so that its time comes from the stride template and not from samples."""
+    sampled_at: float = field()
+    """Time of the last sample that the event needed, s, by default `t`: `known_at` is the arrival of that sample."""
+
+    @sampled_at.default
+    def _with_it(self) -> float:
+        return self.t
 
 
 @frozen(kw_only=True)
@@ -24,7 +30,12 @@ class HeelStrike(GaitEvent):
     """The foot touched the ground; LOADING starts. `t` is the onset of the impact, or the time when cells show load.
 
     Latency with the default cues: one sample with pressure cells, about 50 ms without; if no impact shows, the time
-    until the foot is still."""
+    until the foot is still. `Session(impacts=True)` also reports an impact without cells at once, 10 to 20 ms after
+    `t`, in an event that is not final. The final one follows within 0.1 s and names it in `revises`; its `t` is 0 to
+    60 ms later. None follows where samples are missing or the device's clock restarts."""
+
+    revises: float | None = None
+    """Time `t` of the event that this event replaces, s; None when it replaces none."""
 
 
 @frozen(kw_only=True)

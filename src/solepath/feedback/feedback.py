@@ -111,7 +111,7 @@ class Feedback:
 
     @property
     def needs_poses(self) -> bool:
-        """True if a rule needs the live positions: `Session(poses=feedback.needs_poses)`."""
+        """True if a rule needs the live positions: `Session(poses=feedback.needs_poses, impacts=True)`."""
         return FootMoved in self._readers
 
     def feed(self, events: Iterable[BaseEvent], now: float | None = None) -> list[Signal]:

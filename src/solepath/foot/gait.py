@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import fsum, hypot
 
 from ..calibration import HeadingCalibration, usual_strides
-from ..events import Event, StrideTaken
+from ..events import Event, HeelStrike, StrideTaken
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import evolve, field, state, stateful
 from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub, turned
@@ -41,6 +41,8 @@ class Gait:
     phase: Phase = Phase.STATIONARY
     phase_start: float | None = None
     """Start of the current phase, s; None before the first change of phase and after times restarted."""
+    impact_at: float | None = None
+    """Time of the heel-strike of this swing that was reported before it was final, s; None without one."""
     template: StrideTemplate = state(factory=StrideTemplate)
     stride: StrideBuilder = field(init=False)
     path: PathCovariance = state(factory=PathCovariance)
@@ -66,7 +68,7 @@ class Gait:
 
     def reset(self) -> None:
         """Discard what depends on unbroken samples, because times restart."""
-        self.phase_start = None
+        self.phase_start = self.impact_at = None
         self.stride.cut()
         self.template.reset()
         self.bearing = Bearing(self.bearing.evidence)
@@ -74,7 +76,7 @@ class Gait:
     def start_walking(self, on_ground: bool) -> None:
         """Start with a foot that walks already; its first stride starts at the next foot-flat."""
         self._change_phase(Cue.GROUND if on_ground else Cue.AIR)
-        self.stride.t_start = None
+        self.stride.t_start = self.impact_at = None
 
     def shift(self, yaw: float, by: Vec3) -> Vec3:
         """Turn a flat foot by `yaw` rad and move it by `by` m, world frame; return `by` in the navigation frame."""
@@ -97,9 +99,10 @@ class Gait:
         return phase
 
     def apply_cue(
-        self, timed_cue: TimedCue, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
-    ) -> list[Event]:
-        """Return the events that follow from a cue.
+        self, timed_cue: TimedCue, sampled_at: float, known_at: float, corrector: Corrector | None, interval: float,
+        inferred: bool = False,
+    ) -> list[Event]:  # fmt: skip
+        """Return the events that follow from a cue in the sample of `sampled_at`, s.
 
         `corrector` is None as long as the foot is not levelled. `interval` is the usual interval between samples, s.
         `inferred` marks a cue that no sample showed."""
@@ -109,8 +112,13 @@ class Gait:
         # cues are dated back by different times, but phases must not go back in time
         t = timed_cue.t if self.phase_start is None else max(timed_cue.t, self.phase_start)
         self.phase_start = t
-        known_at = max(known_at, t)
-        events: list[Event] = [EVENT_OF_PHASE[phase](t=t, known_at=known_at, foot=self.foot, inferred=inferred)]
+        known_at, sampled_at = max(known_at, t), max(sampled_at, t)
+        kind = EVENT_OF_PHASE[phase]
+        event = kind(t=t, known_at=known_at, foot=self.foot, inferred=inferred, sampled_at=sampled_at)
+        if self.impact_at is not None and isinstance(event, HeelStrike):
+            event = evolve(event, revises=self.impact_at)
+        self.impact_at = None
+        events: list[Event] = [event]
         if phase is Phase.SWING:
             self.stride.add_toe_off(t, interval)
         elif phase is Phase.LOADING:
@@ -123,10 +131,16 @@ class Gait:
             events += self._end_stride(t, known_at, corrector, interval)
         return events
 
+    def add_impact(self, t: float, sampled_at: float, known_at: float) -> HeelStrike:
+        """Return the heel-strike of an impact at `t`, s, which changes no phase yet; the final one will revise it."""
+        self.impact_at = t = t if self.phase_start is None else max(t, self.phase_start)
+        sampled_at = max(sampled_at, t)
+        return HeelStrike(t=t, known_at=max(known_at, t), final=False, foot=self.foot, sampled_at=sampled_at)
+
     def apply_infill(
-        self, infill: Infill, cues: Cues, known_at: float, corrector: Corrector, interval: float
+        self, infill: Infill, cues: Cues, sampled_at: float, known_at: float, corrector: Corrector, interval: float
     ) -> list[Event]:
-        """Return the events of the phases that a gap has hidden."""
+        """Return the events of the phases that a gap before the sample of `sampled_at`, s, has hidden."""
         self.template.add_infill(infill.t_heel_off, infill.duration)
         path = REMAINING_CUES[self.phase]
         if self.phase is Phase.PUSH_OFF or self.phase is Phase.LOADING:
@@ -137,7 +151,7 @@ class Gait:
         for cue, t in zip(STRIDE, times, strict=True):
             if t is not None and cue in path:
                 timed_cue = cues.make_hidden_toe_off(t) if cue is Cue.CLEAR else TimedCue(cue, t)
-                events += self.apply_cue(timed_cue, known_at, corrector, interval, inferred=True)
+                events += self.apply_cue(timed_cue, sampled_at, known_at, corrector, interval, inferred=True)
         return events
 
     def _end_stride(self, t: float, known_at: float, corrector: Corrector, interval: float) -> list[Event]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
-from ..events import Defect, DefectFound, Event, Flaw, FootMoved, SampleGap
+from ..events import Defect, DefectFound, Event, Flaw, FootMoved, HeelStrike, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import MADE_AGAIN, evolve, field, state, stateful
 from ..types.records import MAX_TIME
@@ -136,6 +136,14 @@ class FootTracker:
             rest.bias, rest.grain if rest.count else 0.0, pressed, after,
         )  # fmt: skip
 
+    def take_impact(self, t: float, known_at: float) -> HeelStrike | None:
+        """Return the heel-strike that the sample of `t`, s, shows, if not final yet; None for a foot with cells."""
+        impact_at, gait, sole = self.cues.impact_at, self.gait, self.sole
+        is_new = impact_at is not None and gait.impact_at is None and gait.phase is SWING
+        if impact_at is None or not is_new or (sole is not None and sole.had_cells):
+            return None
+        return gait.add_impact(impact_at, t, known_at)
+
     def mark_defect(self, defect: Defect) -> None:
         """Mark strides as flawed from now until `reset`: all, or if a range is too small those with cut-off peaks."""
         if defect is Defect.CLIPPED:
@@ -239,7 +247,7 @@ class FootTracker:
             self.limitations.report_lacking(text, t, known_at, events)
             if load is not None:
                 for timed_cue in self.cues.alone(t, dt, load, self.phase):
-                    self._apply_cue(timed_cue, known_at, events)
+                    self._apply_cue(timed_cue, t, known_at, events)
             return events
         self.moved_at = t
         self.limitations.lacking_since = None
@@ -281,7 +289,7 @@ class FootTracker:
         gait.stride.add_motion(t, dt, acc, gyro, position, speed, cues.sagittal, still)
         if timed_cues:
             for timed_cue in timed_cues:
-                self._apply_cue(timed_cue, known_at, events)
+                self._apply_cue(timed_cue, t, known_at, events)
         elif not gait.heading_settled:
             gait.world.find_heading(position)
         if self.settings.poses:
@@ -348,7 +356,7 @@ class FootTracker:
                 break
             self.cues.reset()
             corrector.infill(t - t_last, infill.attitude, infill.velocity, infill.position)
-            events += gait.apply_infill(infill, self.cues, known_at, corrector, self.rhythm.usual_interval or 0.0)
+            events += gait.apply_infill(infill, self.cues, t, known_at, corrector, self.rhythm.usual_interval or 0.0)
             if infill.t_foot_flat is None:
                 break
             t_last = infill.t_foot_flat
@@ -369,6 +377,6 @@ class FootTracker:
         p, v = self.position, self.velocity
         events.append(FootMoved(t=t, known_at=known_at, foot=self.foot, position=p, velocity=v, phase=self.phase))
 
-    def _apply_cue(self, timed_cue: TimedCue, known_at: float, events: list[Event]) -> None:
+    def _apply_cue(self, timed_cue: TimedCue, t: float, known_at: float, events: list[Event]) -> None:
         corrector = self.corrector if self.levelled else None
-        events += self.gait.apply_cue(timed_cue, known_at, corrector, self.rhythm.usual_interval or 0.0)
+        events += self.gait.apply_cue(timed_cue, t, known_at, corrector, self.rhythm.usual_interval or 0.0)

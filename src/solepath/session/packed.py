@@ -44,6 +44,7 @@ class Head:
     poses: bool
     pressures: bool
     losses: bool
+    impacts: bool
     plan: int | None
     """Fingerprint of the floor plan; None without one."""
 
@@ -64,7 +65,7 @@ def pack(state: SessionState) -> bytes:
     value cannot be saved."""
     settings = state.settings
     check_names(settings.recipe)
-    flags = settings.poses, settings.pressures, settings.losses
+    flags = settings.poses, settings.pressures, settings.losses, settings.impacts
     head = Head(settings.recipe.name, settings.calibration, *flags, settings.plan)
     lists = Lists([], [], [], [])
     try:
@@ -139,7 +140,7 @@ def _make_initial_state(recipe: Recipe, head: Head) -> SessionState:
     key = id(recipe), repr(head)  # a template has its recipe, so that no other one gets its id
     state = _templates.get(key)
     if state is None:
-        flags = head.poses, head.pressures, head.losses
+        flags = head.poses, head.pressures, head.losses, head.impacts
         state = SessionState(SessionSettings(recipe, head.calibration, *flags, head.plan))
         state.feet = {foot: state._tracker(foot) for foot in Foot}
         for tracker in state.feet.values():

@@ -36,7 +36,8 @@ class Session:
     `recipe` holds the parts. `calibration` describes the wearer, shoes and insoles. `poses` also emits FootMoved, the
     live position at every sample, and WearerMoved after every stride. `pressures` emits FootPressed, the loads of an
     insole's cells. `losses` reports each short gap and each rejected packet or sample by itself; without it, those that
-    repeat within 10 s are reported together. `devices` gives the address of the device at a site (`Packet.device`, in
+    repeat within 10 s are reported together. `impacts` also emits a HeelStrike that is not final as soon as the impact
+    shows, on a foot without pressure cells. `devices` gives the address of the device at a site (`Packet.device`, in
     any case); a site without one is bound to the first device that sends. `profiles` are the app's own devices.
     `floorplan` can be an IndexedPlan that many sessions share. `start` is the wearer's first place on the plan. Raises
     ValueError for impossible values.
@@ -46,9 +47,10 @@ class Session:
     that is neither packet nor sample, or has values of wrong types (numbers may be those of numpy), and ValueError
     after `finish`. When there are events before an error, or several items, it raises ItemError, which has them.
 
-    Latency: zero velocity and live position are known with the sample; toe-off with the next one (before a first
-    push-off, swing after 0.15 s); heel-strike with the next one where there are pressure cells, else after 50 ms;
-    foot-flat and the stride that it ends after 40 ms; heel-off after 40 to 140 ms, in slow walking up to 320 ms."""
+    Latency: zero velocity and live position are known with the sample; toe-off with the next one (before a first push-
+    off, swing after 0.15 s); heel-strike with the next one where there are pressure cells, else after 50 ms, with
+    `impacts` mostly after 10 to 20 ms; foot-flat and the stride that it ends after 40 ms; heel-off after 40 to 140 ms,
+    in slow walking up to 320 ms."""
 
     __slots__ = ("_kinds", "_plan", "_state")
 
@@ -60,6 +62,7 @@ class Session:
         poses: bool = False,
         pressures: bool = False,
         losses: bool = False,
+        impacts: bool = False,
         devices: Mapping[Site, str] | None = None,
         profiles: Iterable[Driver] = (),
         floorplan: FloorPlan | IndexedPlan | None = None,
@@ -69,8 +72,8 @@ class Session:
         own_calibration = Calibration() if calibration is None else check_calibration(calibration)
         self._plan = index_floorplan(floorplan)
         plan = None if self._plan is None else self._plan.fingerprint
-        flags = flag("poses", poses), flag("pressures", pressures), flag("losses", losses)
-        settings = SessionSettings(shared_copy(recipe), own_calibration, *flags, plan)
+        events = flag("poses", poses), flag("pressures", pressures), flag("losses", losses), flag("impacts", impacts)
+        settings = SessionSettings(shared_copy(recipe), own_calibration, *events, plan)
         state = self._state = SessionState(settings)
         if start is not None:
             state.notify(StartGiven(check_start(start, self._plan)))

@@ -87,6 +87,8 @@ class SessionSettings:
     """True to emit FootPressed with every sample of cells."""
     losses: bool = False
     """True to tell each gap and each rejected packet or sample by itself."""
+    impacts: bool = False
+    """True to emit a HeelStrike that is not final as soon as the impact shows."""
     plan: int | None = None
     """Fingerprint of the floor plan; None without a plan, and then the recipe's place part is not used."""
 
@@ -384,6 +386,8 @@ class SessionState:
             moved = self._run_parts(events, view, known_at)
             if moved is not None and self.settings.poses and stride:
                 events.append(moved)
+        if self.settings.impacts and (impact := tracker.take_impact(t, known_at)) is not None:
+            events.append(impact)
         if sample.pressure and (sole := tracker.sole) is not None:
             if self.settings.pressures:
                 pressed = sole.make_event(t, known_at, sample.pressure)

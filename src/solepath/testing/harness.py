@@ -91,20 +91,23 @@ class FootHarness:
         events = tracker.feed(sample)
         one = tracker.corrector
         state = (one.position, one.velocity, one.attitude, one.covariance(), one.error_index)
-        return sample.t, events, state if tracker.levelled else None, tracker.cues.sagittal
+        seen = tracker.cues.sagittal, tracker.cues.impact_at
+        return sample.t, events, state if tracker.levelled else None, seen
 
     def finish(self) -> list[Any]:
         return []
 
     def problems(self, output: Any) -> Iterator[str]:
         """Yield a sentence for every value that an event cannot have, and every cue that lies in the future."""
-        t, events, state, sagittal = output
-        yield from self._cue_problems(t, events, sagittal) if self.name == "cues" else self._state_problems(state)
+        t, events, state, seen = output
+        yield from self._cue_problems(t, events, *seen) if self.name == "cues" else self._state_problems(state)
 
-    def _cue_problems(self, t: float, events: Any, sagittal: float) -> Iterator[str]:
+    def _cue_problems(self, t: float, events: Any, sagittal: float, impact_at: float | None) -> Iterator[str]:
         for event in events:
             if isinstance(event, HeelStrike | FootFlat | HeelOff | ToeOff) and not event.t <= t:
                 yield f"a cue is of the past, not a {type(event).__name__} of {event.t:.3f} s in a sample of {t:.3f} s"
+        if impact_at is not None and not impact_at <= t:
+            yield f"impact_at is of the past, not {impact_at:.3f} s in a sample of {t:.3f} s"
         if not isfinite(sagittal):
             yield f"sagittal is finite, not {sagittal}"
 

@@ -18,6 +18,7 @@ from ..events import (
     DefectFound,
     Disconnected,
     Event,
+    HeelStrike,
     LinkTrouble,
     PacketRejected,
     PacketsDropped,
@@ -27,6 +28,7 @@ from ..events import (
     StreamRestarted,
     StreamResumed,
     StreamStale,
+    ToeOff,
 )
 from ..foot.rhythm import longest_loss
 from ..link.health import RecentLink, missing_samples
@@ -43,6 +45,8 @@ SILENCE_TIME = 1.5
 """Time without a sample after which a link counts as silent, even if the session has not reported it yet, s."""
 MAX_CHANNELS = 100
 """Largest number of unknown channels of a site that are remembered by name."""
+DELAY_PARTS, DELAY_COUNT = ("sensor", "radio", "decision"), 200
+"""Parts of the delay of an event, and the number of newest events of a foot whose delays are kept: of some minutes."""
 NO_DEVICE = ("device", "receiver")
 """Prefixes of channels that belong to no kind of device."""
 STRAGGLER_TIME = 1.0
@@ -78,6 +82,35 @@ class CoveredTime:
     def total(self) -> float:
         """Total duration of all spans, s."""
         return self._ended_time + (0.0 if self.span_start is None else self.span_end - self.span_start)
+
+
+@define
+class Delays:
+    """How late the newest heel-strikes and toe-offs of a foot were known, DELAY_COUNT of them, in three parts, s.
+
+    *sensor* is the time from the event to the last sample that it needed, and *radio* from there to the arrival of that
+    sample: beyond the least delay of the link, which is in the sample's time. *decision* is the time from then until
+    the session has returned the event, the wait in the program included; only the program can say when that was."""
+
+    parts: deque[tuple[float, float, float | None]] = field(factory=lambda: deque(maxlen=DELAY_COUNT))
+
+    def add(self, event: HeelStrike | ToeOff, returned_at: float | None) -> None:
+        """Add an event that the session returned at `returned_at`, s, on the packets' clock; None if unknown."""
+        is_revision = isinstance(event, HeelStrike) and event.revises is not None
+        if not (event.inferred or is_revision):
+            decision = None if returned_at is None else max(0.0, returned_at - event.known_at)
+            self.parts.append((event.sampled_at - event.t, event.known_at - event.sampled_at, decision))
+
+    @property
+    def figures(self) -> dict[str, tuple[float, float]]:
+        """Median and 95th percentile of each part that is known, s."""
+        found = {}
+        for name, values in zip(DELAY_PARTS, zip(*self.parts, strict=True), strict=False):
+            ordered = sorted([value for value in values if value is not None])
+            if ordered:
+                last = len(ordered) - 1
+                found[name] = ordered[last // 2], ordered[round(0.95 * last)]
+        return found
 
 
 @define
@@ -132,6 +165,7 @@ class LinkLedger:
     """Moment at which a packet or sample that had not come before was rejected, s; None before any."""
     rejected_all: bool = False
     """True if all that came was rejected while the other foot walked on."""
+    delays: Delays = field(factory=Delays)
     trouble: str = ""
     """The last LinkTrouble, or defect that spoils; empty again when the device is connected."""
     last_sample_at: float | None = None

@@ -237,16 +237,21 @@ class Walk:
             walk.add(event)
         return walk
 
-    def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """Add an item that the session was fed, and the events that it returned.
+    def take(self, item: Packet | Sample | None, events: Sequence[Event], returned_at: float | None = None) -> None:
+        """Add an item that the session was fed, and the events that it returned at `returned_at`, s, packets' clock.
 
         None as the item means that nothing came: time passed or the session ended."""
         for event in events:
             self.add(event)
-        self.count_item(item, events)
+        self.count_item(item, events, returned_at)
 
-    def count_item(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """Count an item after its events, which show whether it was used."""
+    def count_item(
+        self, item: Packet | Sample | None, events: Sequence[Event], returned_at: float | None = None
+    ) -> None:
+        """Count an item after its events, which show whether it was used and how late it was."""
+        for event in events:
+            if isinstance(event, HeelStrike | ToeOff):
+                self.link(SITE_OF_FOOT[event.foot]).delays.add(event, returned_at)
         if item is None:
             return
         self.item_count += 1

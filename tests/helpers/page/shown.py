@@ -29,7 +29,7 @@ from solepath_lab.emulated.buildings import corridor
 REFRESH = 1.0 / 60.0
 """Time between two groups of packets that a scene takes, s."""
 MAX_PART = 2.0 * REFRESH
-TIMES = frozenset({"t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike", "revises"})
+TIMES = frozenset({"t", "known_at", "sampled_at", "t_start", "t_end", "t_toe_off", "t_heel_strike", "revises"})
 """Fields of events that hold a time, s."""
 CONNECTED = "document.getElementById('connection').dataset.state === 'open' && solepath.state.known"
 """Whether the page has its connection and the first scene, before which its state has no members."""

@@ -115,7 +115,7 @@ async def listen(
             events = session.finish() if item is None else session.feed(item)
             reported = repeats.end(events, session.now) if item is None else repeats.gather(item, events)
             files.take(item, reported)
-            collector.take(item, events)
+            collector.take(item, events, None if offset is not None else loop.time())
             publish(reported)
 
         try:

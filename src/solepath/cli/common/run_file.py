@@ -1,9 +1,9 @@
 """run.json, which says how the files beside it came about, and what is wrong with the recording.
 
 It is JSON: {"solepath": version, "recipe": name, "recipe_sha256", "inputs": [{"name", "sha256"}], "options": {...},
-"command_line": [...], "sites": {"left_foot": {"samples", "missing", "missing_s", "missing_share", "absent_s"}},
-"findings": [{"code", "site", "text"}], "place": {"level", "room", "x_m", "y_m", "within_m", "candidates", "decided",
-"level_decided"}}.
+"command_line": [...], "sites": {"left_foot": {"samples", "missing", "missing_s", "missing_share", "absent_s",
+"delay_ms": {"sensor": [median, 95th percentile], "radio", "decision"}}}, "findings": [{"code", "site", "text"}],
+"place": {"level", "room", "x_m", "y_m", "within_m", "candidates", "decided", "level_decided"}}.
 The place is that at the end, on the floor plan; null without one. walk/links.py defines the figures of a site,
 show/findings.py the findings; the site of one about both feet or the whole session is ""."""
 
@@ -86,11 +86,12 @@ def _plain(value: Any) -> Any:
     return value if isinstance(value, bool | int | float | str | None) else getattr(value, "name", str(value))
 
 
-def _figures(link: LinkLedger, now: float) -> dict[str, float]:
+def _figures(link: LinkLedger, now: float) -> dict[str, Any]:
     return {
         "samples": link.samples,
         "missing": link.missing,
         "missing_s": round(link.missing_time, 3),
         "missing_share": round(link.missing_share, 6),
         "absent_s": round(link.absent_time(now), 3),
+        "delay_ms": {name: [round(1e3 * t, 1) for t in times] for name, times in link.delays.figures.items()},
     }

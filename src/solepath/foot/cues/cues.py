@@ -60,6 +60,11 @@ class Cues(Protocol):
     CONTACT: the last sample is the most likely one of heel-strike so far. CLEAR: the sample before it is the most
     likely one of toe-off so far."""
 
+    @property
+    def impact_at(self) -> float | None:
+        """Time of a heel-strike that this swing has shown, but whose CONTACT is not certain yet, s; None otherwise."""
+        return None
+
     def make_hidden_toe_off(self, t: float) -> TimedCue:
         """Return a toe-off at `t`, s, which a gap has hidden; the swing may go on after the gap."""
         return TimedCue(Cue.CLEAR, t)

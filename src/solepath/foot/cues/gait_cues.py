@@ -165,6 +165,11 @@ class GaitCues(Cues):
         seen = self.pressure.update(t, dt, load, phase) or self.pressure.update_areas(t, load, phase)
         return () if seen is None else (seen,)
 
+    @property
+    def impact_at(self) -> float | None:
+        """Time of the impact that the inertial sensor has shown in this swing, s; None before it."""
+        return self.inertial.impact_at
+
     def make_hidden_toe_off(self, t: float) -> TimedCue:
         """Return a toe-off at `t`, s, which a gap has hidden."""
         return self.inertial.make_hidden_toe_off(t)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ...events import Placed
 from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
@@ -75,10 +77,17 @@ def _link(site: Site, link: LinkLedger, now: float) -> str:
         f"{100.0 * link.missing_share:.1f} % missing" if link.missing else "",
         "" if link.battery is None else f"battery {100.0 * link.battery:.0f} %",
         "" if link.signal is None else f"{link.signal} dBm",
+        _delay(link.delays.figures),
         "disconnected" if link.state(now) == "lost" else "",
         printable(link.trouble or ""),
     ]
     return f"{site.words}: {', '.join(filter(None, parts))}"
+
+
+def _delay(figures: Mapping[str, tuple[float, float]]) -> str:
+    """Return the parts of the delay of contacts, median and 95th percentile; nothing while there are none."""
+    parts = [f"{name} {1e3 * middle:.0f} ms (95 %: {1e3 * most:.0f})" for name, (middle, most) in figures.items()]
+    return f"late by {' + '.join(parts)}" if parts else ""
 
 
 def place_lines(counts: PlaceCounts) -> list[str]:

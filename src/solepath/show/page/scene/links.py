@@ -53,6 +53,7 @@ def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
         "recent_share": plain(link.recent_share(now), 4) if state == "ok" else None,
         "rejected": link.rejected.total(),
         "silent_for": plain(silent_for, 1) if state in ("silent", "lost") else None,
+        "delay": {name: [round(1e3 * t) for t in times] for name, times in link.delays.figures.items()},
     }
 
 

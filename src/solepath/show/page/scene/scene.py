@@ -84,8 +84,8 @@ class Scene:
     log: SceneLog = field(factory=SceneLog, init=False)
     reports: SceneReports = field(factory=SceneReports, init=False)
 
-    def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """Add a packet or sample that the session was fed, and the events that it returned.
+    def take(self, item: Packet | Sample | None, events: Sequence[Event], returned_at: float | None = None) -> None:
+        """Add a packet or sample that the session was fed, and the events that it returned at `returned_at`, s.
 
         None as the item means that nothing came: time passed or the session ended."""
         for event in events:
@@ -94,7 +94,7 @@ class Scene:
         for event in events:
             if has_valid_numbers(event):
                 self._show(event)
-        self.walk.count_item(item, events)
+        self.walk.count_item(item, events, returned_at)
         if not events:
             self._mark_silent_feet()
 

@@ -57,6 +57,11 @@ const FIGURES = {
   gaps: ({ gaps }) => gaps > 0 && counted(gaps, "interruption"),
   absent: ({ absent }) => absent > 0 && `absent for ${fixed(absent, 1)} s`,
   rejected: ({ rejected }) => rejected > 0 && `${counted(rejected, "packet")} rejected`,
+  delay: ({ delay }) =>
+    Object.keys(delay).length > 0 &&
+    `contacts late by ${Object.entries(delay)
+      .map(([part, [median, most]]) => `${part} ${fixed(median)} ms (95 %: ${fixed(most)})`)
+      .join(" + ")}`,
   battery: ({ battery }) => battery !== null && `battery ${percent(battery)}`,
   signal: ({ signal }) => signal !== null && `signal ${fixed(signal)} dBm`,
 };
