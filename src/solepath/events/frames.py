@@ -18,8 +18,8 @@ from .happening import FIRST_KEYS, BaseEvent, json_ready
 
 _NAMES = {
     "s": "t known_at sampled_at t_start t_end t_toe_off t_heel_strike revises stride_time stance_time swing_time "
-    "step_time initial_double_support terminal_double_support single_support offset offset_sigma duration silent_for seconds "
-    "longest longest_gap double_support",
+    "step_time initial_double_support terminal_double_support single_support offset offset_sigma duration silent_for "
+    "seconds longest longest_gap double_support",
     "m": "height stride_length length_sigma own_length distance position by sigma compensation displacement length "
     "height_change features_clearance features_rise features_cop clearance rise centre spread height_off "
     "layout_length legs",
