@@ -32,6 +32,7 @@ from ..events import (
 )
 from ..foot.rhythm import longest_loss
 from ..link.health import RecentLink, missing_samples
+from ..types.attrs import NOT_SAVED
 
 SET_BACK_TOLERANCE = 1.0
 """Longest time by which a moment may lie before the latest one, s; farther back, the clock was set back."""
@@ -93,6 +94,8 @@ class Delays:
     the session has returned the event, the wait in the program included; only the program can say when that was."""
 
     parts: deque[tuple[float, float, float | None]] = field(factory=lambda: deque(maxlen=DELAY_COUNT))
+    _figures: dict[str, tuple[float, float]] | None = field(default=None, eq=False, metadata=NOT_SAVED)
+    """Figures of these parts; None after another event, since a page asks thirty times a second."""
 
     def add(self, event: HeelStrike | ToeOff, returned_at: float | None) -> None:
         """Add an event that the session returned at `returned_at`, s, on the packets' clock; None if unknown."""
@@ -100,17 +103,19 @@ class Delays:
         if not (event.inferred or is_revision):
             decision = None if returned_at is None else max(0.0, returned_at - event.known_at)
             self.parts.append((event.sampled_at - event.t, event.known_at - event.sampled_at, decision))
+            self._figures = None
 
     @property
     def figures(self) -> dict[str, tuple[float, float]]:
         """Median and 95th percentile of each part that is known, s."""
-        found = {}
-        for name, values in zip(DELAY_PARTS, zip(*self.parts, strict=True), strict=False):
-            ordered = sorted([value for value in values if value is not None])
-            if ordered:
-                last = len(ordered) - 1
-                found[name] = ordered[last // 2], ordered[round(0.95 * last)]
-        return found
+        if self._figures is None:
+            self._figures = {}
+            for name, values in zip(DELAY_PARTS, zip(*self.parts, strict=True), strict=False):
+                ordered = sorted([value for value in values if value is not None])
+                if ordered:
+                    last = len(ordered) - 1
+                    self._figures[name] = ordered[last // 2], ordered[round(0.95 * last)]
+        return self._figures
 
 
 @define
