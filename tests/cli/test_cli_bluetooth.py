@@ -39,6 +39,8 @@ def test_live_reports_links_and_what_it_records_gives_the_same_events_again(inso
     assert (replayed / "strides.csv").read_text().count("\n") > 2
     live, later = [json.loads((folder / "run.json").read_text()) for folder in (out, replayed)]
     assert live["inputs"] == [] and live["options"]["left"] == "solepath L"
+    decided = [one["delay_ms"].pop("decision") for one in live["sites"].values()]
+    assert all([0.0 <= middle <= most for middle, most in decided])  # a recording knows nothing of the program's clock
     assert (live["sites"], live["recipe_sha256"]) == (later["sites"], later["recipe_sha256"])
     devices = {(packet.site, packet.device) for packet in read_packets(file) if packet.device}
     assert devices == {(Site.LEFT_FOOT, "F0:5E:00:00:00:01"), (Site.RIGHT_FOOT, "F0:5E:00:00:00:02")}
