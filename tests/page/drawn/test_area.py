@@ -16,17 +16,20 @@ Path2D.prototype.arc = function (x, y, radius, ...others) {
     return arc.call(this, x, y, radius, ...others);
 };"""
 """Notes the middle of each area with that of the wearer's mark, whose radius is 9 px, drawn after it."""
+STEPS = 40
+"""Most places of the wearer; a slow browser draws few pictures of each way to the next."""
 
 
 async def test_the_wearer_is_in_the_middle_of_the_area_while_both_glide_to_the_next_place(chromium: Browser) -> None:
     scene = scene_after(6.0)
     async with open_page(chromium, scene, script=SPY) as (view, _):
-        for step in range(6):
+        for step in range(STEPS):
             t = scene.now + 0.5
-            place = (4.0 + 0.7 * step, 0.3 * step, 0.0)
+            place = (4.0 + 0.2 * step, 0.1 * step, 0.0)
             scene.take(None, [WearerMoved(t=t, known_at=t, position=place, covariance=(1.0, 0.0, 0.0, 1.0, 0.0, 0.1))])
-            await view.until("(t) => solepath.state.t >= t - 0.01 && drawn.length > 0", t)
-            await view.until("(count) => drawn.length >= count", 5 * (step + 1))
-        drawn = await view.tab.evaluate("drawn")
-    assert len({(x, y) for _, _, x, y in drawn}) > 10, "the mark glides"
+            await view.until("([t, count]) => solepath.state.t >= t - 0.01 && drawn.length > count", [t, step])
+            drawn = await view.tab.evaluate("drawn")
+            if len({(x, y) for _, _, x, y in drawn}) > step + 6:
+                break  # more places were drawn than there are: the mark glides
+    assert step < STEPS - 1
     assert all((x, y) == (mark_x, mark_y) for x, y, mark_x, mark_y in drawn)
