@@ -11,7 +11,7 @@ from recordings import recorded
 from shown import frame
 from walks import of, samples
 
-from solepath import HeelStrike, Session, ToeOff
+from solepath import Foot, HeelStrike, Session, ToeOff
 from solepath.emulate import Radio, Route, emulate
 from solepath.show.page.scene.scene import Scene
 from solepath.show.tables.summary import status
@@ -56,6 +56,14 @@ def test_medians_and_percentiles_of_each_part_are_told_alike(tmp_path: Path) -> 
     assert run("track", recorded(tmp_path / "walk.jsonl", packets), "--out", out).returncode == 0
     written = json.loads((out / "run.json").read_text())["sites"]["left_foot"]["delay_ms"]
     assert written == {part: pytest.approx(delay[part], abs=0.6) for part in ("sensor", "radio")}
+
+
+@pytest.mark.parametrize("sampled_at", [float("nan"), float("inf"), 1e300])
+def test_a_contact_with_a_number_that_is_none_has_no_delay(sampled_at: float) -> None:
+    scene = Scene("a walk", "default")
+    scene.take(None, [HeelStrike(t=1.0, known_at=1.1, foot=Foot.LEFT, sampled_at=sampled_at)])
+    scene.take(None, [HeelStrike(t=2.0, known_at=2.1, foot=Foot.LEFT, sampled_at=2.04)])
+    assert frame(scene)["links"]["left foot"]["delay"] == {"sensor": [40, 40], "radio": [60, 60]}
 
 
 def test_only_the_newest_contacts_count_each_once_and_none_that_a_gap_has_hidden() -> None:

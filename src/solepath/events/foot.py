@@ -31,8 +31,8 @@ class HeelStrike(GaitEvent):
 
     Latency with the default cues: one sample with pressure cells, about 50 ms without; if no impact shows, the time
     until the foot is still. `Session(impacts=True)` also reports an impact without cells at once, 10 to 20 ms after
-    `t`, in an event that is not final. The final one follows within 0.1 s and names it in `revises`; its `t` is 0 to
-    60 ms later. None follows where samples are missing or the device's clock restarts."""
+    `t`, in an event that is not final. The final one follows within 0.1 s and names it in `revises`; its `t` is up to
+    60 ms later, or some ms earlier. None follows where samples are missing or the device's clock restarts."""
 
     revises: float | None = None
     """Time `t` of the event that this event replaces, s; None when it replaces none."""

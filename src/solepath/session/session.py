@@ -47,10 +47,10 @@ class Session:
     that is neither packet nor sample, or has values of wrong types (numbers may be those of numpy), and ValueError
     after `finish`. When there are events before an error, or several items, it raises ItemError, which has them.
 
-    Latency: zero velocity and live position are known with the sample; toe-off with the next one (before a first push-
-    off, swing after 0.15 s); heel-strike with the next one where there are pressure cells, else after 50 ms, with
-    `impacts` mostly after 10 to 20 ms; foot-flat and the stride that it ends after 40 ms; heel-off after 40 to 140 ms,
-    in slow walking up to 320 ms."""
+    Latency: zero velocity and live position are known with the sample; toe-off with the next one (before a first
+    push-off, swing after 0.15 s); heel-strike with the next one where there are pressure cells, else after 50 ms (with
+    `impacts` mostly 10 to 20 ms); foot-flat and the stride that it ends after 40 ms; heel-off after 40 to 140 ms, in
+    slow walking up to 320 ms."""
 
     __slots__ = ("_kinds", "_plan", "_state")
 

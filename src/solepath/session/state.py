@@ -155,16 +155,14 @@ class SessionState:
         decoder = self.decoders.get(site) or self.make_decoder(site)
         newest_arrival = decoder.newest_arrival
         items = decoder.feed(packet, kinds)
-        if decoder.used:
-            self._count(site, packet.t, is_whole(packet, items, kinds), items)
-        else:
-            self._count(site, None, 0, items)
         if not decoder.used:
             # a rejected packet changes nothing, so time does not pass with it either
+            self._count(site, None, 0, items)
             if site not in self.decoders:
                 return [event for event in items if isinstance(event, PacketRejected)]
             self.use_items(site, items, events)
             return events
+        self._count(site, packet.t, is_whole(packet, items, kinds), items)
         if site not in self.decoders:
             self.add_decoder(decoder)
         for other_site, other_decoder in self.decoders.items():

@@ -250,7 +250,7 @@ class Walk:
     ) -> None:
         """Count an item after its events, which show whether it was used and how late it was."""
         for event in events:
-            if isinstance(event, HeelStrike | ToeOff):
+            if isinstance(event, HeelStrike | ToeOff) and has_valid_numbers(event):
                 self.link(SITE_OF_FOOT[event.foot]).delays.add(event, returned_at)
         if item is None:
             return

@@ -287,7 +287,8 @@ class Hypotheses:
     def update(self, block: BlockEvidence, chain: Chain) -> None:
         """Extend the paths by one block."""
         # find the best path that continues in each state
-        scores, predecessors = [-inf] * len(ACTIVITIES), list[Token | None]([None] * len(ACTIVITIES))
+        scores = [-inf] * len(ACTIVITIES)
+        predecessors: list[Token | None] = [None] * len(ACTIVITIES)
         for token in self.tokens or FIRST_TOKENS:
             before = token.state
             end_score = _score_end(token, block) if before in RIDE_STATES or before in STAIR_SIGNS else 0.0
