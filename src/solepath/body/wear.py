@@ -347,7 +347,7 @@ class Wear(Part):
             elif other.strides_since >= self.settings.strides and t - other.t >= self.settings.seconds:
                 other.silent = True
                 outputs.append(FootSilent(t=t, known_at=view.known_at, foot=OTHER[view.foot], silent_for=t - other.t))
-        if not self.swapped:
+        if not self.swapped and other.t is not None:  # both feet must agree
             self.sides.add_sample(view)
             if events and self.sides.update(view, events):
                 self.swapped = True

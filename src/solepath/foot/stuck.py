@@ -30,36 +30,39 @@ which it does."""
 
 @define
 class Repeats:
-    """The newest value of a sensor, and since when it has been the same."""
+    """How long the newest value of a sensor has been the same."""
 
-    value: Vec3 | None = None
-    """Value of the newest sample, m/s^2 or rad/s."""
     since: float = 0.0
-    """Time of the first sample with it, s."""
+    """Time of the first sample with it, s, if others repeat it."""
     count: int = 0
     """Number of samples with it after that one."""
     motion: float = 0.0
     """What the other sensor has shown since then: the angle turned, rad, or the largest change of force, m/s^2."""
 
-    def add(self, t: float, value: Vec3) -> bool:
-        """Add a value at `t`, s; return whether it is that of the sample before."""
-        if value == self.value:
-            self.count += 1
-            return True
-        self.value, self.since, self.count, self.motion = value, t, 0, 0.0
-        return False
+    def add(self, before: float, is_same: bool) -> None:
+        """Add a value that is the same as that of the sample at `before`, s, or another."""
+        if not is_same:
+            self.count = 0
+            return
+        if not self.count:
+            self.since, self.motion = before, 0.0
+        self.count += 1
 
 
 @define
 class Stuck:
     """Watches the values of a foot's two sensors."""
 
-    acc: Repeats = field(factory=Repeats)
-    gyro: Repeats = field(factory=Repeats)
     t: float = 0.0
     """Time of the newest sample, s."""
+    acc: Vec3 | None = None
+    """Specific force of the newest sample, m/s^2; None before any."""
+    gyro: Vec3 | None = None
+    """Angular rate of the newest sample, rad/s; None before any."""
+    acc_repeats: Repeats = field(factory=Repeats)
+    gyro_repeats: Repeats = field(factory=Repeats)
     first_acc: Vec3 = ZERO
-    """Specific force at the first sample with the newest angular rate, m/s^2."""
+    """Specific force at the first sample with the newest angular rate, m/s^2, if others repeat it."""
     still: int = 0
     """Number of samples at rest with another value than the one before; `MOST_STILL` at most."""
     still_repeats: int = 0
@@ -72,50 +75,66 @@ class Stuck:
     """Flag: the values are no measurement."""
     named: bool = False
     """Flag: it was reported that a sensor is stuck."""
+    at_ease: bool = False
+    """Flag: both sensors have shown that they measure, and their newest values are new."""
 
     def update(self, t: float, acc: Vec3, gyro: Vec3) -> str | None:
         """Add a sample; return a sentence on what is stuck, once."""
-        dt, self.t = t - self.t, t
-        same_acc, same_gyro = self.acc.add(t, acc), self.gyro.add(t, gyro)
+        before, last_acc, last_gyro = self.t, self.acc, self.gyro
+        self.t, self.acc, self.gyro = t, acc, gyro
+        if acc == last_acc or gyro == last_gyro or not self.at_ease:
+            return self._watch(t, before, acc, gyro, last_acc, last_gyro)
+        if self.still < MOST_STILL and hypot(*gyro) <= MOVING:
+            self.still += 1
+        return None
+
+    def _watch(
+        self, t: float, before: float, acc: Vec3, gyro: Vec3, last_acc: Vec3 | None, last_gyro: Vec3 | None
+    ) -> str | None:
+        """Add a sample that may be no measurement, after one at `before`, s, with other values or the same."""
+        same_acc, same_gyro = acc == last_acc, gyro == last_gyro
+        if same_gyro and last_acc is not None and not self.gyro_repeats.count:
+            self.first_acc = last_acc
+        self.acc_repeats.add(before, same_acc)
+        self.gyro_repeats.add(before, same_gyro)
         if not self.awake:
             self.awake = acc != ZERO or gyro != ZERO
             self.held = not self.awake
             if self.held:
                 return self._judge_zeros(t)
-        if not same_gyro:
-            self.first_acc = acc
-            if not same_acc:  # nearly always
-                self.held = False
-                if self.still < MOST_STILL or not self.turned:
-                    if hypot(*gyro) > MOVING:
-                        self.turned = True
-                    else:
-                        self.still = min(self.still + 1, MOST_STILL)
-                return None
         rate = hypot(*gyro)
+        if not (same_acc or same_gyro):
+            self.held = False
+            self.turned = self.turned or rate > MOVING
+            if rate <= MOVING:
+                self.still = min(self.still + 1, MOST_STILL)
+            self.at_ease = self.turned
+            return None
+        self.at_ease = False
         if rate < MOVING and same_acc and same_gyro:
             self.still_repeats += 1
-        self.acc.motion += rate * dt
-        self.gyro.motion = max(self.gyro.motion, dist(acc, self.first_acc))
+        self.acc_repeats.motion += rate * (t - before)
+        self.gyro_repeats.motion = max(self.gyro_repeats.motion, dist(acc, self.first_acc))
         return self._judge(t, rate > MOVING)
 
     def _judge_zeros(self, t: float) -> str | None:
-        if self.named or t - self.acc.since < OFF_TIME:
+        if self.named or not self.acc_repeats.count or t - self.acc_repeats.since < OFF_TIME:
             return None
         self.named = True
         return f"every value has been 0 for {OFF_TIME:g} s: the sensor is off, or gravity was removed; restart it"
 
     def _judge(self, t: float, moves: bool) -> str | None:
         """Return a sentence on what is stuck, once; the newest angular rate is that of a foot that moves or not."""
-        repeats = min(self.acc.count, self.gyro.count)
+        acc, gyro = self.acc_repeats, self.gyro_repeats
+        repeats = min(acc.count, gyro.count)
         flickers = self.still >= LEAST_STILL and self.still_repeats - repeats < REPEATING * self.still
         impossible = repeats >= STUCK_SAMPLES and (moves or flickers)
-        acc_time, gyro_time = [t - one.since if one.count >= STUCK_SAMPLES else 0.0 for one in (self.acc, self.gyro)]
+        acc_time, gyro_time = [t - one.since if one.count >= STUCK_SAMPLES else 0.0 for one in (acc, gyro)]
         self.held |= impossible and min(acc_time, gyro_time) >= HELD_TIME
-        acc_stuck = acc_time >= STUCK_TIME and (self.acc.motion > TURN or impossible)
+        acc_stuck = acc_time >= STUCK_TIME and (acc.motion > TURN or impossible)
         # a gyroscope that has always read nothing is off, or in another unit, which the checks of the body see
-        shows = self.gyro.motion > FORCE_CHANGE or moves or impossible
-        gyro_stuck = gyro_time >= STUCK_TIME and (self.turned or self.gyro.value != ZERO) and shows
+        shows = gyro.motion > FORCE_CHANGE or moves or impossible
+        gyro_stuck = gyro_time >= STUCK_TIME and (self.turned or self.gyro != ZERO) and shows
         if not (acc_stuck or gyro_stuck):
             return None
         self.held = True

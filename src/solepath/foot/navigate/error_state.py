@@ -15,8 +15,8 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 from ...types import Floats, Quat, Vec3
-from ...types.attrs import define, field, state, stateful
-from ...types.vector import GRAVITY, TIME_EPSILON, ZERO, sub, tipped
+from ...types.attrs import NOT_SAVED, define, field, state, stateful
+from ...types.vector import GRAVITY, TIME_EPSILON, ZERO, scaled, sub, tipped
 from ..phase import STATIONARY
 from ..rhythm import StanceRhythm
 from ..settings import ErrorStateSettings
@@ -128,33 +128,39 @@ class IndependentInterval:
     The root is dt / sqrt(2) for readings that change at random. It does not depend on dt where the band is narrow
     against the rate, because the sums are integrals there."""
 
+    jerk: Vec3 | None = None
+    """Jerk up to the last sample, sensor frame, m/s^3; None before any and after a gap."""
     jerk_square: float = 0.0
     """Fading sum of |j|^2 dt, m^2/s^5."""
     snap_square: float = 0.0
     """Fading sum of |s|^2 dt, m^2/s^7."""
 
-    def update(self, dt: float, acc: Vec3, dt_before: float, last: Vec3, earlier: Vec3) -> float:
-        """Add a sample `dt` s after the last one, which came `dt_before` s after the earlier one; return T / dt.
+    def update(self, dt: float, acc: Vec3, last: Vec3) -> float:
+        """Add a sample `dt` s after the last one; return T / dt.
 
-        `acc`, `last` and `earlier` are the specific forces of the three samples, sensor frame, m/s^2."""
-        if dt <= 0.0 or dt_before <= 0.0:
+        `acc` and `last` are the specific forces of both samples, sensor frame, m/s^2."""
+        if dt <= 0.0:
+            self.jerk = None
             return 1.0
-        k, m = 1.0 / dt, 1.0 / dt_before
+        k = 1.0 / dt
         ax, ay, az = acc
         x, y, z = last
-        px, py, pz = earlier
-        ax, ay, az, px, py, pz = k * (ax - x), k * (ay - y), k * (az - z), m * (x - px), m * (y - py), m * (z - pz)
-        remaining = 1.0 - dt / MEMORY_TIME if dt < MEMORY_TIME else 0.0
-        self.jerk_square = remaining * self.jerk_square + (ax * ax + ay * ay + az * az) * dt
-        x, y, z = ax - px, ay - py, az - pz
-        self.snap_square = remaining * self.snap_square + (x * x + y * y + z * z) * k
-        ratio_square = INTERVAL_RATIO * INTERVAL_RATIO * k * k * self.jerk_square
-        if ratio_square <= self.snap_square:
+        ax, ay, az = k * (ax - x), k * (ay - y), k * (az - z)
+        jerk, self.jerk = self.jerk, (ax, ay, az)
+        if jerk is None:
             return 1.0
-        longest = max(LONGEST_INTERVAL * k, 1.0)
-        return (
-            longest if ratio_square >= longest * longest * self.snap_square else sqrt(ratio_square / self.snap_square)
-        )
+        remaining = 1.0 - dt / MEMORY_TIME if dt < MEMORY_TIME else 0.0
+        jerk_square = self.jerk_square = remaining * self.jerk_square + (ax * ax + ay * ay + az * az) * dt
+        x, y, z = jerk
+        x, y, z = ax - x, ay - y, az - z
+        snap_square = self.snap_square = remaining * self.snap_square + (x * x + y * y + z * z) * k
+        ratio_square = INTERVAL_RATIO * INTERVAL_RATIO * k * k * jerk_square
+        if ratio_square <= snap_square:
+            return 1.0
+        longest = LONGEST_INTERVAL * k
+        if longest < 1.0:
+            return 1.0
+        return longest if ratio_square >= longest * longest * snap_square else sqrt(ratio_square / snap_square)
 
 
 @stateful
@@ -198,6 +204,8 @@ class ErrorStateFilter(Strapdown):
     """Recovery of the clipped peaks of both sensors; None before any sample."""
     interval: IndependentInterval = state(factory=IndependentInterval)
     """Interval between independent readings, for the noise of what lies between two samples."""
+    noise: tuple[float, ...] = state(default=(), metadata=NOT_SAVED)
+    """Squares of the numbers of the settings that every sample needs; empty before the first sample."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         self.attitude = attitude
@@ -213,51 +221,60 @@ class ErrorStateFilter(Strapdown):
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         gx, gy, gz = gyro
         rate, last_force, recovery = self.rate or gyro, self.force, self.recovery or self._make_recovery()
-        dt_before, last_acc, earlier_acc = recovery.earlier_dt, recovery.last_acc, recovery.earlier_acc
+        last_acc = recovery.last_acc
         gyro_peaks: ClippedPeaks = ()
         acc_peaks: ClippedPeaks = ()
         rate_square, (x, y, z) = gx * gx + gy * gy + gz * gz, acc
-        gyro_clipping, acc_clipping = recovery.gyro_clipping, recovery.acc_clipping
         if (
-            rate_square > gyro_clipping.near_end_square
-            or x * x + y * y + z * z > acc_clipping.near_end_square
+            rate_square > recovery.gyro_clipping.near_end_square
+            or x * x + y * y + z * z > recovery.acc_clipping.near_end_square
             or recovery.watches
         ):  # a call for every sample would cost 1 % of it
             gyro_peaks, acc_peaks = recovery.watch(dt, acc, gyro, rate, self.attitude, saturated)
         recovery.earlier_acc, recovery.last_acc = last_acc, acc
         recovery.earlier_rate, recovery.earlier_dt = rate, dt
         ax, ay, az = self.integrate(dt, acc, gyro)
-        (fx, fy, fz), (x, y, z) = self.force or ZERO, last_force or ZERO
-        x, y, z = fx - x, fy - y, fz - z
-        ratio = 1.0 if last_force is None else self.interval.update(dt, acc, dt_before, last_acc, earlier_acc)
+        fx, fy, fz = self.force or ZERO
+        if last_force is None:
+            x, y, z, ratio = fx, fy, fz, 1.0
+            self.interval.jerk = scaled(sub(acc, last_acc), 1.0 / dt) if dt > 0.0 else None
+        else:
+            x, y, z = last_force
+            x, y, z, ratio = fx - x, fy - y, fz - z, self.interval.update(dt, acc, last_acc)
         rx, ry, rz = rate
         rx, ry, rz = gx - rx, gy - ry, gz - rz
         # noise of the sensor, noise that grows with the motion, and noise from the motion between independent readings:
         # T / dt times the difference and the duration of a sample, in dt / T times as many (IndependentInterval)
-        settings = self.settings
-        motion_factor, difference_factor = (
-            settings.noise_per_motion * settings.noise_per_motion,
-            settings.noise_per_difference * settings.noise_per_difference * dt * ratio * ratio * ratio,
-        )
+        acc_noise, gyro_noise, per_motion, per_difference, clipping_rate, clipping = self.noise or self._find_noise()
+        per_difference = per_difference * dt * ratio * ratio * ratio
         self.acc_variance += (
-            settings.acc_noise * settings.acc_noise
-            + motion_factor * (ax * ax + ay * ay + az * az)
-            + difference_factor * (x * x + y * y + z * z)
+            acc_noise + per_motion * (ax * ax + ay * ay + az * az) + per_difference * (x * x + y * y + z * z)
         ) * dt
-        noise = (
-            settings.gyro_noise * settings.gyro_noise
-            + motion_factor * rate_square
-            + difference_factor * (rx * rx + ry * ry + rz * rz)
-        )
-        if rate_square > settings.clipping_rate * settings.clipping_rate and not (
-            gyro_clipping.clipping and settings.recover
-        ):
-            noise += settings.clipping_noise * settings.clipping_noise
+        noise = gyro_noise + per_motion * rate_square + per_difference * (rx * rx + ry * ry + rz * rz)
+        if rate_square > clipping_rate and not (recovery.gyro_clipping.clipping and self.settings.recover):
+            noise += clipping
         self.gyro_variance += noise * dt
         self.elapsed += dt
         self.time_since_anchor += dt
-        if (gyro_peaks or acc_peaks) and settings.recover:
+        if (gyro_peaks or acc_peaks) and self.settings.recover:
             self._add_peaks(recovery, gyro_peaks, acc_peaks)
+
+    def _find_noise(self) -> tuple[float, ...]:
+        settings = self.settings
+        self.noise = tuple(
+            [
+                value * value
+                for value in (
+                    settings.acc_noise,
+                    settings.gyro_noise,
+                    settings.noise_per_motion,
+                    settings.noise_per_difference,
+                    settings.clipping_rate,
+                    settings.clipping_noise,
+                )
+            ]
+        )
+        return self.noise
 
     def _make_recovery(self) -> Recovery:
         from .clipping import Recovery  # with the first sample, as the tracker
