@@ -26,7 +26,7 @@ class Cues(Protocol):
     """The interface of a detector of heel-strike, foot-flat, heel-off and toe-off.
 
     An app's own class extends this class and can be used in a Recipe. testing/promises.py checks the rules below,
-    docs/architecture.md shows an example.
+    examples/own_parts.py shows an example.
 
     Cues are an attrs class (`@define`) with fields that can be saved. They report the past, never the future. They read
     no clock and no random numbers, have a constant cost for each sample, use bounded memory, and never raise. Samples

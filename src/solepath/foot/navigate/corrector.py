@@ -20,7 +20,7 @@ class Corrector(Protocol):
     """The interface of a corrector, which keeps the integration of one foot from drifting.
 
     An app's own corrector extends this class, or `Strapdown`, and can be used in a Recipe. testing/promises.py checks
-    the rules below, docs/architecture.md shows an example.
+    the rules below, examples/own_parts.py shows an example.
 
     A corrector is an attrs class (`@define`) with fields that can be saved. It reads no clock and no random numbers,
     has a constant cost for each sample, uses bounded memory, and never raises. Samples are finite, at most 500 m/s^2
