@@ -33,8 +33,9 @@ def test_what_is_in_files_is_a_field_and_the_rest_a_property() -> None:
                 assert (name in fields) is not text.endswith(event_fields.NOT_IN_FILES), f"{event.__name__}.{name}"
 
 
-def test_the_program_of_the_page_selects_the_cycles_of_the_means() -> None:
+def test_the_programs_of_the_page_select_the_cycles_of_the_means_and_those_of_a_runner() -> None:
     pytest.importorskip("pandas", reason="pandas is not installed")
-    (out,), _ = run_page("docs/events.md", programs=slice(1, 2))
+    (out, _), names = run_page("docs/events.md", programs=slice(1, 3))
     selected, of_session = map(float, out.split())
     assert selected == pytest.approx(of_session, rel=1e-9)
+    assert names["runs"] and set(names["runs"]) == {None}, "nobody ran"

@@ -56,7 +56,7 @@ def test_the_line_for_the_phases_prints_both_tables():
 
 
 def test_activities_of_the_wearer_are_reported(here):
-    _, names = run_page("docs/events.md", programs=slice(2, 3))
+    _, names = run_page("docs/events.md", programs=slice(3, 4))
     with redirect_stdout(io.StringIO()) as out:
         names["did"](LiftRidden(t=9.0, known_at=9.5, t_start=2.0, up=False, height=-3.0))
     assert out.getvalue() == "down -3.0\n"
