@@ -4,7 +4,7 @@
     python examples/feedback.py walk.jsonl    a recording (solepath demo --record walk.jsonl), as fast as it is read
 
 You hear the bell of the terminal (BEL), and see what it rang for and how long after its cause. A signal whose deadline
-has passed, because this program was kept from running, is dropped. docs/feedback.md has all rules.
+has passed, because this program was kept from running, is dropped. docs/app.md has all rules.
 """
 
 import sys

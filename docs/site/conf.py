@@ -1,4 +1,4 @@
-"""The site of README.md, docs/ and protocol/, with the pages of the API: docs/site.md has the command that builds it.
+"""The site of README.md, docs/ and protocol/, with the pages of the API; docs/architecture.md has its command.
 
 The pages are the files as they are; only links to folders, which a site does not have, become text. Nothing is loaded
 from the network, neither while the site is built nor by its pages."""
@@ -69,14 +69,14 @@ def modules() -> str:
 
 
 def read(app: Sphinx, name: str, source: list[str]) -> None:
-    """Add the tables of contents to README.md and the modules to docs/site.md, and make text of links to folders."""
+    """Add the tables of contents to README.md and the modules to docs/architecture.md; links to folders become text."""
     here = (ROOT / f"{name}.md").parent
 
     def link(found: re.Match[str]) -> str:
         text, target = found.groups()
         return f"{text} (`{target.lstrip('./')}`)" if (here / target).is_dir() else found[0]
 
-    source[0] = LINK.sub(link, source[0]).replace("<!-- modules -->", modules() if name == "docs/site" else "")
+    source[0] = LINK.sub(link, source[0]).replace("<!-- modules -->", modules() if name == "docs/architecture" else "")
     if name == root_doc:
         source[0] += f"\n\n{tables_of_contents()}\n"
 

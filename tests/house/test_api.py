@@ -42,8 +42,11 @@ SIGNATURES = {
     "solepath.link.setup.device_setup",
     "solepath.recipes", "solepath.floorplan.plan", "solepath.foot.view", "solepath.foot.navigate.corrector",
     "solepath.events.foot",
+    "solepath.recording.bids.names", "solepath.recording.bids.writer",
+    "solepath.recording.lsl.clock", "solepath.recording.lsl.inlet", "solepath.recording.lsl.outlet",
 }  # fmt: skip
-"""Modules of the classes that the methods of an extension, or a session, receive and return."""
+"""Modules of the classes that the methods of an extension, or a session, receive and return, and of formats that
+docs/formats.md leaves to their API pages."""
 
 
 def listed() -> set[str]:

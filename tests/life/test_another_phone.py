@@ -15,7 +15,7 @@ from walks import insoles, of
 
 from solepath import ClockReset, DefectFound, LayoutKnown, Packet, PacketRejected, Session, Site, StrideTaken
 
-CUT, TORN, FULL, *_, PHONE = blocks(PAGES["docs/app.md"], "python")[7:]
+CUT, TORN, FULL, *_, PHONE = blocks(PAGES["docs/app.md"], "python")[10:]
 PACKETS = insoles(cells=24).packets
 HALF = len(PACKETS) // 2
 OLD = {Site.LEFT_FOOT: "F0:5E:00:00:00:01", Site.RIGHT_FOOT: "F0:5E:00:00:00:02"}

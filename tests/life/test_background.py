@@ -24,7 +24,7 @@ from solepath import (
 )
 from solepath.emulate import Route
 
-CUT, TORN, FULL, BACKGROUND, *_ = blocks(PAGES["docs/app.md"], "python")[7:]
+CUT, TORN, FULL, BACKGROUND, *_ = blocks(PAGES["docs/app.md"], "python")[10:]
 AWAY = 10.22
 """Time at which the app goes to the background, s."""
 

@@ -21,7 +21,7 @@ from walks import insoles, of
 from solepath import ClockReset, PacketRejected, Rejection, Session, StrideTaken
 from solepath.recording import RecordingWarning, read_packets
 
-CUT, TORN, FULL, _, REBOOTED, ZONE, _ = blocks(PAGES["docs/app.md"], "python")[7:]
+CUT, TORN, FULL, _, REBOOTED, ZONE, _ = blocks(PAGES["docs/app.md"], "python")[10:]
 """The programs of the life of an app, in their order."""
 PACKETS = insoles(cells=24).packets
 HALF = len(PACKETS) // 2

@@ -1,4 +1,4 @@
-"""The table of the page's situations, which docs/page.md prints, and what follows from it in a browser."""
+"""The table of the page's situations, whose names are in docs/browser.md, and what follows from it in a browser."""
 
 from __future__ import annotations
 
@@ -6,23 +6,21 @@ import re
 
 import pytest
 from browsers import Browser
-from here import ROOT
+from here import DOCS
 from shown import empty_scene, open_page, packets_between, scene_after, show
 
 from solepath import Connected, Disconnected, Site
 
-ROW = re.compile(r"^\| `(\w+)`: .* \| ([\w-]+) \| ?([\w, -]*?) ?\|$", re.MULTILINE)
 TABLE = "import('/situation.js').then(({ TABLE, SITUATIONS }) => [TABLE, SITUATIONS])"
 START = "computing"
 """Situation in which the page starts."""
 
 
-async def test_the_documented_table_of_situations_is_total_and_that_of_the_page(chromium: Browser) -> None:
-    text = (ROOT / "docs" / "page.md").read_text().partition("<!-- situations -->")[2]
-    documented = {name: [to, unchanged.split(", ") if unchanged else []] for name, to, unchanged in ROW.findall(text)}
+async def test_the_table_of_situations_is_total_and_the_documented_names_are_its_own(chromium: Browser) -> None:
+    text = (DOCS / "browser.md").read_text().split("\n## Situations\n", 1)[1].split("\n## ", 1)[0]
     async with open_page(chromium, scene_after(2.0)) as (view, _):
         table, names = await view.tab.evaluate(TABLE)
-    assert documented == table and len(names) == 13
+    assert sorted(re.findall(r"\*([\w-]+)\*", text)) == sorted(names) and len(names) == 13
     assert {to for to, _ in table.values()} == set(names), "each situation is reached"
     reached = {START}
     while more := {to for one in reached for to, unchanged in table.values() if one not in unchanged} - reached:

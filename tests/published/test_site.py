@@ -1,4 +1,4 @@
-"""The site (`docs/site.md`): it builds without a warning, links lead somewhere, and nothing comes from elsewhere."""
+"""The site (docs/architecture.md): it builds without a warning, links lead somewhere, nothing comes from elsewhere."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ LOADED = {"img", "script", "link", "iframe", "source", "video", "audio"}
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of the built site; the command is that of docs/site.md."""
+    """Return the folder of the built site; the command is that of docs/architecture.md."""
     out = tmp_path_factory.mktemp("site")
-    (command,) = re.findall(r"^sphinx-build (.+) site$", (DOCS / "site.md").read_text("utf-8"), re.MULTILINE)
+    (command,) = re.findall(r"^sphinx-build (.+) site$", (DOCS / "architecture.md").read_text("utf-8"), re.MULTILINE)
     words = [sys.executable, "-m", "sphinx", *command.split(), str(out), "-q"]
     done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")

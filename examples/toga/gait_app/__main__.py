@@ -1,5 +1,5 @@
 """For a phone or a desktop: an app with BeeWare Toga shows what somebody does who walks, and the figures of the gait.
-It beeps at each right heel-strike, and when the left stance gets longer than 0.75 s (docs/feedback.md).
+It beeps at each right heel-strike, and when the left stance gets longer than 0.75 s (docs/app.md).
 
 pip install '.[ble]' 'toga-qt[pyside6-essentials]>=0.5.7'   on Linux; on macOS and Windows 'toga>=0.5.7' instead
 python examples/toga/gait_app/__main__.py                   two insoles nearby, or emulated ones"""

@@ -102,7 +102,7 @@ class Position:
     north: tuple[float, float] | None = None
     """Direction of magnetic north in the world frame, counter-clockwise from x, and its standard deviation, rad.
 
-    None without magnetometers in the feet, and until turns have proven them (docs/bluetooth.md)."""
+    None without magnetometers in the feet, and until turns have proven them (docs/device.md)."""
 
 
 PartOutput = BaseEvent | Shift | HeightShift | Replacement

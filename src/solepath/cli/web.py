@@ -73,7 +73,7 @@ def _serve(folder: Path, options: Namespace) -> None:
         except OSError as error:
             raise Failure(f"--port {port}: {address_error_text(error)}") from None
         print(f"the site: {address}", flush=True)
-        note("only this machine can reach it; a phone needs the files on a server with https (docs/web.md)")
+        note("only this machine can reach it; a phone needs the files on a server with https (docs/browser.md)")
         if sys.stdout.isatty() and not options.no_browser:
             open_browser(address)
         print("Ctrl-C ends it", flush=True)

@@ -4,7 +4,7 @@
     session = Session(poses=True)                       # StanceLonger needs the live positions
     for signal in feedback.feed(session.feed(packet)): ...
 
-It opens no device, reads no clock, and can be saved at any moment (docs/feedback.md)."""
+It opens no device, reads no clock, and can be saved at any moment (docs/app.md)."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The rules of feedback that come with solepath.
 
-Latencies are from the cause to the event that shows it, at 100 Hz, without radio and host; docs/feedback.md has them
+Latencies are from the cause to the event that shows it, at 100 Hz, without radio and host; docs/app.md has them
 measured with both. No rule gives a signal before the first stride of a bout is known, which is with the second one."""
 
 from __future__ import annotations

@@ -2,9 +2,9 @@
 
     solepath-lab emulated north [--walks N] [--seed S]
 
-prints a table of docs/bluetooth.md as Markdown: walks without a start in `HALF_TURN`, with insoles that have a
-magnetometer, on a plan without a north, on one with the right north, and on one whose north is wrong. Magnetic north is
-off true north by `DECLINATION`."""
+prints a table as Markdown, of which docs/device.md has some figures: walks without a start in `HALF_TURN`, with insoles
+that have a magnetometer, on a plan without a north, on one with the right north, and on one whose north is wrong.
+Magnetic north is off true north by `DECLINATION`."""
 
 from __future__ import annotations
 

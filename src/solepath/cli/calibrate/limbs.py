@@ -37,7 +37,7 @@ add_limbs = command(
     "limbs",
     "lengths of the limbs, and whether seven body sensors stood still, from a standing pose",
     "From some seconds of standing upright, feet level and side by side, with all seven sensors worn "
-    "(docs/bluetooth.md): whether a walk can begin so. Lengths are shares of the stature, or as measured.",
+    "(docs/device.md): whether a walk can begin so. Lengths are shares of the stature, or as measured.",
     "solepath calibrate limbs standing.jsonl --stature 1.72 --spines 0.235 --out me.json",
     table_options("RECORDING"),
     option("--stature", metavar="M", type=parse_positive, required=True, help="of the wearer, m"),

@@ -8,7 +8,7 @@ const FULL_SHARE = 0.1; // the same for a difference in shares of a stride
 const FULL_DIFFERENCE = 10; // difference that fills half of its bar, degrees
 const UNITS = { deg: "°" };
 const NONE = { left: NaN, right: NaN, both: NaN };
-// Largest differences that count as none (docs/page.md): shares of a value, and shares of a stride for those measured in them.
+// Largest differences that count as none (docs/browser.md): shares of a value, and shares of a stride for those measured in them.
 const EVEN = 0.02;
 const EVEN_OF_A_STRIDE = 0.012;
 const PARTS = ["initial_double_support", "terminal_double_support"];

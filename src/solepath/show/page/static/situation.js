@@ -1,5 +1,5 @@
-// What the page shows, as one of thirteen situations. TABLE says which of them follows from what happens; docs/page.md
-// prints it, and a test compares. All that the page says of a situation is in SHOWN: words follow from it and from numbers.
+// What the page shows, as one of thirteen situations (docs/browser.md). TABLE says which of them follows from what
+// happens. All that the page says of a situation is in SHOWN: words follow from it and from numbers.
 
 import { WORDS } from "./connection.js";
 import { linksText } from "./links.js";

@@ -4,7 +4,7 @@ import { now } from "./clock.js";
 import { computer } from "./computer.js";
 
 // What comes within this time goes to the worker together, ms: a picture is drawn thirty times a second. Each time that the
-// worker wakes up costs as much as some packets (docs/web.md), so nobody pays for quick pictures while nobody looks.
+// worker wakes up costs as much as some packets (tests/bench/web_live.py), so nobody pays for quick pictures while nobody looks.
 const BATCH_TIME = 30;
 const HIDDEN_BATCH_TIME = 100;
 const TICK = 200; // ms between two messages that say nothing but the time
