@@ -1,4 +1,4 @@
-"""The fields of events in docs/events.md are those of the classes, and every number has its unit in its sentence."""
+"""Each field of an event has a sentence and a column of its frame with its unit, as docs/events.md says."""
 
 from __future__ import annotations
 
@@ -7,18 +7,13 @@ from typing import get_args
 import attrs
 import event_fields
 import pytest
-from quoted import PAGES, run_page
+from quoted import run_page
 
 from solepath import Event, to_frame
 from solepath.events.frames import RENAMED
 
 
-def test_the_page_has_the_fields_of_the_classes() -> None:
-    written = PAGES["docs/events.md"].split("<!-- fields -->\n", 1)[1].split("\n<!-- end -->", 1)[0]
-    assert written == event_fields.event_fields(), "python .ci/readme --fields writes it"
-
-
-def test_every_field_of_the_page_is_a_column_of_the_frame_of_its_event_with_its_unit() -> None:
+def test_every_field_has_a_sentence_and_a_column_of_the_frame_of_its_event_with_its_unit() -> None:
     pytest.importorskip("pandas", reason="pandas is not installed")
     for event in get_args(Event):
         frame = to_frame([], event)
@@ -30,7 +25,7 @@ def test_every_field_of_the_page_is_a_column_of_the_frame_of_its_event_with_its_
             assert of_many or not unit or {frame.attrs["units"].get(one) for one in columns} >= {unit}, name
 
 
-def test_what_the_page_says_is_in_files_is_a_field_and_the_rest_a_property() -> None:
+def test_what_is_in_files_is_a_field_and_the_rest_a_property() -> None:
     for event in get_args(Event):
         fields = {field.name for field in attrs.fields(event)}
         for name, _, text in event_fields.rows(event):
@@ -38,8 +33,9 @@ def test_what_the_page_says_is_in_files_is_a_field_and_the_rest_a_property() -> 
                 assert (name in fields) is not text.endswith(event_fields.NOT_IN_FILES), f"{event.__name__}.{name}"
 
 
-def test_the_program_of_the_page_selects_the_cycles_of_the_means() -> None:
+def test_the_programs_of_the_page_select_the_cycles_of_the_means_and_those_of_a_runner() -> None:
     pytest.importorskip("pandas", reason="pandas is not installed")
-    (out,), _ = run_page("docs/events.md")
+    (out, _), names = run_page("docs/events.md", programs=slice(1, 3))
     selected, of_session = map(float, out.split())
     assert selected == pytest.approx(of_session, rel=1e-9)
+    assert names["runs"] and set(names["runs"]) == {None}, "nobody ran"

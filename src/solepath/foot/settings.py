@@ -3,8 +3,8 @@
 A number that nobody chooses is a constant in the module that uses it.
 
 Numbers of `CycleSettings` and `ErrorStateSettings` without a source were chosen by hand on the recordings of
-docs/accuracy.md, which has the effect of half and of twice each. The origin of those of `InsoleSettings` and
-`DedriftSettings` is not recorded."""
+docs/accuracy.md; `solepath-lab sensitivity` prints the effect of half and of twice each. The origin of those of
+`InsoleSettings` and `DedriftSettings` is not recorded."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ MIN_STOREY_HEIGHT, MAX_STOREY_HEIGHT = 2.4, 5.0
 """Least and largest usual height of a storey, m."""
 WRONG_FLIGHT, MIN_FLIGHTS_LIKELIHOOD = 0.2, 0.04
 """Likelihood of one flight too many or too few, as a landing of one stride hides it, and the least of any number
-(assumed; of 50 emulated walks the number was right in 48 or more, docs/accuracy.md)."""
+(assumed; of 50 emulated walks the number was right in 48 or more)."""
 MIN_EXIT_LIKELIHOOD = 0.02
 """Least likelihood of an exit, as a share of that of the likeliest exit."""
 RISER_HEIGHT = 0.165

@@ -2,7 +2,7 @@
 
     solepath-lab damage faults DIR [--only NAME] [--walks N] [--seed K] [--processes N]
 
-prints the table of docs/checks.md as Markdown. In emulated walks of both feet, and in the recordings of DIR that are
+prints a table as Markdown. In emulated walks of both feet, and in the recordings of DIR that are
 long enough, the sensor of one foot fails at each of INSTANTS moments and stays so. The truth is the true middle of both
 sensors of an emulated walk, to which the track is aligned over its first metres, and in a recording the position that
 the session gives without the fault. A position holds if it is within NEAR of the truth, or if the truth is inside its

@@ -2,7 +2,7 @@
 
     solepath-lab damage losses DIR [--processes N]
 
-prints the tables of docs/checks.md as Markdown, one for each data set of DIR whose true lengths are known: walks that a
+prints tables as Markdown, one for each data set of DIR whose true lengths are known: walks that a
 motion-capture lab filmed (pyshoe_vicon), where the marker gives the length between the two foot-flats of every stride
 that is found, and walks whose every footprint was surveyed (gumushane_surveyed). Losses are drawn from the recording's
 name: single samples at random, and bursts 1.5 to 4 s apart.

@@ -2,7 +2,7 @@
 
     solepath-lab damage sensors DIR [--processes N] [--only NAME] [--every N]
 
-prints the table of docs/checks.md as Markdown. DIR holds recorded data. Of every foot with at least 15 s of walking,
+prints a table as Markdown. DIR holds recorded data. Of every foot with at least 15 s of walking,
 the first 20 s from three strides in a row on are damaged, with up to 3 s before them. Whole recordings are searched for
 alarms. A sensor that clips, repeats its values or does not close in the recording itself is listed in
 measures/alarms.py. The run takes about 15 minutes on two processors;

@@ -2,7 +2,7 @@
 
     solepath-lab emulated by-hand [--sensors N] [--walks N] [--seed S] [--recipe NAME]
 
-prints the tables of docs/checks.md as Markdown. The first is of `N` sensors of each kind in each hand
+prints tables as Markdown. The first is of `N` sensors of each kind in each hand
 (emulated/handling.py): how far scale and axes are from the emulator's, and how often within one and two standard
 deviations, which is 68 and 95 % for errors that are normal.
 

@@ -2,7 +2,7 @@
 
     solepath-lab emulated evidence [--walks N] [--seed S] [--only ROW] [--processes P]
 
-prints the tables of docs/accuracy.md as Markdown. For each seed a wearer walks a route of stairs, elevators and
+prints tables as Markdown. For each seed a wearer walks a route of stairs, elevators and
 corridors (train/emulated.py), which gives the activities, and another one through the emulated building (ways.py),
 which gives the place. Evidence is taken away where it enters: values of samples, channels of packets, the first
 heading, the floor plan."""

@@ -2,7 +2,7 @@
 
     solepath-lab emulated floors [--walks N] [--seed S] [--only KIND]
 
-prints the tables of docs/accuracy.md as Markdown: with a known start, walks that end on the right floor within 3 m of
+prints tables as Markdown: with a known start, walks that end on the right floor within 3 m of
 the wearer, walks whose floor is decided at the end and right, and walks with a floor that was decided and wrong, at
 the end or, as when a flight is counted twice, anywhere; without a start, walks with the true place among the candidates
 at the end. A wearer is drawn for each walk, comes to a connector of the house, takes it up or down, and walks away."""

@@ -2,7 +2,7 @@
 
     solepath-lab emulated places [--walks N] [--seed S]
 
-prints the table of docs/accuracy.md as Markdown: the walks that keep the true candidate after each scored stride
+prints a table as Markdown: the walks that keep the true candidate after each scored stride
 (validate/place.py), and the mean error from the second turn on, as the mean over walks. Both have their 95 % intervals,
 of a share by Wilson (1927, J. Am. Stat. Assoc. 22), of a mean by Student's t over walks. The heading is given with an
 error of 6 degrees. The asymmetric building is the usual one; HALF_TURN is its own image after half a turn, so

@@ -2,7 +2,7 @@
 
     solepath-lab emulated reliability [--walks N] [--seed S]
 
-prints the table of docs/accuracy.md as Markdown. Every candidate of every scored stride (place.py) of walks without a
+prints a table as Markdown. Every candidate of every scored stride (place.py) of walks without a
 known start is counted in the bin of its weight. Candidates near a heavier one on its level are one place with it, and
 their weights are added. Weights are calibrated when the share of true places in a bin
 is their mean weight. Strides of one walk are far from independent: the number of walks says how much a bin shows."""

@@ -2,7 +2,7 @@
 
     solepath-lab emulated runs [--runs N] [--seed S]
 
-prints the table of docs/gait.md as Markdown. The emulated force under a foot is half a sine wave, as in the model from
+prints a table as Markdown. The emulated force under a foot is half a sine wave, as in the model from
 which the oscillation is estimated: the table shows how errors of contact and flight time act on it, not how well the
 model fits people. Its true value is twice the integral of that force."""
 

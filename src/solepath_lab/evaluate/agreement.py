@@ -2,11 +2,11 @@
 
     solepath-lab agreement DIR [--only NAME] [--processes N]
 
-prints the table of docs/accuracy.md as Markdown, of the default recipe. A cycle of the reference goes from contact to
-contact; it is compared with the gait cycle that ends at most 400 ms from it, unless that is degraded. Double support is
-the sum of the times from this foot's contact to the other's toe-off, and from the other's contact to this foot's
-toe-off. The references differ in what they call a contact: labels by hand (ipol), a light barrier (tripod), switches
-(marpino), the vendor's program (moticon), force (gaitpdb)."""
+prints a table as Markdown, of the default recipe; docs/accuracy.md has most rows. A cycle of the reference goes from
+contact to contact; it is compared with the gait cycle that ends at most 400 ms from it, unless that is degraded. Double
+support is the sum of the times from this foot's contact to the other's toe-off, and from the other's contact to this
+foot's toe-off. The references differ in what they call a contact: labels by hand (ipol), a light barrier (tripod),
+switches (marpino), the vendor's program (moticon), force (gaitpdb)."""
 
 from __future__ import annotations
 

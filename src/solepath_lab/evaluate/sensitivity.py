@@ -2,10 +2,10 @@
 
     solepath-lab sensitivity DIR [--processes N] [--only NAME] [--number NAME]
 
-prints the table of docs/accuracy.md as Markdown. DIR holds recorded data with a reference. The numbers are the settings
-of the detector (`CycleSettings`), the settings of the filter (`ErrorStateSettings`) and the constants of the inertial
-cues (foot/cues/inertial.py). A count is rounded to a whole number of at least 1. The run takes about 45 minutes on two
-processors."""
+prints a table as Markdown, of which docs/accuracy.md has some rows. DIR holds recorded data with a reference. The
+numbers are the settings of the detector (`CycleSettings`), the settings of the filter (`ErrorStateSettings`) and the
+constants of the inertial cues (foot/cues/inertial.py). A count is rounded to a whole number of at least 1. The run
+takes about 45 minutes on two processors."""
 
 from __future__ import annotations
 

@@ -42,9 +42,9 @@ def accuracy_table(results: Sequence[Result]) -> str:
         if (summary := summaries.get("all")) is not None:
             count = f"{summary.count} recording{'s' * (summary.count > 1)}"
             data = f"{result.data_set.title}: `{result.data_set.name}`, {count}"
-            for measured, figures in _lines(summary, summaries.get("bipedal")):
+            for measured, figures in _lines(summary):
                 rows.setdefault((data, measured), {})[result.recipe] = figures
-    headings = ["came to"] if len(recipes) == 1 else [f"`{recipe}`" for recipe in recipes]
+    headings = ["result"] if len(recipes) == 1 else [f"`{recipe}`" for recipe in recipes]
     cells, previous_data = [], ""
     for (data, measured), entries in rows.items():
         cells.append(["" if data == previous_data else data, measured, *(entries.get(name, "-") for name in recipes)])
@@ -53,14 +53,12 @@ def accuracy_table(results: Sequence[Result]) -> str:
     return "\n".join(table(header, cells, left=len(header)))
 
 
-def _lines(summary: Summary, bipedal: Summary | None) -> Iterator[tuple[str, str]]:
+def _lines(summary: Summary) -> Iterator[tuple[str, str]]:
     """Yield what is measured, and the figures, of each row of a data set."""
     groups: dict[str, Figures] = {"mean": summary.mean, "median": summary.median, "together": summary.together}
-    groups |= {"bipedal": {}} if bipedal is None else {"bipedal": bipedal.mean, "bipedal_median": bipedal.median}
     texts: dict[str, Any] = {
         group: {name: _Cell(name, value) for name, value in figures.items()} for group, figures in groups.items()
     }
-    texts["bipedal_count"] = bipedal and bipedal.count
     for row in ROWS:
         needs, value = row["needs"], groups[row["group"]].get(row["needs"])
         if value is None or needs == "rides_true" and not value:

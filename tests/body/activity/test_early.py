@@ -2,19 +2,10 @@
 
 from __future__ import annotations
 
-import re
-from pathlib import Path
-
 from solepath.body.activity.early import NEXT_ACTIVITY, ActivityCue
 from solepath.types import Activity
 
-DOCUMENT = Path(__file__).parents[3] / "docs" / "gait.md"
 
-
-def test_after_every_cue_the_table_has_an_activity_and_the_document_shows_it() -> None:
+def test_after_every_cue_the_table_has_an_activity() -> None:
     assert set(NEXT_ACTIVITY) == set(Activity)
     assert all(set(row) == set(ActivityCue) for row in NEXT_ACTIVITY.values())
-    rows = [re.split(" {2,}", line.strip()) for line in DOCUMENT.read_text().splitlines()]
-    assert [cue.value for cue in ActivityCue] in rows
-    for before, row in NEXT_ACTIVITY.items():
-        assert [before.value, *[row[cue].value for cue in ActivityCue]] in rows

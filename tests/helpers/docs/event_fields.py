@@ -1,19 +1,16 @@
-"""The fields of all events with their units and meanings, from the classes' sources, as tables for docs/events.md."""
+"""The fields of all events with their units and meanings, from the classes' sources."""
 
 from __future__ import annotations
 
 import ast
 import inspect
 from collections.abc import Iterator
-from itertools import groupby
 from textwrap import dedent
 from typing import Any, get_args, get_origin, get_type_hints
 
 import attrs
 
-from solepath import Event
 from solepath.events.frames import RENAMED, UNITS
-from solepath.events.happening import BaseEvent
 
 Row = tuple[str, str, str]
 """Name, unit ("" without one) and meaning of a field."""
@@ -27,7 +24,6 @@ USUAL = {
 """Meanings of fields whose names say them, where the class says no more."""
 NOT_IN_FILES = "Not in `events.jsonl`."
 """What is said of a property: it follows from the fields, so that `to_dict` leaves it out."""
-HEADER = ["| field | unit | meaning |", "|---|---|---|"]
 
 
 def documents(cls: type[Any]) -> dict[str, str]:
@@ -50,33 +46,15 @@ def documents(cls: type[Any]) -> dict[str, str]:
     return found
 
 
-def rows(cls: type[Any], owner: str = "", prefix: str = "", skipped: frozenset[str] = frozenset()) -> Iterator[Row]:
+def rows(cls: type[Any], owner: str = "", prefix: str = "") -> Iterator[Row]:
     """Yield the rows of a class, with those of the records that it holds."""
     owner, hints = owner or cls.__name__, get_type_hints(cls)
     for name, text in documents(cls).items():
-        if name in skipped:
-            continue
         column = prefix.replace(".", "_").replace("[]", "") + RENAMED.get((owner, name), name)
         unit = UNITS.get(column, "")
-        yield f"{prefix}{name}", unit, (text or USUAL[name]).replace("|", "\\|")
+        yield f"{prefix}{name}", unit, text or USUAL[name]
         hint = hints.get(name)
         for inner in (hint, *get_args(hint)):
             if attrs.has(inner) and inner.__module__.startswith("solepath.events."):
                 many = "[]" if get_origin(hint) is tuple else ""
                 yield from rows(inner, owner, f"{prefix}{name}{many}.")
-
-
-def table(found: list[Row]) -> list[str]:
-    return [*HEADER, *[f"| `{name}` | {unit or '-'} | {text} |" for name, unit, text in found]]
-
-
-def event_fields() -> str:
-    """Return a section for each event, and first one for the fields of all."""
-    common = list(rows(BaseEvent))
-    names = frozenset(name for name, _, _ in common)
-    lines = ["### All events", "", *table(common)]
-    described = [(event.__name__, list(rows(event, skipped=names))) for event in get_args(Event)]
-    for found, group in groupby(described, key=lambda one: one[1]):
-        lines += ["", "### " + ", ".join(f"`{name}`" for name, _ in group), ""]
-        lines += table(found) if found else ["No further fields."]
-    return "\n".join(lines)

@@ -11,29 +11,15 @@ from solepath_lab.evaluate.datasets import DATASETS
 
 Row = tuple[str, str]
 
-LONG_DEMO = ["demo", "--distance", "100", "--loss", "0.05", "--jitter", "0.05"]
 BENCH = "tests/bench/bench.py"
 WAY = "tests/bench/way.py"
 BLUETOOTH = "tests/bench/bluetooth.py"
 PAGE = "tests/bench/page.py"
 PACKED = "tests/bench/packed.py"
 FLEET = ["tests/bench/fleet.py", "--sizes", "100"]
-COMPARED = ("default", "kupt-dfpc", "zupt", "pressure-contour", "gyroscope")
-PRESSED = ("smart_insole_35", "marpino_pressed", "moticon_pressed", "gaitpdb_vgrf")
-INSOLES = [
-    *(word for data in PRESSED for word in ("--only", data)),
-    *(word for name in COMPARED for word in ("--recipe", name)),
-    "--markdown",
-]
 QUICK = [word for data_set in DATASETS if not data_set.folds for word in ("--only", data_set.name)]
 """Options for all data sets except those with cross-validation, which takes minutes."""
-ACTIVITIES = [
-    *(word for data in ("hugadb", "stairs") for word in ("--only", data)),
-    *(word for name in ("default", "footstep-tracker") for word in ("--recipe", name)),
-    "--markdown",
-]
-LONG_WAYS = ["--emulated", "--walks", "3", "--only", "emulated_four_floors", "--markdown"]
-EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
+ACTIVITIES = ["--only", "hugadb", "--only", "hugadb_corrected", "--recipe", "default", "--markdown"]
 HEADLINE_MEASURES = {
     "pyshoe_vicon": ("length of the walk", "position error RMS, horizontal"),
     "gumushane_surveyed": ("length of the walk", "position error at the footprints", "strides", "stride length error"),
@@ -62,32 +48,6 @@ def compared(printed: str) -> str:
     """Return the start of the table against the truth, from the output of `solepath demo`."""
     _, title, rest = printed.partition("against the truth")
     return "\n".join((title + rest).splitlines()[:7])
-
-
-def walked(printed: str) -> list[Row]:
-    """Return the rows of the output of `solepath` LONG_DEMO."""
-    _, table = printed.split("against the truth", 1)
-    left: dict[str, str] = {}
-    right: dict[str, str] = {}
-    for line in table.splitlines():
-        match re.split(r"\s{2,}", line.strip()):
-            case [what, ours, theirs]:
-                left[what], right[what] = ours, theirs
-    steps = (
-        f"{name} {foot['strides found']} of {foot['strides walked']} found, {foot['strides invented']} invented"
-        for name, foot in (("left", left), ("right", right))
-    )
-
-    def both(key: str, unit: str) -> str:
-        return f"{left[f'{key} {unit}']} and {right[f'{key} {unit}']} {unit}"
-
-    offsets = (f"{event} {both(f'{event}, median offset', 'ms')}" for event in EVENTS)
-    return [
-        ("strides", "; ".join(steps)),
-        ("median offsets, left and right", "; ".join(offsets)),
-        ("stride length error, mean, left and right", both("stride length, mean error", "%")),
-        ("end position, error, left and right", both("end position, error", "m")),
-    ]
 
 
 HEADLINES = (
@@ -135,8 +95,3 @@ def headlines(short: list[Row], bench: str) -> list[str]:
         raise ValueError("the benchmark prints no real-time factor")
     cost = f"two insoles of 96 pressure cells at 100 Hz: {found[1]} times real time on one core, in plain Python"
     return [*table, f"| cost | {cost} | no recording | `python {BENCH}` |"]
-
-
-def lines(what: str, rows: list[Row]) -> list[str]:
-    """Return a table in Markdown; `what` is the heading of its first column."""
-    return [f"| {what} | came to |", "|---|---|", *(f"| {measure} | {result} |" for measure, result in rows)]

@@ -184,7 +184,7 @@ LEAST_STRIDES, SETTLED_STRIDES, MOST_STRIDES = 3, 6, 40
 LEAST_EVIDENCE, EVIDENCE_PER_STRIDE = 1.5, 0.05
 """Evidence, the sum over strides of the logarithm of a ratio of residuals, that decides between two kinds of axes.
 
-On 378 recordings of a foot, (1.5, 0.05), (1.0, 0.1) and (1.5, 0.1) find the same: docs/checks.md."""
+On 378 recordings of a foot, (1.5, 0.05), (1.0, 0.1) and (1.5, 0.1) find the same."""
 LARGEST_LOG = 1.0
 """Limit of the evidence of one stride, which makes the sum robust."""
 CLOSING = 0.75

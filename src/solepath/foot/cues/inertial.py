@@ -9,7 +9,7 @@ stop the foot earlier or later than the rate returns through zero, so heel-strik
 (`Impact`).
 
 Numbers without a source were chosen by hand on the recordings of docs/accuracy.md, those of heel-strike and toe-off on
-recordings that contain such events. That page has the effect of half and of twice each."""
+recordings that contain such events. `solepath-lab sensitivity` prints the effect of half and of twice each."""
 
 from __future__ import annotations
 

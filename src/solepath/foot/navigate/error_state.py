@@ -170,8 +170,8 @@ class ErrorStateFilter(Strapdown):
     Frame and units are those of `Corrector`. Position and velocity are live with every sample, and corrected at the
     sample with the evidence.
 
-    Numbers in this module without a source were chosen by hand on the recordings of docs/accuracy.md and not swept. A
-    table in that document gives the accuracy of the default recipe without whole terms of the filter."""
+    Numbers in this module without a source were chosen by hand on the recordings of docs/accuracy.md and not swept.
+    `solepath-lab evaluate --ablation` gives the accuracy of the default recipe without whole terms of the filter."""
 
     settings: ErrorStateSettings = field(default=ErrorStateSettings())
     uncertainty: Covariance = (0.0,) * 45

@@ -9,9 +9,9 @@ r m moves the sensor at r w. The known part of this velocity follows from the he
 (`SensorHeight`); it is the reference velocity. The unknown part is noise. It grows with w^2, so that the many samples
 of early and late stance do not outweigh those of mid-stance.
 
-The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md. A table in that document
-gives the accuracy without whole terms: one threshold for all, evidence of one noise, zero velocity for a foot
-that rolls, no extra noise for a foot that brakes."""
+The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md. `solepath-lab evaluate
+--ablation` gives the accuracy without whole terms: one threshold for all, evidence of one noise, zero velocity for a
+foot that rolls, no extra noise for a foot that brakes."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ USUAL_INTERVAL = (1e-3, 0.2)
 """Range of the median time between samples for which a unit of time is offered, s: sensors have 5 to 1000 Hz."""
 SHARE_AT_REST = 0.2
 """Share of the samples, those with the lowest angular rate, that count as a foot at rest; a walker stands on a foot for
-40 % of the time or more (docs/gait.md)."""
+40 % of the time or more."""
 NEAR = 0.2
 """Largest relative difference between specific force at rest and gravity for which a unit of it is offered."""
 STUCK_SHARE = 0.5

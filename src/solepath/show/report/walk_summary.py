@@ -25,7 +25,7 @@ sheet of the LSM6DSOX, a common part (emulate/sensors/parts.py)."""
 EVENT_ERROR = 0.010
 """Scatter of a foot's heel-strikes within a recording, s: larger than that of toe-offs, on the recorded walks of
 `tripod_treadmill` (docs/accuracy.md, by foot). On recorded walks whose swings are labelled, every difference that is
-named beyond it is of the labelled foot (docs/clinic.md). Two settled clocks differ by 5 ms at most (docs/gait.md), by
+named beyond it is of the labelled foot (docs/clinic.md). Two settled clocks differ by 5 ms at most (docs/events.md), by
 twice as much an asymmetry of step times errs."""
 
 HALF_STRIDE = 0.5
