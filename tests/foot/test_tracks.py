@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from functools import cache
-from math import atan2, degrees, pi, radians
+from itertools import pairwise
+from math import atan2, degrees, dist, hypot, pi, radians
 from typing import Any
 
 import pytest
@@ -36,6 +37,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
+from solepath.foot.world import FIRST_HEADING_DISTANCE
 from solepath.recipes import DEFAULT
 from solepath.types.vector import normalise
 from solepath.wire.insole_info import build_info, parse_info
@@ -216,3 +218,15 @@ def test_who_turns_on_the_spot_before_the_first_step_walks_off_turned_by_that_wi
         ways = [stride.displacement for stride in strides if stride.foot is foot]
         off = [(degrees(atan2(y, x)) - turn + 180.0) % 360.0 - 180.0 for x, y, _ in ways]
         assert len(off) > 2 and max(map(abs, off)) < 6.0
+
+
+@pytest.mark.parametrize("turn", [0, -90, *longer(-135, -45, 20, 90, 180)])
+def test_the_live_track_does_not_jump_when_its_first_heading_becomes_final(turn: int) -> None:
+    route = Route().stand(2.0).turn(radians(turn)) if turn else Route().stand(2.0)
+    walk = emulate(route.walk(6.0, 1.2).stand(2.0), seed=2)
+    moved = of(FootMoved, run_session(walk.packets, poses=True))
+    for foot in Foot:
+        track = [event.position for event in moved if event.foot is foot]
+        # the first guess turns what is within some centimetres of the start; a move that was no stride is taken back
+        jumps = [dist(a, b) for a, b in pairwise(track) if hypot(*a) > FIRST_HEADING_DISTANCE]
+        assert max(jumps) < 0.2

@@ -7,7 +7,7 @@ from math import fsum, hypot
 
 from ..calibration import HeadingCalibration, usual_strides
 from ..events import Event, HeelStrike, StrideTaken
-from ..types import Foot, Phase, Vec3
+from ..types import Foot, Phase, Quat, Vec3
 from ..types.attrs import evolve, field, state, stateful
 from ..types.vector import ZERO, add, from_yaw, heading_turned, multiply, sub, turned
 from .bearing import FARTHEST, IMPOSSIBLE, Bearing, evidence_of
@@ -166,7 +166,7 @@ class Gait:
             self._turn_back(self.heading, corrector, path, turn)
         rise = corrector.position[2] - stride.start[2]
         corrector.flat(stride.start, turn)
-        way = sub(corrector.position, stride.start) if abs(self.turned) > LEAST_TURN else corrector.position
+        way = self._way(corrector.position)
         if not self.heading_settled and stride.t_toe_off is not None and self._find_heading(way, turn):
             self.heading_settled = True
             self.bearing.waiting = self._in_world(self.bearing.waiting)
@@ -193,19 +193,29 @@ class Gait:
             events.append(evolve(one, number=self.number))
         return events
 
+    def follow_heading(self, position: Vec3, attitude: Quat) -> None:
+        """Turn the live track, whose first heading is not final, as if the stride under way ended at this sample."""
+        turn = heading_turned(self.stride.attitude, attitude)
+        self.world.find_heading(turned(self._way(position), -self._turned_before(turn)))
+
+    def _way(self, position: Vec3) -> Vec3:
+        """Return the way by which the first heading is found, m: the stride under way if the foot has turned before."""
+        return sub(position, self.stride.start) if abs(self.turned) > LEAST_TURN else position
+
+    def _turned_before(self, turn: float) -> float:
+        """Return how far the foot has turned up to the direction of a stride that turned by `turn`, both rad."""
+        before = self.turned if abs(self.turned) > LEAST_TURN else 0.0
+        # an arc's chord has the mean of its headings; in a straight stride a turn is one of the toes alone
+        return before if self.every_stride or abs(turn) <= LEAST_STRIDE_TURN else before + 0.5 * turn
+
     def _find_heading(self, way: Vec3, turn: float) -> bool:
         """Set the world's heading by a stride along `way`, m, that turned by `turn`, rad; return whether it goes on.
 
         The heading is that before the foot has turned. Strides that are all reported at once cannot wait for one that
         goes on: the first of them sets it."""
-        before = self.turned if abs(self.turned) > LEAST_TURN else 0.0
-        if not self.every_stride:
-            if hypot(way[0], way[1]) <= LEAST_RADIUS * abs(turn):
-                return False
-            if abs(turn) > LEAST_STRIDE_TURN:
-                # an arc's chord has the mean of its headings; in a straight stride a turn is one of the toes alone
-                before += 0.5 * turn
-        return self.world.find_heading(turned(way, -before), SHORTEST_STRIDE)
+        if not self.every_stride and hypot(way[0], way[1]) <= LEAST_RADIUS * abs(turn):
+            return False
+        return self.world.find_heading(turned(way, -self._turned_before(turn)), SHORTEST_STRIDE)
 
     def _in_world(self, strides: Sequence[StrideTaken]) -> list[StrideTaken]:
         """Return strides of the navigation frame in the world frame."""

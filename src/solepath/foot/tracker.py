@@ -291,7 +291,7 @@ class FootTracker:
             for timed_cue in timed_cues:
                 self._apply_cue(timed_cue, t, known_at, events)
         elif not gait.heading_settled:
-            gait.world.find_heading(position)
+            gait.follow_heading(position, corrector.attitude)
         if self.settings.poses:
             self._report_motion(t, known_at, events)
         return events

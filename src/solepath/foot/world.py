@@ -3,7 +3,7 @@
 The world frame is z up, x along the first heading, y left, with its origin at the first position of the sensor.
 Navigation starts before the first heading is known, in a frame with an arbitrary heading. The first heading is that of
 the first stride that goes on, less what the foot has turned before on the spot. Once the foot has moved by
-`FIRST_HEADING_DISTANCE` and until that stride ends, the heading is the direction from the origin to the foot. Earlier
+`FIRST_HEADING_DISTANCE` and until that stride ends, the heading is that of a stride that would end now. Earlier
 reported positions lie near the origin and were not final."""
 
 from __future__ import annotations
