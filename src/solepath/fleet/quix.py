@@ -58,8 +58,10 @@ class _GaitStep:
         if wearer is None:  # without a state: its key in the changelog would be this key, however long
             context = message_context()
             return [event_row(NumberedEvent(f"{UNKEYED}{context.partition}", context.offset, _NO_KEY))]
-        new_state, events = self.fleet.step(wearer, state.get_bytes("state"), read_message(wearer, value))
-        state.set_bytes("state", new_state)
+        old_state = state.get_bytes("state")
+        new_state, events = self.fleet.step(wearer, old_state, read_message(wearer, value))
+        if new_state != old_state:
+            state.set_bytes("state", new_state)
         return [event_row(event) for event in events]
 
 

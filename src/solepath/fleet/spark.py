@@ -79,8 +79,10 @@ class GaitProcessor(StatefulProcessor):
         old_state = self._state.get()
         # the shuffle changes the order within a batch; the fleet's window is needed for rows of different batches
         sent = sorted(chain.from_iterable(map(_read_row, rows)), key=_sort_key)
-        state, events = self._step(key[0], None if old_state is None else bytes(old_state[0]), sent)
-        self._state.update((state,))
+        old = None if old_state is None else bytes(old_state[0])
+        state, events = self._step(key[0], old, sent)
+        if state != old:
+            self._state.update((state,))
         return (Row(**event_row(event)) for event in events)
 
 

@@ -33,6 +33,7 @@ class Keyed:
         "_known_at",
         "_has_numbers",
         "_opened_state",
+        "_packed",
         "_order",
         "_pending",
         "_session",
@@ -52,6 +53,8 @@ class Keyed:
         """Kind and detail of a failure of the state or session, to be reported before other events."""
         self._opened_state: bytes | None = None
         """The state that caused the pending failure, until the failure is reported."""
+        self._packed: bytes | None = None
+        """The session as it is in the opened state, until a row is used; then it is packed again."""
         self._has_numbers = True
         """False if the state was unreadable and no numbered row has come, so that the next number is unknown."""
         if state is not None:
@@ -81,7 +84,9 @@ class Keyed:
             return self._opened_state
         order, session = self._order, None
         try:
-            session = None if self._session is None else self._session.pack()
+            session = self._packed
+            if session is None and self._session is not None:
+                session = self._session.pack()
         except MemoryError:
             raise
         except Exception as error:  # of a part of the app's own
@@ -106,7 +111,7 @@ class Keyed:
             if rest.failure:
                 self._pending = (WearerFailed, rest.failure)
             elif rest.session is not None:
-                self._session = self._fleet.unpack(rest.session)
+                self._session, self._packed = self._fleet.unpack(rest.session), rest.session
         except (StateError, SnapshotError) as error:
             self._pending = (StateRejected, str(error)[:MAX_DETAIL_LENGTH])
         except MemoryError:
@@ -155,7 +160,7 @@ class Keyed:
 
     def _use(self, payload: Packet | Tick | End) -> None:
         """Feed the payload of a row that is in its turn to the session."""
-        session = self._session
+        session, self._packed = self._session, None
         try:
             if session is None and not isinstance(payload, End):
                 session = self._session = self._start_session()

@@ -13,6 +13,7 @@ from math import inf
 from attrs import define, field, frozen
 
 from ...types import Packet, Site
+from ...types.plain import has_plain_values
 from ...types.records import MAX_TIME
 from ..events import SentRejection
 from .sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_DETAIL_LENGTH, MAX_NAME_LENGTH, End, Tick
@@ -75,6 +76,11 @@ class RowOrder:
                 return self._reject(run, number, SentRejection.AFTER_END)
         elif run < self.run or self.unused.was_current(run):
             return self._take_other_run(run, number, payload)
+        if not self._waiting and number == self.next_number and run == self.run:
+            self.strays.rising_rows = self.strays.number = 0
+            passed: PassedRows = []
+            self._pass(number, payload, passed)
+            return passed
         if (run, number) not in self.held_rows:
             self.strays.rising_rows = self.strays.number = 0
             self.held_rows[run, number] = payload
@@ -165,6 +171,7 @@ def check_payload(payload: object) -> Payload:
 
 def _convert_packet(packet: Packet) -> Payload:
     """Return the packet with numbers and bytes of the standard types, also for an app's own class."""
+    is_plain = type(packet) is Packet and has_plain_values(packet)
     t, data = _number(packet.t), packet.data
     if isinstance(data, bytearray | memoryview):
         data = bytes(data)
@@ -179,7 +186,7 @@ def _convert_packet(packet: Packet) -> Payload:
     ):
         if size > limit:
             return RejectedItem(SentRejection.OVERSIZED, f"{name} of {size}; {limit} are the most")
-    return Packet(t, packet.site, str(packet.channel), bytes(data), str(packet.device))
+    return packet if is_plain else Packet(t, packet.site, str(packet.channel), bytes(data), str(packet.device))
 
 
 def _number(value: object) -> float | None:
