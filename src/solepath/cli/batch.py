@@ -13,9 +13,7 @@ import re
 import shutil
 from argparse import Namespace
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from concurrent.futures.process import BrokenProcessPool
 from contextlib import redirect_stderr, redirect_stdout
-from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -29,7 +27,6 @@ from .common.inputs import add_calibration, add_heading, recipe_option, recipes_
 from .common.outcomes import add_test
 from .common.parser import Parser, command, option
 from .common.processes import add_processes, run_jobs
-from .common.run_file import made_by
 from .common.sentences import sentences_of
 from .common.tables import mapping_options
 
@@ -56,10 +53,14 @@ Line = tuple[Mapping[str, str], Path]
 
 def run(options: Namespace) -> int:
     """Run the recordings that are not done, and write the tables; return 1 if a recording failed, else 0."""
+    from concurrent.futures.process import BrokenProcessPool
+    from hashlib import sha256
+
     from ..recording.text_table import read_rows
     from ..show.tables.progress import progress_bar
     from ..show.tables.table import counted
     from .common.loop import stop_signals_raise
+    from .common.run_file import made_by
 
     if options.parquet:
         require("--parquet needs", "tables", "pyarrow")

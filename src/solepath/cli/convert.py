@@ -13,7 +13,6 @@ from pathlib import Path
 from string import hexdigits
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..link.setup.config import plain_address
 from ..recording import PacketWriter, RecordingError, printable
 from ..types import Site
 from .common.closest import unknown
@@ -55,6 +54,8 @@ _Value = TypeVar("_Value")
 
 def _spelt(address: str) -> str:
     """Return an address as logs have it, however it was written."""
+    from ..link.setup.config import plain_address
+
     plain = plain_address(address)
     is_digits = len(plain) == DIGITS_OF_ADDRESS and set(plain) <= set(hexdigits)
     return ":".join([plain[i : i + 2] for i in range(0, DIGITS_OF_ADDRESS, 2)]) if is_digits else plain

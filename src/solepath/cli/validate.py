@@ -25,7 +25,6 @@ from .common.inputs import (
 from .common.own_devices import drivers_of
 from .common.parser import command, option
 from .common.processes import add_processes, run_jobs
-from .common.run_file import made_by
 from .common.sentences import sentences_of
 from .common.tables import source_named, table_options
 
@@ -50,6 +49,7 @@ def run(options: Namespace) -> int:
     from ..validate.agreement_files import HEADER, agreement_cells, agreement_writers
     from ..validate.truth_table import read_truth
     from .common.loop import stop_signals_raise
+    from .common.run_file import made_by
 
     outputs = _outputs(options)
     truth = read_truth(options.truth, rate=options.truth_rate, offset=options.offset)

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 from attrs import define, field
 
-from ..saving.provenance import names_of
 from ..types import Foot, Packet, Sample
 from .bad_rows import BadRows
 from .bids.names import MOTION_END, recording_of
@@ -107,6 +106,8 @@ class Source:
 
 def label_files(paths: Sequence[Path]) -> str:
     """Return a title for one or more files: their names, with those of their folders if the names are the same."""
+    from ..saving.provenance import names_of
+
     names = names_of(paths)
     joined = ", ".join(names)
     return joined if len(names) == 1 or len(joined) <= LONGEST_LABEL else f"{names[0]} and {len(names) - 1} more"

@@ -5,9 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
-from multiprocessing import parent_process
 from threading import Thread
 from typing import TypeVar
 
@@ -27,6 +25,8 @@ def run_jobs(
     """Yield the result of the module-level function `work` for every job, in the order of the jobs.
 
     The processes end at once with Ctrl-C, and with this one, however it ends."""
+    from concurrent.futures import ProcessPoolExecutor
+
     with ExitStack() as stack:
         parallel, count = processes > 1 and len(jobs) > 1, min(processes, len(jobs))
         pool = stack.enter_context(ProcessPoolExecutor(count, initializer=_end_with_parent)) if parallel else None
@@ -43,6 +43,8 @@ def _end_with_parent() -> None:
 
 
 def _wait_for_parent() -> None:
+    from multiprocessing import parent_process
+
     if (parent := parent_process()) is not None:
         parent.join()
         os._exit(1)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 import tomllib
-from importlib.resources import files
+from pkgutil import get_data
 from typing import Any
 
-WORDS: dict[str, Any] = tomllib.loads(files("solepath.recording.mapping").joinpath("words.toml").read_text("utf-8"))
+WORDS: dict[str, Any] = tomllib.loads((get_data(__package__, "words.toml") or b"").decode())
 """Units, and words in names."""
 UNITS: dict[str, dict[str, float]] = WORDS["units"]
 """Factors to SI units of the units of each quantity."""
