@@ -12,13 +12,20 @@ import os
 import shutil
 import sys
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 from classes import base_protocols, read_classes
+from faster import named_tuples
 from rewrite import ModuleRewriter
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
 HOT = (
+    "events/[abdghlp]*.py",
+    "events/foot.py",
+    "types/layout.py",
     "types/plain.py",
     "types/records.py",
     "types/vector.py",
@@ -31,25 +38,29 @@ HOT = (
     "link/clock.py",
     "link/counters.py",
     "link/decoder.py",
+    "link/health.py",
     "link/kinds.py",
     "link/periodic.py",
     "link/devices/insole.py",
     "wire/cells.py",
     "wire/envelope.py",
     "wire/insole.py",
+    "session/repeats.py",
+    "session/session.py",
     "session/state.py",
     "body/part.py",
     "body/activity/*.py",
-    "body/activity/blocks/[fsv]*.py",
     "body/checks/**/*.py",
     "body/fuse/[bemps]*.py",
     "body/fuse/common_error.py",
     "body/fuse/walked_path.py",
     "body/gait/*.py",
-    "body/height/*.py",
-    "body/worn/*.py",
+    "body/altitude.py",
+    "body/wear.py",
 )
-"""Modules whose code runs for every sample or packet with the default recipe."""
+"""Modules whose code runs for every sample, packet, half second or stride with the default recipe."""
+PURE = {"calibration/records.py": "records that an app may give; of it only usual_strides runs, a division a stride"}
+"""Modules that run as often and are not compiled, with the reason."""
 EXACT = ["-ffp-contract=off", "-w"]
 """Options of gcc and clang: no fused multiply-add, whose results have other last bits than Python's; no warnings."""
 GROUP = "solepath"
@@ -57,8 +68,11 @@ GROUP = "solepath"
 
 
 def hot_modules(patterns: Sequence[str]) -> dict[str, Path]:
-    """Return the files that are compiled by the names of their modules."""
-    files = sorted({file for pattern in patterns for file in (SOURCE / "solepath").glob(pattern)})
+    """Return the files that are compiled by the names of their modules; an error for a pattern without any."""
+    found = {pattern: set((SOURCE / "solepath").glob(pattern)) for pattern in patterns}
+    if empty := [pattern for pattern, files in found.items() if not files]:
+        raise SystemExit(f"no module matches {', '.join(empty)}")
+    files = sorted({file for files in found.values() for file in files})
     named = {".".join(file.relative_to(SOURCE).with_suffix("").parts): file for file in files}
     return {module: file for module, file in named.items() if file.name != "__init__.py"}
 
@@ -70,10 +84,13 @@ def build(folder: Path, optimisation: str = "2", *patterns: str) -> None:
     shutil.copy(Path(__file__).with_name("records.py"), folder / "solepath" / "_compiled.py")
     files = hot_modules(patterns or HOT)
     classes = read_classes(files)
-    bases = base_protocols(SOURCE, classes)
+    named = {name: record for own in classes.values() for name, record in own.items()}
+    bases, tuples = base_protocols(SOURCE, named), named_tuples(files.values())
     copies = {module: folder / file.relative_to(SOURCE) for module, file in files.items()}
     for module, copy in copies.items():
-        copy.write_text(ModuleRewriter(classes, bases).rewrite(files[module].read_text("utf-8")), "utf-8")
+        own = {**named, **classes[module]}  # two modules may have classes of one name
+        rewritten = ModuleRewriter(own, bases, tuples).rewrite(files[module].read_text("utf-8"))
+        copy.write_text(rewritten, "utf-8")
     _compile(folder, [str(copy.relative_to(folder)) for copy in copies.values()], optimisation)
     for module, copy in copies.items():  # beside the compiled modules stand their sources, for whoever reads them
         shutil.copy(files[module], copy)
@@ -82,6 +99,13 @@ def build(folder: Path, optimisation: str = "2", *patterns: str) -> None:
 def _compile(folder: Path, names: list[str], optimisation: str) -> None:
     from mypyc.build import mypycify
     from setuptools import setup
+    from setuptools.command.build_ext import build_ext
+
+    class BuildAtOnce(build_ext):
+        def build_extensions(self) -> None:
+            if self.compiler.compiler_type == "unix":
+                self.compiler.compile = partial(_compile_at_once, self.compiler)
+            super().build_extensions()
 
     os.chdir(folder)
     os.environ["MYPYPATH"] = str(folder)
@@ -91,9 +115,23 @@ def _compile(folder: Path, names: list[str], optimisation: str) -> None:
     extensions = mypycify([*options, *names], **chosen)
     for extension in extensions:
         if os.name != "nt":
-            extension.extra_compile_args += EXACT
-    setup(name="solepath", packages=[], ext_modules=extensions, script_args=["-q", "build_ext", "--inplace"])
+            extension.extra_compile_args = [*extension.extra_compile_args, *EXACT]
+    words = ["-q", "build_ext", "--inplace"]
+    setup(name="solepath", packages=[], ext_modules=extensions, script_args=words, cmdclass={"build_ext": BuildAtOnce})
     shutil.rmtree(folder / "build")
+
+
+def _compile_at_once(compiler: Any, sources: list[str], output_dir: str, macros: Any, **given: Any) -> list[str]:
+    """Compile several files at a time, as distutils compiles one after another."""
+    folders, depends, options = given["include_dirs"], given["depends"], given["extra_postargs"]
+    _, objects, options, flags, made_of = compiler._setup_compile(
+        output_dir, macros, folders, sources, depends, options
+    )
+    arguments = compiler._get_cc_args(flags, given["debug"], None)
+    with ThreadPoolExecutor(int(os.environ.get("BUILD_JOBS", 0)) or os.cpu_count()) as pool:
+        for done in [pool.submit(compiler._compile, one, *made_of[one], arguments, options, flags) for one in objects]:
+            done.result()
+    return objects
 
 
 if __name__ == "__main__":

@@ -40,14 +40,16 @@ class Record:
     is_protocol: bool = False
 
 
-def read_classes(paths: dict[str, Path]) -> dict[str, Record]:
-    """Return the classes of these modules by name."""
-    found: dict[str, Record] = {}
-    for module, path in paths.items():
-        for node in ast.parse(path.read_text("utf-8")).body:
-            if isinstance(node, ast.ClassDef):
-                found[node.name] = _read_class(node, module)
-    return found
+def read_classes(paths: dict[str, Path]) -> dict[str, dict[str, Record]]:
+    """Return the classes of each of these modules by name."""
+    return {
+        module: {
+            node.name: _read_class(node, module)
+            for node in ast.parse(path.read_text("utf-8")).body
+            if isinstance(node, ast.ClassDef)
+        }
+        for module, path in paths.items()
+    }
 
 
 def _read_class(node: ast.ClassDef, module: str) -> Record:
@@ -95,6 +97,8 @@ def _read_field(node: ast.AnnAssign) -> Field:
                 one.default = options["factory"].body
         elif "default" in options:
             one.default = options["default"]
+    elif isinstance(value, ast.Call) and ast.unparse(value.func) == "limited":
+        one.default = value.args[0]
     else:
         one.default = value
     return one

@@ -9,11 +9,13 @@ from __future__ import annotations
 import ast
 
 from classes import Field, Record, init_fields
+from faster import Faster
 
 RUNTIME = "solepath._compiled"
 """Module of the build that has the functions of records.py."""
 RUNTIME_NAMES = (
-    "NOTHING, annotate, astuple, declare, equal, evolve, fields, hashed, hide_slots, made_by, make_record, shown"
+    "NOTHING, annotate, astuple, declare, equal, evolve, fields, hashed, hide_slots, made_by, make_record, new_tuple,"
+    "shown"
 )
 OPEN = "solepath.types.records"
 """Module of packets and samples, whose fields hold what an app gives: plain.py converts lists and arrays later."""
@@ -24,16 +26,21 @@ OPTIONS = "serializable=True, allow_interpreted_subclasses=True"
 class ModuleRewriter:
     """Rewrites modules that have these classes."""
 
-    def __init__(self, classes: dict[str, Record], base_protocols: set[str]) -> None:
-        self.classes, self.base_protocols = classes, base_protocols
+    def __init__(
+        self, classes: dict[str, Record], base_protocols: set[str], named_tuples: dict[str, ast.ClassDef]
+    ) -> None:
+        self.classes, self.base_protocols, self.named_tuples = classes, base_protocols, named_tuples
 
     def rewrite(self, source: str) -> str:
         """Return the source of the module in the form that is compiled."""
         tree = ast.parse(source)
+        tree = Faster(tree, self.named_tuples).visit(tree)
         body: list[ast.stmt] = []
         for node in tree.body:
             if isinstance(node, ast.ClassDef) and self._is_native(node):
                 body += self._rewrite_class(node)
+            elif isinstance(node, ast.ClassDef) and not node.bases and not node.decorator_list:
+                body.append(_opened(node))
             elif isinstance(node, ast.ClassDef) and any(ast.unparse(base) == "NamedTuple" for base in node.bases):
                 for one in node.body:  # mypyc looks `object` up in the module
                     if isinstance(one, ast.AnnAssign) and ast.unparse(one.annotation) == "object":
@@ -46,7 +53,7 @@ class ModuleRewriter:
                 body.append(node)
         head = [
             "from mypy_extensions import mypyc_attr",
-            "from typing import Any, Final",
+            "from typing import Any, Final, cast",
             f"from {RUNTIME} import {RUNTIME_NAMES}",
         ]
         at = next(k for k, node in enumerate(body) if isinstance(node, ast.ImportFrom) and node.module == "__future__")
@@ -81,10 +88,8 @@ class ModuleRewriter:
         inherited = self._inherited_names(record)
         properties = {name for base in record.bases if base in self.classes for name in self.classes[base].properties}
         methods = {one.name for one in node.body if isinstance(one, ast.FunctionDef)}
-        if "@cached_property" in ast.unparse(node):
-            raise SystemExit(f"{node.name}: mypyc computes a cached property at every access")
         for one in node.body:
-            if isinstance(one, ast.Assign) and ast.unparse(one.targets[0]) == "__slots__":
+            if isinstance(one, ast.Assign) and _is_slots(one):
                 continue
             if isinstance(one, ast.AnnAssign) and not ast.unparse(one.annotation).startswith("ClassVar"):
                 own = next(own for own in record.own if own.name == ast.unparse(one.target))
@@ -97,6 +102,9 @@ class ModuleRewriter:
                 hint, value = ast.unparse(one.annotation.slice), ast.unparse(one.value)
                 lines = f"@property\ndef {ast.unparse(one.target)}(self) -> {hint}:\n    return {value}"
                 body += ast.parse(lines).body
+                continue
+            if isinstance(one, ast.FunctionDef) and "cached_property" in map(ast.unparse, one.decorator_list):
+                body += _kept_property(one)
                 continue
             if isinstance(one, ast.FunctionDef):
                 if record.module == OPEN and one.name in record.defaults.values():
@@ -179,7 +187,7 @@ class ModuleRewriter:
                 declared = "declare()" if one.declared is None else ast.unparse(one.declared)
                 if declared.startswith(("field(", "state(")):
                     declared = f"declare({declared.partition('(')[2]}"
-                elif not declared.startswith("declare("):
+                elif not declared.startswith(("declare(", "limited(")):
                     declared = f"declare(default={declared})"
                 if one.name in record.defaults:
                     declared = f"declare(default=made_by({record.defaults[one.name]!r}))"
@@ -193,6 +201,37 @@ class ModuleRewriter:
 def _native_hint(record: Record, one: Field) -> ast.expr:
     """Return the type of a field for the compiler."""
     return ast.Name("Any") if record.module == OPEN else one.hint
+
+
+def _opened(node: ast.ClassDef) -> ast.ClassDef:
+    """Return a class that is no record, from which an app may derive and whose `__new__` can be called."""
+    node.decorator_list = [ast.parse(f"mypyc_attr({OPTIONS})", mode="eval").body]
+    node.body = [one for one in node.body if not (isinstance(one, ast.Assign) and _is_slots(one))]
+    for one in ast.walk(node):
+        if isinstance(one, ast.Call) and isinstance(one.func, ast.Attribute) and one.func.attr == "__new__":
+            one.func = ast.Call(ast.Name("getattr"), [one.func.value, ast.Constant("__new__")], [])
+    return node
+
+
+def _is_slots(node: ast.Assign) -> bool:
+    return ast.unparse(node.targets[0]) == "__slots__"
+
+
+def _kept_property(function: ast.FunctionDef) -> list[ast.stmt]:
+    """Return a property that keeps its value in an attribute: mypyc computes a cached property at every access."""
+    name, function.decorator_list = function.name, []
+    function.name = f"_make_{name}"
+    hint = ast.unparse(function.returns or ast.Name("Any"))
+    lines = f"""
+_kept_{name}: Any = None
+@property
+def {name}(self) -> {hint}:
+    if self._kept_{name} is None:
+        self._kept_{name} = self.{function.name}()
+    kept: {hint} = self._kept_{name}
+    return kept
+"""
+    return [function, *ast.parse(lines).body]
 
 
 def _is_empty(function: ast.FunctionDef) -> bool:

@@ -5,21 +5,26 @@ attitude and the wearer. `python tests/bench/same.py --compiled FOLDER` compares
 
 from __future__ import annotations
 
+import ast
 import json
 import os
 import shutil
 import subprocess
 import sys
 import sysconfig
+from collections.abc import Sequence
 from importlib.util import find_spec
+from inspect import CO_NEWLOCALS
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import pytest
 from here import ROOT
 from walks import insoles
 
-from solepath import Packet, Session
+import solepath
+from solepath import Packet, Session, StrideTaken
 from solepath.emulate.routes.route import Route
 
 MODULES = (
@@ -28,6 +33,8 @@ MODULES = (
     "foot/navigate/strapdown.py", "session/state.py", "body/part.py",
 )  # fmt: skip
 """Modules of classes that derive from protocols, are frozen, are made at every sample, or hold the state of others."""
+SETTLED = 400
+"""Packets of the first 2 s, which import what a session needs."""
 PACKETS = insoles(Route().stand(2.0).walk(15.0, 1.3).stop(2.0), seed=4).packets
 CONTINUE = """
 import json, sys
@@ -42,6 +49,54 @@ tracker = next(iter(session.feet.values()))
 forms = [type(one).update.__class__.__name__ for one in (tracker.detector, tracker.corrector.interval)]
 print(json.dumps([[event.to_dict() for event in events], session.snapshot(), forms]))
 """
+
+
+BUILD = ROOT / ".ci" / "compiled" / "build.py"
+SOURCE = Path(solepath.__file__).parent
+
+
+def declared(name: str) -> Any:
+    """Return a constant of build.py."""
+    for node in ast.parse(BUILD.read_text("utf-8")).body:
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == name:
+            return ast.literal_eval(node.value)
+    raise AssertionError(f"build.py has no {name}")
+
+
+def called_modules(packets: Sequence[Packet]) -> set[str]:
+    """Return the files of solepath whose functions are called by frames without events, or by those that end a stride.
+
+    Code of a module itself and of its classes runs once, when a frame is the first that needs the module."""
+    called: set[str] = set()
+    frame_calls: set[str] = set()
+
+    def on_call(frame: FrameType, event: str, _: object) -> None:
+        code = frame.f_code
+        if event == "call" and code.co_filename.startswith(f"{SOURCE}/") and code.co_flags & CO_NEWLOCALS:
+            frame_calls.add(str(Path(code.co_filename).relative_to(SOURCE)))
+
+    session = Session()
+    session.feed(packets[:SETTLED])
+    for packet in packets[SETTLED:]:
+        frame_calls.clear()
+        sys.setprofile(on_call)
+        try:
+            events = session.feed(packet)
+        finally:
+            sys.setprofile(None)
+        if not events or any(isinstance(event, StrideTaken) for event in events):
+            called |= frame_calls
+    return called
+
+
+def test_each_module_that_a_frame_calls_is_compiled_or_says_why_not() -> None:
+    matched = {pattern: set(SOURCE.glob(pattern)) for pattern in declared("HOT")}
+    assert all(matched.values()), "a pattern of HOT matches no module"
+    hot = {str(file.relative_to(SOURCE)) for files in matched.values() for file in files}
+    pure, called = declared("PURE"), called_modules(PACKETS)
+    assert called <= hot | pure.keys(), f"HOT or PURE of {BUILD} must have each of them"
+    assert pure.keys() <= called and all(pure.values()), "a module of PURE is not called, or has no reason"
+    assert {"foot/tracker.py", "body/activity/motion.py", "body/gait/cycles.py"} <= called, "of each kind of frame"
 
 
 def lacking() -> str:
@@ -59,7 +114,7 @@ def compiled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     if lacking():
         pytest.skip(f"solepath cannot be compiled here without {lacking()}")
     folder = tmp_path_factory.mktemp("compiled")
-    command = [sys.executable, ROOT / ".ci/compiled/build.py", folder, "0", *MODULES]
+    command = [sys.executable, BUILD, folder, "0", *MODULES]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return folder
