@@ -18,7 +18,6 @@ from pathlib import Path
 from typing import Any
 
 from classes import base_protocols, read_classes
-from faster import named_tuples
 from rewrite import ModuleRewriter
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
@@ -85,11 +84,11 @@ def build(folder: Path, optimisation: str = "2", *patterns: str) -> None:
     files = hot_modules(patterns or HOT)
     classes = read_classes(files)
     named = {name: record for own in classes.values() for name, record in own.items()}
-    bases, tuples = base_protocols(SOURCE, named), named_tuples(files.values())
+    bases = base_protocols(SOURCE, named)
     copies = {module: folder / file.relative_to(SOURCE) for module, file in files.items()}
     for module, copy in copies.items():
         own = {**named, **classes[module]}  # two modules may have classes of one name
-        rewritten = ModuleRewriter(own, bases, tuples).rewrite(files[module].read_text("utf-8"))
+        rewritten = ModuleRewriter(own, bases).rewrite(files[module].read_text("utf-8"))
         copy.write_text(rewritten, "utf-8")
     _compile(folder, [str(copy.relative_to(folder)) for copy in copies.values()], optimisation)
     for module, copy in copies.items():  # beside the compiled modules stand their sources, for whoever reads them

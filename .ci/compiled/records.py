@@ -12,7 +12,6 @@ evolve: Any = attrs.evolve
 fields: Any = attrs.fields
 astuple: Any = attrs.astuple
 declare: Any = attrs.field
-new_tuple: Any = tuple.__new__
 
 
 def made_by(method: str) -> Any:

@@ -9,13 +9,11 @@ from __future__ import annotations
 import ast
 
 from classes import Field, Record, init_fields
-from faster import Faster
 
 RUNTIME = "solepath._compiled"
 """Module of the build that has the functions of records.py."""
 RUNTIME_NAMES = (
-    "NOTHING, annotate, astuple, declare, equal, evolve, fields, hashed, hide_slots, made_by, make_record, new_tuple,"
-    "shown"
+    "NOTHING, annotate, astuple, declare, equal, evolve, fields, hashed, hide_slots, made_by, make_record, shown"
 )
 OPEN = "solepath.types.records"
 """Module of packets and samples, whose fields hold what an app gives: plain.py converts lists and arrays later."""
@@ -26,15 +24,12 @@ OPTIONS = "serializable=True, allow_interpreted_subclasses=True"
 class ModuleRewriter:
     """Rewrites modules that have these classes."""
 
-    def __init__(
-        self, classes: dict[str, Record], base_protocols: set[str], named_tuples: dict[str, ast.ClassDef]
-    ) -> None:
-        self.classes, self.base_protocols, self.named_tuples = classes, base_protocols, named_tuples
+    def __init__(self, classes: dict[str, Record], base_protocols: set[str]) -> None:
+        self.classes, self.base_protocols = classes, base_protocols
 
     def rewrite(self, source: str) -> str:
         """Return the source of the module in the form that is compiled."""
         tree = ast.parse(source)
-        tree = Faster(tree, self.named_tuples).visit(tree)
         body: list[ast.stmt] = []
         for node in tree.body:
             if isinstance(node, ast.ClassDef) and self._is_native(node):
@@ -46,6 +41,12 @@ class ModuleRewriter:
                     if isinstance(one, ast.AnnAssign) and ast.unparse(one.annotation) == "object":
                         one.annotation = ast.Name("Any")
                 body.append(node)
+                hints = {ast.unparse(one.target): ast.unparse(one.annotation) for one in _annotated(node)}
+                # saving reads them; those of mypyc have no names of other types
+                body += ast.parse(f"setattr({node.name}, '__annotations__', {hints!r})").body
+            elif isinstance(node, ast.AnnAssign) and ast.unparse(node.annotation) == "Final" and _is_tuple(node.value):
+                # mypyc 2.4.1 tests a constant tuple wrongly: it says that it was not set
+                body.append(ast.Assign([node.target], node.value, lineno=node.lineno))
             elif isinstance(node, ast.Assign) and _is_constant(node):
                 target = node.targets[0]
                 body.append(ast.AnnAssign(target, ast.Name("Final"), node.value, simple=1))
@@ -53,7 +54,7 @@ class ModuleRewriter:
                 body.append(node)
         head = [
             "from mypy_extensions import mypyc_attr",
-            "from typing import Any, Final, cast",
+            "from typing import Any, Final",
             f"from {RUNTIME} import {RUNTIME_NAMES}",
         ]
         at = next(k for k, node in enumerate(body) if isinstance(node, ast.ImportFrom) and node.module == "__future__")
@@ -232,6 +233,14 @@ def {name}(self) -> {hint}:
     return kept
 """
     return [function, *ast.parse(lines).body]
+
+
+def _annotated(node: ast.ClassDef) -> list[ast.AnnAssign]:
+    return [one for one in node.body if isinstance(one, ast.AnnAssign)]
+
+
+def _is_tuple(value: ast.expr | None) -> bool:
+    return isinstance(value, ast.Tuple)
 
 
 def _is_empty(function: ast.FunctionDef) -> bool:
