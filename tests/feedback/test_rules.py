@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from attrs import evolve, frozen
+from attrs import evolve, field, frozen
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -304,3 +304,15 @@ def test_a_rule_of_ones_own_is_judged_and_saved_as_the_others_are() -> None:
     assert (first.value, first.limit, first.foot) == (0.1, 0.2, LEFT)
     restored = Feedback.restore(feedback.snapshot(), [LowLift()])
     assert restored.feed(walk(0.8, 0.8)[6:]) == []
+
+
+@frozen
+class Hoards(EveryHeelStrike):
+    """A rule with a memory of its own, which no snapshot of feedback would hold."""
+
+    kept: list[float] = field(factory=list)
+
+
+def test_a_rule_that_keeps_something_is_refused_with_the_way_out() -> None:
+    with pytest.raises(TypeError, match="a rule keeps nothing, a part of the session may"):
+        Feedback([Hoards(Foot.LEFT)])

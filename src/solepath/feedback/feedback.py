@@ -225,6 +225,11 @@ def _checked(rule: Rule) -> Rule:
     """Return a copy of a rule with plain numbers; raise TypeError for another type, ValueError for wrong values."""
     if not isinstance(rule, Rule):
         raise TypeError(f"a rule derives from Rule; this is a {type(rule).__name__}")
+    try:
+        hash(rule)
+    except TypeError:
+        text = f"a {type(rule).__name__} keeps something that changes: a rule keeps nothing, a part of the session may"
+        raise TypeError(text) from None
     own = plain_copy(rule)
     fault = find_fault(own, type(own))
     if fault is not None:

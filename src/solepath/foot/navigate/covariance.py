@@ -32,7 +32,7 @@ PAIRS = [
     for rows, columns in ((P, P), (P, V), (P, T), (V, V), (V, T), (T, T))
     for i in rows
     for j in columns
-    if rows is not columns or i <= j
+    if rows != columns or i <= j
 ]
 """Pair of states of each number of a Covariance."""
 HEIGHT = PAIRS.index((2, 2))
