@@ -17,8 +17,9 @@ A cell is "lively" in a window in which it both loads and unloads. The numbers w
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from math import atan2, hypot, pi
+from typing import Any
 
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads, Limitation
 from ...types import Floats, Layout, Phase, Site, Vec3
@@ -461,7 +462,7 @@ class CellHealth:
         self.failed, self.suspected, self.excluded, self.lively_windows = {}, {}, [], [0] * count
         self.reset()
 
-    def _watch_numbers(self, t: float, known_at: float, cells: Floats, events: list[Event]) -> None:
+    def _watch_numbers(self, t: float, known_at: float, cells: Sequence[Any], events: list[Event]) -> None:
         since = dict(self.non_numeric)
         self.non_numeric = [(i, since.get(i, t)) for i, value in enumerate(cells) if not _is_number(value)]
         reported = self.failed.get(CellFault.MISSING, [])
@@ -542,5 +543,5 @@ class CellHealth:
         events.append(CellsFailed(t=t, known_at=known_at, site=self.site, fault=fault, cells=cells))
 
 
-def _is_number(value: float | None) -> bool:
-    return value is not None and -ABSURD_PRESSURE < value < ABSURD_PRESSURE
+def _is_number(value: Any) -> bool:
+    return value is not None and bool(-ABSURD_PRESSURE < value < ABSURD_PRESSURE)

@@ -91,7 +91,7 @@ class FootPlaces:
         self.mean.add_view(view)
         for foot, track in tracks.items():
             offset, was_unplaced = before[foot]
-            if track.offset is not offset:
+            if track.offset != offset:
                 side, other = self.sides[foot], self.sides[OTHER[foot]]
                 here, side.track = side.own_position, track.newest
                 if was_unplaced and not track.unplaced:
