@@ -90,8 +90,8 @@ class FootPlaces:
         before = {foot: (track.offset, track.unplaced) for foot, track in tracks.items()}
         self.mean.add_view(view)
         for foot, track in tracks.items():
-            offset, was_unplaced = before[foot]
-            if track.offset != offset:
+            _, was_unplaced = before[foot]
+            if (track.offset, track.unplaced) != before[foot]:
                 side, other = self.sides[foot], self.sides[OTHER[foot]]
                 here, side.track = side.own_position, track.newest
                 if was_unplaced and not track.unplaced:
