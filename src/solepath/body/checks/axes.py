@@ -64,8 +64,6 @@ A nearly perfect closure does not count without limit then, and one that is good
 
 Rows = list[list[float]]
 """Rows 3 i + j over k of M_ijk / T."""
-Closed = tuple[Rows | None, Rows, Rows]
-"""M / T of what is cut off, None without it, and for each end of the stride M / T without gravity, m/s^2."""
 
 
 def closure_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS) -> list[float]:
@@ -73,23 +71,6 @@ def closure_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS) -> 
 
     It is the worse one of the two ends of the stride, |S / T - g u + m d|. Peaks that are cut off at `ends` lack an
     impulse of unknown size m in known directions at known instants, which are turned and integrated to d."""
-    proper, improper, *scaled = _closed_with((1.0, -1.0, *SCALES, 0.0), stride, ends)
-    residuals = [
-        _residual(order, signs, proper if (order in ROTATIONS) == (prod(signs) > 0.0) else improper)
-        for order in ORDERS
-        for signs in SIGNS
-    ]
-    return residuals + [_residual(ORDERS[0], SIGNS[0], closed) for closed in scaled]
-
-
-def own_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS) -> tuple[float, float]:
-    """Return the residuals of the axes as they are and of NO_TURN, m/s^2, as `closure_residuals` does."""
-    own, unturned = [_residual(ORDERS[0], SIGNS[0], closed) for closed in _closed_with((1.0, 0.0), stride, ends)]
-    return own, unturned
-
-
-def _closed_with(factors: Sequence[float], stride: ClosedStride, ends: Sequence[float]) -> list[Closed]:
-    """Return what `_close` makes of a stride with each factor of the turn."""
     first, last = hypot(*stride.first), hypot(*stride.last)
     g = 0.5 * (first + last)
     ups = [[g / first * x for x in stride.first], [g / last * x for x in stride.last]]
@@ -109,13 +90,19 @@ def _closed_with(factors: Sequence[float], stride: ClosedStride, ends: Sequence[
         for axis, upper, lower in zip(forces, ends[::2], ends[1::2], strict=True)
         if min(ends) < inf
     ]
-    return [_close(turns, factor, shares, cut, ups) for factor in factors]
+    proper, improper, *scaled = [_close(turns, factor, shares, cut, ups) for factor in (1.0, -1.0, *SCALES, 0.0)]
+    residuals = [
+        _residual(order, signs, proper if (order in ROTATIONS) == (prod(signs) > 0.0) else improper)
+        for order in ORDERS
+        for signs in SIGNS
+    ]
+    return residuals + [_residual(ORDERS[0], SIGNS[0], closed) for closed in scaled]
 
 
 def _close(
     vectors: list[Vec3], factor: float, shares: list[list[float]], cut: list[list[float]], ups: list[list[float]]
-) -> Closed:
-    """Return the products of the turns and the specific force of a stride.
+) -> tuple[Rows | None, Rows, Rows]:
+    """Return M / T of what is cut off, None without it, and for each end of the stride M / T without gravity, m/s^2.
 
     `vectors`, rad, times `factor` turn from one middle of an interval to the next, `shares` are the parts that the
     intervals have in each axis of the mean specific force, m/s^2, `cut` those of 1 m/s^2 more where it is cut off, and
@@ -154,7 +141,7 @@ def _turn(attitude: Quat) -> Turn:
     return 1.0 - yy - zz, xy - wz, xz + wy, xy + wz, 1.0 - xx - zz, yz - wx, xz - wy, yz + wx, 1.0 - xx - yy
 
 
-def _residual(order: Order, signs: Signs, closed: Closed) -> float:
+def _residual(order: Order, signs: Signs, closed: tuple[Rows | None, Rows, Rows]) -> float:
     """Return the worse of the residuals |S / T - g u + m d| of the two ends, m/s^2, in the gyroscope's frame."""
     cut, *ends = closed
     missing = ZERO if cut is None else _mounted(order, signs, cut)
@@ -231,20 +218,14 @@ with 2; of damaged ones, 96 and 83 in 100 are found, and 96 if the four are aver
 
 @define
 class AxesCheck:
-    """Evidence of a foot's strides for each of the 48 ways in which the axes may be mounted.
+    """Evidence of a foot's strides for each of the 48 ways in which the axes may be mounted."""
 
-    While strides nearly close with the axes as they are, no others are tried: they wait until that changes."""
-
-    waiting: list[ClosedStride] = field(factory=list)
-    """Strides with which no other axes were tried yet."""
-    closing: float = 0.0
-    """Sum over the strides of the logarithm of the ratio of the residual to that without any turn."""
     residuals: list[float] = field(factory=list)
-    """Sum of the logarithms of that ratio for each of AXES, SCALES and NO_TURN, without `waiting`; empty before any."""
+    """Sum of the logarithms of the residuals, m/s^2, in the order of AXES; empty before the first stride."""
     evidence: list[float] = field(factory=list)
     """Sum of the logarithms of each residual's ratio to that of the axes as they are; negative if it is smaller."""
     strides: int = 0
-    """Number of strides."""
+    """Number of strides in `evidence`."""
     started_at: float = 0.0
     """Time at which the first stride began, s."""
     settled: bool = False
@@ -260,49 +241,35 @@ class AxesCheck:
         deviation = max([abs(hypot(*force) / GRAVITY - 1.0) for force in (stride.first, stride.last)])
         if not SHORTEST_STRIDE < stride.duration < LONGEST_STRIDE or deviation > LARGEST_DEVIATION:
             return None
+        residuals = closure_residuals(stride, ends)
+        least = LEAST_RESIDUAL + LEAST_SHARE * residuals[NO_TURN]
+        logs = [log(residual + least) for residual in residuals]
         if not self.strides:
             self.started_at = t - stride.duration
+            self.residuals, self.evidence = [0.0] * len(logs), [0.0] * len(logs)
         self.strides += 1
-        own, unturned = own_residuals(stride, ends)
-        least = LEAST_RESIDUAL + LEAST_SHARE * unturned
-        self.closing += log((own + least) / (unturned + least))
-        self.waiting.append(stride)
+        self.residuals = [a + b for a, b in zip(self.residuals, logs, strict=True)]
+        ratios = [max(-LARGEST_LOG, min(LARGEST_LOG, value - logs[0])) for value in logs]
+        self.evidence = [a + b for a, b in zip(self.evidence, ratios, strict=True)]
         enough = self.strides >= SETTLED_STRIDES
-        if self.nearly_closes or self.strides < LEAST_STRIDES:
-            self.settled = enough
-            return None
-        for waiting in self.waiting:
-            self._try_others(waiting, ends)
-        self.waiting = []
         if not self.wrong:
-            closes = self.factor > 1.0 or self.closing <= self.strides * log(CLOSING)
-            fits = min(self.evidence[1:]) > self.needed
+            closes = self.factor > 1.0 or self._closes(0)
+            fits = self.strides >= LEAST_STRIDES and min(self.evidence[1:]) > self.needed
+            fits = fits or (enough and self._closes(0, NEARLY_CLOSED))
             self.settled = (fits and (closes or enough)) or self.strides >= MOST_STRIDES
             return Finding(Defect.CONTRADICTION, CONTRADICTION) if enough and not closes else None
         self.settled = (enough and self._best is not None) or self.strides >= MOST_STRIDES
         return self.finding if self.settled or t - self.started_at > LATEST_REPORT else None
 
-    def _try_others(self, stride: ClosedStride, ends: Sequence[float]) -> None:
-        """Add the evidence of a stride for all axes and scales."""
-        residuals = closure_residuals(stride, ends)
-        unturned = residuals[NO_TURN]
-        least = LEAST_RESIDUAL + LEAST_SHARE * unturned
-        logs = [log((residual + least) / (unturned + least)) for residual in residuals]
-        ratios = [max(-LARGEST_LOG, min(LARGEST_LOG, value - logs[0])) for value in logs]
-        nothing = [0.0] * len(logs)
-        self.residuals = [a + b for a, b in zip(self.residuals or nothing, logs, strict=True)]
-        self.evidence = [a + b for a, b in zip(self.evidence or nothing, ratios, strict=True)]
-
-    @property
-    def nearly_closes(self) -> bool:
-        """Return whether the strides close so well that no other axes or scale can be the right ones."""
-        return self.closing <= self.strides * log(NEARLY_CLOSED)
+    def _closes(self, best: int, limit: float = CLOSING) -> bool:
+        """Return whether the strides close with one of the axes or scales."""
+        return self.residuals[best] - self.residuals[NO_TURN] <= self.strides * log(limit)
 
     @property
     def wrong(self) -> bool:
         """Return whether other axes, or another scale, fit clearly better than the axes as they are."""
-        is_better = self.strides >= LEAST_STRIDES and min(self.evidence, default=0.0) < -self.needed
-        return is_better and not self.nearly_closes
+        is_better = self.strides >= LEAST_STRIDES and min(self.evidence) < -self.needed
+        return is_better and not self._closes(0, NEARLY_CLOSED)
 
     @property
     def needed(self) -> float:
@@ -313,7 +280,7 @@ class AxesCheck:
     def finding(self) -> Finding:
         """The finding of axes that are `wrong`; other axes explain that only if the strides close with them."""
         best = self.evidence.index(min(self.evidence))
-        if self.residuals[best] > self.strides * log(CLOSING):
+        if not self._closes(best):
             return Finding(Defect.CONTRADICTION, CONTRADICTION)
         if best < len(AXES):
             return wrong_axes(self.correction)
