@@ -127,7 +127,7 @@ def _compile_at_once(compiler: Any, sources: list[str], output_dir: str, macros:
         output_dir, macros, folders, sources, depends, options
     )
     arguments = compiler._get_cc_args(flags, given["debug"], None)
-    with ThreadPoolExecutor(int(os.environ.get("BUILD_JOBS", 0)) or os.cpu_count()) as pool:
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
         for done in [pool.submit(compiler._compile, one, *made_of[one], arguments, options, flags) for one in objects]:
             done.result()
     return objects

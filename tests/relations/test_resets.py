@@ -128,7 +128,7 @@ STARTED = """
 BiasZupt.start: bias motion_acc
 CommonError.start_stride: covariance estimates foot_biases
 Cycle._start_span: highs lows past_high past_low sensor_height shoe
-ErrorStateFilter.start: interval level noise recovery rhythm velocity_error
+ErrorStateFilter.start: interval level recovery rhythm velocity_error
 FootBlocks.start_block: blocks flat_height rest_force rested strides strike_height
 GatedTilt.start: velocity_change
 GyroscopeMagnitude._start_span: highs lows past_high past_low shoe

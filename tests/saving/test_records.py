@@ -88,7 +88,7 @@ def test_every_field_of_every_record_is_saved_unless_it_is_marked() -> None:
         marked = {one.name for one in attrs.fields(cls) if NOT_SAVED.items() <= one.metadata.items()}
         assert set(record_of(cls).fields) == {one.name for one in attrs.fields(cls)} - marked, cls
         unsaved |= marked
-    assert unsaved == {"awake", "noise", "plan", "threshold", "used"}, "what a restored session makes again"
+    assert unsaved == {"awake", "plan", "threshold", "used"}, "what a restored session makes again"
 
 
 @pytest.mark.parametrize("shape", range(6))

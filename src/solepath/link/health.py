@@ -8,7 +8,6 @@ from math import floor
 
 from ..types import Packet, Sample
 from ..types.attrs import define, field, frozen
-from ..types.records import MAX_TIME
 from .kinds import DeviceKinds
 
 LOSS_WINDOW = 10
@@ -64,48 +63,20 @@ class LinkHealth:
 class RecentLink:
     """The numbers of packets, samples, missing samples and rejections in the last LOSS_WINDOW seconds."""
 
-    seconds: deque[tuple[int, int, int, int, int]] = field(factory=lambda: deque(maxlen=LOSS_WINDOW))
-    """Second, packets, samples, missing samples and rejections of each earlier second in which there were any."""
-    second: int | None = None
-    """The newest second in which there were any, whose numbers follow; None before any."""
-    packets: int = 0
-    samples: int = 0
-    missing: int = 0
-    rejected: int = 0
-    since: float = MAX_TIME
-    """Time from which on what comes counts for the newest second, s: a second before it, because some comes late."""
-    until: float = -MAX_TIME
-    """End of the newest second, s."""
+    seconds: deque[list[int]] = field(factory=lambda: deque(maxlen=LOSS_WINDOW + 1))
+    """Lists [second, packets, samples, missing samples, rejections] for each second in which there were any."""
     last_arrival: float | None = None
     """Arrival of the newest packet or sample that was used, s; None before any."""
 
     def add(self, t: float, packets: int = 0, samples: int = 0, missing: int = 0, rejected: int = 0) -> None:
         """Add what came, was lost or was rejected at `t` s."""
-        if not self.since <= t < self.until:
-            self._start_second(t)
-        self.packets += packets
-        self.samples += samples
-        self.missing += missing
-        self.rejected += rejected
-
-    def add_sample(self, t: float) -> None:
-        """Add a sample that was used, and that came without a packet at `t` s."""
-        if not self.since <= t < self.until:
-            self._start_second(t)
-        self.samples += 1
-        self.last_arrival = t
-
-    def _start_second(self, t: float) -> None:
-        self.seconds.extend(self._newest)
-        self.second = floor(t)
-        self.since, self.until = self.second - 1.0, self.second + 1.0
-        self.packets = self.samples = self.missing = self.rejected = 0
-
-    @property
-    def _newest(self) -> list[tuple[int, int, int, int, int]]:
-        """The newest second as one of `seconds`; empty before any."""
-        newest = self.second
-        return [] if newest is None else [(newest, self.packets, self.samples, self.missing, self.rejected)]
+        if not self.seconds or not self.seconds[-1][0] - 1 <= t < self.seconds[-1][0] + 1:
+            self.seconds.append([floor(t), 0, 0, 0, 0])
+        newest = self.seconds[-1]
+        newest[1] += packets
+        newest[2] += samples
+        newest[3] += missing
+        newest[4] += rejected
 
     def share(self, now: float) -> float | None:
         """Return the share, 0 to 1, of the samples in the window before `now`, s, that are missing."""
@@ -121,6 +92,5 @@ class RecentLink:
 
     def _counts(self, now: float) -> tuple[int, ...]:
         """Return the numbers of packets, samples, missing samples and rejections in the window before `now`, s."""
-        seconds = (*self.seconds, *self._newest)
-        recent = [counts for second, *counts in seconds if now - LOSS_WINDOW - 1.0 < second <= now]
+        recent = [counts[1:] for counts in self.seconds if now - LOSS_WINDOW - 1.0 < counts[0] <= now]
         return tuple([sum(column) for column in zip(*recent, strict=True)]) or (0, 0, 0, 0)  # whole numbers

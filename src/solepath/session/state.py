@@ -213,11 +213,7 @@ class SessionState:
             return events
         t: float = sample.t  # declared, because the fields of a compiled Sample have any type
         known_at: float = sample.known_at
-        arrival = known_at if known_at > t else t
-        if events or (link := self.links.get(sample.site)) is None:
-            self._count(sample.site, arrival, 0, (sample, *events))
-        else:  # nearly always
-            link.add_sample(arrival)
+        self._count(sample.site, known_at if known_at > t else t, 0, (sample, *events))
         if self.now is None or t > self.now:
             self.now = t
         return events

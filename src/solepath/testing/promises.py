@@ -92,8 +92,7 @@ def _changed_settings(before: Any, after: Any) -> list[str]:
     """Return the names of the settings that have changed, which a packed session would lose."""
     cls: Any = type(before)
     settings = record_of(cls, made=True).defaults if has_state(cls) else {}
-    not_saved = [one.name for one in attrs.fields(cls) if one.metadata == NOT_SAVED] if settings else []
-    return [name for name in settings if name not in not_saved and getattr(before, name) != getattr(after, name)]
+    return [name for name in settings if getattr(before, name) != getattr(after, name)]
 
 
 def _run(harness: Any, samples: Iterable[Sample]) -> list[Any]:

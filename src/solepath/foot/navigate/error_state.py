@@ -15,7 +15,7 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 from ...types import Floats, Quat, Vec3
-from ...types.attrs import NOT_SAVED, define, field, state, stateful
+from ...types.attrs import define, field, state, stateful
 from ...types.vector import GRAVITY, TIME_EPSILON, ZERO, scaled, sub, tipped
 from ..phase import STATIONARY
 from ..rhythm import StanceRhythm
@@ -204,8 +204,6 @@ class ErrorStateFilter(Strapdown):
     """Recovery of the clipped peaks of both sensors; None before any sample."""
     interval: IndependentInterval = state(factory=IndependentInterval)
     """Interval between independent readings, for the noise of what lies between two samples."""
-    noise: tuple[float, ...] = state(default=(), metadata=NOT_SAVED)
-    """Squares of the numbers of the settings that every sample needs; empty before the first sample."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         self.attitude = attitude
@@ -245,36 +243,30 @@ class ErrorStateFilter(Strapdown):
         rx, ry, rz = gx - rx, gy - ry, gz - rz
         # noise of the sensor, noise that grows with the motion, and noise from the motion between independent readings:
         # T / dt times the difference and the duration of a sample, in dt / T times as many (IndependentInterval)
-        acc_noise, gyro_noise, per_motion, per_difference, clipping_rate, clipping = self.noise or self._find_noise()
-        per_difference = per_difference * dt * ratio * ratio * ratio
+        settings = self.settings
+        motion_factor, difference_factor = (
+            settings.noise_per_motion * settings.noise_per_motion,
+            settings.noise_per_difference * settings.noise_per_difference * dt * ratio * ratio * ratio,
+        )
         self.acc_variance += (
-            acc_noise + per_motion * (ax * ax + ay * ay + az * az) + per_difference * (x * x + y * y + z * z)
+            settings.acc_noise * settings.acc_noise
+            + motion_factor * (ax * ax + ay * ay + az * az)
+            + difference_factor * (x * x + y * y + z * z)
         ) * dt
-        noise = gyro_noise + per_motion * rate_square + per_difference * (rx * rx + ry * ry + rz * rz)
-        if rate_square > clipping_rate and not (recovery.gyro_clipping.clipping and self.settings.recover):
-            noise += clipping
+        noise = (
+            settings.gyro_noise * settings.gyro_noise
+            + motion_factor * rate_square
+            + difference_factor * (rx * rx + ry * ry + rz * rz)
+        )
+        if rate_square > settings.clipping_rate * settings.clipping_rate and not (
+            recovery.gyro_clipping.clipping and settings.recover
+        ):
+            noise += settings.clipping_noise * settings.clipping_noise
         self.gyro_variance += noise * dt
         self.elapsed += dt
         self.time_since_anchor += dt
-        if (gyro_peaks or acc_peaks) and self.settings.recover:
+        if (gyro_peaks or acc_peaks) and settings.recover:
             self._add_peaks(recovery, gyro_peaks, acc_peaks)
-
-    def _find_noise(self) -> tuple[float, ...]:
-        settings = self.settings
-        self.noise = tuple(
-            [
-                value * value
-                for value in (
-                    settings.acc_noise,
-                    settings.gyro_noise,
-                    settings.noise_per_motion,
-                    settings.noise_per_difference,
-                    settings.clipping_rate,
-                    settings.clipping_noise,
-                )
-            ]
-        )
-        return self.noise
 
     def _make_recovery(self) -> Recovery:
         from .clipping import Recovery  # with the first sample, as the tracker
