@@ -58,9 +58,11 @@ class Layout:
     @cached_property
     def spacing(self) -> float:
         """Usual distance from one cell to the next, m; 0 with fewer than two cells."""
+        if len(self.cells) < 2:
+            return 0.0
         positions = [(cell.x, cell.y) for cell in self.cells]
-        nearest = [min([dist(a, b) for b in positions if b is not a], default=0.0) for a in positions]
-        return sorted(nearest)[len(nearest) // 2] if nearest else 0.0
+        nearest = sorted([sorted([dist(a, b) for b in positions])[1] for a in positions])  # [0] is the cell itself
+        return nearest[len(nearest) // 2]
 
 
 def shared(layout: Layout) -> Layout:
