@@ -219,15 +219,21 @@ def test_an_app_loads_only_the_parts_that_it_uses(device: str, tmp_path: Path) -
 
 
 def test_names_and_the_help_of_commands_load_what_they_need_and_no_session() -> None:
-    program = "import sys; {}; print(*[name for name in sys.modules if name.partition('.')[0] == 'solepath'])"
-    helped = "from solepath.cli import main\ntry: main(['track', '--help'])\nexcept SystemExit: pass\nfinally: print()"
+    program = (
+        "import sys; {}; print(*[name for name in sys.modules if name.partition('.')[0] in ('solepath', 'attrs')])"
+    )
+    helped = "from solepath.cli import main\ntry: main([{}'--help'])\nexcept SystemExit: pass\nfinally: print()"
+    alone_helped, track_helped = helped.format(""), helped.format("'track', ")
     loaded = {}
-    for work in ("import solepath", "from solepath import Foot", f"exec({helped!r})"):
+    for work in (
+        "import solepath", "from solepath import Foot", f"exec({alone_helped!r})", f"exec({track_helped!r})"
+    ):  # fmt: skip
         done = subprocess.run([sys.executable, "-c", program.format(work)], capture_output=True, text=True, check=True)
         loaded[work] = set(done.stdout.splitlines()[-1].split())
-    alone, foot, command = loaded.values()
+    alone, foot, commands, command = loaded.values()
     assert alone == {"solepath"}
-    assert {room(name.partition(".")[2]) for name in foot - alone} == {"types"}
+    assert {room(name.partition(".")[2]) for name in foot - alone if name != "attrs"} == {"types"}
+    assert "attrs" not in commands and not {f"solepath.cli.{name}" for name in ("track", "demo", "check")} & commands
     assert "solepath.cli.track" in command and "solepath.session" not in command
 
 

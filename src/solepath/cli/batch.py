@@ -106,7 +106,7 @@ def run(options: Namespace) -> int:
 def _as_track(options: Namespace, files: list[Path]) -> Namespace:
     """Return the options of `track` for the files of one recording."""
     top = Parser(prog="solepath")
-    track.add_to(top.add_subparsers(dest="command", parser_class=Parser))
+    track.add_track(top.add_subparsers(dest="command", parser_class=Parser), "")
     known = vars(top.parse_args(["track", "-", "--outcomes"]))
     return Namespace(**{name: getattr(options, name, value) for name, value in known.items()} | {"files": files})
 
@@ -229,9 +229,8 @@ def _to_parquet(path: Path, own: Sequence[str], made: Mapping[str, Any]) -> None
     parquet.write_table(table.cast(pyarrow.schema(kinds, {"solepath": json.dumps(made)})), path)
 
 
-add_to = command(
+add_batch = command(
     "batch",
-    "run all recordings of a study into one set of tables",
     "Run the recordings that a table lists, as `track` does, and join their strides, gait cycles, walking bouts and "
     "outcomes. The table has a column `file`, with ; between the files of one recording; all other columns, such as "
     "participant and condition, come back in every result. A recording that fails is a line of failures.csv, and the "

@@ -104,9 +104,8 @@ def _print_list(title: str, sentences: Sequence[str]) -> None:
         print("\n  ".join([f"{title}:", *(printable(sentence, MAX_LENGTH) for sentence in sentences)]))
 
 
-add_to = command(
+add_check = command(
     "check",
-    "say what is wrong with a recording",
     "Say what is wrong with a recording of packets (JSON Lines) or of samples (text tables, Excel,"
     " Parquet, .npz), in sentences. The exit status is 1 if something must be mended, also if the values are in"
     " another unit, and 2 if the file is no recording. Axes need about 20 s of walking, clocks 60 s.",

@@ -36,9 +36,8 @@ def complete_with(action: Action, names: Callable[[], Iterable[str]]) -> None:
     vars(action)["completer"] = lambda **_: names()
 
 
-add_to = command(
+add_completion = command(
     "completion",
-    "make the Tab key complete commands, options and recipes",
     "Print what makes a shell complete commands, options, recipes and files at the Tab key (extra "
     "completion). One line in the file that the shell reads at its start is enough.",
     """eval "$(solepath completion bash)"        in ~/.bashrc

@@ -276,9 +276,8 @@ def validate_storage(path: Path, *, positions: bool) -> int:
     return 0
 
 
-add_to = command(
+add_convert = command(
     "convert",
-    "import a phone's Bluetooth log; export to MCAP, OpenSim or Motion-BIDS",
     "Convert a log of Bluetooth (an Android phone's HCI snoop log or bug report, Apple's PacketLogger, btmon, .pcap, "
     ".pcapng) to a recording of packets, or either to MCAP, which opens in Foxglove; or any recording to a storage "
     "file of OpenSim or, with --subject, into a Motion-BIDS dataset. The name of OUT chooses the format: .jsonl, "

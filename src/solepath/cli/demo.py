@@ -131,9 +131,8 @@ def _print_progress(demo: Demo) -> None:
     print("\n".join(["", *picture, "", *texts(demo.found, Concern.LINK)]))
 
 
-add_to = command(
+add_demo = command(
     "demo",
-    "walk an emulated route and compare with the truth",
     "An emulated wearer walks a route with both insoles over a lossy radio. In a terminal it is shown "
     "live, on a page in the browser where aiohttp is installed; without a terminal it is computed as fast as it "
     "can be.",

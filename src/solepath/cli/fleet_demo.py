@@ -153,9 +153,8 @@ def figures(stage: DemoStage) -> dict[str, Any]:
     }
 
 
-add_to = command(
+add_fleet_demo = command(
     "fleet-demo",
-    "many emulated wearers through a stream engine that is killed",
     "Emulated wearers, whose packets come late, twice and out of order, walk through Spark Structured "
     "Streaming on this machine, which keeps the state of their sessions. Its processes are killed at random "
     "moments (kill -9) and started again. The events must equal those of an uninterrupted run, and those of "

@@ -10,43 +10,43 @@ from __future__ import annotations
 import os
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
+from importlib import import_module
 from importlib.machinery import ExtensionFileLoader
 from importlib.util import find_spec
 
-from . import batch, check, completion, convert, demo, fleet_demo, plan, track, validate, web
-from .bluetooth import emulate, live, scan
-from .calibrate import command as calibrate
 from .common.failure import Failure, note
 from .common.parser import Parser
-from .common.sentences import sentences_of
-from .completion import COMPLETING
+from .completion import COMPLETING, complete
 
-COMMANDS = (
-    demo,
-    track,
-    check,
-    plan,
-    batch,
-    validate,
-    scan,
-    live,
-    emulate,
-    convert,
-    calibrate,
-    fleet_demo,
-    web,
-    completion,
-)  # live adds record
+GROUPS = {
+    "with your sensors": {
+        "scan": ("bluetooth.scan", "list the sensors in range"),
+        "live": ("bluetooth.live", "listen to sensors and show what they say"),
+        "record": ("bluetooth.live", "write what sensors send into a file"),
+        "calibrate": ("calibrate.command", "learn about a wearer, shoes and insoles"),
+    },
+    "with recordings": {
+        "track": ("track", "run a recording and print a summary"),
+        "check": ("check", "say what is wrong with a recording"),
+        "batch": ("batch", "run all recordings of a study into one set of tables"),
+        "validate": ("validate", "compare recordings with your own reference system"),
+        "convert": ("convert", "import a phone's Bluetooth log; export to MCAP, OpenSim or Motion-BIDS"),
+    },
+    "with a floor plan": {"plan": ("plan", "draw and check a floor plan")},
+    "without sensors": {
+        "demo": ("demo", "walk an emulated route and compare with the truth"),
+        "emulate": ("bluetooth.emulate", "serve emulated sensors over a true Bluetooth link"),
+        "web": ("web", "write the page as a site that needs no server"),
+        "fleet-demo": ("fleet_demo", "many emulated wearers through a stream engine that is killed"),
+    },
+    "this shell": {"completion": ("completion", "make the Tab key complete commands, options and recipes")},
+}
+"""Commands by their purpose, in the order of the help, each with its module and its line of help.
 
-GROUPS = (
-    ("with your sensors", ("scan", "live", "record", "calibrate")),
-    ("with recordings", ("track", "check", "batch", "validate", "convert")),
-    ("with a floor plan", ("plan",)),
-    ("without sensors", ("demo", "emulate", "web", "fleet-demo")),
-    ("this shell", ("completion",)),
-)
-"""Commands by their purpose, in the order of the help."""
+The module of `NAME` has a function `add_NAME`, which adds the command to the parser."""
+COMMANDS = {name: found for group in GROUPS.values() for name, found in group.items()}
+"""The same without the purposes."""
 LABORATORY = {"agreement", "damage", "emulated", "evaluate", "reproduce", "sensitivity", "train"}
 """Commands of `solepath-lab`, which people may look for here."""
 FIRST = """\
@@ -62,21 +62,23 @@ class _TopParser(Parser):
 
     def format_help(self) -> str:
         """Return the help of the program."""
-        lines = {one.dest: one.help for one in self.commands._choices_actions}
         parts = ["solepath: gait events and indoor tracks from foot-worn sensors", FIRST]
-        for title, names in GROUPS:
-            parts.append("\n".join([f"{title}:", *(f"  {name:12}{lines[name]}" for name in names)]))
+        for title, group in GROUPS.items():
+            parts.append("\n".join([f"{title}:", *(f"  {name:12}{what}" for name, (_, what) in group.items())]))
         parts.append("solepath COMMAND --help has the options of a command, solepath --version the version")
         return "\n\n".join(parts) + "\n"
 
 
-def parser() -> Parser:
-    """Return the parser with all commands."""
+def parser(words: Container[str] = COMMANDS) -> Parser:
+    """Return the parser with all commands; one that is not among the `words` has its name and no options."""
     top = _TopParser(prog="solepath", example="solepath track walk.csv")
     top.add_argument("--version", action="store_true", help="print the version, compiled or pure, and exit")
     commands = top.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser)
-    for command in COMMANDS:
-        command.add_to(commands)
+    for name, (module, what) in COMMANDS.items():
+        if name in words:
+            getattr(import_module(f".{module}", __package__), f"add_{name.replace('-', '_')}")(commands, what)
+        else:
+            commands.add_parser(name, help=what)
     return top
 
 
@@ -87,9 +89,9 @@ def run(arguments: Sequence[str] | None) -> int:
         words = [*words[1:], "--help"]
     if LABORATORY.intersection(words[:1]):
         raise Failure(f"there is no command {words[0]!r} here: it is one of solepath-lab")
-    top = parser()
     if COMPLETING in os.environ:
-        completion.complete(top)
+        complete(parser())
+    top = parser(words[:1])
     options = top.parse_args(words, Namespace(words=words))
     if options.version:
         from importlib.metadata import version
@@ -127,6 +129,8 @@ def guarded(run: Callable[[Sequence[str] | None], int], arguments: Sequence[str]
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except Exception as error:
+        from .common.sentences import sentences_of
+
         if not (sentences := sentences_of(error)):
             raise
         for sentence in sentences:

@@ -87,9 +87,8 @@ def _verdict(findings: list[PlanFinding]) -> Iterator[str]:
         yield "nothing must be mended"
 
 
-add_to = command(
+add_plan = command(
     "plan",
-    "draw and check a floor plan",
     "Draw a floor plan with a grid in metres and the ids of its rooms, doors, stairs and lifts; list these ids, any of"
     " which --start of track takes; and say what is wrong with the plan, in sentences. The exit status is 1 if"
     " something must be mended, and 2 if the file is no floor plan.",

@@ -222,9 +222,8 @@ def _run_on_page(
     return shown
 
 
-add_to = command(
+add_track = command(
     "track",
-    "run a recording and print a summary",
     "Run a recording of packets (JSON Lines) or of samples (text tables, Excel, Parquet, .npz) and print a summary.",
     "solepath track walk.csv --report walk.html\n"
     "solepath track left.csv right.csv --units g,deg/s,ms --out walk\n"

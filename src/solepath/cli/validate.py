@@ -163,9 +163,8 @@ def _parse_offset(text: str) -> float:
     return parse_number("a number of seconds", -1e12, 1e12, text)
 
 
-add_to = command(
+add_validate = command(
     "validate",
-    "compare recordings with your own reference system",
     "Compare recordings with a table of what a reference system measured: events, strides, or parameters of a walk. "
     "Prints bias, 95 % limits of agreement and ICC(2,1) of each parameter, by foot and by each other column of the "
     "table. Needs the extra validate.",

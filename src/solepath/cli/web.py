@@ -81,9 +81,8 @@ def _serve(folder: Path, options: Namespace) -> None:
             sleep(CLOCK_INTERVAL)
 
 
-add_to = command(
+add_web = command(
     "web",
-    "write the page as a site that needs no server",
     "Write the page as a folder of static files. Python runs in the browser (Pyodide, fetched once "
     "from the npm registry and checked), so that any web server with https can serve it, and a phone can use it "
     "offline.",

@@ -1,12 +1,27 @@
 """Recordings: packets are read and written, tables of samples and btsnoop logs are read, MCAP files are written."""
 
-from .bad_rows import LONGEST_LINE
-from .clock_offset import shift_clock
-from .errors import RecordingError, RecordingWarning, Report, open_file, os_error_text, printable, warn
-from .mapping import TableMapping, read_mapping
-from .packet_writer import PacketWriter
-from .packets import FORMAT, VERSION, read_header, read_packets, read_start_time
-from .source import Source, open_source, read_samples
+from typing import TYPE_CHECKING
+
+from .. import _find
+
+if TYPE_CHECKING:
+    from .bad_rows import LONGEST_LINE
+    from .clock_offset import shift_clock
+    from .errors import RecordingError, RecordingWarning, Report, open_file, os_error_text, printable, warn
+    from .mapping import TableMapping, read_mapping
+    from .packet_writer import PacketWriter
+    from .packets import FORMAT, VERSION, read_header, read_packets, read_start_time
+    from .source import Source, open_source, read_samples
+
+_MODULES = ("errors", "bad_rows", "packets", "packet_writer", "mapping", "clock_offset", "source")
+"""Modules of the names in `__all__`, which are imported when a name is first used."""
+
+
+def __getattr__(name: str) -> object:
+    if name in __all__:
+        return _find(__name__, _MODULES, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
 
 __all__ = [
     "FORMAT",

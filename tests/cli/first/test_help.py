@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from commands import run
 
-from solepath.cli.main import GROUPS, parser
+from solepath.cli.main import COMMANDS, parser
 
 LEVELS = re.compile(r"### Exit status\n|## Exit status\n")
 
@@ -35,9 +35,8 @@ def test_solepath_alone_shows_the_first_steps_and_every_command_once_by_its_purp
     assert [line.split("  ")[1] for line in lines[start + 1 : start + 4]] == [
         "solepath demo", "solepath track walk.csv", "solepath live"
     ]  # fmt: skip
-    named = [name for _, names in GROUPS for name in names]
-    assert sorted(named) == sorted(name for name in WORDS if " " not in name)
-    for name in named:
+    assert sorted(COMMANDS) == [name for name in WORDS if " " not in name]
+    for name in COMMANDS:
         assert sum(line.split()[:1] == [name] for line in lines) == 1
     assert run("--help").stdout == run("-h").stdout == run("help").stdout == done.stdout
 

@@ -31,9 +31,8 @@ def run(options: Namespace) -> int:
     return run_to_end(partial(serve_devices, options, prepare_bench(options)))
 
 
-add_to = command(
+add_emulate = command(
     "emulate",
-    "serve emulated sensors over a true Bluetooth link",
     "Serve emulated sensors on the feet of an emulated wearer: virtual Bluetooth controllers with the "
     "true services of the devices, spoken to in HCI over TCP. The wearer begins to walk when the first device is "
     "connected, and again when none was connected for ten seconds.",

@@ -16,7 +16,7 @@ from ..common.inputs import (
     recipe_option,
     recipes_of,
 )
-from ..common.parser import command, option, together
+from ..common.parser import command, option
 from ..common.view import add_no_browser, page_address_of, view_option
 from .devices import add_devices, need_bleak
 from .live_streams import need_lsl, stream_names_of
@@ -42,9 +42,8 @@ def run(options: Namespace) -> int:
     return run_to_end(partial(listen, options, recipe, calibration, plan, start, address))
 
 
-_add_live = command(
+add_live = command(
     "live",
-    "listen to sensors and show what they say",
     "Connect to sensors on the feet and show gait, track and links as they are worn. Without "
     "--left and --right it takes two insoles when any are in range, which know their feet.",
     "solepath live --left F0:5E:00:00:00:01 --right F0:5E:00:00:00:02 --record walk.jsonl",
@@ -83,9 +82,8 @@ _add_live = command(
     add_force,
     run=run,
 )
-_add_record = command(
+add_record = command(
     "record",
-    "write what sensors send into a file",
     "Connect to sensors and write every packet as it arrives; a file for `solepath track`. Whatever "
     "happens to this program, what came until 200 ms before can be read.",
     "solepath record --out walk.jsonl --duration 120",
@@ -102,4 +100,3 @@ _add_record = command(
     view=None,
     lsl=None,
 )
-add_to = together(_add_live, _add_record)

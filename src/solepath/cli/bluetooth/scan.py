@@ -63,9 +63,8 @@ def _print_devices(found: list[Advertisement], show_all: bool) -> None:
         print(f"{len(found) - len(known)} of other kinds (--all shows them)")
 
 
-add_to = command(
+add_scan = command(
     "scan",
-    "list the sensors in range",
     "List the sensors that advertise, the nearest first.",
     "solepath scan --seconds 8",
     option(

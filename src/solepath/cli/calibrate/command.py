@@ -20,17 +20,16 @@ MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stay
 """Sentence of the help text."""
 
 
-def add_to(commands: Any) -> None:
+def add_calibrate(commands: Any, what: str) -> None:
     """Add the command to the parser."""
     added = command(
         "calibrate",
-        "learn about a wearer, shoes and insoles",
         f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGE_NOTE}",
         "solepath calibrate walk corridor.jsonl --out me.json\nsolepath calibrate walk --help",
-    )(commands)
+    )(commands, what)
     kinds = added.add_subparsers(metavar="KIND", dest="kind", required=True)
-    for add in KINDS:
-        add(kinds)
+    for add, line in KINDS.items():
+        add(kinds, line)
     for kind in kinds.choices.values():
         kind.add_argument("--out", metavar="FILE", type=Path, required=True, help="the calibration file")
         kind.set_defaults(run=run)

@@ -109,17 +109,15 @@ def _walk(options: Namespace, known: Calibration) -> LearntCalibration:
     return heading_calibration(fits), [table(header, rows)]
 
 
-_add_noise = command(
+add_noise = command(
     "noise",
-    "what pressure cells show in the air, from a walk",
     "From some 20 s of walking: what every cell shows while the foot swings, which is taken off later.",
     "solepath calibrate noise walk.jsonl --out me.json",
     table_options("RECORDING"),
     learn=_noise,
 )
-_add_square = command(
+add_square = command(
     "square",
-    "which way positions drift, from laps of a square over marks",
     "From four to six laps of a square on whose edges every stride of one foot is marked, the same "
     "marks in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
     "solepath calibrate square laps.jsonl --out me.json",
@@ -129,18 +127,16 @@ _add_square = command(
     option("--whole", action="store_true", help="keep a drift that the laps do not agree on, as the paper"),
     learn=_square,
 )
-_add_newton = command(
+add_newton = command(
     "newton",
-    "from an insole's counts to newtons, from what a gauge pressed",
     "A cubic through what a gauge pressed and what the insole said: a csv file with the columns counts and newtons.",
     "solepath calibrate newton gauge.csv --foot left --out me.json",
     option("file", metavar="GAUGE", type=Path, help="the csv file"),
     option("--foot", choices=["left", "right"], help="whose insole it is (default: both are alike)"),
     learn=_newton,
 )
-_add_modes = command(
+add_modes = command(
     "modes",
-    "a wearer's own compensation of touchdowns, from walks over marks",
     "From walks on marked points, straight on and along bends: what touchdowns are off by in each "
     "walking mode. Each recording comes with a csv file of its marks: foot, x, y (m), mode, and t (s) or step. "
     "Limbs and insoles that FILE knows already are used.",
@@ -156,9 +152,8 @@ _add_modes = command(
     ),
     learn=_modes,
 )
-_add_walk = command(
+add_walk = command(
     "walk",
-    "how the heading of each foot drifts, from a walk there and back",
     "From two minutes to and fro along one straight line of 10 m and more, for instance a corridor: by "
     "how much the track of each foot turns in every stride and for every turn, which is taken off later. Stand for "
     "fifteen seconds before and after it, walk as usual, and turn now to the left and now to the right.",
@@ -166,7 +161,14 @@ _add_walk = command(
     table_options("RECORDING"),
     learn=_walk,
 )
-KINDS = (
-    _add_noise, add_shoe, _add_square, _add_newton, add_limbs, _add_modes, _add_walk, add_sensor
-)  # fmt: skip
-"""Functions that add the kinds to the parser, in the order of the help text."""
+KINDS = {
+    add_noise: "what pressure cells show in the air, from a walk",
+    add_shoe: "how a shoe rolls over its forefoot, from postures measured with rulers",
+    add_square: "which way positions drift, from laps of a square over marks",
+    add_newton: "from an insole's counts to newtons, from what a gauge pressed",
+    add_limbs: "lengths of the limbs, and whether seven body sensors stood still, from a standing pose",
+    add_modes: "a wearer's own compensation of touchdowns, from walks over marks",
+    add_walk: "how the heading of each foot drifts, from a walk there and back",
+    add_sensor: "scale, axes and bias of a sensor, from rests and turns by hand",
+}
+"""Functions that add the kinds to the parser, each with its line of help, in the order of the help text."""

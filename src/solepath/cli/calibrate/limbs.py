@@ -35,7 +35,6 @@ def _limbs(options: Namespace, known: Calibration) -> tuple[Calibration, list[st
 
 add_limbs = command(
     "limbs",
-    "lengths of the limbs, and whether seven body sensors stood still, from a standing pose",
     "From some seconds of standing upright, feet level and side by side, with all seven sensors worn "
     "(docs/device.md): whether a walk can begin so. Lengths are shares of the stature, or as measured.",
     "solepath calibrate limbs standing.jsonl --stature 1.72 --spines 0.235 --out me.json",

@@ -55,7 +55,6 @@ def _rows(foot: str, name: str, triad: TriadCalibration, factor: float) -> list[
 
 add_sensor = command(
     "sensor",
-    "scale, axes and bias of a sensor, from rests and turns by hand",
     "From a sensor in the hand: twelve rests of three seconds in any orientations, and five turns "
     "about each of two axes of the sensor that are held level, each from one rest to another. Every recipe then "
     "corrects the readings of this sensor. A recording that does not show all of it is no calibration, and the "

@@ -34,7 +34,6 @@ def _shoe(options: Namespace, known: Calibration) -> tuple[Calibration, list[str
 
 add_shoe = command(
     "shoe",
-    "how a shoe rolls over its forefoot, from postures measured with rulers",
     "From static postures between flat and toe-off: a csv file with the columns pitch_deg, L_r_m, "
     "L_p2t_m, and H_imu_m and heel_L_r_m where they are known. With --live, the command makes this file: it shows "
     "the pitch of the shoe by its sensor, says which posture comes next, and asks for what the rulers show.",

@@ -13,7 +13,6 @@ from math import inf, radians
 from ...recording import printable
 from ...recording.errors import finite
 from ...show.tables.progress import print_above
-from ...types.extras import install_hint
 
 PAGE_ADDRESS = "127.0.0.1:8765"
 """Address of the page where none is named."""
@@ -52,6 +51,8 @@ def require(what: str, extra: str, *packages: str) -> None:
     """Raise Failure, with the command that installs `extra`, when one of its packages is not installed.
 
     `what` is the start of the sentence, such as "Bluetooth needs"."""
+    from ...types.extras import install_hint
+
     for package in packages:
         if not is_installed(package):
             raise Failure(f"{what} {package}: {install_hint(extra)}")

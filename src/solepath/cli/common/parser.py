@@ -162,17 +162,19 @@ def one_of(*options: Option) -> Option:
 
 
 def command(
-    name: str, what: str, description: str, example: str, *options: Option, **defaults: Any
-) -> Callable[[Any], Parser]:
-    """Return what adds a command, or a kind of one, to a parser, and returns its own; `what` is its line of help."""
+    name: str, description: str, example: str, *options: Option, **defaults: Any
+) -> Callable[[Any, str], Parser]:
+    """Return the function that adds a command, or a kind of one, to a parser.
 
-    def add_to(commands: Any) -> Parser:
+    It takes the parser's commands and the line of help, `what`, and returns the parser of the command."""
+
+    def add(commands: Any, what: str) -> Parser:
         added: Parser = commands.add_parser(name, help=what, description=description, example=example)
         together(*options)(added)
         added.set_defaults(**defaults)
         return added
 
-    return add_to
+    return add
 
 
 add_seed = option(
