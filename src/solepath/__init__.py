@@ -120,19 +120,18 @@ def __getattr__(name: str) -> object:
     if name in _SUBMODULES:
         return import_module(f"{__name__}.{name}")  # which sets the attribute
     if name in __all__:
-        value = _find(__name__, _MODULES, name)
+        value = _find(name)
         globals()[name] = value
         return value
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def _find(package: str, modules: tuple[str, ...], name: str) -> object:
-    """Return what the first of these modules of a package that has the name calls so; import modules as needed."""
-    for module_name in modules:
-        module = import_module(f"{package}.{module_name}")
+def _find(name: str) -> object:
+    for module_name in _MODULES:
+        module = import_module(f"{__name__}.{module_name}")
         if hasattr(module, name):
             return getattr(module, name)
-    raise AttributeError(f"{name!r} is in no module of {package!r}")
+    raise AttributeError(f"{name!r} is in no module of {__name__!r}")
 
 
 __all__ = [

@@ -1,8 +1,7 @@
 """Recordings: packets are read and written, tables of samples and btsnoop logs are read, MCAP files are written."""
 
+from importlib import import_module
 from typing import TYPE_CHECKING
-
-from .. import _find
 
 if TYPE_CHECKING:
     from .bad_rows import LONGEST_LINE
@@ -14,12 +13,13 @@ if TYPE_CHECKING:
     from .source import Source, open_source, read_samples
 
 _MODULES = ("errors", "bad_rows", "packets", "packet_writer", "mapping", "clock_offset", "source")
-"""Modules of the names in `__all__`, which are imported when a name is first used."""
+"""Modules of the names in `__all__`. A module is imported when a name is first used."""
 
 
 def __getattr__(name: str) -> object:
-    if name in __all__:
-        return _find(__name__, _MODULES, name)
+    for module in _MODULES if name in __all__ else ():
+        if hasattr(found := import_module(f"{__name__}.{module}"), name):
+            return getattr(found, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
