@@ -70,7 +70,8 @@ def closure_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS) -> 
     """Return the residual for each of AXES, SCALES and for NO_TURN, m/s^2.
 
     It is the worse one of the two ends of the stride, |S / T - g u + m d|. Peaks that are cut off at `ends` lack an
-    impulse of unknown size m in known directions at known instants, which are turned and integrated to d."""
+    impulse of unknown size m in known directions at known instants, which are turned and integrated to d. A stride that
+    nearly closes with the axes as they are says nothing about others: they have the same residual then."""
     first, last = hypot(*stride.first), hypot(*stride.last)
     g = 0.5 * (first + last)
     ups = [[g / first * x for x in stride.first], [g / last * x for x in stride.last]]
@@ -90,13 +91,18 @@ def closure_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS) -> 
         for axis, upper, lower in zip(forces, ends[::2], ends[1::2], strict=True)
         if min(ends) < inf
     ]
-    proper, improper, *scaled = [_close(turns, factor, shares, cut, ups) for factor in (1.0, -1.0, *SCALES, 0.0)]
+    proper, still = [_close(turns, factor, shares, cut, ups) for factor in (1.0, 0.0)]
+    own, unturned = [_residual(ORDERS[0], SIGNS[0], closed) for closed in (proper, still)]
+    least = LEAST_RESIDUAL + LEAST_SHARE * unturned
+    if own + least <= NEARLY_CLOSED * (unturned + least):
+        return [own] * NO_TURN + [unturned]
+    improper, *scaled = [_close(turns, factor, shares, cut, ups) for factor in (-1.0, *SCALES)]
     residuals = [
         _residual(order, signs, proper if (order in ROTATIONS) == (prod(signs) > 0.0) else improper)
         for order in ORDERS
         for signs in SIGNS
     ]
-    return residuals + [_residual(ORDERS[0], SIGNS[0], closed) for closed in scaled]
+    return residuals + [_residual(ORDERS[0], SIGNS[0], closed) for closed in scaled] + [unturned]
 
 
 def _close(
