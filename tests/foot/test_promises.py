@@ -15,7 +15,7 @@ from own import CELLS, WALKED, ByMotion, Resets, StillDetector
 from solepath import recipes
 from solepath.body.part import LayoutReported, Notice, Part, PartInput, PartOutput
 from solepath.emulate import Route, Walker
-from solepath.events import WearerMoved
+from solepath.events import StrideTaken, WearerMoved
 from solepath.foot.cues.cues import TimedCue
 from solepath.foot.stance.stance import Stance
 from solepath.foot.view import FootView
@@ -279,6 +279,23 @@ class Lingering(Part):
 
     def finish(self, now: float) -> Sequence[PartOutput]:
         return [WearerMoved(t=now + self.cells, known_at=now, position=ZERO, covariance=(0.0,) * 6)]
+
+
+@define
+class Remembering(Part):
+    """A part that remembers the lengths of the last strides, which are more than one short walk has."""
+
+    lengths: tuple[float, ...] = field(default=(), init=False)
+
+    def feed(self, events: Sequence[PartInput], view: FootView | None) -> Sequence[PartOutput]:
+        for event in events:
+            if isinstance(event, StrideTaken):
+                self.lengths = (*self.lengths, event.length)[-30:]
+        return ()
+
+
+def test_a_window_of_strides_that_a_short_walk_does_not_fill_is_bounded() -> None:
+    assert violations(Remembering(), WALKED) == []
 
 
 @pytest.mark.soak
