@@ -208,7 +208,7 @@ def main() -> None:
     sizes = measurements.sizes
     print(
         f"\nthe page draws {measurements.frame_rate:.1f} frames a second; "
-        f"its thread works {100 * measurements.work_share:.0f} % of it"
+        f"its thread works {100 * measurements.work_share:.0f} % of the time"
     )
     print(
         f"{len(sizes) / seconds:.1f} messages a second, {sum(sizes) / seconds / 1000:.1f} kB/s; "
