@@ -125,7 +125,7 @@ DATASETS = (
         "gaitpdb_vgrf", "eight force sensors below each foot; no other sensor", score_force, has_pressure=True,
     ),
     DataSet(
-        "fsr_treadmill", "two pressure cells below each foot, with an unknown voltage without load; no other sensor",
+        "fsr_treadmill", "two pressure cells below each foot, unloaded voltage unknown; no other sensor",
         score_soles, lists_recordings=False, has_pressure=True,
     ),
     DataSet(
