@@ -115,7 +115,7 @@ class ErrorStateSettings:
     recover: bool = True
     """Add the turn that a clipped gyroscope did not show (clipping.py)."""
     clipping_rate: float = 8.5
-    """Angular rate above which clipping is possible although no end of a range is seen, rad/s.
+    """Angular rate above which a gyroscope may clip although its readings do not stay at one value, rad/s.
 
     A calibration may have rotated the axes, so that the readings no longer stay at one value."""
     clipping_noise: float = 0.2

@@ -122,37 +122,38 @@ DATASETS = (
         ("moticon_opengo",), _has_contacts, has_pressure=True,
     ),
     DataSet(
-        "gaitpdb_vgrf", "eight force sensors below each foot and nothing else", score_force, has_pressure=True,
+        "gaitpdb_vgrf", "eight force sensors below each foot; no other sensor", score_force, has_pressure=True,
     ),
     DataSet(
-        "fsr_treadmill", "two cells with a voltage without load below each foot and nothing else", score_soles,
-        lists_recordings=False, has_pressure=True,
+        "fsr_treadmill", "two pressure cells below each foot, unloaded voltage unknown; no other sensor",
+        score_soles, lists_recordings=False, has_pressure=True,
     ),
     DataSet(
-        "fsr_treadmill_learnt", "the same from the fifth contact on, when that voltage is known",
+        "fsr_treadmill_learnt", "the same from the fifth contact, once that voltage is learnt",
         partial(score_soles, first=4), ("fsr_treadmill",), lists_recordings=False, has_pressure=True,
     ),
     DataSet(
         "hugadb", "activities, both feet, five folds by wearer", score_labelled, lists_recordings=False, folds=True,
     ),
     DataSet(
-        "hugadb_corrected", "the same, labels that contradict the signal corrected",
+        "hugadb_corrected", "the same, after labels that contradict the signal were corrected",
         partial(score_labelled, corrected=True), ("hugadb",), lists_recordings=False, folds=True,
     ),
     DataSet(
-        "stairs", "stairs and level ways, and what of them is called stairs", score_stairs,
+        "stairs", "stairs and level walking", score_stairs,
         ("gaitmap_examples", "xio_closed_walks"), lambda name, meta: name in STAIR_SPANS,
     ),
     DataSet("slow_gait", "slow walks on the level, strides counted, one foot", score_slow_walk),
     DataSet(
-        "hugadb_daily", "bicycling, sitting, in a car: no step, both feet", score_not_walking, has_truth=_takes_no_step,
+        "hugadb_daily", "bicycling, sitting, in a car: no steps, both feet", score_not_walking,
+        has_truth=_takes_no_step,
     ),
     DataSet(
-        "hugadb_daily_corrected", "the same, an eighth of angular rates that are eight times too large",
+        "hugadb_daily_corrected", "the same, after angular rates eight times too large were corrected",
         partial(score_not_walking, true_rates=True), ("hugadb_daily",),
         lambda name, meta: name in EIGHT_TIMES and _takes_no_step(name, meta),
     ),
-    DataSet("sevivi_hops", "two sensors that are not on feet, for alarms", score_alarms),
+    DataSet("sevivi_hops", "two sensors that are not on feet", score_alarms),
 )  # fmt: skip
 
 EMULATED = (
