@@ -55,7 +55,7 @@ HEADLINES = (
         "position",
         "{} walks of {} m (mean) in a motion-capture lab, one shoe: position error {} m (RMS, mean of the walks)",
         "pyshoe_vicon",
-        "stance and filter",
+        "stance detection and the filter",
         r"(\d+) recordings.*walk: mean ([\d.]+) m.*RMS, horizontal: mean ([\d.]+) m",
     ),
     (
@@ -63,7 +63,7 @@ HEADLINES = (
         "{} walks of {} m (mean), every footprint surveyed, one shoe: position error {} m on average; "
         "{} strides found, {} invented; stride length error {} %",
         "gumushane_surveyed",
-        "stance and filter",
+        "stance detection and the filter",
         r"(\d+) recordings.*walk: mean ([\d.]+) m.*footprints: mean ([\d.]+) m.*"
         r"strides: (\d+ of \d+) found, (\d+) invented; stride length error: mean ([\d.]+)",
     ),
@@ -72,26 +72,26 @@ HEADLINES = (
         "{} walks with radio losses, both feet, contacts checked by hand: heel-strike F1 {}, median offset {} ms; "
         "toe-off F1 {}, {} ms",
         "ipol_10m_uturn",
-        "the signs of contact",
+        "contact detection",
         r"(\d+) recordings.*heel-strikes: F1 ([\d.]+), median offset (-?\d+) ms.*"
         r"toe-offs: F1 ([\d.]+), median offset (-?\d+) ms",
     ),
 )
-"""Rows of the README's table of results: title, sentence, data set, what that was used to choose, where figures are."""
+"""Rows of the README's table of results: title, sentence, data set, what was tuned on it, where figures are."""
 
 
 def headlines(short: list[Row], bench: str) -> list[str]:
     """Return the README's table of results, from the rows of `in_short` and the output of BENCH."""
     table = ["| result | measured | data used in development | command |", "|---|---|---|---|"]
-    for title, sentence, data, chosen, pattern in HEADLINES:
+    for title, sentence, data, tuned, pattern in HEADLINES:
         (row,) = (f"{name}: {result}" for name, result in short if f"`{data}`" in name)
         found = re.search(pattern, row)
         if found is None:
             raise ValueError(f"{data}: {row!r} has no {pattern!r}")
         command = f"`solepath-lab evaluate DIR --only {data} --recipe default`"
-        table.append(f"| {title} | {sentence.format(*found.groups())} | yes, to choose {chosen} | {command} |")
+        table.append(f"| {title} | {sentence.format(*found.groups())} | yes, to tune {tuned} | {command} |")
     found = re.search(r"^real-time factor.*: (.+)$", bench, re.MULTILINE)
     if found is None:
         raise ValueError("the benchmark prints no real-time factor")
     cost = f"two insoles of 96 pressure cells at 100 Hz: {found[1]} times real time on one core, in plain Python"
-    return [*table, f"| cost | {cost} | no recording | `python {BENCH}` |"]
+    return [*table, f"| cost | {cost} | emulated data | `python {BENCH}` |"]
