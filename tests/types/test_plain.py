@@ -37,7 +37,7 @@ def test_each_quantity_of_numpy_becomes_the_same_plain_one_and_text_is_named(nam
             Session().feed(evolve(SAMPLE, **{name: wrong}))
 
 
-def test_layouts_that_are_equal_to_the_bit_are_one_object_and_cells_are_a_spacing_apart() -> None:
+def test_layouts_that_are_equal_to_the_bit_are_one_object_and_know_their_neighbours() -> None:
     made = [
         Layout(1, Foot.LEFT, (Cell(0.1, y), Cell(0.1, 0.02), Cell(0.2, 0.0), Cell(0.25, 0.0)), 0.26)
         for y in (0.0, -0.0, 0.0)
@@ -46,7 +46,8 @@ def test_layouts_that_are_equal_to_the_bit_are_one_object_and_cells_are_a_spacin
     for other in ({"id": 2}, {"foot": Foot.RIGHT}, {"length": 0.27}, {"scale": 0.0}, {"full_scale": 1.0}):
         assert shared(evolve(made[0], **other)) is not shared(made[0])
     assert made[0].xs == (0.1, 0.1, 0.2, 0.25) and made[0].ys == (0.0, 0.02, 0.0, 0.0)
-    assert made[0].spacing == pytest.approx(0.05) and evolve(made[0], cells=()).spacing == 0.0
+    assert made[0].neighbours == ((1,), (0,), (3,), (2,))  # 0.02 m and 0.05 m apart; the pairs are 0.1 m apart
+    assert evolve(made[0], cells=()).neighbours == () and evolve(made[0], cells=(Cell(0.1, 0.0),)).neighbours == ((),)
 
 
 @pytest.mark.parametrize("form", [iter, list, tuple])

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
-from math import dist
+from functools import cached_property, lru_cache, partial
+from math import atan2, dist
 from struct import pack
 
 from .attrs import field, frozen, limited, limits
@@ -11,6 +11,8 @@ from .records import Floats, Foot
 
 MAX_FULL_SCALE = 1e9
 """Largest full scale of a cell, N or counts; a converter with 24 bits has 1.7e7."""
+NEIGHBOUR_DISTANCE = 1.7
+"""Largest distance of a neighbour, as a multiple of the usual distance between cells; chosen by hand."""
 
 
 @frozen
@@ -56,13 +58,20 @@ class Layout:
         return tuple([cell.y for cell in self.cells])
 
     @cached_property
-    def spacing(self) -> float:
-        """Usual distance from one cell to the next, m; 0 with fewer than two cells."""
+    def neighbours(self) -> tuple[tuple[int, ...], ...]:
+        """For each cell, the indices of its neighbours, counterclockwise from the direction of -x."""
         if len(self.cells) < 2:
-            return 0.0
-        positions = [(cell.x, cell.y) for cell in self.cells]
-        nearest = sorted([sorted([dist(a, b) for b in positions])[1] for a in positions])  # [0] is the cell itself
-        return nearest[len(nearest) // 2]
+            return ((),) * len(self.cells)
+        positions = [*zip(self.xs, self.ys, strict=True)]
+        distances = [[dist(a, b) for b in positions] for a in positions]
+        nearest = sorted([sorted(row)[1] for row in distances])  # [0] is the cell itself
+        farthest = NEIGHBOUR_DISTANCE * nearest[len(nearest) // 2]
+        near = [[j for j, d in enumerate(row) if d <= farthest and j != i] for i, row in enumerate(distances)]
+        return tuple([tuple(sorted(js, key=partial(self.direction, i))) for i, js in enumerate(near)])
+
+    def direction(self, i: int, j: int) -> float:
+        """Return the direction from cell `i` to cell `j`, rad from x, -pi to pi."""
+        return atan2(self.ys[j] - self.ys[i], self.xs[j] - self.xs[i])
 
 
 def shared(layout: Layout) -> Layout:

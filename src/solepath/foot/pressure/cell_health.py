@@ -18,7 +18,7 @@ A cell is "lively" in a window in which it both loads and unloads. The numbers w
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import atan2, hypot, pi
+from math import hypot, pi
 from typing import Any
 
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads, Limitation
@@ -86,8 +86,6 @@ LEAST_VARIATION = 0.01
 """Largest range of cells that show no load at all, as a share of the highest value."""
 
 
-NEIGHBOUR_DISTANCE = 1.7
-"""Largest distance of a neighbour, as a multiple of the usual distance between cells; chosen by hand."""
 WIDEST_NEIGHBOUR_ANGLE = 2.6
 """Widest angle at a cell between two neighbours next to each other if it lies among them, rad; chosen by hand.
 
@@ -162,21 +160,11 @@ def enclosed(layout: Layout, i: int, loading: list[bool]) -> tuple[bool, bool]:
     """Return whether loading neighbours lie on all sides of cell `i`, and whether at least two neighbours load.
 
     `loading` is True for each cell that loads."""
-    cell_i, farthest = layout.cells[i], NEIGHBOUR_DISTANCE * layout.spacing
-    angles, unloaded_neighbours = [], 0
-    for j, cell in enumerate(layout.cells):
-        dx, dy = cell.x - cell_i.x, cell.y - cell_i.y
-        if j == i or hypot(dx, dy) > farthest:
-            continue
-        if loading[j]:
-            angles.append(atan2(dy, dx))
-        else:
-            unloaded_neighbours += 1
-    if len(angles) < 2:
-        return False, False
-    if len(angles) < 4 or unloaded_neighbours > 1:
-        return False, True
-    angles.sort()
+    neighbours = layout.neighbours[i]
+    around = [j for j in neighbours if loading[j]]
+    if len(around) < 4 or len(neighbours) - len(around) > 1:
+        return False, len(around) >= 2
+    angles = [layout.direction(i, j) for j in around]
     angles_between = [b - a for a, b in zip(angles, angles[1:], strict=False)]
     widest_angle = max([*angles_between, angles[0] + 2.0 * pi - angles[-1]])
     return widest_angle < WIDEST_NEIGHBOUR_ANGLE, True
@@ -244,7 +232,7 @@ class CellWindow:
 
         `in_air` is the value of each cell in swing, or empty while it is unknown.
         `lively_windows` is, for each cell, the number of earlier windows in a row in which it was lively."""
-        lows, ranges, largest_range = self.lows, self.ranges, self.largest_range
+        lows, ranges, largest_range, lively = self.lows, self.ranges, self.largest_range, self.find_lively()
         air_value = sorted([lows[i] for i in self.working])[len(self.working) // 2]
         full_scale_value = None if layout is None else layout.full_scale
         faults: dict[CellFault, list[int]] = {}
@@ -261,7 +249,7 @@ class CellWindow:
                 if ranges[i] > CONSTANT_RANGE * largest_range:
                     continue
                 fault = CellFault.STUCK
-            elif self._should_load(i, layout, lively_windows[i]):
+            elif self._should_load(i, layout, lively, lively_windows[i]):
                 fault = CellFault.DEAD
             else:
                 continue
@@ -275,12 +263,12 @@ class CellWindow:
             and in_air > self.lows[i] + INVERTED_POSITION * self.ranges[i]
         )
 
-    def _should_load(self, i: int, layout: Layout | None, lively_windows: int) -> bool:
+    def _should_load(self, i: int, layout: Layout | None, lively: list[bool], lively_windows: int) -> bool:
         if len(self.ranges) <= MOST_PRESSED_CELLS:
             return True
         if layout is None:
             return (self.ranges[i] == 0.0 and self.has_noise) or lively_windows >= LIVELY_WINDOWS_ALONE
-        is_enclosed, any_neighbours = enclosed(layout, i, self.find_lively())
+        is_enclosed, any_neighbours = enclosed(layout, i, lively)
         return is_enclosed or (lively_windows >= LIVELY_WINDOWS and any_neighbours)
 
 
