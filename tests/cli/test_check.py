@@ -29,7 +29,7 @@ def saved(folder: Path, columns: dict[str, np.ndarray], **changed: np.ndarray) -
 
 def test_a_whole_recording_has_no_fault(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
     done = run("check", saved(tmp_path, columns))
-    assert done.returncode == 0 and "nothing must be mended" in done.stdout
+    assert done.returncode == 0 and "nothing needs fixing" in done.stdout
     assert "does not say of which foot it is" in done.stdout and "degraded" not in done.stdout
     named = run("check", saved(tmp_path, columns), "--foot", "left")
     assert "left foot 2" in named.stdout and "of which foot" not in named.stdout
@@ -39,7 +39,7 @@ def test_a_mirrored_axis_is_named_and_the_status_is_1(columns: dict[str, np.ndar
     mirrored = columns["gyro"] * np.array([1.0, -1.0, 1.0])
     done = run("check", saved(tmp_path, columns, gyro=mirrored))
     assert done.returncode == 1
-    assert done.stdout.splitlines()[1] == "must be mended:" and "the axes of the gyroscope" in done.stdout
+    assert done.stdout.splitlines()[1] == "needs fixing:" and "the axes of the gyroscope" in done.stdout
 
 
 def test_values_in_other_units_get_the_readers_sentence_and_no_summary_of_a_walk(
@@ -48,9 +48,9 @@ def test_values_in_other_units_get_the_readers_sentence_and_no_summary_of_a_walk
     done = run("check", saved(tmp_path, columns, gyro=np.degrees(columns["gyro"])))
     assert done.returncode == 1 and done.stderr == ""
     title, heading, sentence, end = done.stdout.splitlines()
-    assert (title, heading) == ("walk.npz: its values cannot be used", "must be mended:")
+    assert (title, heading) == ("walk.npz: its values cannot be used", "needs fixing:")
     assert sentence.startswith("  gyro: ") and "deg/s" in sentence and "stride" not in done.stdout
-    assert end == "nothing else was checked: mend this first"
+    assert end == "nothing else was checked: fix this first"
 
 
 def test_values_that_can_be_read_but_not_be_right_are_named_too(columns: dict[str, np.ndarray], tmp_path: Path) -> None:

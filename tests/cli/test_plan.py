@@ -30,7 +30,7 @@ def test_a_plan_is_listed_with_its_ids_and_drawn_beside_where_the_command_runs(
     assert ["stairs,", "lift", "Lift", "14.0", "7.0"] in lines
     assert ["door", "door", "1", "0.0", "5.0"] in lines
     assert "at latitude 48.1500000, longitude 11.5700000; +y points 0.0 degrees clockwise from north" in done.stdout
-    assert "nothing must be mended\ndrawn to house.svg" in done.stdout
+    assert "nothing needs fixing\ndrawn to house.svg" in done.stdout
     words = [one.text for one in ElementTree.parse(tmp_path / "house.svg").iter() if one.text]
     assert {"Corridor", "Lift", "door 1", "Ground floor (0), 0.0 m", "First floor (1), 3.0 m"} <= set(words)
     assert {"0", "2", "10", "18"} <= set(words), "the grid, m"
@@ -65,7 +65,7 @@ def test_what_must_be_mended_comes_first_with_its_number_in_the_picture_and_stat
     file.write_text(format_floorplan(broken))
     done = run("plan", file, "--out", picture)
     assert done.returncode == 1
-    must, may = done.stdout.split("must be mended:\n")[1].split("worth knowing:\n")
+    must, may = done.stdout.split("needs fixing:\n")[1].split("worth knowing:\n")
     first = must.splitlines()[0]
     assert first == "  1. lift 'Lift': stops at level '0' only, at (14.0, 7.0)"
     marks = [one for one in ElementTree.parse(picture).iter() if one.text and one.text == first[5:]]

@@ -32,6 +32,7 @@ EXAMPLES_OF_A_KIND = {
     "solepath.fleet.spark",
     "solepath.foot.attitude",
     "solepath.foot.stance.cycle",
+    "solepath.link.devices.cc2650",
     "solepath.link.devices.insole",
     "solepath.papers.kupt_dfpc.noise",
     "solepath.wire.receiver",

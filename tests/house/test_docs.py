@@ -89,8 +89,9 @@ def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(here):
 
 def test_the_loop_over_bluetooth_is_a_program(here):
     """A loop like it runs in examples/app.py, against emulated insoles (tests/life/test_app.py)."""
-    _, names = run_page("docs/device.md", programs=slice(2))
+    printed, names = run_page("docs/device.md", programs=slice(3))
     assert names["listen"].__name__ == "listen"
+    assert "acc=(9.80665, 0.0, 0.0), gyro=(0.0339" in printed[1]  # one notification of a SensorTag
 
 
 def test_three_commands_make_a_report_of_a_phones_log(tmp_path, monkeypatch):

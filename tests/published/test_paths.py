@@ -85,13 +85,13 @@ def test_a_plan_of_ones_own_is_walked_on_and_gives_the_room(here: Path) -> None:
 
 
 def test_a_sole_of_ones_own_is_declared_proven_and_walked_with(here: Path) -> None:
-    (*_, vectors, walked), _ = run_page("docs/device.md", "__main__", slice(2, None))
+    (*_, vectors, walked), _ = run_page("docs/device.md", "__main__", slice(3, None))
     assert vectors == "the vectors agree\n"
     true = len(Walker(Route().stand(2).walk(12).stop(2)).truth().strides(Foot.LEFT))
     assert sum(line.startswith("StrideTaken(") for line in walked.splitlines()) == true
     (lost,) = [line for line in walked.splitlines() if line.startswith("SampleGap(")]
     assert "count=1" in lost
-    (here / "sole.py").write_text("\n".join(blocks(PAGES["docs/device.md"], "python")[2:]), encoding="utf-8")
+    (here / "sole.py").write_text("\n".join(blocks(PAGES["docs/device.md"], "python")[3:]), encoding="utf-8")
     check = run("check", "walk.jsonl", "--driver", "sole.py")
     assert check.returncode == 0 and "1 of 1436 samples missing" in check.stdout
     track = run("track", "walk.jsonl", "--driver", "sole.py")

@@ -31,7 +31,7 @@ UNSEEN = (
 
 
 def run(options: Namespace) -> int:
-    """Check the recording and print the verdict; return 1 if something must be mended, else 0.
+    """Check the recording and print the verdict; return 1 if something needs fixing, else 0.
 
     RecordingError is raised for a file that cannot be read as a recording. One whose values are in another unit can be
     read, and gets a verdict. Rows and packets that cannot be read are left out and named."""
@@ -51,8 +51,8 @@ def run(options: Namespace) -> int:
         if not all(isinstance(problem, UnusableValues) for problem in error.problems):
             raise
         print(f"{name}: {'its' if is_one else 'their'} values cannot be used")
-        _print_list("must be mended", [_without_path(one) if is_one else str(one) for one in error.problems])
-        print("nothing else was checked: mend this first")
+        _print_list("needs fixing", [_without_path(one) if is_one else str(one) for one in error.problems])
+        print("nothing else was checked: fix this first")
         return 1
     session = Session(recipe, calibration=calibration, poses=True, losses=True, profiles=drivers)
     recording = Recording(source)
@@ -80,10 +80,10 @@ def run(options: Namespace) -> int:
     taken += [f"{foot} foot {counted(walk.cycles[foot].count, 'gait cycle')}" for foot in of_cells]
     walked = ", ".join(taken) or "no stride"
     print(f"{name}: {walk.covered_time.total:.1f} s, {walked}")
-    _print_list("must be mended", must)
+    _print_list("needs fixing", must)
     _print_list("worth knowing", may)
     if not must:
-        print("nothing must be mended")
+        print("nothing needs fixing")
     if of_cells and of_cells == walk.known_feet:
         print("without an inertial sensor, axes, scales and clocks cannot be checked")
         return 1 if must else 0
@@ -107,7 +107,7 @@ def _print_list(title: str, sentences: Sequence[str]) -> None:
 add_check = command(
     "check",
     "Say what is wrong with a recording of packets (JSON Lines) or of samples (text tables, Excel,"
-    " Parquet, .npz), in sentences. The exit status is 1 if something must be mended, also if the values are in"
+    " Parquet, .npz), in sentences. The exit status is 1 if something needs fixing, also if the values are in"
     " another unit, and 2 if the file is no recording. Axes need about 20 s of walking, clocks 60 s.",
     "solepath check walk.csv",
     table_options(),

@@ -23,7 +23,7 @@ ID_WIDTH = 32
 
 
 def run(options: Namespace) -> int:
-    """Draw the plan and print its ids and findings; return 1 if something must be mended, else 0."""
+    """Draw the plan and print its ids and findings; return 1 if something needs fixing, else 0."""
     from attrs import evolve
 
     from ..floorplan.findings import find_findings
@@ -76,22 +76,22 @@ def _places(plan: FloorPlan) -> Iterator[str]:
 
 
 def _verdict(findings: list[PlanFinding]) -> Iterator[str]:
-    """Yield what must be mended and what is worth knowing, with the numbers in the picture."""
-    for title, act in (("must be mended", True), ("worth knowing", False)):
+    """Yield what needs fixing and what is worth knowing, with the numbers in the picture."""
+    for title, act in (("needs fixing", True), ("worth knowing", False)):
         if any(one.act == act for one in findings):
             yield f"{title}:"
         for number, one in enumerate(findings, 1):
             if one.act == act:
                 yield f"  {number}. {one.text}"
     if not any(one.act for one in findings):
-        yield "nothing must be mended"
+        yield "nothing needs fixing"
 
 
 add_plan = command(
     "plan",
     "Draw a floor plan with a grid in metres and the ids of its rooms, doors, stairs and lifts; list these ids, any of"
     " which --start of track takes; and say what is wrong with the plan, in sentences. The exit status is 1 if"
-    " something must be mended, and 2 if the file is no floor plan.",
+    " something needs fixing, and 2 if the file is no floor plan.",
     "solepath plan house.geojson\nsolepath plan venue.zip --levels 1,2 --out venue.svg",
     option("file", metavar="FILE", type=Path, help="GeoJSON, an IMDF archive or OpenStreetMap indoor tagging"),
     option("--levels", metavar="NAMES", help="only these levels, with commas between their ids (default: all)"),

@@ -45,7 +45,7 @@ Stop = tuple[str, Connector, ConnectorStop]
 
 
 def find_findings(plan: FloorPlan, *, has_start: bool = False, reach: bool = True) -> tuple[PlanFinding, ...]:
-    """Return what is wrong with a usable plan: what must be mended, then the rest, the importer's remarks first.
+    """Return what is wrong with a usable plan: what needs fixing, then the rest, the importer's remarks first.
 
     `has_start`: the first place is known, so that a plan without stairs and elevators needs no finding. `reach`: places
     to which no way leads are found, too, which takes most of the time, up to 0.5 s for a level. The rest takes about as

@@ -25,7 +25,7 @@ def test_1_for_a_recording_in_another_unit_and_2_where_it_is_used(tmp_path: Path
     table = tmp_path / "walk.csv"
     table.write_text(TABLE + "".join(f"{0.01 * k:.2f},0,0,1,0,0,0\n" for k in range(500)))
     checked = run("check", table)
-    assert (checked.returncode, checked.stderr) == (1, "") and "must be mended" in checked.stdout
+    assert (checked.returncode, checked.stderr) == (1, "") and "needs fixing" in checked.stdout
     assert "g" in one_line(run("track", table))
 
 

@@ -81,9 +81,9 @@ def test_a_recording_of_which_nothing_is_known_is_an_error_of_track(walk: Path, 
 
 def test_and_a_finding_of_check(walk: Path) -> None:
     done = run("check", walk)
-    assert done.returncode == 1 and "nothing must be mended" not in done.stdout
+    assert done.returncode == 1 and "nothing needs fixing" not in done.stdout
     heading, finding = done.stdout.splitlines()[1:3]
-    assert heading == "must be mended:" and "shoe/motion" in finding and "--driver FILE.py" in finding
+    assert heading == "needs fixing:" and "shoe/motion" in finding and "--driver FILE.py" in finding
 
 
 def test_a_layout_that_does_not_fit_is_an_error_though_the_setup_is_understood(
@@ -101,7 +101,7 @@ def test_a_layout_that_does_not_fit_is_an_error_though_the_setup_is_understood(
     assert sentence in line and "the layout (of a driver, its Struct) does not fit these bytes" in line
     assert not list((tmp_path / "out").iterdir())
     done = run("check", walk, "--driver", tmp_path / "long.py")
-    assert done.returncode == 1 and sentence in done.stdout and "nothing must be mended" not in done.stdout
+    assert done.returncode == 1 and sentence in done.stdout and "nothing needs fixing" not in done.stdout
 
 
 @pytest.mark.soak

@@ -241,7 +241,7 @@ def test_one_broken_sensor_costs_that_sensor(
     sensor = "accelerometer" if quantity == "acc" else "gyroscope"
     assert f"{broken} foot: " in done.stderr and f"its {sensor} is broken, and left out" in done.stderr
     checked = run("check", *paths)
-    must = checked.stdout.partition("must be mended")[2].partition("worth knowing")[0]
+    must = checked.stdout.partition("needs fixing")[2].partition("worth knowing")[0]
     assert checked.returncode == 1 and f"its {sensor} is broken" in must
 
 

@@ -27,8 +27,8 @@ def _sensor(options: Namespace, known: Calibration) -> tuple[Calibration, list[s
         rows += _rows(fit.foot.value, "gyroscope", fit.calibration.gyro, degrees(1.0))
     header = ["foot", "sensor", "axis", "reads too much %", "+-", "off its axis degrees", "+-", "bias", "+-"]
     lines.append(table(header, rows))
-    lines.append("bias: accelerometer m/s^2, gyroscope degrees/s; another day has another one, and rests show it")
-    header = ["foot", "gravity at rest mm/s^2", "with it", "ways off at their ends degrees", "with it"]
+    lines.append("bias: accelerometer m/s^2, gyroscope degrees/s; it changes daily, and rests show it")
+    header = ["foot", "gravity error at rest mm/s^2", "corrected", "rotation error between rests degrees", "corrected"]
     errors = [
         [one.foot.value, *[number(1e3 * value) for value in one.gravity], *map(number, map(degrees, one.closure))]
         for one in fits
