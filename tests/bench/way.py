@@ -104,7 +104,7 @@ def print_calls(name: str, frames: list[FrameCalls], calls: bool) -> None:
         median([frame_calls.files for frame_calls in frames]),
         median([frame_calls.changes for frame_calls in frames]),
     )
-    print(f"{name} ({len(frames)}): {median_count} calls, {files:.0f} files, {changes:.0f} changes of room")
+    print(f"{name}, median of {len(frames)}: {median_count} calls, {files:.0f} files, {changes:.0f} changes of room")
     named = Counter[str]()
     for frame_calls in frames:
         named.update(set(frame_calls.folders))
@@ -178,7 +178,7 @@ def print_loading(packets: tuple[Packet, ...]) -> None:
         lines, nodes = sum(len(one.splitlines()) for one in sources), sum(map(SIZE.nodes, sources))
         seconds = median(times[name])
         print(
-            f"import solepath; Session({name}): {len(sources)} modules, {lines} lines, {nodes} nodes, "
+            f"import solepath; Session({name}): {len(sources)} modules, {lines} lines, {nodes} syntax nodes, "
             f"{seconds * 1e3:.0f} ms, {seconds / reference_time:.1f} times attrs and construct"
         )
 

@@ -37,7 +37,7 @@ def test_a_recording_of_packets_becomes_a_calibration_that_track_takes(tmp_path:
     write_calibration(out, Calibration(headings={Foot.LEFT: HeadingCalibration(0.001, 0.0, 1e-3, 1e-3)}))
     result = run("calibrate", "sensor", file, "--out", out)
     assert result.returncode == 0 and result.stderr == ""
-    assert "left foot: " in result.stdout and "rests and 5 and 5 turns in " in result.stdout
+    assert "left foot: " in result.stdout and "rests, 5 + 5 turns in " in result.stdout
     assert "left: heading or drift were learnt without this correction and are removed" in result.stdout
     learnt = read_calibration(out)
     assert list(learnt.sensors) == [Foot.LEFT] and not learnt.headings

@@ -12,7 +12,7 @@ RECIPES = "there is no recipe 'cake'; there are: default, kupt-dfpc, "
 
 NAMES = [
     ("tracks walk.jsonl", "there is no command 'tracks': did you mean track?"),
-    ("walk.jsonl", "there is no command 'walk.jsonl'; there are: demo, track, check, "),
+    ("walk.jsonl", "there is no command 'walk.jsonl'; there are: scan, live, record, "),
     ("--recipe default track walk.jsonl", "there is no option --recipe here: options come after the command"),
     ("track walk.jsonl --recipie default", "there is no option --recipie: did you mean --recipe?"),
     ("track walk.jsonl --out=", "--out: nothing is given: is a variable empty?"),

@@ -82,7 +82,7 @@ HEADLINES = (
 
 def headlines(short: list[Row], bench: str) -> list[str]:
     """Return the README's table of results, from the rows of `in_short` and the output of BENCH."""
-    table = ["| result | measured | data used in development | command |", "|---|---|---|---|"]
+    table = ["| result | measured | tuned on these data? | command |", "|---|---|---|---|"]
     for title, sentence, data, tuned, pattern in HEADLINES:
         (row,) = (f"{name}: {result}" for name, result in short if f"`{data}`" in name)
         found = re.search(pattern, row)
@@ -94,4 +94,4 @@ def headlines(short: list[Row], bench: str) -> list[str]:
     if found is None:
         raise ValueError("the benchmark prints no real-time factor")
     cost = f"two insoles of 96 pressure cells at 100 Hz: {found[1]} times real time on one core, in plain Python"
-    return [*table, f"| cost | {cost} | emulated data | `python {BENCH}` |"]
+    return [*table, f"| cost | {cost} | no; emulated | `python {BENCH}` |"]

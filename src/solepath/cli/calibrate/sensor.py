@@ -20,14 +20,14 @@ def _sensor(options: Namespace, known: Calibration) -> tuple[Calibration, list[s
     learnt = sensor_calibration(fits)
     lines, rows = [], []
     for fit in fits:
-        turns = " and ".join(str(count) for count in fit.turned) or "no"
-        lines.append(f"{fit.foot} foot: {fit.pauses} rests and {turns} turns in {fit.duration:.0f} s")
+        turns = " + ".join(str(count) for count in fit.turned) or "no"
+        lines.append(f"{fit.foot} foot: {fit.pauses} rests, {turns} turns in {fit.duration:.0f} s")
         lines += fit.notes
         rows += _rows(fit.foot.value, "accelerometer", fit.calibration.acc, 1.0)
         rows += _rows(fit.foot.value, "gyroscope", fit.calibration.gyro, degrees(1.0))
     header = ["foot", "sensor", "axis", "reads too much %", "+-", "off its axis degrees", "+-", "bias", "+-"]
     lines.append(table(header, rows))
-    lines.append("bias: accelerometer m/s^2, gyroscope degrees/s; it changes daily, and rests show it")
+    lines.append("bias: accelerometer m/s^2, gyroscope degrees/s; it changes daily; measure it at rest")
     header = ["foot", "gravity error at rest mm/s^2", "corrected", "rotation error between rests degrees", "corrected"]
     errors = [
         [one.foot.value, *[number(1e3 * value) for value in one.gravity], *map(number, map(degrees, one.closure))]
