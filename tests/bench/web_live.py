@@ -91,6 +91,7 @@ STAMP = """async ([base, began]) => {
     globalThis.delays = [];
     globalThis.posts = [];
     Walk.prototype.receive = function (messages) {
+        if (!globalThis.python) (globalThis.python = this.python.runtime).runPython(TIMED);
         const started = performance.now();
         const answers = receive.call(this, messages);
         posts.push(performance.now() - started);
@@ -99,7 +100,21 @@ STAMP = """async ([base, began]) => {
         return answers;
     };
 }"""
-"""Notes in the worker the delay of each frame, ms, and how long each message of the page takes until its events, ms."""
+"""Notes in the worker the delay of each frame, ms, and how long each message of the page takes until its events, ms.
+
+TIMED is replaced by the Python that notes how long the session takes for each frame, ms."""
+TIMED = """
+import json
+from time import perf_counter
+from solepath import Session
+feed, taken = Session.feed, []
+def timed(session, packet):
+    started = perf_counter()
+    events = feed(session, packet)
+    taken.append(1000.0 * (perf_counter() - started))
+    return events
+Session.feed = timed
+"""
 
 
 @frozen
@@ -168,18 +183,19 @@ async def walk(chromium: Browser, folder: Path, seconds: float) -> None:
             await view.tab.evaluate(HAND_OVER, [rows, *INSOLE.streams])
             await connect(view, [packet for packet in packets if packet.channel not in INSOLE.streams], INSOLE)
             await view.tab.evaluate("source.postMessage(null)")
-            await worker.evaluate(STAMP, [url, await view.tab.evaluate(BEGAN)])
+            await worker.evaluate(STAMP.replace("TIMED", f"`{TIMED}`"), [url, await view.tab.evaluate(BEGAN)])
             await view.until(WALKING, patience=PATIENCE)
             await asyncio.sleep(SETTLING)
             early = (*await view.memory(), await resident(chromium))
             process = await page_process(chromium)
-            await worker.evaluate("delays.length = posts.length = 0")
+            await worker.evaluate("delays.length = posts.length = 0, python.runPython('taken.clear()')")
             started_at, drawn, before = monotonic(), await frames(view), threads(process)
             await asyncio.sleep(seconds)
             after, n_drawn = threads(process), await frames(view) - drawn
             passed = monotonic() - started_at
             delays = await worker.evaluate("delays")
             posts = await worker.evaluate("posts")
+            decisions = await worker.evaluate("JSON.parse(python.runPython('json.dumps(taken)'))")
             shifts = await view.tab.evaluate("shifts")
             late = (*await view.memory(), await resident(chromium))
     print(f"{'thread':24} {'of a core':>10} {'wake-ups a second':>18}")
@@ -195,6 +211,7 @@ async def walk(chromium: Browser, folder: Path, seconds: float) -> None:
     print(f"{len(delays) / passed:.0f} frames a second received in {len(posts) / passed:.0f} messages")
     print(f"from a frame's arrival to its events: {spread(delays)}")
     print(f"of it, in Python for the frames of a message: {spread(posts)}")
+    print(f"of it, the session's decision for one frame: {spread(decisions)}")
     for when, (heap, elements, memory) in (("at the start", early), ("at the end", late)):
         words = f"the page's scripts hold {heap / 1e6:.2f} MB, its document {elements} elements"
         print(f"{when} {words}, its process {memory / 1e6:.0f} MB")
