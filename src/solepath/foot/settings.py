@@ -57,7 +57,7 @@ class CycleSettings:
     """The settings of `Cycle`."""
 
     threshold_position: float = 0.45
-    """Position of the stance threshold between the lowest (0) and the highest (1) statistic, in logarithms."""
+    """Position of the stance threshold between the lowest (0) and the highest (1) statistic, on a logarithmic scale."""
     least_threshold: float = 2e4
     """Smallest stance threshold, no unit: a standing foot shows statistics up to this."""
     least_statistic: float = 3e3
@@ -107,7 +107,7 @@ class ErrorStateSettings:
     noise_per_motion: float = 0.001
     """Noise density for each unit of acceleration or rate, 1/sqrt(Hz): scale and alignment errors."""
     noise_per_difference: float = 0.25
-    """Noise of each axis as a share of the difference between two neighbouring samples, 0 to 1.
+    """Noise of each acceleration and angular rate, as a share of the difference between neighbouring samples, 0 to 1.
 
     It stands for the motion between them, which is taken as a straight line. It is small at 400 Hz, unless the readings
     show that the band of the sensor is narrow (IndependentInterval). At 20 Hz, where a heel-strike falls between two
@@ -121,7 +121,7 @@ class ErrorStateSettings:
     clipping_noise: float = 0.2
     """Additional noise density of an angular rate above `clipping_rate`, rad/s/sqrt(Hz)."""
     innovation_gate: float = 12.0
-    """Largest squared innovation, weighted by its covariance, with which evidence is used; no unit.
+    """Largest squared innovation, weighted by its covariance, at which evidence is still used; no unit.
 
     It is the 99.3 % point of chi-square with three degrees of freedom."""
     stance_share: float = 0.5
