@@ -107,7 +107,7 @@ class ErrorStateSettings:
     noise_per_motion: float = 0.001
     """Noise density for each unit of acceleration or rate, 1/sqrt(Hz): scale and alignment errors."""
     noise_per_difference: float = 0.25
-    """Noise of each acceleration and angular rate, as a share of the difference between two neighbouring samples, 0 to 1.
+    """Noise of each acceleration and angular rate, as a share of the difference between neighbouring samples, 0 to 1.
 
     It stands for the motion between them, which is taken as a straight line. It is small at 400 Hz, unless the readings
     show that the band of the sensor is narrow (IndependentInterval). At 20 Hz, where a heel-strike falls between two
