@@ -60,6 +60,20 @@ def test_a_walk_that_is_saved_and_continued_shows_what_an_uninterrupted_one_show
     assert shown(worker)["frame"]["feet"]["left"]["strides"] >= 5
 
 
+def test_the_page_shows_the_time_from_the_arrival_to_the_events_if_it_says_when_it_hands_frames_over(
+    worker: Worker,
+) -> None:
+    for late in (None, 0.05):
+        worker.start_walk("a walk")
+        connect(worker, PACKETS)
+        for k in range(0, len(PACKETS), 6):
+            packets = PACKETS[k : k + 6]
+            send_frames(worker, packets, None if late is None else packets[-1].t + late)
+        (delay, _) = [link["delay"] for link in shown(worker)["frame"]["links"].values()]
+        assert delay["sensor"] and ("decision" in delay) == (late is not None)
+    assert 50 <= delay["decision"][0] <= delay["decision"][1]
+
+
 @pytest.mark.soak
 def test_a_time_without_packets_is_shown_as_a_gap_and_a_clock_that_was_set_back_as_a_reset(worker: Worker) -> None:
     worker.start_walk("a walk")

@@ -24,11 +24,12 @@ def connect(worker: Worker, packets: Sequence[Packet]) -> None:
             answers = _send(worker, type="done", device=device, t=0.0, value=values.get((device, channel), ""))
 
 
-def send_frames(worker: Worker, packets: Sequence[Packet]) -> None:
-    """Let the insoles send the frames of the packets."""
+def send_frames(worker: Worker, packets: Sequence[Packet], now: float | None = None) -> None:
+    """Let the insoles send the frames of the packets, which the worker receives at `now`, s."""
     frames = (packet for packet in packets if packet.channel in INSOLE.streams)
-    _send(worker, type="values", values=[[one.t, one.site.value, one.channel, one.data.hex()] for one in frames])
+    values = [[one.t, one.site.value, one.channel, one.data.hex()] for one in frames]
+    _send(worker, now, type="values", values=values)
 
 
-def _send(worker: Worker, **message: Any) -> Any:
-    return json.loads(worker.receive(json.dumps(message)))
+def _send(worker: Worker, now: float | None = None, **message: Any) -> Any:
+    return json.loads(worker.receive(json.dumps(message), now))

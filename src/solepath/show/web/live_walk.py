@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from time import monotonic
 
 from attrs import define, field
 
@@ -34,6 +35,8 @@ class LiveWalk:
     """Number of packets that the session was fed since this walk was started or restored."""
     host: JsonHost = field(init=False)
     """The devices that feed the session."""
+    _clock_offset: float | None = field(default=None, init=False)
+    """Time of the walk when this machine's monotonic clock was 0, s; None before a page has said it."""
     _lines: list[bytes] = field(factory=list, init=False)
     """Lines of the packets that were fed since `take_lines`."""
 
@@ -57,8 +60,11 @@ class LiveWalk:
             return None
         return json.dumps({"session": self.session.snapshot(), "scene": save_scene(self.scene)})
 
-    def receive(self, text: str) -> str:
-        """Return the answers of the host to messages of the page (protocol/host.md)."""
+    def receive(self, text: str, now: float | None = None) -> str:
+        """Return the answers of the host to messages of the page (protocol/host.md), which are received at `now`, s.
+
+        With `now`, the time from the arrival of a frame until its events are there is noted too."""
+        self._clock_offset = None if now is None else now - monotonic()
         return "[]" if self.finished else self.host.receive(text)
 
     def take_lines(self) -> bytes:
@@ -68,7 +74,8 @@ class LiveWalk:
         return lines
 
     def _observe(self, packet: Packet | None, events: list[Event]) -> None:
-        self.scene.take(packet, events)
+        offset = self._clock_offset
+        self.scene.take(packet, events, None if offset is None else offset + monotonic())
         if packet is not None:
             self.count += 1
             self._lines.append(format_packet(packet))

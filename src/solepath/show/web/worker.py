@@ -149,9 +149,11 @@ class Worker:
         self.player = self.recording = None
         self.walk = self._new_walk(title)
 
-    def receive(self, text: str) -> str:
-        """Return the answers to messages of the page on sensors (protocol/host.md); without a walk there are none."""
-        return self.walk.receive(text)
+    def receive(self, text: str, now: float | None = None) -> str:
+        """Return the answers to messages of the page on sensors (protocol/host.md), which are received at `now`, s.
+
+        Without a walk there are none."""
+        return self.walk.receive(text, now)
 
     def take_lines(self) -> bytes:
         """Return the lines of the recording of the walk since the last call."""

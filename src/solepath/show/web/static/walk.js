@@ -65,7 +65,7 @@ export class Walk {
   // Takes messages of the page on sensors and returns the answers of Python (protocol/host.md).
   receive(messages) {
     if (!this.running) return [];
-    const answers = JSON.parse(this.python.receive(JSON.stringify(messages)));
+    const answers = JSON.parse(this.python.receive(JSON.stringify(messages), now() - this.#record.began));
     if (performance.now() - this.#writtenAt >= WRITE_INTERVAL) this.#flush();
     return answers;
   }
