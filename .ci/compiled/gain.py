@@ -73,7 +73,7 @@ def main() -> None:
             done = subprocess.run(command, env={**os.environ, "PYTHONPATH": folder}, stdout=subprocess.PIPE, check=True)
             found[form].append(json.loads(done.stdout))
     best = {form: {row: min([one[row] for one in runs]) for row in runs[0]} for form, runs in found.items()}
-    print(f"{'':34}{'pure':>10}{'compiled':>12}   of the yardstick: pure, compiled")
+    print(f"{'':34}{'pure':>10}{'compiled':>12}  ratio to yardstick: pure, compiled")
     for row in best["pure"]:
         pure, compiled = (best[form][row] for form in forms)
         shares = [best[form][row] / best[form]["yardstick"] for form in forms]

@@ -368,7 +368,7 @@ def main() -> None:
     parser.add_argument("--part", choices=["walks", "recorded", "not-walking"], help="this part alone")
     options = parser.parse_args()
     warnings.simplefilter("ignore")
-    print(f"{machine()}; delays in ms, false and late signals an hour\n")
+    print(f"{machine()}; delays in ms; false and late signals an hour\n")
     if options.part in (None, "walks"):
         walks(range(1, options.seeds + 1))
     if options.dir and options.part in (None, "recorded"):

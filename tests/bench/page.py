@@ -186,7 +186,7 @@ def main() -> None:
     if reason is not None:
         sys.exit(reason)
     print(f"Python {platform.python_version()}, {os.cpu_count()} cores, {program()}; {options.minutes:g} min each\n")
-    print(f"{'the session, and':30} {'of a core':>10} {'more':>8}")
+    print(f"{'the session with':30} {'of a core':>10} {'extra':>8}")
     base_share: float | None = None
     measurements = BrowserMeasurements()
     for case, name in CASES.items():
