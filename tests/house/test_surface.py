@@ -11,10 +11,12 @@ from pathlib import Path
 from typing import Any
 
 import attrs
+import pytest
 
 import solepath
 import solepath.fleet
 import solepath.papers
+import solepath.recording
 from solepath import Event
 
 ROOT = Path(solepath.__file__).parent
@@ -29,14 +31,15 @@ def test_the_names_are_sorted_and_each_can_be_imported() -> None:
         assert getattr(solepath, name) is not None
 
 
-def test_each_name_is_the_one_that_type_checkers_see() -> None:
-    tree = ast.parse(Path(solepath.__file__).read_text("utf-8"))
+@pytest.mark.parametrize("package", [solepath, solepath.recording])
+def test_each_name_is_the_one_that_type_checkers_see(package: Any) -> None:
+    tree = ast.parse(Path(package.__file__).read_text("utf-8"))
     (checked,) = [node for node in tree.body if isinstance(node, ast.If)]
     seen = {name.name: node.module for node in checked.body if isinstance(node, ast.ImportFrom) for name in node.names}
-    assert seen.keys() == set(solepath.__all__) <= set(dir(solepath))
+    assert seen.keys() == set(package.__all__) <= set(dir(package))
     for name, module in seen.items():
-        room = solepath if module is None else import_module(f"solepath.{module}")
-        assert getattr(solepath, name) is getattr(room, name)
+        room = package if module is None else import_module(f"{package.__name__}.{module}")
+        assert getattr(package, name) is getattr(room, name)
 
 
 def test_nothing_else_is_public() -> None:

@@ -100,7 +100,7 @@ Sole.reset: count_checked guess had_cells health* highest insole* layout_estimat
 StanceFinder._restart: counted duration force peak t turn weight
 StanceRhythm.reset: usual_stance usual_swing
 StraightWays.reset: straightness.reset()
-Straightness.reset: direction
+Straightness.reset:
 StreamLink.handle_reconnection: counted_packets counted_since counted_ticks last_t newest_arrival off_rate_interval
   off_rate_packets packet_run* periodic* recent reported_rate
 StreamLink.restart_clock: counted_packets counted_ticks off_rate_interval off_rate_packets packet_run* periodic*

@@ -71,7 +71,7 @@ def test_the_page_shows_the_time_from_the_arrival_to_the_events_if_it_says_when_
             send_frames(worker, packets, None if late is None else packets[-1].t + late)
         (delay, _) = [link["delay"] for link in shown(worker)["frame"]["links"].values()]
         assert delay["sensor"] and ("decision" in delay) == (late is not None)
-    assert 50 <= delay["decision"][0] <= delay["decision"][1]
+    assert 50 <= delay["decision"][0] <= delay["decision"][1] < 60_000  # of the walk's clock, not of the day's
 
 
 @pytest.mark.soak

@@ -91,7 +91,7 @@ def run(arguments: Sequence[str] | None) -> int:
         raise Failure(f"there is no command {words[0]!r} here: it is one of solepath-lab")
     if COMPLETING in os.environ:
         complete(parser())
-    top = parser(words[:1])
+    top = parser(words)
     options = top.parse_args(words, Namespace(words=words))
     if options.version:
         from importlib.metadata import version

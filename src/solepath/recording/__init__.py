@@ -16,10 +16,16 @@ _MODULES = ("errors", "bad_rows", "packets", "packet_writer", "mapping", "clock_
 """Modules of the names in `__all__`. A module is imported when a name is first used."""
 
 
+def __dir__() -> list[str]:
+    return sorted({*__all__, *_MODULES})
+
+
 def __getattr__(name: str) -> object:
+    if name in _MODULES:
+        return import_module(f"{__name__}.{name}")  # which sets the attribute
     for module in _MODULES if name in __all__ else ():
         if hasattr(found := import_module(f"{__name__}.{module}"), name):
-            return getattr(found, name)
+            return globals().setdefault(name, getattr(found, name))
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -59,15 +59,16 @@ class Layout:
 
     @cached_property
     def neighbours(self) -> tuple[tuple[int, ...], ...]:
-        """For each cell, the indices of its neighbours, counterclockwise from the direction of -x."""
+        """For each cell, the indices of its neighbours, in the order of their directions."""
         if len(self.cells) < 2:
             return ((),) * len(self.cells)
         positions = [*zip(self.xs, self.ys, strict=True)]
-        distances = [[dist(a, b) for b in positions] for a in positions]
-        nearest = sorted([sorted(row)[1] for row in distances])  # [0] is the cell itself
+        nearest = sorted([sorted([dist(a, b) for b in positions])[1] for a in positions])  # [0] is the cell itself
         farthest = NEIGHBOUR_DISTANCE * nearest[len(nearest) // 2]
-        near = [[j for j, d in enumerate(row) if d <= farthest and j != i] for i, row in enumerate(distances)]
-        return tuple([tuple(sorted(js, key=partial(self.direction, i))) for i, js in enumerate(near)])
+        near = [[j for j, b in enumerate(positions) if dist(a, b) <= farthest] for a in positions]
+        return tuple(
+            [tuple(sorted([j for j in js if j != i], key=partial(self.direction, i))) for i, js in enumerate(near)]
+        )
 
     def direction(self, i: int, j: int) -> float:
         """Return the direction from cell `i` to cell `j`, rad from x, -pi to pi."""

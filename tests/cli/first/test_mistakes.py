@@ -13,6 +13,8 @@ RECIPES = "there is no recipe 'cake'; there are: default, kupt-dfpc, "
 NAMES = [
     ("tracks walk.jsonl", "there is no command 'tracks': did you mean track?"),
     ("walk.jsonl", "there is no command 'walk.jsonl'; there are: scan, live, record, "),
+    ("scan nearby", "too much on the command line: nearby"),
+    ("--version scan nearby", "too much on the command line: nearby"),
     ("--recipe default track walk.jsonl", "there is no option --recipe here: options come after the command"),
     ("track walk.jsonl --recipie default", "there is no option --recipie: did you mean --recipe?"),
     ("track walk.jsonl --out=", "--out: nothing is given: is a variable empty?"),

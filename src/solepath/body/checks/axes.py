@@ -66,12 +66,13 @@ Rows = list[list[float]]
 """Rows 3 i + j over k of M_ijk / T."""
 
 
-def closure_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS) -> list[float]:
+def closure_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS, enough: float = 0.0) -> list[float]:
     """Return the residual for each of AXES, SCALES and for NO_TURN, m/s^2.
 
     It is the worse one of the two ends of the stride, |S / T - g u + m d|. Peaks that are cut off at `ends` lack an
-    impulse of unknown size m in known directions at known instants, which are turned and integrated to d. A stride that
-    nearly closes with the axes as they are says nothing about others: they have the same residual then."""
+    impulse of unknown size m in known directions at known instants, which are turned and integrated to d.
+
+    If the axes as they are leave at most the share `enough` of NO_TURN, no others are tried: they get its residual."""
     first, last = hypot(*stride.first), hypot(*stride.last)
     g = 0.5 * (first + last)
     ups = [[g / first * x for x in stride.first], [g / last * x for x in stride.last]]
@@ -94,8 +95,8 @@ def closure_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS) -> 
     proper, still = [_close(turns, factor, shares, cut, ups) for factor in (1.0, 0.0)]
     own, unturned = [_residual(ORDERS[0], SIGNS[0], closed) for closed in (proper, still)]
     least = LEAST_RESIDUAL + LEAST_SHARE * unturned
-    if own + least <= NEARLY_CLOSED * (unturned + least):
-        return [own] * NO_TURN + [unturned]
+    if own + least <= enough * (unturned + least):
+        return [own] + [unturned] * NO_TURN
     improper, *scaled = [_close(turns, factor, shares, cut, ups) for factor in (-1.0, *SCALES)]
     residuals = [
         _residual(order, signs, proper if (order in ROTATIONS) == (prod(signs) > 0.0) else improper)
@@ -227,9 +228,12 @@ class AxesCheck:
     """Evidence of a foot's strides for each of the 48 ways in which the axes may be mounted."""
 
     residuals: list[float] = field(factory=list)
-    """Sum of the logarithms of the residuals, m/s^2, in the order of AXES; empty before the first stride."""
+    """Sum of the logarithms of the residuals, m/s^2, in the order of AXES, SCALES and NO_TURN; empty before the first
+    stride. Axes that were not tried with a stride have the residual of NO_TURN."""
     evidence: list[float] = field(factory=list)
-    """Sum of the logarithms of each residual's ratio to that of the axes as they are; negative if it is smaller."""
+    """Sum of the logarithms of each residual's ratio to that of the axes as they are; negative if it is smaller.
+
+    While none is negative, strides that nearly close with the axes as they are add nothing."""
     strides: int = 0
     """Number of strides in `evidence`."""
     started_at: float = 0.0
@@ -247,7 +251,8 @@ class AxesCheck:
         deviation = max([abs(hypot(*force) / GRAVITY - 1.0) for force in (stride.first, stride.last)])
         if not SHORTEST_STRIDE < stride.duration < LONGEST_STRIDE or deviation > LARGEST_DEVIATION:
             return None
-        residuals = closure_residuals(stride, ends)
+        leads = min(self.evidence, default=0.0) < 0.0  # other axes, or another scale
+        residuals = closure_residuals(stride, ends, 0.0 if leads else NEARLY_CLOSED)
         least = LEAST_RESIDUAL + LEAST_SHARE * residuals[NO_TURN]
         logs = [log(residual + least) for residual in residuals]
         if not self.strides:
@@ -255,8 +260,9 @@ class AxesCheck:
             self.residuals, self.evidence = [0.0] * len(logs), [0.0] * len(logs)
         self.strides += 1
         self.residuals = [a + b for a, b in zip(self.residuals, logs, strict=True)]
-        ratios = [max(-LARGEST_LOG, min(LARGEST_LOG, value - logs[0])) for value in logs]
-        self.evidence = [a + b for a, b in zip(self.evidence, ratios, strict=True)]
+        if leads or logs[0] - logs[NO_TURN] > log(NEARLY_CLOSED):  # others were tried
+            ratios = [max(-LARGEST_LOG, min(LARGEST_LOG, value - logs[0])) for value in logs]
+            self.evidence = [a + b for a, b in zip(self.evidence, ratios, strict=True)]
         enough = self.strides >= SETTLED_STRIDES
         if not self.wrong:
             closes = self.factor > 1.0 or self._closes(0)

@@ -131,10 +131,8 @@ class TrackErrorFilter:
             (x, rate, -arm.imag), (y, rate, arm.real), (heading, rate, duration),
         )  # fmt: skip
         for i, j, k in steps:
-            for n in range(STATE_COUNT):
-                p[i][n] += k * p[j][n]
-        for n in range(STATE_COUNT):
-            p[rate][n] *= decay
+            p[i] = [a + k * b for a, b in zip(p[i], p[j], strict=True)]
+        p[rate] = [a * decay for a in p[rate]]
         for row in p:
             for i, j, k in steps:
                 row[i] += k * row[j]
@@ -181,11 +179,11 @@ class TrackErrorFilter:
                 gains[left], gains[right] = share * difference, (share - 1.0) * difference
         # (1 - K H) P (1 - K H)' + K R K' = P - K (P H')' - P H' K' + K S K' = P + K (S K - P H')' - P H' K'
         rest = [s * gain - one for gain, one in zip(gains, with_all, strict=True)]
-        for row, gain, one in zip(p, gains, with_all, strict=True):
-            for j in range(STATE_COUNT):
-                row[j] += gain * rest[j] - one * gains[j]
-        for j in range(STATE_COUNT):
-            gains[j] *= z
+        self.covariance = [
+            [a + (gain * b - one * c) for a, b, c in zip(row, rest, gains, strict=True)]
+            for row, gain, one in zip(p, gains, with_all, strict=True)
+        ]
+        gains = [gain * z for gain in gains]
         for foot, first in FEET.items():
             self.rates[foot] += gains[first + RATE]
         return gains

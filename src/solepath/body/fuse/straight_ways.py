@@ -193,7 +193,7 @@ class Straightness:
 
     def reset(self) -> None:
         """Discard the stretch, because the clock restarts or another device is worn."""
-        self.recent, self.left_out, self.t = [], 0, None
+        self.direction, self.recent, self.left_out, self.t = 0.0, [], 0, None
 
     def drift_of(self, places: Places, drift_sigma: float) -> StretchDrift | None:
         """Return the drift that a stretch shows, and learn from it how this wearer walks; None without a parabola.

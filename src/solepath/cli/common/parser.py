@@ -107,7 +107,7 @@ class Parser(argparse.ArgumentParser):
         self._check_options(words)
         options, more = super().parse_known_args(args, namespace)
         if more and self.commands is None:
-            before = words[words.index(more[0]) - 2] if more[0] in words else ""
+            before = ["", "", *words][words.index(more[0])] if more[0] in words else ""
             is_repeated = isinstance(self._option_string_actions.get(before), argparse._AppendAction)
             again = f": give {before} again for the second" if is_repeated else ""
             self.error(f"too much on the command line: {' '.join(more)}{again}")

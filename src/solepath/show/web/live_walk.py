@@ -36,7 +36,7 @@ class LiveWalk:
     host: JsonHost = field(init=False)
     """The devices that feed the session."""
     _clock_offset: float | None = field(default=None, init=False)
-    """Time of the walk when this machine's monotonic clock was 0, s; None before a page has said it."""
+    """Time of the walk when this machine's monotonic clock was 0, s; None if the page does not say it."""
     _lines: list[bytes] = field(factory=list, init=False)
     """Lines of the packets that were fed since `take_lines`."""
 
