@@ -191,7 +191,7 @@ def main() -> None:
     print(f"real-time factor, both feet with 96 cells at 100 Hz: {real_time:.0f}")
     print(f"an hour of two insoles with 96 cells at 100 Hz: {3600.0 / real_time:.0f} s of processor time")
     wearers = real_time * yardstick_time / USUAL_YARDSTICK
-    print(f"live wearers a core, if the yardstick takes {USUAL_YARDSTICK:.0f} us: {wearers:.0f}")
+    print(f"live wearers per core, if the yardstick takes {USUAL_YARDSTICK:.0f} us: {wearers:.0f}")
     print(f"snapshot {save * 1e3:.1f} ms, restore {load * 1e3:.1f} ms, {len(text) / 1000:.1f} kB as JSON")
     memory = measure_memory(lambda: feed_session(inertial_samples))
     print(f"memory of a session: {memory / 1000:.0f} kB one foot, inertial; ", end="")
