@@ -89,7 +89,7 @@ def headlines(short: list[Row], bench: str) -> list[str]:
         if found is None:
             raise ValueError(f"{data}: {row!r} has no {pattern!r}")
         command = f"`solepath-lab evaluate DIR --only {data} --recipe default`"
-        table.append(f"| {title} | {sentence.format(*found.groups())} | yes, to tune {tuned} | {command} |")
+        table.append(f"| {title} | {sentence.format(*found.groups())} | yes: {tuned} | {command} |")
     found = re.search(r"^real-time factor.*: (.+)$", bench, re.MULTILINE)
     if found is None:
         raise ValueError("the benchmark prints no real-time factor")
