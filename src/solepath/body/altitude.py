@@ -19,7 +19,6 @@ known well enough."""
 
 from __future__ import annotations
 
-from collections import deque
 from math import log
 
 from ..events import Defect, DefectFound, LiftRidden, StrideTaken
@@ -27,6 +26,7 @@ from ..events.activity import Ride
 from ..foot.view import FootView
 from ..types import Foot, Site
 from ..types.attrs import define, evolve, field, state, stateful
+from ..types.doubles import Doubles, doubles
 from ..types.vector import to_float32
 from .part import HeightShift, Inputs, Outputs, Part, PartOutput, Replacement
 
@@ -212,7 +212,7 @@ class Altitude(Part):
     """Estimate after all inputs."""
     base: HeightEstimate = state(factory=HeightEstimate)
     """Estimate before the oldest input that is kept."""
-    inputs: deque[PackedInput] = state(factory=deque)
+    inputs: list[PackedInput] = state(factory=list)
     """Recent inputs, in the order in which they were processed: readings of both barometers and changes of the
     correction."""
     sides: list[PendingReadings] = state(factory=lambda: [PendingReadings(), PendingReadings()])
@@ -221,8 +221,8 @@ class Altitude(Part):
     """Variance of a reading, estimated from consecutive readings, m^2."""
     ride_variance: float = 0.0
     """Variance of the height of all rides together, m^2."""
-    strides: deque[tuple[float, float]] = state(factory=deque)
-    """Start and end of each of the newest strides, in whole hundredths of a second."""
+    strides: Doubles = state(factory=doubles)
+    """Start and end of each of the newest strides in turn, in whole hundredths of a second."""
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:
         """Add the reading of a foot's barometer, if the sample has one, and strides and rides."""
@@ -262,7 +262,7 @@ class Altitude(Part):
 
     def _replace_inputs(self, inputs: list[HeightInput]) -> None:
         """Process other inputs than those that are kept, and keep them instead."""
-        self.inputs, self.now = deque(), self.base.copy()
+        self.inputs, self.now = [], self.base.copy()
         for entry in inputs:
             self._process(entry)
 
@@ -284,15 +284,14 @@ class Altitude(Part):
         if newest is not None:
             # the clocks of both feet restart: no time that is kept can be compared with those to come
             self.inputs.clear()
-            self.strides.clear()
+            self.strides = doubles()
         self.now.read_at[source] = None
         self.base = self.now.copy()
 
     def _add_stride(self, stride: StrideTaken) -> Outputs:
         if stride.length >= MIN_STRIDE_LENGTH:
-            self.strides.append((float(round(100.0 * stride.t_start)), float(round(100.0 * stride.t_end))))
-            if len(self.strides) > MAX_STRIDES:
-                self.strides.popleft()
+            self.strides.extend((round(100.0 * stride.t_start), round(100.0 * stride.t_end)))
+            del self.strides[: -2 * MAX_STRIDES]
         if self.now.read_at == [None, None]:
             return ()
         height, variance = abs(stride.height_change), stride.covariance[5]
@@ -335,7 +334,8 @@ class Altitude(Part):
         is_lift = isinstance(ride, LiftRidden)
         least_height = MIN_RIDE_HEIGHT if is_lift else MIN_ESCALATOR_HEIGHT
         least_speed = MIN_RIDE_SPEED if is_lift else MIN_ESCALATOR_SPEED
-        stride_count = sum([start > t_start and end < t_end for start, end in self.strides])
+        strides = zip(self.strides[::2], self.strides[1::2], strict=True)
+        stride_count = sum([start > t_start and end < t_end for start, end in strides])
         return (
             stride_count < 2 and abs(height) >= least_height and least_speed <= abs(height) / duration <= MAX_RIDE_SPEED
         )
@@ -343,7 +343,7 @@ class Altitude(Part):
     def _add_input(self, entry: HeightInput) -> Outputs:
         inputs = self.inputs
         while inputs and (entry[0] - inputs[0][0] / TICKS_PER_S > KEPT_TIME or len(inputs) >= MOST_INPUTS):
-            self.base.apply(_unpack(inputs.popleft()))
+            self.base.apply(_unpack(inputs.pop(0)))
         self._process(entry)
         return self._height_shift()
 

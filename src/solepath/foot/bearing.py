@@ -12,6 +12,7 @@ from __future__ import annotations
 from math import log
 
 from ..events import Flaw, StrideTaken
+from ..events.foot import NO_FEATURES
 from ..types.attrs import define, evolve, field
 from ..types.vector import GRAVITY, TIME_EPSILON
 
@@ -156,7 +157,7 @@ class Bearing:
     waiting: list[StrideTaken] = field(factory=list)
     """Strides of which it is not known yet whether the foot carried its walker, oldest first."""
     previous: StrideTaken | None = None
-    """Newest stride of the bout; None before any."""
+    """Newest stride of the bout, without its features; None before any."""
     alone: bool = False
     """Flag: the other foot is known not to carry."""
 
@@ -186,7 +187,7 @@ class Bearing:
         if stride.length < LEAST_PROGRESS or turning < SWING_TIMES[0] - TIME_EPSILON or shaking > MOST_SHAKING:
             one = min(0.0, one)  # on the spot, without a turn, or rolling
         self.evidence = max(-KNOWN, min(SUREST, self.evidence + one))
-        self.previous = stride
+        self.previous = evolve(stride, features=NO_FEATURES)
         waiting = [*self.waiting, stride]
         if self.evidence >= KNOWN:
             self.waiting = []

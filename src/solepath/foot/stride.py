@@ -9,6 +9,7 @@ from ..events import Flaw, StrideFeatures, StrideTaken
 from ..events.foot import LONGEST_HARMLESS_GAP, is_harmless
 from ..types import Foot, Quat, Vec2, Vec3
 from ..types.attrs import define, field
+from ..types.doubles import Doubles, doubles
 from ..types.vector import GRAVITY, IDENTITY, SPLIT, UP, ZERO, dot, heading_turned, rotate_back, sub, to_float32
 from .navigate.corrector import Corrector
 from .rhythm import follow
@@ -129,7 +130,7 @@ class StrideBuilder:
     """Smallest pitch of the stride, rad."""
     pitch_high: float = 0.0
     """Largest pitch of the stride, rad."""
-    pitches: list[float] = field(factory=lambda: [0.0] * MOST_PITCHES)
+    pitches: Doubles = field(factory=lambda: doubles([0.0] * MOST_PITCHES))
     """Ring buffer of the newest pitches, rad, rounded by `to_float32`."""
     next_pitch: int = 0
     """Index of the oldest pitch in `pitches`, which the next one replaces."""
@@ -155,8 +156,8 @@ class StrideBuilder:
     """Sum of the total load over the samples on the ground."""
     load_count: int = 0
     """Number of samples in `load_sum`."""
-    cop: list[Vec2] = field(factory=list)
-    """Points of the centre of pressure, foot frame, m."""
+    cop: Doubles = field(factory=doubles)
+    """Coordinates x and y in turn of the points of the centre of pressure, foot frame, m."""
     cop_interval: int = 1
     """Number of samples for each stored point of the centre of pressure."""
     cop_skipped: int = 0
@@ -189,7 +190,7 @@ class StrideBuilder:
         self.most_force = self.least_force
         self.load_sum = 0.0
         self.load_count = 0
-        self.cop = []
+        self.cop = doubles()
         self.cop_interval = 1
         self.cop_skipped = 0
 
@@ -318,9 +319,9 @@ class StrideBuilder:
             return
         self.cop_skipped = 0
         x, y = cop
-        self.cop.append((to_float32(x), to_float32(y)))
-        if len(self.cop) > MOST_COP_POINTS:
-            self.cop = self.cop[::2]
+        self.cop.extend((to_float32(x), to_float32(y)))
+        if len(self.cop) > 2 * MOST_COP_POINTS:
+            self.cop = doubles([value for k, value in enumerate(self.cop) if k % 4 < 2])
             self.cop_interval *= 2
 
     def finish(self, t: float, known_at: float, corrector: Corrector, world: World, rise: float) -> StrideTaken | None:
@@ -374,7 +375,7 @@ class StrideBuilder:
                 toe_off_angle=None if self.toe_off_pitch is None else self.toe_off_pitch - self.flat_pitch,
                 heel_strike_angle=self._heel_strike_angle(),
                 contact_load=self.load_sum / self.load_count if self.load_count else None,
-                cop=tuple(self.cop),
+                cop=tuple(zip(self.cop[::2], self.cop[1::2], strict=True)),
                 error_index=corrector.error_index,
                 longest_rest=self.longest_rest[0],
                 rest_force=sqrt(self.longest_rest[1] / self.longest_rest[0]) if self.longest_rest[0] > 0.0 else None,

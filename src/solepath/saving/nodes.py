@@ -20,6 +20,7 @@ from typing import Any
 
 from ..types.attrs import field, frozen
 from ..types.checking import describe
+from ..types.doubles import Doubles, doubles
 from .limits import MAX_VALUES, Classes, Json, SnapshotError
 from .streams import Lists, Streams
 
@@ -141,7 +142,7 @@ _LIMIT = MaybeNode(NumberNode(int, 1))
 
 @frozen(eq=False)
 class RowNode:
-    """A tuple, list or deque (`kind`) of any length, whose items have the node `of`.
+    """A tuple, list, deque or array of doubles (`kind`) of any length, whose items have the node `of`.
 
     A deque with a maxlen, which annotations cannot declare, is an object with the keys "maxlen" and "is" as JSON."""
 
@@ -187,6 +188,8 @@ class RowNode:
     def _row(self, items: list[Any], max_length: int | None) -> Any:
         if max_length is not None and max_length < len(items):
             raise SnapshotError("a deque does not have the length that it may have")
+        if self.kind is Doubles:
+            return doubles(items)
         return self.kind(items) if max_length is None else deque(items, max_length)
 
 

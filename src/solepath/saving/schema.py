@@ -1,8 +1,8 @@
 """Schema of a record, from the type annotations of its class.
 
 A record is an attrs class. A field may be a float, int, bool, string, bytes, enum member, another record, an optional
-of one of these, or a tuple, list, deque, dict or Counter of these. A record may be generic. Nothing else can be saved:
-generators, closures, rebound methods and arrays cannot.
+of one of these, or a tuple, list, deque, dict or Counter of these, or an array of floats. A record may be generic.
+Nothing else can be saved: generators, closures, rebound methods and arrays of numpy cannot.
 
 An annotation that is a Protocol is *open*: the value is a record of any class. It is saved with the name of its class,
 and the caller of `load` passes a function that returns the class. A union of records is open too, but has only its own
@@ -36,6 +36,7 @@ from typing import Any
 import attrs
 
 from ..types.attrs import MADE_AGAIN, NOT_SAVED, ROW_SIZE
+from ..types.doubles import Doubles
 from ..types.registry import TABLE, load
 from .nodes import (
     DataNode,
@@ -190,6 +191,8 @@ def _node(hint: Any, made: bool) -> Node:
         return TupleNode(tuple([_node(argument, made) for argument in arguments]))
     if make := getattr(hint, "_make", None):
         return TupleNode(tuple([_node(item, made) for item in typing.get_type_hints(hint).values()]), make)
+    if hint is Doubles:
+        return RowNode(Doubles, NumberNode(float, 0))
     if origin in (tuple, list, deque):
         return RowNode(origin, _node(arguments[0], made), made)
     if origin in (dict, Counter):
@@ -198,7 +201,7 @@ def _node(hint: Any, made: bool) -> Node:
     if hint in (tuple, list, deque, dict):
         what = "dict[str, float]" if hint is dict else f"{hint.__name__}[float]"
         raise TypeError(f"its type does not say what is in it; write {what}, or whatever it is")
-    raise TypeError(f"{hint!r} is no number, string, enum, bytes, tuple, list, deque, dict or record")
+    raise TypeError(f"{hint!r} is no number, string, enum, bytes, tuple, list, deque, array, dict or record")
 
 
 def _union(hint: Any, made: bool) -> Node:

@@ -23,6 +23,7 @@ from solepath.saving.nodes import (
     TupleNode,
 )
 from solepath.saving.schema import record_of
+from solepath.types.doubles import Doubles, doubles
 from solepath.types.registry import TABLE
 
 NAMES = (*TABLE["part"], *TABLE["aid"], *TABLE["link"])
@@ -72,6 +73,8 @@ class Maker:
                 return make([self.value(item) for item in items])
             case RowNode(kind, of):
                 items = [self.value(of) for _ in range(self.shape.randrange(3))]
+                if kind is Doubles:
+                    return doubles(items)
                 return deque(items, self.shape.choice([None, 5])) if kind is deque else kind(items)
             case DictNode(kind, key, of):
                 keys = [Maker(k + self.shape.randrange(9), 7 * k).value(key) for k in range(2)]

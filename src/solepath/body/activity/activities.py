@@ -13,12 +13,12 @@ ride becomes final after 12 s."""
 
 from __future__ import annotations
 
-from collections import deque
 from math import floor, inf
 from typing import TYPE_CHECKING
 
-from ...events import ActivityChanged, Defect, DefectFound, Event, StrideFeatures, StrideTaken
+from ...events import ActivityChanged, Defect, DefectFound, Event, StrideTaken
 from ...events.activity import Ride
+from ...events.foot import NO_FEATURES
 from ...events.happening import BaseEvent
 from ...foot.view import FootView
 from ...types import OTHER, Activity, Foot, PerFoot, Site, Vec3, per_foot
@@ -42,9 +42,8 @@ MAX_EMPTY_BLOCKS = 60
 """Largest number of consecutive empty blocks that are judged; the rest of a longer gap is skipped."""
 MAX_WAITING_STRIDES = 8
 """Largest number of strides whose activity is not known yet; older ones are discarded."""
-NO_FEATURES = StrideFeatures(0.0, 0.0, 0.0)
 NO_COVARIANCE = (0.0,) * 6
-"""Placeholders in `Activities.strides`: only the times and heights of these strides are used."""
+"""Placeholder in `Activities.strides`: only the times and heights of these strides are used."""
 STAIR_DIRECTIONS: dict[Activity | None, int] = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
 
 
@@ -84,7 +83,7 @@ class Activities(ActivityPart):
     flights: Flights = state(factory=Flights)
     held: list[ActivityChanged | Ride] = state(factory=list)
     """Last activities before a reset of all feet, and that nothing is known from then on, until something is fed."""
-    strides: deque[StrideTaken] = state(factory=deque)
+    strides: list[StrideTaken] = state(factory=list)
     """Strides whose activity is not known yet, without their features."""
     spoilt: list[Foot] = state(factory=list)
     """Feet whose data cannot be right. Beside one whose data are right they say nothing about the activity."""
@@ -294,8 +293,7 @@ class Activities(ActivityPart):
         self.strides.append(
             evolve(stride, displacement=ZERO, position=ZERO, covariance=NO_COVARIANCE, features=NO_FEATURES)
         )
-        if len(self.strides) > MAX_WAITING_STRIDES:
-            self.strides.popleft()
+        del self.strides[:-MAX_WAITING_STRIDES]
         length, rise = min(stride.length, MAX_LENGTH), max(-MAX_RISE, min(MAX_RISE, integrated_rise(stride)))
         self.report.strides.add(stride, length, rise)
         cue = cue_of_stride(slope_evidence(length, rise))
@@ -321,7 +319,7 @@ class Activities(ActivityPart):
         best = self.hypotheses.best
         events: list[Event] = []
         while self.strides and 0.5 * (self.strides[0].t_start + self.strides[0].t_end) < t_judged:
-            stride = self.strides.popleft()
+            stride = self.strides.pop(0)
             middle = 0.5 * (max(stride.t_start, stride.t_end - MAX_STRIDE_TIME) + stride.t_end)
             activity = None if best is None else activity_at(best.path, middle, None)
             if activity not in GAITS:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Sequence
 from math import hypot, log, sqrt
 
@@ -234,9 +233,9 @@ class FootBlocks:
     """Height at the last foot-flat, navigation frame, m."""
     strike_height: float | None = None
     """Height at the last heel-strike, navigation frame, m; None when there was none since foot-flat."""
-    blocks: deque[ActivityBlock] = field(factory=deque)
+    blocks: list[ActivityBlock] = field(factory=list)
     """The newest blocks, at most `MAX_BLOCKS`, oldest first."""
-    strides: deque[BlockStride] = field(factory=deque)
+    strides: list[BlockStride] = field(factory=list)
     """The newest strides, at most `MAX_STRIDES`, oldest first."""
 
     def start_block(self, index: int, bias: Vec3, resolution: float) -> None:
@@ -320,8 +319,7 @@ class FootBlocks:
                 round(self.sink, 4),
             )
         )
-        if len(self.blocks) > MAX_BLOCKS:
-            self.blocks.popleft()
+        del self.blocks[:-MAX_BLOCKS]
 
     def _lean(self, n: int, variance: float) -> float:
         """Return how far the mean force of the block under way leans, m/s^2, and add it to that of the foot at rest."""
@@ -349,8 +347,7 @@ class FootBlocks:
                 round(max(-MAX_RISE, min(MAX_RISE, strike_height)), 4),
             )
         )
-        if len(self.strides) > MAX_STRIDES:
-            self.strides.popleft()
+        del self.strides[:-MAX_STRIDES]
 
     def restart(self) -> None:
         """Discard all blocks and strides, because the clock restarts or another device is worn."""

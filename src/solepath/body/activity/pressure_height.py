@@ -7,7 +7,6 @@ wearer's vertical velocity."""
 
 from __future__ import annotations
 
-from collections import deque
 from math import fsum, log
 
 from ...types import OTHER, Floats, Foot
@@ -75,7 +74,7 @@ class PressureHeight:
     """Number of readings that were compared with the other barometer's, at most 1 / `OFFSET_WEIGHT`."""
     newest: float = 0.0
     """Newest height, m above the first reading."""
-    blocks: deque[tuple[int, float, int]] = field(factory=deque)
+    blocks: list[tuple[int, float, int]] = field(factory=list)
     """Number, mean height, m, and number of readings of each of the newest blocks, in the order of their numbers."""
     faulty: list[Foot] = field(factory=list)
     """Feet whose barometers contradict the strides, and are left out."""
@@ -130,8 +129,7 @@ class PressureHeight:
             blocks[k - 1] = (index, mean + (self.newest - mean) / (count + 1), count + 1)
         else:
             blocks.insert(k, (index, self.newest, 1))
-            if len(blocks) > MOST_BLOCKS:
-                blocks.popleft()
+            del blocks[:-MOST_BLOCKS]
 
     def height(self, first: int, last: int) -> Height | None:
         """Return the mean height over the blocks `first` to `last`; None when they have no pressure."""

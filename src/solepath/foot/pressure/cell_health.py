@@ -24,6 +24,7 @@ from typing import Any
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads, Limitation
 from ...types import Floats, Layout, Phase, Site, Vec3
 from ...types.attrs import define, field, frozen
+from ...types.doubles import Doubles, doubles
 from ...types.layout import MAX_FULL_SCALE
 
 ABSURD_PRESSURE = 10.0 * MAX_FULL_SCALE
@@ -116,11 +117,11 @@ class CellSpan:
     """Sample that was added last, until the next one is compared with it."""
     pairs: int = 0
     """Number of samples that were compared with the next one."""
-    sums: list[float] = field(factory=list)
+    sums: Doubles = field(factory=doubles)
     """For each cell, sum of the values of those samples."""
-    squares: list[float] = field(factory=list)
+    squares: Doubles = field(factory=doubles)
     """For each cell, sum of their squares."""
-    changes: list[float] = field(factory=list)
+    changes: Doubles = field(factory=doubles)
     """For each cell, sum of the magnitudes of their changes to the next sample."""
 
     def add(self, cells: Floats, excluded: list[int]) -> None:
@@ -130,7 +131,7 @@ class CellSpan:
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
             self.low = self.high = total
-            self.sums, self.squares, self.changes = [0.0] * len(cells), [0.0] * len(cells), [0.0] * len(cells)
+            self.sums, self.squares, self.changes = [doubles([0.0] * len(cells)) for _ in range(3)]
             return
         # takes half the time of map(min, ...), which calls a function for every cell
         self.lows = [low if low < value else value for low, value in zip(self.lows, cells, strict=True)]
@@ -140,9 +141,9 @@ class CellSpan:
     def compare(self, cells: Floats) -> None:
         """Compare the sample after that of `add` with it."""
         last, self.last, self.pairs = self.last, (), self.pairs + 1
-        self.sums = [total + v for total, v in zip(self.sums, last, strict=True)]
-        self.squares = [total + v * v for total, v in zip(self.squares, last, strict=True)]
-        self.changes = [total + abs(b - a) for total, a, b in zip(self.changes, last, cells, strict=True)]
+        self.sums = doubles([total + v for total, v in zip(self.sums, last, strict=True)])
+        self.squares = doubles([total + v * v for total, v in zip(self.squares, last, strict=True)])
+        self.changes = doubles([total + abs(b - a) for total, a, b in zip(self.changes, last, cells, strict=True)])
 
     def find_noisy(self) -> list[bool]:
         """Return for each cell whether it changes as much from one sample to the next as in the whole span."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from itertools import islice, pairwise
@@ -11,6 +10,7 @@ from pathlib import Path
 from attrs import evolve
 
 from ...types import Foot
+from ...types.doubles import doubles
 from ..bad_rows import BadRows
 from ..errors import RecordingError
 from ..mapping.mapping import KEYS, TableMapping
@@ -100,7 +100,7 @@ def _guess_numbered(layout: SheetLayout, rows: Sequence[Row]) -> dict[str, tuple
     """Return the columns of a table without names, if they are those of one foot: a time or none, three, and three.
 
     A time comes first and never decreases; then comes the accelerometer, as in the files of most programs."""
-    first = array("d")
+    first = doubles()
     for row in rows:
         with suppress(ValueError, TypeError, IndexError):
             first.append(read_number(cut(row.content, layout.separator)[0], layout.decimal))

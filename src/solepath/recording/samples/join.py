@@ -8,9 +8,10 @@ from collections.abc import Iterator, Sequence
 from attrs import evolve
 
 from ...types import Foot
+from ...types.doubles import doubles
 from ..errors import RecordingError, printable
 from ..mapping.mapping import MEASURED
-from .table import FootTable, floats
+from .table import FootTable
 
 SAME_RATE = 0.02
 """Relative difference of two rates up to which the times of the accelerometer are used."""
@@ -60,7 +61,7 @@ def _join(tables: Sequence[FootTable], problems: list[RecordingError]) -> FootTa
             continue
         is_used = [is_one and row is not None for is_one, row in zip(is_used, rows, strict=True)]
         blank = [0.0] * sum(map(len, other.columns.values()))
-        values = map(floats, zip(*[row or blank for row in rows], strict=True))
+        values = map(doubles, zip(*[row or blank for row in rows], strict=True))
         joined.columns |= {q: [next(values) for _ in columns] for q, columns in other.columns.items()}
         joined.names, joined.sources = other.names | joined.names, other.sources | joined.sources
     joined.select(is_used)

@@ -12,6 +12,7 @@ from math import fsum, isfinite
 
 from attrs import evolve, frozen
 
+from ...types.doubles import doubles
 from ..bad_rows import BadRows
 from ..errors import RecordingError, printable
 from ..mapping.mapping import MEASURED, TableMapping
@@ -20,7 +21,7 @@ from .columns import TableColumns, find_columns
 from .numbers import read_rows
 from .plausible import USUAL_INTERVAL
 from .sheet import Row, cut
-from .table import FootTable, floats, rows_in_order
+from .table import FootTable, rows_in_order
 
 MIXED_SHARE = 0.3
 """Share of rows that repeat a time, or are out of order, from which on a table is none of one sensor's samples: of two
@@ -56,7 +57,7 @@ def find_mixture(table: FootTable) -> Mixture | None:
     if len(order) < LEAST_ROWS:
         return None
     t = [table.t[row] for row in order]
-    usual = evolve(table, t=floats(t), columns={}).pace
+    usual = evolve(table, t=doubles(t), columns={}).pace
     starts = [row for row, (before, after) in enumerate(pairwise(t), 1) if after - before > SAME_TIME * usual]
     late, count = len(table) - len(order), len(table)
     if late > MIXED_SHARE * count or not starts:

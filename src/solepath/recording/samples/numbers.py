@@ -10,13 +10,14 @@ from math import isnan, nan
 
 from attrs import evolve
 
+from ...types.doubles import Doubles, doubles
 from ..bad_rows import BadRows
 from ..errors import RecordingError, printable
 from ..exports import OWN
 from ..mapping.units import DATETIME
 from .columns import TableColumns
 from .sheet import Row, cut, is_blank, read_datetime, read_number
-from .table import MAX_VALUES, FootTable, floats
+from .table import MAX_VALUES, FootTable
 
 MOST_VALUES = 10
 """Largest number of values of a column that an error names; chosen by hand."""
@@ -33,8 +34,8 @@ def read_rows(rows: Iterator[Row], found: TableColumns, bad_rows: BadRows) -> li
     columns = {one.index: one.name for table in found.feet for its in table.sources.values() for one in its}
     cells_of_insoles = {one.index for table in found.feet for one in table.sources.get("pressure", ())}
     datetimes = {table.sources["t"][0].index for table in found.feet if table.units.get("t") == DATETIME}
-    values = {index: floats() for index in columns}
-    lines, counts = array("q"), floats()
+    values = {index: doubles() for index in columns}
+    lines, counts = array("q"), doubles()
     width = max((k + 1 for k, name in enumerate(header.names) if name), default=0)
     for count, row in enumerate(_chosen(rows, found)):
         numbers = []
@@ -138,12 +139,12 @@ def fill_tables(
             table.is_own = found.export is OWN and has_own_time and unit == "s"
             del table.columns["t"]
         else:
-            table.t = floats([count / (found.mapping.rate or 1.0) for count in counts])
+            table.t = doubles([count / (found.mapping.rate or 1.0) for count in counts])
         if len(found.feet) > 1:
             measured = [column for columns in table.columns.values() for column in columns]
             table.select([not all(map(isnan, row)) for row in zip(*measured, strict=True)])
     return found.feet
 
 
-def _scaled(values: Sequence[float], factor: float) -> array[float]:
-    return floats(values if factor == 1.0 else [value * factor for value in values])
+def _scaled(values: Sequence[float], factor: float) -> Doubles:
+    return doubles(values if factor == 1.0 else [value * factor for value in values])

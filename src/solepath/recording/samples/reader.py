@@ -15,6 +15,7 @@ from typing import Any
 from attrs import evolve, frozen
 
 from ...types import Foot, Sample
+from ...types.doubles import doubles
 from ..bad_rows import BadRows
 from ..errors import RecordingError, Report, UnusableValues, printable, warn
 from ..mapping.mapping import MEASURED, TableMapping
@@ -27,7 +28,7 @@ from .mixed import find_mixture, repair_mixture
 from .numbers import choose_values, fill_tables, read_rows
 from .plausible import list_unit_problems
 from .sheet import open_sheet
-from .table import FootTable, floats, remove_bad_rows
+from .table import FootTable, remove_bad_rows
 
 SINCE_1970 = 1e8
 """Time above which times of another format are counted from 1970, s: no recording lasts three years."""
@@ -182,7 +183,7 @@ def _read_file(file: SampleFile, bad_rows: BadRows, headers: list[TableColumns],
     for table in tables if file.names else ():
         inertial = [zip(*columns, strict=True) for q, columns in table.columns.items() if q != "pressure"]
         table.select([any(not any(map(isnan, vector)) for vector in row) for row in zip(*inertial, strict=True)])
-        table.t = floats([t + file.delay for t in table.t])
+        table.t = doubles([t + file.delay for t in table.t])
     if not file.names:
         for table in tables:
             if (mixture := find_mixture(table)) is not None:
@@ -222,7 +223,7 @@ def _count_from_start(tables: Sequence[FootTable]) -> datetime | None:
     if any(table.is_own for table in tables) or not start > SINCE_1970:
         return None
     for table in tables:
-        table.t = floats([round((t - start) * EPOCH_TICKS) / EPOCH_TICKS for t in table.t])
+        table.t = doubles([round((t - start) * EPOCH_TICKS) / EPOCH_TICKS for t in table.t])
     with suppress(OverflowError, OSError, ValueError):
         return datetime.fromtimestamp(start, UTC)
     return None

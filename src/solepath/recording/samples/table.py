@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import compress, pairwise, repeat
 from math import hypot, isfinite, isnan
 from pathlib import Path
@@ -15,6 +15,7 @@ from statistics import median
 from attrs import define, field
 
 from ...types import SITE_OF_FOOT, Foot, Sample
+from ...types.doubles import Doubles, doubles
 from ..errors import RecordingError
 from ..mapping.mapping import MEASURED, NamedColumn, TableMapping
 from ..mapping.units import SI, UNITS
@@ -27,11 +28,6 @@ LONGEST_BURST = 32
 """Number of samples over which the time between two of them is averaged; a packet has at most some 20."""
 
 
-def floats(values: Iterable[float] = ()) -> array[float]:
-    """Return numbers of 8 bytes each."""
-    return array("d", values)
-
-
 @define
 class FootTable:
     """The columns of one foot, SI units: the times, and the components of those of acc, gyro and pressure present."""
@@ -40,8 +36,8 @@ class FootTable:
     foot: Foot
     names: dict[str, str]
     """Name of each quantity in the file."""
-    t: array[float] = field(factory=floats)
-    columns: dict[str, list[array[float]]] = field(factory=dict)
+    t: Doubles = field(factory=doubles)
+    columns: dict[str, list[Doubles]] = field(factory=dict)
     """Values of each component of a quantity."""
     lines: Sequence[int] | None = None
     """Line number of each row in a text file; None for an archive, whose rows count from 0."""
@@ -96,8 +92,8 @@ class FootTable:
 
     def select(self, is_kept: Sequence[bool]) -> None:
         """Remove the other rows."""
-        self.t = floats(compress(self.t, is_kept))
-        self.columns = {q: [floats(compress(one, is_kept)) for one in its] for q, its in self.columns.items()}
+        self.t = doubles(compress(self.t, is_kept))
+        self.columns = {q: [doubles(compress(one, is_kept)) for one in its] for q, its in self.columns.items()}
         self.lines = None if self.lines is None else array("q", compress(self.lines, is_kept))
 
     def make_samples(self) -> Iterator[Sample]:
