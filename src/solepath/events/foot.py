@@ -97,8 +97,6 @@ class StrideFeatures:
     """Angle by which the foot lies tilted at the end against the start, rad, whatever its heading."""
 
 
-NO_FEATURES = StrideFeatures(0.0, 0.0, 0.0)
-"""Placeholder in strides of which only times and lengths are used: a path of the centre of pressure takes 3 kB."""
 LONGEST_HARMLESS_GAP = 0.06
 """Longest gap that is no flaw at any rate, s: shorter ones cost a centimetre of a length (`solepath-lab damage
 losses`)."""

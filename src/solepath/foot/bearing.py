@@ -10,9 +10,9 @@ walk counts and an odd one on a bicycle does not."""
 from __future__ import annotations
 
 from math import log
+from typing import NamedTuple
 
 from ..events import Flaw, StrideTaken
-from ..events.foot import NO_FEATURES
 from ..types.attrs import define, evolve, field
 from ..types.vector import GRAVITY, TIME_EPSILON
 
@@ -88,7 +88,25 @@ LONGEST_WAIT = 5.0
 """Longest time between two strides of one bout, s, and longest time for which a stride waits."""
 
 
-def features(stride: StrideTaken, previous: StrideTaken | None) -> tuple[float, ...]:
+class StrideBefore(NamedTuple):
+    """What a stride is compared with of the one before it in the same bout."""
+
+    t_end: float
+    """End of the stride, s."""
+    length: float
+    """Length, m."""
+    swing: float | None
+    """Time from toe-off to heel-strike, s; None when one of them is not known."""
+    is_flawed: bool
+    """Flag: the stride has flaws."""
+
+    @classmethod
+    def of(cls, stride: StrideTaken) -> StrideBefore:
+        """Return what is kept of a stride."""
+        return cls(stride.t_end, stride.length, _swing(stride), bool(stride.flaws))
+
+
+def features(stride: StrideTaken, previous: StrideBefore | None) -> tuple[float, ...]:
     """Return what tells a stride of a walk from another motion, in the order of `WEIGHTS`.
 
     `previous` is the stride before it in the same bout, if any. The features are: how far the force in the longest
@@ -106,10 +124,9 @@ def features(stride: StrideTaken, previous: StrideTaken | None) -> tuple[float, 
     short, long = SWING_TIMES
     change = (1.0, 1.0)
     if previous is not None:
-        before = _swing(previous)
         change = (
             min(abs(log(length / max(previous.length, LEAST_LENGTH))), 1.0),
-            1.0 if swing is None or before is None else min(abs(log(swing / before)), 1.0),
+            1.0 if swing is None or previous.swing is None else min(abs(log(swing / previous.swing)), 1.0),
         )
     return (
         off_gravity * _rest_share(measured.peak_rate),
@@ -138,7 +155,7 @@ def _swing(stride: StrideTaken) -> float | None:
     return max(LEAST_SWING, stride.t_heel_strike - stride.t_toe_off)
 
 
-def evidence_of(stride: StrideTaken, previous: StrideTaken | None) -> float:
+def evidence_of(stride: StrideTaken, previous: StrideBefore | None) -> float:
     """Return the logarithm of the likelihood ratio of a foot that carries its walker to one that does not."""
     total = OFFSET
     for weight, value in zip(WEIGHTS, features(stride, previous), strict=True):
@@ -156,15 +173,15 @@ class Bearing:
     """Logarithm of the likelihood ratio over the strides so far, from -KNOWN to SUREST."""
     waiting: list[StrideTaken] = field(factory=list)
     """Strides of which it is not known yet whether the foot carried its walker, oldest first."""
-    previous: StrideTaken | None = None
-    """Newest stride of the bout, without its features; None before any."""
+    previous: StrideBefore | None = None
+    """Newest stride of the bout; None before any."""
     alone: bool = False
     """Flag: the other foot is known not to carry."""
 
     @property
     def is_none(self) -> bool:
         """Whether the foot is known not to carry, by more than strides with flaws."""
-        return self.evidence <= -KNOWN and self.previous is not None and not self.previous.flaws
+        return self.evidence <= -KNOWN and self.previous is not None and not self.previous.is_flawed
 
     def add(self, stride: StrideTaken, shaking: float = 0.0) -> tuple[list[StrideTaken], list[StrideTaken]]:
         """Add a stride; return the strides that are known now, and those that were none.
@@ -187,11 +204,12 @@ class Bearing:
         if stride.length < LEAST_PROGRESS or turning < SWING_TIMES[0] - TIME_EPSILON or shaking > MOST_SHAKING:
             one = min(0.0, one)  # on the spot, without a turn, or rolling
         self.evidence = max(-KNOWN, min(SUREST, self.evidence + one))
-        self.previous = evolve(stride, features=NO_FEATURES)
+        self.previous = StrideBefore.of(stride)
         waiting = [*self.waiting, stride]
         if self.evidence >= KNOWN:
             self.waiting = []
-            return [evolve(each, known_at=stride.known_at) for each in waiting], ended
+            known = [each if each is stride else evolve(each, known_at=stride.known_at) for each in waiting]
+            return known, ended
         is_none = self.evidence <= -KNOWN
         since = stride.t_end - LONGEST_WAIT + TIME_EPSILON
         kept = [] if is_none else [each for each in waiting[-MOST_WAITING:] if each.t_end > since]

@@ -185,7 +185,8 @@ def fit(rows: Floats, carries: Floats, weights: Floats) -> tuple[Floats, float]:
 
 def values(strides: Sequence[Stride]) -> Floats:
     """Return the features of strides, (n, features)."""
-    return np.array([bearing.features(one.taken, one.previous) for one in strides])
+    before = [None if one.previous is None else bearing.StrideBefore.of(one.previous) for one in strides]
+    return np.array([bearing.features(one.taken, previous) for one, previous in zip(strides, before, strict=True)])
 
 
 def fit_strides(strides: Sequence[Stride], rows: Floats) -> tuple[Floats, float]:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import strategies as st
 from strides import stride
 
-from solepath.body.activity.flights import Flights
+from solepath.body.activity.flights import Flights, FlightStride
 from solepath.events import Flaw, FlightClimbed, StrideTaken
 from solepath.types import Foot
 
@@ -18,6 +18,10 @@ FEET = (Foot.LEFT, Foot.RIGHT)
 
 def stride_of(foot: Foot, t: float, height: float, degraded: bool = False) -> StrideTaken:
     return stride(foot, t, (0.6, 0.0, height), flaws=(Flaw.GAP,) * degraded)
+
+
+def added(flights: Flights, taken: StrideTaken, way: int | None) -> list[FlightClimbed]:
+    return flights.add_stride(FlightStride.of(taken), way, taken.known_at)
 
 
 def flights_of(risers: list[int], *, feet: tuple[Foot, ...] = FEET, last: bool = True) -> list[FlightClimbed]:
@@ -31,7 +35,7 @@ def flights_of(risers: list[int], *, feet: tuple[Foot, ...] = FEET, last: bool =
         rise, stood[foot] = riser - stood[foot], riser
         if foot in feet:
             way = 0 if abs(rise) < 2 else (1 if rise > 0 else -1)
-            found += flights.add_stride(stride_of(foot, 0.6 * k, RISER * rise), way)
+            found += added(flights, stride_of(foot, 0.6 * k, RISER * rise), way)
     if last:
         found += flights.advance(0.6 * len(risers) + 5.0, 0.6 * len(risers) + 5.0)
     return found
@@ -67,7 +71,7 @@ def flights_of_strides(strides: Iterable[tuple[float, int | None]], degraded: bo
     """Return the flights of alternate strides, each with its height, m, and direction, and of a rest at the end."""
     flights, found = Flights(), list[FlightClimbed]()
     for k, (height, way) in enumerate(strides):
-        found += flights.add_stride(stride_of(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
+        found += added(flights, stride_of(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
     return found + flights.finish(60.0)
 
 

@@ -18,16 +18,15 @@ from typing import TYPE_CHECKING
 
 from ...events import ActivityChanged, Defect, DefectFound, Event, StrideTaken
 from ...events.activity import Ride
-from ...events.foot import NO_FEATURES
 from ...events.happening import BaseEvent
 from ...foot.view import FootView
 from ...types import OTHER, Activity, Foot, PerFoot, Site, Vec3, per_foot
 from ...types.attrs import evolve, field, frozen, state, stateful
-from ...types.vector import TIME_EPSILON, ZERO
+from ...types.vector import TIME_EPSILON
 from ..part import ActivityPart, Inputs, Outputs, PartOutput
 from .early import NO_ACTIVITY, ActivityCue, ActivityReport, BlockSigns, Early, cue_of_stride, follow, follow_block
 from .elevator_evidence import BlockForce, ElevatorEvidence
-from .flights import Flights, integrated_rise
+from .flights import Flights, FlightStride, integrated_rise
 from .foot_blocks import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, MAX_STRIDE_TIME, WINDOW_REACH, BlockFeatures, FootBlocks
 from .hypotheses import BLOCKS_BEFORE, NO_EVIDENCE, BlockEvidence, Hypotheses, activity_at
 from .motion import MotionModel, block_force, load_released_model, motion_votes, slope_evidence
@@ -42,8 +41,6 @@ MAX_EMPTY_BLOCKS = 60
 """Largest number of consecutive empty blocks that are judged; the rest of a longer gap is skipped."""
 MAX_WAITING_STRIDES = 8
 """Largest number of strides whose activity is not known yet; older ones are discarded."""
-NO_COVARIANCE = (0.0,) * 6
-"""Placeholder in `Activities.strides`: only the times and heights of these strides are used."""
 STAIR_DIRECTIONS: dict[Activity | None, int] = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
 
 
@@ -83,8 +80,8 @@ class Activities(ActivityPart):
     flights: Flights = state(factory=Flights)
     held: list[ActivityChanged | Ride] = state(factory=list)
     """Last activities before a reset of all feet, and that nothing is known from then on, until something is fed."""
-    strides: list[StrideTaken] = state(factory=list)
-    """Strides whose activity is not known yet, without their features."""
+    strides: list[tuple[FlightStride, float]] = state(factory=list)
+    """Strides whose activity is not known yet, each with the time at which it was known, s."""
     spoilt: list[Foot] = state(factory=list)
     """Feet whose data cannot be right. Beside one whose data are right they say nothing about the activity."""
 
@@ -290,9 +287,7 @@ class Activities(ActivityPart):
     def _add_stride(self, stride: StrideTaken, block: int) -> list[Event]:
         """Keep a stride that ends in a block for `flights`, and return the events by which its slope is reported."""
         self.walked = True
-        self.strides.append(
-            evolve(stride, displacement=ZERO, position=ZERO, covariance=NO_COVARIANCE, features=NO_FEATURES)
-        )
+        self.strides.append((FlightStride.of(stride), stride.known_at))
         del self.strides[:-MAX_WAITING_STRIDES]
         length, rise = min(stride.length, MAX_LENGTH), max(-MAX_RISE, min(MAX_RISE, integrated_rise(stride)))
         self.report.strides.add(stride, length, rise)
@@ -318,12 +313,12 @@ class Activities(ActivityPart):
         t_judged = self._time(self.next_block)
         best = self.hypotheses.best
         events: list[Event] = []
-        while self.strides and 0.5 * (self.strides[0].t_start + self.strides[0].t_end) < t_judged:
-            stride = self.strides.pop(0)
+        while self.strides and 0.5 * (self.strides[0][0].t_start + self.strides[0][0].t_end) < t_judged:
+            stride, stride_known_at = self.strides.pop(0)
             middle = 0.5 * (max(stride.t_start, stride.t_end - MAX_STRIDE_TIME) + stride.t_end)
             activity = None if best is None else activity_at(best.path, middle, None)
             if activity not in GAITS:
                 activity = self.report.strides.gait(stride.t_start, stride.t_end)
-            known_stride = evolve(stride, known_at=max(known_at, stride.known_at))
-            events += self.flights.add_stride(known_stride, STAIR_DIRECTIONS.get(activity, 0))
+            direction = STAIR_DIRECTIONS.get(activity, 0)
+            events += self.flights.add_stride(stride, direction, max(known_at, stride_known_at))
         return events + self.flights.advance(t, known_at)

@@ -83,8 +83,7 @@ class ActivityReport:
             revises = self.provisional[0][0].t if self.provisional else self.withdrawn_at
             events.append(self._event(segment, known_at, True, revises, probability))
             self.provisional, self.withdrawn_at, self.final = [], None, segment
-        self.known_until = max(self.known_until, known_until, self.final.t)
-        self._trim()
+        self._trim(max(known_until, self.final.t))
         return events + self._report_newest(newest, known_at, ending)
 
     def end(self, t: float) -> ActivityChanged:
@@ -103,12 +102,16 @@ class ActivityReport:
                 newest.append((after, probability))
         return newest
 
-    def _trim(self) -> None:
-        """Drop what no later report needs."""
+    def _trim(self, known_until: float) -> None:
+        """Drop what no later report needs; what is known up to `known_until`, s, stays as it is."""
+        is_later, self.known_until = known_until > self.known_until, max(self.known_until, known_until)
         while len(self.settled) > 1 and self.settled[1][0].t <= self.known_until:
             self.settled.pop(0)
-        rides = [ride.t for ride, _ in [*self.rides, *self.settled] if ride.activity in ELEVATOR_GOES_UP]
-        self.strides.drop_before(max(min([self.known_until, *rides]), self.known_until - LONGEST_RIDE) - LONGEST_TURN)
+        if is_later:
+            rides = [ride.t for ride, _ in [*self.rides, *self.settled] if ride.activity in ELEVATOR_GOES_UP]
+            self.strides.drop_before(
+                max(min([self.known_until, *rides]), self.known_until - LONGEST_RIDE) - LONGEST_TURN
+            )
 
     def _report_rides(self, now: float, known_at: float, ending: bool) -> list[Event]:
         """Return the rides whose strides are all known.

@@ -3,7 +3,7 @@
 `Flights` works with any method that judges single strides (1 upstairs, -1 downstairs, 0 level, None: not known):
 
     flights = Flights()
-    for each StrideTaken of either foot:  events += flights.add_stride(stride, direction)
+    for each StrideTaken of either foot:  events += flights.add_stride(FlightStride.of(stride), direction, known_at)
     now and then, with the time:          events += flights.advance(t, known_at)
 
 A flight ends after as many consecutive level strides as there are feet with sensors: a landing gives each foot at least
@@ -21,9 +21,10 @@ for the end of a flight; when a stair stride follows, the unjudged stride belong
 from __future__ import annotations
 
 from math import fsum
+from typing import NamedTuple
 
 from ...events import FlightClimbed, StrideTaken
-from ...types import PerFoot, per_foot
+from ...types import Foot, PerFoot, per_foot
 from ...types.attrs import define, state, stateful
 
 LEAST_RISE = 0.08
@@ -61,6 +62,25 @@ MIN_END_RISE = 0.08
 """Least rise of a level stride before or after stair strides that counts into the flight's height, m.
 
 Such a stride takes the first or last riser of the flight."""
+
+
+class FlightStride(NamedTuple):
+    """What flights need of a stride."""
+
+    foot: Foot
+    t_start: float
+    """Start of the stride, s."""
+    t_end: float
+    """End of the stride, s."""
+    height: float
+    """Height change, m."""
+    is_flawed: bool
+    """Flag: the stride has flaws."""
+
+    @classmethod
+    def of(cls, stride: StrideTaken) -> FlightStride:
+        """Return what flights need of `stride`."""
+        return cls(stride.foot, stride.t_start, stride.t_end, stride.height_change, bool(stride.flaws))
 
 
 @define
@@ -108,16 +128,16 @@ class Flights:
         """Discard the flight under way, because the clock restarts or another device is worn."""
         self.direction, self.feet = 0, per_foot(FootClimb)
 
-    def add_stride(self, stride: StrideTaken, direction: int | None) -> list[FlightClimbed]:
-        """Add a stride of either foot and return the flights that it ends.
+    def add_stride(self, stride: FlightStride, direction: int | None, known_at: float) -> list[FlightClimbed]:
+        """Add a stride of either foot that is known at `known_at`, s, and return the flights that it ends.
 
         `direction` is 1 upstairs, -1 downstairs, 0 level, None when it could not be judged."""
-        foot, height = self.feet[stride.foot], stride.height_change
-        trusted = direction is not None and is_stair_rise(height, bool(stride.flaws))
+        foot, height = self.feet[stride.foot], stride.height
+        trusted = direction is not None and is_stair_rise(height, stride.is_flawed)
         events: list[FlightClimbed] = []
         if direction:
             if self.direction == -direction:
-                events = self.finish(stride.known_at)
+                events = self.finish(known_at)
             if self.direction == 0:
                 self._start(stride, direction)
             self._add_stair_stride(stride, direction, trusted and direction * height > -LEAST_RISE)
@@ -130,15 +150,15 @@ class Flights:
                 self.level_stride_count += 1
                 foot.unjudged += direction is None
                 others = [one.stride_at for one in self.feet.values() if one is not foot and one.stride_at is not None]
-                active = 1 + len([at for at in others if abs(stride.t - at) < ACTIVE_TIME])  # with a stride just now
+                active = 1 + sum([abs(stride.t_end - at) < ACTIVE_TIME for at in others])  # with a stride just now
                 if self.level_stride_count >= active:
-                    events = self._arrive(stride.known_at)
-        foot.stride_at = stride.t
+                    events = self._arrive(known_at)
+        foot.stride_at = stride.t_end
         return events
 
-    def _add_stair_stride(self, stride: StrideTaken, direction: int, trusted: bool) -> None:
-        foot, height = self.feet[stride.foot], stride.height_change
-        self.t_end = max(self.t_end, stride.t)
+    def _add_stair_stride(self, stride: FlightStride, direction: int, trusted: bool) -> None:
+        foot, height = self.feet[stride.foot], stride.height
+        self.t_end = max(self.t_end, stride.t_end)
         self.level_stride_count = 0
         self.stride_count += 1
         level_rise, foot.level_rise = foot.level_rise, 0.0
@@ -164,9 +184,9 @@ class Flights:
             return []
         return self._arrive(known_at)
 
-    def _start(self, stride: StrideTaken, direction: int) -> None:
+    def _start(self, stride: FlightStride, direction: int) -> None:
         self.direction = direction
-        self.t_start, self.t_end = stride.t_start, stride.t
+        self.t_start, self.t_end = stride.t_start, stride.t_end
         self.stride_count = self.level_stride_count = 0
         self.trusted_rise = 0.0
         for foot in self.feet.values():

@@ -123,25 +123,24 @@ class TrackErrorFilter:
         decay = exp(-duration / DRIFT_MEMORY)
         noise = DEGRADED_ERROR * DEGRADED_ERROR if degraded else 0.0
         p[heading][heading] += noise + HEADING_DRIFT * HEADING_DRIFT * duration
-        # P <- F P F': first the rows, then the columns. F moves the centre for both feet, then adds the stride
+        # P <- F P F': F moves the centre for both feet, then adds the stride
         arm, other = time_to_mid_swing * displacement, FEET[OTHER[foot]]
         steps = (
             (x, heading, -moved.imag), (y, heading, moved.real),
             (other + X, other + HEADING, -moved.imag), (other + Y, other + HEADING, moved.real),
             (x, rate, -arm.imag), (y, rate, arm.real), (heading, rate, duration),
         )  # fmt: skip
-        for i, j, k in steps:
-            p[i] = [a + k * b for a, b in zip(p[i], p[j], strict=True)]
-        p[rate] = [a * decay for a in p[rate]]
-        for row in p:
+        for _ in range(2):  # first the rows, then the columns
             for i, j, k in steps:
-                row[i] += k * row[j]
-            row[rate] *= decay
+                p[i] = [a + k * b for a, b in zip(p[i], p[j], strict=True)]
+            p[rate] = [a * decay for a in p[rate]]
+            p = [[*column] for column in zip(*p, strict=True)]
         p[x][x] += variance[0]
         p[x][y] += variance[1]
         p[y][x] += variance[1]
         p[y][y] += variance[2]
         p[rate][rate] += DRIFT_RATE * DRIFT_RATE * (1.0 - decay * decay)
+        self.covariance = p
         self.rates[foot] *= decay
 
     def judge_stride(self, foot: Foot, degraded: bool, defect: bool) -> bool:

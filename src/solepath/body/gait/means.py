@@ -12,6 +12,7 @@ et al.)."""
 from __future__ import annotations
 
 from math import fsum, sqrt
+from operator import attrgetter
 from typing import Any
 
 from ...events import DefectFound, GaitCycleMeasured
@@ -112,6 +113,8 @@ class Parameter(ValueEnum):
 
 MEAN_PARAMETERS: tuple[Parameter, ...] = tuple([one for one in Parameter if one is not Parameter.OFF_PHASE])
 """The fields of StrideFigures."""
+FIGURES_OF = attrgetter(*[one.value for one in MEAN_PARAMETERS])
+"""Function that returns their values of a GaitCycleMeasured."""
 BETWEEN_FEET = (
     Parameter.STEP_TIME,
     Parameter.INITIAL_DOUBLE_SUPPORT,
@@ -178,14 +181,17 @@ class ParameterMeans:
     def add(self, stride: GaitCycleMeasured, memory: int) -> None:
         """Add a stride; older strides fade after `memory` strides."""
         means = self.feet[stride.foot]
-        for parameter in Parameter:
-            is_off_phase = parameter is Parameter.OFF_PHASE
-            value: float | None = stride.phase if is_off_phase else getattr(stride, parameter.value)
+        values = [*zip(MEAN_PARAMETERS, FIGURES_OF(stride), strict=True)]
+        if stride.phase is not None:
+            values.append((Parameter.OFF_PHASE, abs(stride.phase - 0.5)))
+        for parameter, value in values:
             if value is not None:
-                one = means.setdefault(parameter, RunningMean())
+                one = means.get(parameter)
+                if one is None:
+                    one = means[parameter] = RunningMean()
                 one.count = min(one.count + 1, memory)
                 weight = 1.0 / one.count
-                deviation = (abs(value - 0.5) if is_off_phase else value) - one.mean
+                deviation = value - one.mean
                 one.mean += weight * deviation
                 one.variance = (1.0 - weight) * (one.variance + weight * deviation * deviation)
 

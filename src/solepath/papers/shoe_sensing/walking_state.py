@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from ...body.activity.flights import Flights, is_stair_rise
+from ...body.activity.flights import Flights, FlightStride, is_stair_rise
 from ...body.part import ActivityPart, Inputs, Outputs
 from ...events import ActivityChanged, Event, Limitation, StrideTaken
 from ...foot.view import FootView
@@ -92,7 +92,7 @@ class AnglePerMetre(ActivityPart):
                     self._report(_ACTIVITY_OF[direction], t_start, known_at, outputs)
                 elif self.activity is Activity.STANDING:
                     self._report(Activity.UNKNOWN, t_start, known_at, outputs)
-                outputs += self.flights.add_stride(event, direction)
+                outputs += self.flights.add_stride(FlightStride.of(event), direction, event.known_at)
         if view.phase is not Phase.STATIONARY:
             times.moved_at = t
         times.stands = t - times.moved_at >= STANDING_DELAY - TIME_EPSILON
