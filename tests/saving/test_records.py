@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from base64 import b64encode
 from collections import deque
 from collections.abc import Iterator
 from functools import cache
@@ -27,7 +28,7 @@ from solepath.saving.schema import record_of
 from solepath.saving.streams import Lists, Streams, from_bytes, to_bytes
 from solepath.session.packed import Head
 from solepath.session.state import SessionState
-from solepath.types.attrs import NOT_SAVED
+from solepath.types.attrs import NOT_SAVED, ROW_SIZE
 
 NOTHING_LIKE_IT = {"no": {"no": {"no": "no"}}}
 OTHERS: dict[type, tuple[Any, ...]] = {
@@ -131,6 +132,19 @@ def test_values_of_other_types_missing_fields_and_further_ones_are_rejected_in_o
             with pytest.raises(SnapshotError) as caught:
                 load(cls, other, part_class)
             assert "\n" not in str(caught.value) and len(str(caught.value)) < 400
+
+
+def test_rows_that_are_not_whole_are_rejected() -> None:
+    fields = {
+        (cls, one) for cls in classes() if attrs.has(cls) for one in attrs.fields(cls) if ROW_SIZE in one.metadata
+    }
+    assert len(fields) > 5
+    for cls, one in fields:
+        saved: Any = save(Maker(2).of(cls))
+        size = one.metadata[ROW_SIZE] + 1
+        saved[one.name] = [0.0] * size if isinstance(saved[one.name], list) else b64encode(bytes(size)).decode()
+        with pytest.raises(SnapshotError, match=f"{size} values are no whole rows of {size - 1}"):
+            load(cls, saved, part_class)
 
 
 MODULES = {

@@ -25,7 +25,7 @@ from ..events import Defect, DefectFound, LiftRidden, StrideTaken
 from ..events.activity import Ride
 from ..foot.view import FootView
 from ..types import Foot, Site
-from ..types.attrs import define, evolve, field, state, stateful
+from ..types.attrs import ROW_SIZE, define, evolve, field, state, stateful
 from ..types.doubles import Doubles, doubles
 from ..types.vector import to_float32
 from .part import HeightShift, Inputs, Outputs, Part, PartOutput, Replacement
@@ -221,7 +221,7 @@ class Altitude(Part):
     """Variance of a reading, estimated from consecutive readings, m^2."""
     ride_variance: float = 0.0
     """Variance of the height of all rides together, m^2."""
-    strides: Doubles = state(factory=doubles)
+    strides: Doubles = state(factory=doubles, metadata={ROW_SIZE: 2})
     """Start and end of each of the newest strides in turn, in whole hundredths of a second."""
 
     def feed(self, events: Inputs, view: FootView | None) -> Outputs:

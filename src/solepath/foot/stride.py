@@ -8,7 +8,7 @@ from typing import NamedTuple
 from ..events import Flaw, StrideFeatures, StrideTaken
 from ..events.foot import LONGEST_HARMLESS_GAP, is_harmless
 from ..types import Foot, Quat, Vec2, Vec3
-from ..types.attrs import define, field
+from ..types.attrs import ROW_SIZE, define, field
 from ..types.doubles import Doubles, doubles
 from ..types.vector import GRAVITY, IDENTITY, SPLIT, UP, ZERO, dot, heading_turned, rotate_back, sub, to_float32
 from .navigate.corrector import Corrector
@@ -156,7 +156,7 @@ class StrideBuilder:
     """Sum of the total load over the samples on the ground."""
     load_count: int = 0
     """Number of samples in `load_sum`."""
-    cop: Doubles = field(factory=doubles)
+    cop: Doubles = field(factory=doubles, metadata={ROW_SIZE: 2})
     """Coordinates x and y in turn of the points of the centre of pressure, foot frame, m."""
     cop_interval: int = 1
     """Number of samples for each stored point of the centre of pressure."""

@@ -16,7 +16,7 @@ from enum import Enum, EnumMeta
 from functools import cache, cached_property
 from itertools import islice, repeat
 from math import isfinite
-from typing import Any
+from typing import Any, TypeVar
 
 from ..types.attrs import field, frozen
 from ..types.checking import describe
@@ -64,7 +64,7 @@ class DataNode:
 
     def load(self, value: Any, classes: Classes) -> Any:
         text = _exact(str, value)
-        return self._checked(b64decode(text, validate=True)) if self.kind is bytes else text
+        return _whole_rows(b64decode(text, validate=True), self.row_size) if self.kind is bytes else text
 
     def write(self, value: Any, lists: Lists) -> None:
         data = value.encode() if self.kind is str else value
@@ -76,12 +76,7 @@ class DataNode:
         data = streams.data.read(count)
         if len(data) != count:
             raise SnapshotError("it was cut short")
-        return data.decode() if self.kind is str else self._checked(data)
-
-    def _checked(self, data: bytes) -> bytes:
-        if len(data) % self.row_size:
-            raise SnapshotError(f"{len(data)} bytes are no whole rows of {self.row_size}")
-        return data
+        return data.decode() if self.kind is str else _whole_rows(data, self.row_size)
 
 
 @frozen(eq=False)
@@ -150,6 +145,8 @@ class RowNode:
     of: Node
     made: bool = False
     """True if the holder makes the items again."""
+    row_size: int = field(default=1, repr=False)
+    """Number of items in each row, of which an array of doubles holds a whole number."""
 
     def save(self, value: Any) -> Json:
         items = [self.of.save(item) for item in value]
@@ -189,9 +186,11 @@ class RowNode:
         if max_length is not None and max_length < len(items):
             raise SnapshotError("a deque does not have the length that it may have")
         if self.kind is Doubles:
-            return doubles(items)
+            return doubles(_whole_rows(items, self.row_size))
         return self.kind(items) if max_length is None else deque(items, max_length)
 
+
+_Values = TypeVar("_Values", bytes, list[Any])
 
 Code = tuple[list[str], list[str], dict[str, Any]]
 """The lines of two generated functions, `write` and `read`, and the objects that they name."""
@@ -446,6 +445,12 @@ _CANNOT = "a snapshot cannot hold "
 def locate_error(error: Exception, cls: type, name: str) -> str:
     """Return the error's text with class and field of the innermost record."""
     return str(error) if str(error).startswith(_CANNOT) else f"{_CANNOT}{cls.__name__}.{name}: {error}"
+
+
+def _whole_rows(values: _Values, size: int) -> _Values:
+    if len(values) % size:
+        raise SnapshotError(f"{len(values)} values are no whole rows of {size}")
+    return values
 
 
 def _exact(kind: type, value: Any) -> Any:

@@ -55,6 +55,7 @@ from .nodes import (
 
 NUMBERS = (float, int, bool)
 """Kinds of numbers, in the order of their streams."""
+_FLOAT = NumberNode(float, 0)
 
 
 class Late:
@@ -164,8 +165,8 @@ def _field(one: Any, hint: Any, made: bool) -> Node | None:
     mark = one.metadata.get("saving")
     if mark == NOT_SAVED["saving"] or (made and one.init and not has_state(hint)):
         return None
-    if ROW_SIZE in one.metadata:
-        return DataNode(bytes, one.metadata[ROW_SIZE])
+    if row_size := one.metadata.get(ROW_SIZE):
+        return DataNode(bytes, row_size) if hint is bytes else RowNode(Doubles, _FLOAT, row_size=row_size)
     if not made or one.init or mark == MADE_AGAIN["saving"]:
         return _node(hint, made)
     kinds = _kinds(hint)
@@ -192,7 +193,7 @@ def _node(hint: Any, made: bool) -> Node:
     if make := getattr(hint, "_make", None):
         return TupleNode(tuple([_node(item, made) for item in typing.get_type_hints(hint).values()]), make)
     if hint is Doubles:
-        return RowNode(Doubles, NumberNode(float, 0))
+        return RowNode(Doubles, _FLOAT)
     if origin in (tuple, list, deque):
         return RowNode(origin, _node(arguments[0], made), made)
     if origin in (dict, Counter):

@@ -25,7 +25,7 @@ NOT_SAVED = {"saving": "not saved"}
 MADE_AGAIN = {"saving": "made again"}
 """Mark of a field of state whose parts are created again by the object that has the field."""
 ROW_SIZE = "row size"
-"""Key of the metadata of a field of bytes that holds whole rows; its value is their size, bytes."""
+"""Key of the metadata of a field of bytes or `Doubles` that holds whole rows; its value is the size of a row."""
 # types/checking.py reads these
 LIMITS = "limits"
 """Key of the metadata of a field: smallest and largest number in its value, and their unit."""

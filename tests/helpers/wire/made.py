@@ -72,7 +72,7 @@ class Maker:
             case TupleNode(items, make):
                 return make([self.value(item) for item in items])
             case RowNode(kind, of):
-                items = [self.value(of) for _ in range(self.shape.randrange(3))]
+                items = [self.value(of) for _ in range(node.row_size * self.shape.randrange(3))]
                 if kind is Doubles:
                     return doubles(items)
                 return deque(items, self.shape.choice([None, 5])) if kind is deque else kind(items)

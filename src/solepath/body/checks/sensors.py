@@ -8,7 +8,7 @@ from typing import Final
 from ...events import Defect, DefectFound, HeelStrike, SampleRejected, StrideTaken
 from ...foot.view import FootView
 from ...types import OTHER, Foot, PerFoot, Site, Vec3, per_foot
-from ...types.attrs import define, field, state, stateful
+from ...types.attrs import ROW_SIZE, define, field, state, stateful
 from ...types.doubles import Doubles, doubles
 from ..part import Inputs, Outputs, Part, PartOutput
 from .axes import LARGEST_FACTOR, AxesCheck, BandwidthCheck
@@ -47,7 +47,7 @@ STUCK_STRIDES = 3
 class SensorCheck:
     """The checks of the sensors of one foot."""
 
-    rows: Doubles = field(factory=doubles)
+    rows: Doubles = field(factory=doubles, metadata={ROW_SIZE: ROW})
     """Numbers of the samples since the last block: of each the time, the specific force and the angular rate."""
     rates: RateCheck = field(factory=RateCheck)
     acc_range: RangeCheck = field(factory=RangeCheck)
@@ -101,7 +101,7 @@ class SensorChecks(Part):
         if view is not None and (acc := view.sample.acc) is not None and (gyro := view.sample.gyro) is not None:
             check = self.feet[view.foot]
             check.rows.extend((view.t, *acc, *gyro))
-            if len(check.rows) == BLOCK * ROW:
+            if len(check.rows) >= BLOCK * ROW:
                 pressed = view.pressed
                 check.in_newtons = pressed is not None and pressed.in_newtons
                 outputs += self._report(view.foot, view.t, view.known_at, _examine(check, view.gyro_bias))
