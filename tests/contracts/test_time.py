@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
+from soak import longer
 from walks import DEVICE_NAMES, LEFT, RIGHT, insoles, machines, of, often, samples
 
 from solepath import Activity, Foot, Limitation, Sample, Session, StreamResumed, StreamStale, StrideTaken, recipes
@@ -71,7 +72,7 @@ def test_nothing_happens_by_advancing_what_is_fed_by_samples_alone() -> None:
     assert session.advance(1e6) == []
 
 
-@pytest.mark.parametrize("name", DEVICE_NAMES[:3])
+@pytest.mark.parametrize("name", [DEVICE_NAMES[0], *longer(*DEVICE_NAMES[1:3])])
 @pytest.mark.parametrize(("offset", "silences"), [(1.7e9, 0), (86_400.0, 0), (90.0, 1), (20.0, 1)])
 def test_a_leap_to_another_clock_is_taken_back_when_packets_contradict_it(
     name: str, offset: float, silences: int

@@ -17,6 +17,7 @@ from commands import run
 from here import EXAMPLES
 from recordings import recorded
 from shown import frame, shown, walked
+from soak import longer
 
 from solepath import (
     CellFault,
@@ -95,7 +96,7 @@ REFUSED: dict[str, tuple[str, Change]] = {
 """What makes a foot's packets or samples useless, and the finding that says so."""
 
 
-@pytest.mark.parametrize("start", [12.0, 36.0])
+@pytest.mark.parametrize("start", [12.0, *longer(36.0)])
 @pytest.mark.parametrize("change", REFUSED)
 def test_a_foot_of_which_all_that_comes_is_rejected_has_that_for_a_finding_and_is_not_called_silent(
     change: str, start: float

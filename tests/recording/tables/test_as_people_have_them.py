@@ -15,7 +15,7 @@ import pytest
 from commands import one_line, run
 from hostile import workbook
 from laid import COLUMNS, LENGTH, NAMES, UNTIMED, distance, table, walked
-from soak import soaked
+from soak import longer, soaked
 
 from solepath.recording import RecordingError, TableMapping, open_source, read_mapping, read_samples
 from solepath.types import Foot
@@ -49,7 +49,7 @@ def test_raw_counts_take_a_scale(tmp_path: Path, acc: float, gyro: float) -> Non
 
 
 @pytest.mark.parametrize("options", [(), ("--columns", COLUMNS), ("--columns", COLUMNS, "--units", "s,g,deg/s")])
-@pytest.mark.parametrize("acc", [2048, 16384])
+@pytest.mark.parametrize("acc", [2048, *longer(16384)])
 def test_raw_counts_are_never_told_to_be_another_unit(tmp_path: Path, options: tuple[str, ...], acc: int) -> None:
     """The scale of the accelerometer is that of its rest; that of the gyroscope is in its data sheet."""
     path = table(
@@ -212,7 +212,7 @@ def test_a_file_that_is_not_read_says_what_to_do(tmp_path: Path, name: str) -> N
 NAMES_OF_TWO = ["t", *(f"{q}_{axis}_{foot}" for foot in ("left", "right") for q in ("acc", "gyro") for axis in "xyz")]
 
 
-@pytest.mark.parametrize("broken", ["left", "right"])
+@pytest.mark.parametrize("broken", ["left", *longer("right")])
 @pytest.mark.parametrize(("quantity", "size"), [("gyro", 80.0), ("gyro", 3000.0), ("acc", 60.0), ("acc", 20_000.0)])
 @pytest.mark.parametrize("in_two_files", [False, True])
 def test_one_broken_sensor_costs_that_sensor(
