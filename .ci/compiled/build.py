@@ -58,7 +58,10 @@ HOT = (
     "body/wear.py",
 )
 """Modules whose code runs for every sample, packet, half second or stride with the default recipe."""
-PURE = {"calibration/records.py": "records that an app may give; of it only usual_strides runs, a division a stride"}
+PURE = {
+    "calibration/records.py": "records that an app may give; of it only usual_strides runs, a division a stride",
+    "types/doubles.py": "its type has another form at run time",
+}
 """Modules that run as often and are not compiled, with the reason."""
 EXACT = ["-ffp-contract=off", "-w"]
 """Options of gcc and clang: no fused multiply-add, whose results have other last bits than Python's; no warnings."""
