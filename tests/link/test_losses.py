@@ -11,7 +11,7 @@ from attrs import evolve, frozen
 from decoded import acc_packet, gyro_packet, insole_frame, movement_packet
 from hypothesis import Phase, assume, given, settings
 from hypothesis import strategies as st
-from soak import longer, soaked
+from soak import longer
 
 from solepath import Event, Packet, SampleGap, Session, Site
 from solepath.link.catalogue import DECLARED, PROFILES
@@ -212,7 +212,7 @@ def test_samples_that_were_taken_came_or_are_missing_and_an_absence_is_neither(n
 
 @pytest.mark.parametrize("site", [LEFT, PELVIS])
 @pytest.mark.parametrize("name", [*SENDERS, "thingy"])
-@pytest.mark.parametrize("duration", [1.2, *soaked(3.0, 4.9)])
+@pytest.mark.parametrize("duration", [1.2, *longer(3.0, 4.9)])
 def test_the_time_without_a_connection_is_absent_once_and_none_of_it_is_missing(
     duration: float, name: str, site: Site
 ) -> None:

@@ -8,7 +8,7 @@ from math import fsum
 import pytest
 from attrs import evolve, field, frozen
 from construct import Int32ul, Struct
-from soak import soaked
+from soak import longer, soaked
 from uncounted import ACC, GYRO, SITE, board
 from walks import of
 
@@ -262,7 +262,7 @@ def test_the_last_packet_again_after_a_reconnection_is_no_sample_and_no_loss(nam
 
 @pytest.mark.parametrize("name", DRIVERS)
 @pytest.mark.parametrize("away", [62.0, *soaked(6.0, 81.7)])
-@pytest.mark.parametrize("restarts", [True, *soaked(False)])
+@pytest.mark.parametrize("restarts", [True, *longer(False)])
 def test_a_silence_is_a_gap_and_nothing_is_known_of_it(
     request: pytest.FixtureRequest, name: str, away: float, restarts: bool
 ) -> None:
@@ -285,7 +285,7 @@ def test_a_silence_is_a_gap_and_nothing_is_known_of_it(
 
 
 @pytest.mark.parametrize("wild", [-5e12, 1e11, float("nan"), float("inf"), 1e300])
-@pytest.mark.parametrize("cells", [(5,), *soaked((0, 1, 2, 3, 4, 5))])
+@pytest.mark.parametrize("cells", [(5,), *longer((0, 1, 2, 3, 4, 5))])
 def test_cells_whose_values_cannot_be_cost_these_cells_and_no_stride(wild: float, cells: tuple[int, ...]) -> None:
     def motion(sent: object, known: object) -> Reading:
         acc, gyro = tuple([v * ACC for v in sent.acc]), tuple([v * GYRO for v in sent.gyro])  # type: ignore[attr-defined]

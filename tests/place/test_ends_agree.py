@@ -34,7 +34,7 @@ def end_in_picture(path: Path) -> tuple[str, str] | None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "seed", "known"), [*WALKS[:2], *[pytest.param(*one, marks=pytest.mark.soak) for one in WALKS[2:] + MORE]]
+    ("kind", "seed", "known"), [*WALKS, *[pytest.param(*one, marks=pytest.mark.soak) for one in MORE]]
 )
 def test_page_picture_summary_report_and_run_file_tell_the_same_end(
     kind: str, seed: int, known: bool, tmp_path: Path

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from attrs import evolve
 from commands import run
-from soak import soaked
+from soak import longer
 
 from solepath import Activity, Defect, DefectFound, Foot, GaitCycleMeasured, Sample, Session, Site, recipes
 from solepath.emulate import Route, Walker
@@ -114,7 +114,7 @@ def test_a_damaged_foot_is_in_no_figure_of_the_walk_nor_of_the_page(
     assert Activity.RUNNING not in lasting
 
 
-@pytest.mark.parametrize("damage", [*[*DAMAGES][:2], *soaked(*[*DAMAGES][2:])])
+@pytest.mark.parametrize("damage", [*[*DAMAGES][:2], *longer(*[*DAMAGES][2:])])
 def test_every_file_of_a_recording_gives_the_sound_foot_alone(
     damage: str, alone: tuple[float, float, float], tmp_path: Path
 ) -> None:

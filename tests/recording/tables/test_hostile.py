@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from commands import run
 from hostile import HOSTILE, ROWS, SHEET, workbook
-from soak import soaked
+from soak import longer
 
 from solepath.recording import read_samples
 
@@ -43,7 +43,7 @@ def hostile(name: str, tmp_path: Path) -> Path:
 SLOW = {name for name in HOSTILE if name.endswith("parquet")} - {"columns.parquet"} | {"rows.xlsx", "walk.jsonl.xz"}
 
 
-@pytest.mark.parametrize("name", [one for name in HOSTILE for one in (soaked(name) if name in SLOW else [name])])
+@pytest.mark.parametrize("name", [one for name in HOSTILE for one in (longer(name) if name in SLOW else [name])])
 def test_a_hostile_file_takes_little_memory_and_time_and_gets_one_line(tmp_path: Path, name: str) -> None:
     command = [sys.executable, "-c", PROGRAM, str(hostile(name, tmp_path))]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
